@@ -1,0 +1,1098 @@
+/* bbm.c - the bonding block model: sections 2 and 3.1 to 3.6 of the paper in their order, then the time step.
+ *
+ * Sun, Chen, Feng, Wang 2015, doi:10.1155/2015/723263. Read it with the paper open: each formula is a function of its
+ * own, with the number of its equation above it.
+ *
+ *     2.1  displacement of an element      (1)-(3)     3.3  bonding                (18)-(28)
+ *     2.2  element connections             (4)         3.4  fixed points           (29)-(37)
+ *     3.1  elastic submatrices             (6)-(10)    3.5  loads along a line     (38)-(43)
+ *     3.2  inertia submatrices             (11)-(17)   3.6  volume force           (44)-(47)
+ *
+ * Every submatrix comes from one recipe. A source of potential energy Pi(D) is at most quadratic in the unknowns;
+ * its second derivative goes to the left of K D = F, Eq. (5), and minus its first derivative at D = 0 to the right. With
+ * a displacement d = d0 + T D and an energy k/2 d.d that is K += k T^T T and F -= k T^T d0: bonding springs,
+ * fixed points and contacts are this one line with different d.
+ *
+ * Statics is dynamics without mass: with dt = INFINITY every term of 3.2 vanishes, and one step is one iteration of
+ * Newton-Raphson on the moved geometry.
+ */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bbm.h"
+
+/* An element whose area is below FLAT times the square of its longest reach is a line: round-off has its sign. */
+#define FLAT 1e-12
+/* Pivots of the (dimensionless) matrix of a body's fixings below this are zero: about 1e-5 rad of free turning. */
+#define LOOSE 1e-10
+
+/* ------------------------------------------------------------------------ 2.1 Displacement of an element */
+
+/* Area, barycentre and second moments of a polygon by simplex integration: the sum over its edges of the signed
+ * triangles (origin, a, b) with twice the area c = xa yb - xb ya,
+ *     A = sum c/2,   int x dA = sum c/6 (xa + xb),   int x^2 dA = sum c/12 (xa^2 + xa xb + xb^2),
+ *     int x y dA = sum c/24 (xa yb + 2 xa ya + 2 xb yb + xb ya).
+ * Convex or not, the signs take care of it. The origin is first vertex 0, then the barycentre, so that nothing
+ * cancels far from (0, 0). */
+void bbm_element_geometry(bbm_element *e, const bbm_vertex v[])
+{
+    double A = 0, mx = 0, my = 0, sxx = 0, syy = 0, sxy = 0;
+
+    for (int a = 0; a < e->n; a++) {
+        const int b = (a + 1) % e->n;
+        const double xa = v[a].x - v[0].x, ya = v[a].y - v[0].y, xb = v[b].x - v[0].x, yb = v[b].y - v[0].y;
+        const double c = xa * yb - xb * ya;
+        A += c / 2;
+        mx += c / 6 * (xa + xb);
+        my += c / 6 * (ya + yb);
+    }
+    e->A = A;
+    e->x = v[0].x + mx / A;
+    e->y = v[0].y + my / A;
+    for (int a = 0; a < e->n; a++) {
+        const int b = (a + 1) % e->n;
+        const double xa = v[a].x - e->x, ya = v[a].y - e->y, xb = v[b].x - e->x, yb = v[b].y - e->y;
+        const double c = xa * yb - xb * ya;
+        sxx += c / 12 * (xa * xa + xa * xb + xb * xb);
+        syy += c / 12 * (ya * ya + ya * yb + yb * yb);
+        sxy += c / 24 * (xa * yb + 2 * xa * ya + 2 * xb * yb + xb * ya);
+    }
+    e->Sxx = sxx;
+    e->Syy = syy;
+    e->Sxy = sxy;
+}
+
+/* Displacement mode matrix: u(x, y) = T D, Eq. (1)-(3). */
+void bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6])
+{
+    const double X = x - e->x, Y = y - e->y;
+    const double t[2][6] = {
+        /* u0  v0  r0  ex  ey  gxy   */
+        {  1,  0,  -Y,  X,  0,  Y / 2 },
+        {  0,  1,   X,  0,  Y,  X / 2 },
+    };
+
+    memcpy(T, t, sizeof t);
+}
+
+/* Displacement u = T D of the last step at (x, y), a point given before the step, Eq. (1). */
+void bbm_displacement(const bbm_element *e, double x, double y, double u[2])
+{
+    double T[2][6];
+
+    bbm_mode_matrix(e, x, y, T);
+    for (int r = 0; r < 2; r++) {
+        u[r] = 0;
+        for (int a = 0; a < 6; a++)
+            u[r] += T[r][a] * e->D[a];
+    }
+}
+
+/* -------------------------------------------------------------------------------- 2.2 Element connections */
+
+static double shear_modulus(const bbm_material *m)
+{
+    return m->E / (2 * (1 + m->nu));
+}
+
+/* Stiffness [N/m] of the bonding springs between two elements, Eq. (4): k = alpha G t max(A)/min(A), with G and t the
+ * means of the two. Starting areas, so that a spring keeps its stiffness and its energy. The paper's text names
+ * alpha, G and the areas; that they enter as this ratio is our choice: k then has the dimension of G t, is
+ * symmetric, and alpha G t on a uniform mesh. */
+double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_element *j)
+{
+    const double G = (shear_modulus(&i->material) + shear_modulus(&j->material)) / 2;
+    const double t = (i->material.thickness + j->material.thickness) / 2;
+
+    return alpha * G * t * fmax(i->A0, j->A0) / fmin(i->A0, j->A0);
+}
+
+/* ----------------------------------------------------------------------------- 3.1 Elastic submatrices */
+
+/* Hooke's law in plane stress, Eq. (7): stress = E e + stress0, e = (ex, ey, gxy) the last three of D, Eq. (8). */
+void bbm_elastic_matrix(const bbm_material *m, double E[3][3])
+{
+    const double c = m->E / (1 - m->nu * m->nu), G = shear_modulus(m);
+    const double matrix[3][3] = {
+        { c,         c * m->nu, 0 },
+        { c * m->nu, c,         0 },
+        { 0,         0,         G },
+    };
+
+    memcpy(E, matrix, sizeof matrix);
+}
+
+/* Pi_e = t A (1/2 e.E e + e.stress0), Eq. (6)-(9)   ->   K_ii += t A E, F_i -= t A stress0, Eq. (10). */
+void bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s)
+{
+    const double tA = e->material.thickness * e->A;
+    double E[3][3];
+
+    bbm_elastic_matrix(&e->material, E);
+    for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++)
+            s->K[3 + a][3 + b] += tA * E[a][b];
+        s->F[3 + a] -= tA * e->stress[a];
+    }
+}
+
+/* ----------------------------------------------------------------------------- 3.2 Inertia submatrices */
+
+/* Mass per present area, M of Eq. (11). The mass of an element stays density x thickness x starting area, so that
+ * a strained element neither gains nor loses momentum. */
+static double mass_per_area(const bbm_element *e)
+{
+    return e->material.density * e->material.thickness * e->A0 / e->A;
+}
+
+/* int T^T T dA, Eq. (16): with the origin in the barycentre the first moments vanish. */
+void bbm_mode_integral(const bbm_element *e, double M[6][6])
+{
+    const double A = e->A, xx = e->Sxx, yy = e->Syy, xy = e->Sxy;
+    const double matrix[6][6] = {
+        /* u0  v0  r0             ex      ey      gxy             */
+        {  A,  0,  0,             0,      0,      0               },
+        {  0,  A,  0,             0,      0,      0               },
+        {  0,  0,  xx + yy,       -xy,    xy,     (xx - yy) / 2   },
+        {  0,  0,  -xy,           xx,     0,      xy / 2          },
+        {  0,  0,  xy,            0,      yy,     xy / 2          },
+        {  0,  0,  (xx - yy) / 2, xy / 2, xy / 2, (xx + yy) / 4   },
+    };
+
+    memcpy(M, matrix, sizeof matrix);
+}
+
+/* Pi_i = int u.M u'' dA with the acceleration at the end of the step, u'' = 2/dt^2 D - 2/dt V, Eq. (11)-(13) (Newmark,
+ * beta = 1/2, gamma = 1)   ->   K_ii += 2 M/dt^2 int T^T T dA, Eq. (16), F_i += 2 M/dt (int T^T T dA) V, Eq. (17). */
+void bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s)
+{
+    const double M = mass_per_area(e);
+    double TT[6][6];
+
+    bbm_mode_integral(e, TT);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++) {
+            s->K[a][b] += 2 * M / (dt * dt) * TT[a][b];
+            s->F[a] += 2 * M / dt * TT[a][b] * e->V[b];
+        }
+}
+
+/* Velocity at the end of the step, V = 2/dt D - V, Eq. (14), times the share that is kept: 0 in statics. */
+void bbm_newmark_velocity(bbm_element *e, double dt, double keep)
+{
+    for (int a = 0; a < 6; a++)
+        e->V[a] = keep * (2 / dt * e->D[a] - e->V[a]);
+}
+
+/* ----------------------------------------------------------------------------- 3.3 Bonding submatrices */
+
+/* K += k Ti^T Tj. */
+static void add_product(double k, double Ti[2][6], double Tj[2][6], double K[6][6])
+{
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            K[a][b] += k * (Ti[0][a] * Tj[0][b] + Ti[1][a] * Tj[1][b]);
+}
+
+/* F += T^T f: what a force f at a point does to the unknowns. */
+static void add_force(double T[2][6], const double f[2], double F[6])
+{
+    for (int a = 0; a < 6; a++)
+        F[a] += T[0][a] * f[0] + T[1][a] * f[1];
+}
+
+/* A spring k between the vertices P of element i and Q of element j, one point at the start. Its elongation at the
+ * end of the step is |d|, d = d0 + Ti(P) Di - Tj(Q) Dj, d0 = P - Q, Eq. (18)-(23); Pi_b = k/2 d.d, Eq. (24)-(26)
+ *     ->   K_ii += k Ti^T Ti,  K_ij -= k Ti^T Tj,  K_jj += k Tj^T Tj,  Eq. (27),
+ *          F_i -= k Ti^T d0,  F_j += k Tj^T d0,                        Eq. (28).
+ * d0 is the difference of the displacements: coordinates would add their round-off. */
+void bbm_bonding_submatrices(const bbm_element *i, const bbm_vertex *P, const bbm_element *j, const bbm_vertex *Q,
+                             double k, bbm_submatrices *s)
+{
+    const double pull[2] = { k * (P->u - Q->u), k * (P->v - Q->v) }, push[2] = { -pull[0], -pull[1] };
+    double Ti[2][6], Tj[2][6];
+
+    bbm_mode_matrix(i, P->x, P->y, Ti);
+    bbm_mode_matrix(j, Q->x, Q->y, Tj);
+    add_product(k, Ti, Ti, s->Kii);
+    add_product(-k, Ti, Tj, s->Kij);
+    add_product(k, Tj, Tj, s->Kjj);
+    add_force(Ti, push, s->Fi);
+    add_force(Tj, pull, s->Fj);
+}
+
+/* ---------------------------------------------------------- 3.4 Bonding submatrices at fixed points */
+
+/* Stiffness [N/m] of the spring at a fixed point, Eq. (29): k = alpha G t, (4) with the wall like the element. */
+double bbm_fixed_stiffness(double alpha, const bbm_element *e)
+{
+    return alpha * shear_modulus(&e->material) * e->material.thickness;
+}
+
+/* A spring k between the vertex P and the wall point W, d = d0 + T(P) D, d0 = P - W, Eq. (30)-(36)
+ *     ->   K_ii += k T^T T,  F_i -= k T^T d0,  Eq. (37).
+ * A point held in one direction alone, as on a line of symmetry, has that row of T only. */
+void bbm_fixed_submatrix(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k, bbm_submatrix *s)
+{
+    const double push[2] = { k * (W->wall[0] - P->u), k * (W->wall[1] - P->v) };
+    double T[2][6];
+
+    bbm_mode_matrix(e, P->x, P->y, T);
+    for (int r = 0; r < 2; r++)
+        for (int a = 0; a < 6 && (W->held & (r == 0 ? BBM_X : BBM_Y)); a++) {
+            for (int b = 0; b < 6; b++)
+                s->K[a][b] += k * T[r][a] * T[r][b];
+            s->F[a] += T[r][a] * push[r];
+        }
+}
+
+/* ------------------------------------------------------------------------ 3.5 Line loading submatrices */
+
+/* A concentrated load f [N] at the vertex P: F_i += T^T(P) f. */
+void bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6])
+{
+    double T[2][6];
+
+    bbm_mode_matrix(e, P->x, P->y, T);
+    add_force(T, f, F);
+}
+
+/* Point and weight g of Gauss and Legendre on 0 <= s <= 1. */
+void bbm_gauss_point(int g, double *s, double *weight)
+{
+    const double inner = 3.0 / 7 - 2.0 / 7 * sqrt(6.0 / 5), outer = 3.0 / 7 + 2.0 / 7 * sqrt(6.0 / 5);
+    const double x[BBM_GAUSS] = { -sqrt(outer), -sqrt(inner), sqrt(inner), sqrt(outer) };
+
+    *s = (1 + x[g]) / 2;
+    *weight = (18 + (g == 0 || g == 3 ? -1 : 1) * sqrt(30)) / 72;
+}
+
+/* A load f(s) [N/m] that varies from a to b, x(s) = xa + (xb - xa) s, Eq. (38)-(41), given at the Gauss points:
+ * F_i += int_0^1 T^T(x(s), y(s)) f(s) l ds, Eq. (42). */
+void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
+                                const double f[BBM_GAUSS][2], double F[6])
+{
+    const double l = hypot(b->x - a->x, b->y - a->y);
+
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, w, T[2][6];
+        bbm_gauss_point(g, &s, &w);
+        const double wlf[2] = { w * l * f[g][0], w * l * f[g][1] };
+        bbm_mode_matrix(e, a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, T);
+        add_force(T, wlf, F);
+    }
+}
+
+/* A constant load f [N/m] from a to b: F_i += l (fx, fy, -Y fx + X fy, X fx, Y fy, (Y fx + X fy)/2), with (X, Y) the
+ * middle of the line seen from the barycentre, Eq. (43). */
+void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b, const double f[2],
+                                 double F[6])
+{
+    const double l = hypot(b->x - a->x, b->y - a->y);
+    const double X = (a->x + b->x) / 2 - e->x, Y = (a->y + b->y) / 2 - e->y;
+    const double add[6] = { f[0], f[1], -Y * f[0] + X * f[1], X * f[0], Y * f[1], (Y * f[0] + X * f[1]) / 2 };
+
+    for (int r = 0; r < 6; r++)
+        F[r] += l * add[r];
+}
+
+/* ---------------------------------------------------------------------------- 3.6 Volume force submatrix */
+
+/* A volume force f(x, y) [N/m^2] that varies: F_i += int T^T f dA, Eq. (44)-(46). Each edge and the barycentre make a
+ * signed triangle of area c/2, integrated by the midpoints of its sides: exact for f linear in x and y. */
+void bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex v[], bbm_field *f, const void *context,
+                                  double F[6])
+{
+    for (int a = 0; a < e->n; a++) {
+        const bbm_vertex *p = &v[a], *q = &v[(a + 1) % e->n];
+        const double c = (p->x - e->x) * (q->y - e->y) - (q->x - e->x) * (p->y - e->y);
+        const double x[3] = { (p->x + q->x) / 2, (p->x + e->x) / 2, (q->x + e->x) / 2 };
+        const double y[3] = { (p->y + q->y) / 2, (p->y + e->y) / 2, (q->y + e->y) / 2 };
+        for (int g = 0; g < 3; g++) {
+            double T[2][6], here[2];
+            f(x[g], y[g], context, here);
+            const double wf[2] = { c / 6 * here[0], c / 6 * here[1] };
+            bbm_mode_matrix(e, x[g], y[g], T);
+            add_force(T, wf, F);
+        }
+    }
+}
+
+/* A constant volume force f [N/m^2]: F_i += A (fx, fy, 0, 0, 0, 0), Eq. (47). */
+void bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6])
+{
+    F[0] += e->A * f[0];
+    F[1] += e->A * f[1];
+}
+
+/* ------------------------------------------------------------------------------ messages and memory */
+
+const char *bbm_status_text(bbm_status s)
+{
+    static const char *const text[BBM_STATUS_COUNT] = {
+        [BBM_OK] = "no error",
+        [BBM_NO_MEMORY] = "out of memory",
+        [BBM_NO_ELEMENT] = "the model has no element",
+        [BBM_NOT_FINITE] = "a number is NaN or infinite",
+        [BBM_BAD_INDEX] = "no such node, element or material",
+        [BBM_BAD_MODULUS] = "Young's modulus must be positive",
+        [BBM_BAD_POISSON] = "Poisson's ratio must lie between -1 and 0.5",
+        [BBM_BAD_DENSITY] = "the density must be positive",
+        [BBM_BAD_THICKNESS] = "the thickness must be positive",
+        [BBM_BAD_PARAMETER] = "a parameter is outside its range",
+        [BBM_FEW_VERTICES] = "an element needs three vertices or more",
+        [BBM_ZERO_AREA] = "an element has no area",
+        [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
+        [BBM_OVERLAP] = "elements of one block overlap",
+        [BBM_UNUSED_NODE] = "a node belongs to no element",
+        [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
+        [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
+        [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
+        [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
+        [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
+    };
+
+    return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
+}
+
+const char *bbm_message(const bbm_model *m)
+{
+    return m->message;
+}
+
+/* Puts the sentence "TEXT OF THE STATUS: details" into the model and hands the status on. */
+static bbm_status fail(bbm_model *m, bbm_status s, const char *format, ...)
+{
+    const int used = snprintf(m->message, sizeof m->message, "%s: ", bbm_status_text(s));
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(m->message + used, sizeof m->message - (size_t)used, format, args);
+    va_end(args);
+    return s;
+}
+
+static bbm_status out_of_memory(bbm_model *m)
+{
+    return fail(m, BBM_NO_MEMORY, "%d elements, %d nodes", m->elements, m->nodes);
+}
+
+/* Makes room for one more entry in an array of `count`: its room is the next power of two, 16 at least. */
+static int grow(void **array, int count, size_t size)
+{
+    if (count != 0 && (count < 16 || (count & (count - 1)) != 0))
+        return 1;
+    void *room = realloc(*array, (count == 0 ? 16 : 2 * (size_t)count) * size);
+    if (room)
+        *array = room;
+    return room != NULL;
+}
+
+/* ------------------------------------------------------------------------------------- building a model */
+
+/* A model with the defaults of statics in one step. */
+bbm_status bbm_model_new(bbm_model **out)
+{
+    bbm_model *m = calloc(1, sizeof *m);
+
+    *out = m;
+    if (!m)
+        return BBM_NO_MEMORY;
+    m->par = (bbm_parameters){ .dt = INFINITY, .steps = 1, .alpha = 100,
+                               .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 } };
+    return BBM_OK;
+}
+
+/* What bbm_prepare made. */
+static void free_prepared(bbm_model *m)
+{
+    free(m->bond);
+    free(m->edge);
+    free(m->meet_first);
+    free(m->meet);
+    free(m->F);
+    free(m->D);
+    bbm_matrix_free(m->K);
+    m->bond = NULL;
+    m->edge = NULL;
+    m->meet_first = m->meet = NULL;
+    m->F = m->D = NULL;
+    m->K = NULL;
+}
+
+void bbm_model_free(bbm_model *m)
+{
+    if (!m)
+        return;
+    free_prepared(m);
+    free(m->node);
+    free(m->element);
+    free(m->vertex);
+    free(m->line_load);
+    free(m->material);
+    free(m);
+}
+
+/* Remembers the first error of building. */
+static bbm_status stick(bbm_model *m, bbm_status s)
+{
+    return m->status = s;
+}
+
+bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
+{
+    const int n = m->materials;
+
+    if (m->status)
+        return m->status;
+    if (!isfinite(a->E) || !isfinite(a->nu) || !isfinite(a->density) || !isfinite(a->thickness))
+        return stick(m, fail(m, BBM_NOT_FINITE, "material %d", n));
+    if (a->E <= 0)
+        return stick(m, fail(m, BBM_BAD_MODULUS, "material %d has E = %g", n, a->E));
+    if (a->nu <= -1 || a->nu >= 0.5)
+        return stick(m, fail(m, BBM_BAD_POISSON, "material %d has nu = %g", n, a->nu));
+    if (a->density <= 0)
+        return stick(m, fail(m, BBM_BAD_DENSITY, "material %d has %g", n, a->density));
+    if (a->thickness <= 0)
+        return stick(m, fail(m, BBM_BAD_THICKNESS, "material %d has %g", n, a->thickness));
+    if (!grow((void **)&m->material, n, sizeof *a))
+        return stick(m, out_of_memory(m));
+    m->material[m->materials++] = *a;
+    if (index)
+        *index = n;
+    return BBM_OK;
+}
+
+bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
+{
+    if (m->status)
+        return m->status;
+    if (!isfinite(x) || !isfinite(y))
+        return stick(m, fail(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y));
+    if (!grow((void **)&m->node, m->nodes, sizeof *m->node))
+        return stick(m, out_of_memory(m));
+    m->node[m->nodes] = (bbm_node){ .x = x, .y = y };
+    if (index)
+        *index = m->nodes;
+    m->nodes++;
+    return BBM_OK;
+}
+
+static int known_node(const bbm_model *m, int node)
+{
+    return node >= 0 && node < m->nodes;
+}
+
+/* Twice the signed area of the triangle p q r: positive when they run counter-clockwise. */
+static double turn(const bbm_node *p, const bbm_node *q, const bbm_node *r)
+{
+    return (q->x - p->x) * (r->y - p->y) - (r->x - p->x) * (q->y - p->y);
+}
+
+/* Whether r, on the line through p and q, lies between them. */
+static int between(const bbm_node *p, const bbm_node *q, const bbm_node *r)
+{
+    return (r->x - p->x) * (r->x - q->x) + (r->y - p->y) * (r->y - q->y) <= 0;
+}
+
+/* Whether the segments ab and cd have a point in common. */
+static int segments_meet(const bbm_node *a, const bbm_node *b, const bbm_node *c, const bbm_node *d)
+{
+    const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
+
+    if (((abc > 0 && abd < 0) || (abc < 0 && abd > 0)) && ((cda > 0 && cdb < 0) || (cda < 0 && cdb > 0)))
+        return 1;
+    return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
+           (cdb == 0 && between(c, d, b));
+}
+
+/* Whether the closed polygon through the nodes meets itself: two edges that are not neighbours have a point in
+ * common, or an edge folds back on its neighbour (an edge without length does). */
+static int meets_itself(const bbm_model *m, int n, const int node[])
+{
+    for (int i = 0; i < n; i++) {
+        const bbm_node *a = &m->node[node[i]], *b = &m->node[node[(i + 1) % n]], *c = &m->node[node[(i + 2) % n]];
+        if (turn(a, b, c) == 0 && (b->x - a->x) * (c->x - b->x) + (b->y - a->y) * (c->y - b->y) <= 0)
+            return 1;
+        for (int j = i + 2; j < n && (j + 1) % n != i; j++)
+            if (segments_meet(a, b, &m->node[node[j]], &m->node[node[(j + 1) % n]]))
+                return 1;
+    }
+    return 0;
+}
+
+/* The signed area of the polygon, its unsigned sum over the fan of vertex 0, and the square of its longest reach. */
+static double polygon_area(const bbm_model *m, int n, const int node[], double *fan, double *reach2)
+{
+    const bbm_node *o = &m->node[node[0]];
+    double area = 0;
+
+    *fan = *reach2 = 0;
+    for (int i = 1; i < n; i++) {
+        const bbm_node *a = &m->node[node[i]], *b = &m->node[node[(i + 1) % n]];
+        const double c = turn(o, a, b) / 2;
+        area += c;
+        *fan += fabs(c);
+        *reach2 = fmax(*reach2, (a->x - o->x) * (a->x - o->x) + (a->y - o->y) * (a->y - o->y));
+    }
+    return area;
+}
+
+/* Adds the polygon through the nodes, either way round, as an element of a block. */
+bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const int node[], int *index)
+{
+    const int e = m->elements, first = m->vertices;
+    double fan, reach2;
+
+    if (m->status)
+        return m->status;
+    if (material < 0 || material >= m->materials)
+        return stick(m, fail(m, BBM_BAD_INDEX, "element %d has material %d of %d", e, material, m->materials));
+    if (n < 3)
+        return stick(m, fail(m, BBM_FEW_VERTICES, "element %d has %d", e, n));
+    for (int i = 0; i < n; i++)
+        if (!known_node(m, node[i]))
+            return stick(m, fail(m, BBM_BAD_INDEX, "element %d has node %d of %d", e, node[i], m->nodes));
+    const double area = polygon_area(m, n, node, &fan, &reach2);
+    if (fan <= FLAT * reach2)
+        return stick(m, fail(m, BBM_ZERO_AREA, "element %d, %g m^2", e, area));
+    if (meets_itself(m, n, node))
+        return stick(m, fail(m, BBM_SELF_CROSSING, "element %d", e));
+    if (!grow((void **)&m->element, e, sizeof *m->element))
+        return stick(m, out_of_memory(m));
+    for (int i = 0; i < n; i++) {
+        const int here = node[area > 0 ? i : n - 1 - i];
+        if (!grow((void **)&m->vertex, m->vertices, sizeof *m->vertex))
+            return stick(m, out_of_memory(m));
+        m->vertex[m->vertices++] = (bbm_vertex){ .node = here, .element = e, .x = m->node[here].x, .y = m->node[here].y };
+    }
+    m->element[e] = (bbm_element){ .block = block, .material = m->material[material], .first = first, .n = n };
+    bbm_element_geometry(&m->element[e], &m->vertex[first]);
+    m->element[e].A0 = m->element[e].A;
+    m->elements++;
+    if (index)
+        *index = e;
+    return BBM_OK;
+}
+
+/* Holds a node in the given directions to a wall point displaced by (u, v). */
+bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v)
+{
+    if (m->status)
+        return m->status;
+    if (!known_node(m, node))
+        return stick(m, fail(m, BBM_BAD_INDEX, "fixed node %d of %d", node, m->nodes));
+    if (directions < BBM_X || directions > BBM_XY)
+        return stick(m, fail(m, BBM_BAD_PARAMETER, "directions %d of fixed node %d", directions, node));
+    if (!isfinite(u) || !isfinite(v))
+        return stick(m, fail(m, BBM_NOT_FINITE, "the wall point of fixed node %d", node));
+    m->node[node].held |= directions;
+    if (directions & BBM_X)
+        m->node[node].wall[0] = u;
+    if (directions & BBM_Y)
+        m->node[node].wall[1] = v;
+    return BBM_OK;
+}
+
+bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
+{
+    if (m->status)
+        return m->status;
+    if (!known_node(m, node))
+        return stick(m, fail(m, BBM_BAD_INDEX, "loaded node %d of %d", node, m->nodes));
+    if (!isfinite(fx) || !isfinite(fy))
+        return stick(m, fail(m, BBM_NOT_FINITE, "the load of node %d", node));
+    m->node[node].load[0] += fx;
+    m->node[node].load[1] += fy;
+    return BBM_OK;
+}
+
+/* Adds a line load with everything but its vertices, which bbm_prepare finds. */
+static bbm_status add_line_load(bbm_model *m, const bbm_line_load *load)
+{
+    for (int g = 0; g < BBM_GAUSS; g++)
+        if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
+            return stick(m, fail(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0], load->node[1]));
+    if (!grow((void **)&m->line_load, m->line_loads, sizeof *load))
+        return stick(m, out_of_memory(m));
+    m->line_load[m->line_loads++] = *load;
+    return BBM_OK;
+}
+
+bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy)
+{
+    bbm_line_load load = { .node = { node1, node2 }, .constant = 1, .f = { { fx, fy } } };
+
+    if (m->status)
+        return m->status;
+    if (!known_node(m, node1) || !known_node(m, node2))
+        return stick(m, fail(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", node1, node2, m->nodes));
+    return add_line_load(m, &load);
+}
+
+/* The load f(x, y) [N/m] on the edge between two nodes, taken at the Gauss points of the starting geometry. */
+bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f, const void *context)
+{
+    bbm_line_load load = { .node = { node1, node2 } };
+
+    if (m->status)
+        return m->status;
+    if (!known_node(m, node1) || !known_node(m, node2))
+        return stick(m, fail(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", node1, node2, m->nodes));
+    const bbm_node *a = &m->node[node1], *b = &m->node[node2];
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, weight;
+        bbm_gauss_point(g, &s, &weight);
+        f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
+    }
+    return add_line_load(m, &load);
+}
+
+/* --------------------------------------------------------- preparing: 2.2, boundary and internal edges */
+
+/* Lists the vertices at each node: those of node n are meet[meet_first[n]] to meet[meet_first[n+1] - 1]. */
+static bbm_status list_meeting_vertices(bbm_model *m)
+{
+    m->meet_first = calloc((size_t)m->nodes + 1, sizeof *m->meet_first);
+    m->meet = calloc((size_t)m->vertices, sizeof *m->meet);
+    if (!m->meet_first || !m->meet)
+        return out_of_memory(m);
+    for (int v = 0; v < m->vertices; v++)
+        m->meet_first[m->vertex[v].node]++;
+    for (int n = 0, sum = 0; n <= m->nodes; n++) {
+        if (n < m->nodes && m->meet_first[n] == 0)
+            return fail(m, BBM_UNUSED_NODE, "node %d at (%g, %g)", n, m->node[n].x, m->node[n].y);
+        sum += m->meet_first[n];
+        m->meet_first[n] = sum;
+    }
+    for (int v = m->vertices - 1; v >= 0; v--)
+        m->meet[--m->meet_first[m->vertex[v].node]] = v;
+    return BBM_OK;
+}
+
+typedef struct { int block, low, high, element, a, b; } side;   /* of one element, by the nodes low < high at its ends */
+
+static int compare_sides(const void *p, const void *q)
+{
+    const side *s = p, *t = q;
+    const int d[4] = { (s->block > t->block) - (s->block < t->block), (s->low > t->low) - (s->low < t->low),
+                       (s->high > t->high) - (s->high < t->high), (s->element > t->element) - (s->element < t->element) };
+
+    return d[0] ? d[0] : d[1] ? d[1] : d[2] ? d[2] : d[3];
+}
+
+/* All sides of all elements, sorted so that those between the same nodes in the same block are neighbours. */
+static void list_sides(const bbm_model *m, side s[])
+{
+    for (int v = 0; v < m->vertices; v++) {
+        const bbm_element *e = &m->element[m->vertex[v].element];
+        const int next = v + 1 < e->first + e->n ? v + 1 : e->first;
+        const int p = m->vertex[v].node, q = m->vertex[next].node;
+        s[v] = (side){ e->block, p < q ? p : q, p < q ? q : p, m->vertex[v].element, v, next };
+    }
+    qsort(s, (size_t)m->vertices, sizeof *s, compare_sides);
+}
+
+/* Section 2.2: a side that two elements of a block share is an internal edge and gets a bond, one that has no partner
+ * is a boundary edge. Elements run counter-clockwise, so partners run opposite ways. */
+static bbm_status sort_edges(bbm_model *m, const side s[])
+{
+    for (int v = 0, same; v < m->vertices; v += same) {
+        for (same = 1; v + same < m->vertices; same++)
+            if (s[v + same].block != s[v].block || s[v + same].low != s[v].low || s[v + same].high != s[v].high)
+                break;
+        const side *i = &s[v], *j = &s[v + 1];
+        if (same == 1)
+            m->edge[m->edges++] = (bbm_edge){ i->element, i->a, i->b };
+        else if (same > 2 || m->vertex[i->a].node == m->vertex[j->a].node)
+            return fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d", i->element,
+                        s[v + same - 1].element, i->low, i->high);
+        else
+            m->bond[m->bonds++] = (bbm_bond){ i->element, j->element, { i->a, i->b }, { j->b, j->a } };
+    }
+    return BBM_OK;
+}
+
+static bbm_status connect_elements(bbm_model *m)
+{
+    side *s = calloc((size_t)m->vertices, sizeof *s);
+    bbm_status status = BBM_OK;
+
+    m->bonds = m->edges = 0;
+    m->edge = calloc((size_t)m->vertices, sizeof *m->edge);
+    m->bond = calloc((size_t)m->vertices / 2, sizeof *m->bond);
+    if (!s || !m->edge || !m->bond) {
+        status = out_of_memory(m);
+    } else {
+        list_sides(m, s);
+        status = sort_edges(m, s);
+    }
+    free(s);
+    return status;
+}
+
+/* Finds the vertices of each line load: the boundary edge between its nodes. */
+static bbm_status place_line_loads(bbm_model *m)
+{
+    for (int l = 0; l < m->line_loads; l++) {
+        bbm_line_load *load = &m->line_load[l];
+        load->a = -1;
+        for (int i = 0; i < m->edges && load->a < 0; i++) {
+            const bbm_edge *e = &m->edge[i];
+            if (m->vertex[e->a].node == load->node[0] && m->vertex[e->b].node == load->node[1])
+                load->a = e->a, load->b = e->b;
+            else if (m->vertex[e->b].node == load->node[0] && m->vertex[e->a].node == load->node[1])
+                load->a = e->b, load->b = e->a;
+        }
+        if (load->a < 0)
+            return fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", load->node[0], load->node[1]);
+    }
+    return BBM_OK;
+}
+
+/* ------------------------------------------------------------- preparing: what holds a body in statics */
+
+/* The root of element e in the forest up[], with the path halved on the way. */
+static int root_of(int up[], int e)
+{
+    while (up[e] != e)
+        e = up[e] = up[up[e]];
+    return e;
+}
+
+/* The directions in which a body's fixed points hold it, as the 3x3 matrix of the rows (1, 0, -Y) and (0, 1, X) by
+ * which they feel a rigid motion: regular when it is held. X, Y from one of its fixed points, over the body's reach. */
+typedef struct { double G[3][3], x, y, reach; int fixed; } hold;
+
+static void add_hold(hold *h, const bbm_node *n)
+{
+    const double X = (n->x - h->x) / h->reach, Y = (n->y - h->y) / h->reach;
+    const double row[2][3] = { { 1, 0, -Y }, { 0, 1, X } };
+
+    for (int r = 0; r < 2; r++)
+        for (int a = 0; a < 3 && (n->held & (r == 0 ? BBM_X : BBM_Y)); a++)
+            for (int b = 0; b < 3; b++)
+                h->G[a][b] += row[r][a] * row[r][b];
+}
+
+/* Whether a positive semi-definite 3x3 matrix is regular, by elimination. */
+static int regular(double G[3][3])
+{
+    for (int p = 0; p < 3; p++) {
+        if (G[p][p] <= LOOSE)
+            return 0;
+        for (int a = p + 1; a < 3; a++)
+            for (int b = p + 1; b < 3; b++)
+                G[a][b] -= G[a][p] * G[p][b] / G[p][p];
+    }
+    return 1;
+}
+
+/* Sums up the fixed points of each body: what bonds join, known by its root in up[]. */
+static void sum_holds(const bbm_model *m, int up[], hold h[])
+{
+    for (int b = 0; b < m->bonds; b++)
+        up[root_of(up, m->bond[b].j)] = root_of(up, m->bond[b].i);
+    for (int v = 0; v < m->vertices; v++) {
+        const bbm_node *n = &m->node[m->vertex[v].node];
+        hold *body = &h[root_of(up, m->vertex[v].element)];
+        if (n->held && !body->fixed)
+            body->fixed = 1, body->x = n->x, body->y = n->y;
+    }
+    for (int v = 0; v < m->vertices; v++) {
+        const bbm_node *n = &m->node[m->vertex[v].node];
+        hold *body = &h[root_of(up, m->vertex[v].element)];
+        body->reach = fmax(body->reach, hypot(n->x - body->x, n->y - body->y));
+    }
+    for (int v = 0; v < m->vertices; v++)
+        add_hold(&h[root_of(up, m->vertex[v].element)], &m->node[m->vertex[v].node]);
+}
+
+/* Finds an element of a body that its fixed points leave free to move, or -1. */
+static bbm_status find_free_body(bbm_model *m)
+{
+    int *up = calloc((size_t)m->elements, sizeof *up);
+    hold *h = calloc((size_t)m->elements, sizeof *h);
+    bbm_status status = BBM_OK;
+
+    m->free_element = -1;
+    if (!up || !h) {
+        status = out_of_memory(m);
+    } else {
+        for (int e = 0; e < m->elements; e++)
+            up[e] = e;
+        sum_holds(m, up, h);
+        for (int e = 0; e < m->elements && m->free_element < 0; e++)
+            if (root_of(up, e) == e && !regular(h[e].G))
+                m->free_element = e;
+    }
+    free(up);
+    free(h);
+    return status;
+}
+
+/* Lays out K: a submatrix for each element and for each bond, Eq. (5). */
+static bbm_status lay_out_matrix(bbm_model *m)
+{
+    int (*pair)[2] = calloc((size_t)m->bonds + 1, sizeof *pair);
+    bbm_status status = BBM_NO_MEMORY;
+
+    m->F = calloc(6 * (size_t)m->elements, sizeof *m->F);
+    m->D = calloc(6 * (size_t)m->elements, sizeof *m->D);
+    if (pair && m->F && m->D) {
+        for (int b = 0; b < m->bonds; b++) {
+            pair[b][0] = m->bond[b].i;
+            pair[b][1] = m->bond[b].j;
+        }
+        status = bbm_matrix_new(m->elements, m->bonds, pair, &m->K);
+    }
+    free(pair);
+    return status ? out_of_memory(m) : BBM_OK;
+}
+
+/* Checks the model and makes all that the steps need: the vertices at each node, boundary and internal edges, K. */
+bbm_status bbm_prepare(bbm_model *m)
+{
+    bbm_status status = m->status;
+
+    if (status)
+        return status;
+    free_prepared(m);
+    if (m->elements == 0)
+        return fail(m, BBM_NO_ELEMENT, "%d nodes", m->nodes);
+    if (!status)
+        status = list_meeting_vertices(m);
+    if (!status)
+        status = connect_elements(m);
+    if (!status)
+        status = place_line_loads(m);
+    if (!status)
+        status = find_free_body(m);
+    if (!status)
+        status = lay_out_matrix(m);
+    return status;
+}
+
+/* ------------------------------------------------------------------------------- the time step, Fig. 8 */
+
+/* Refuses parameters that mean nothing; a comparison with NaN is false, so NaN is refused too. */
+static bbm_status check_parameters(bbm_model *m)
+{
+    const bbm_parameters *p = &m->par;
+
+    if (!m->K)
+        return m->status ? m->status : fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
+    if (!(p->dt > 0))
+        return fail(m, BBM_BAD_PARAMETER, "dt = %g, expected more than 0", p->dt);
+    if (!(p->steps >= 1))
+        return fail(m, BBM_BAD_PARAMETER, "steps = %d, expected 1 or more", p->steps);
+    if (!(p->tolerance >= 0))
+        return fail(m, BBM_BAD_PARAMETER, "tolerance = %g, expected 0 or more", p->tolerance);
+    if (!(p->keep >= 0 && p->keep <= 1))
+        return fail(m, BBM_BAD_PARAMETER, "keep = %g, expected 0 to 1", p->keep);
+    if (!(p->alpha > 0 && isfinite(p->alpha)))
+        return fail(m, BBM_BAD_PARAMETER, "alpha = %g, expected more than 0", p->alpha);
+    if (!isfinite(p->gravity[0]) || !isfinite(p->gravity[1]))
+        return fail(m, BBM_NOT_FINITE, "gravity");
+    if (isinf(p->dt) && m->free_element >= 0) {
+        const bbm_element *e = &m->element[m->free_element];
+        return fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)", e->block, m->free_element,
+                    e->x, e->y);
+    }
+    return BBM_OK;
+}
+
+/* The sources of energy inside one element: strain, inertia, gravity. */
+static bbm_status assemble_element(bbm_model *m, int i)
+{
+    const bbm_element *e = &m->element[i];
+    const double M = mass_per_area(e), weight[2] = { M * m->par.gravity[0], M * m->par.gravity[1] };
+    bbm_submatrix s = { { { 0 } }, { 0 } };
+
+    bbm_elastic_submatrix(e, &s);
+    bbm_inertia_submatrix(e, m->par.dt, &s);
+    bbm_volume_submatrix(e, weight, s.F);
+    for (int v = e->first; v < e->first + e->n; v++) {
+        const int n = m->vertex[v].node, meeting = m->meet_first[n + 1] - m->meet_first[n];
+        const double share[2] = { m->node[n].load[0] / meeting, m->node[n].load[1] / meeting };
+        bbm_fixed_submatrix(e, &m->vertex[v], &m->node[n], bbm_fixed_stiffness(m->par.alpha, e), &s);
+        bbm_point_load(e, &m->vertex[v], share, s.F);
+    }
+    for (int a = 0; a < 6; a++)
+        m->F[6 * i + a] += s.F[a];
+    return bbm_matrix_add(m->K, i, i, s.K);
+}
+
+static bbm_status assemble_bond(bbm_model *m, const bbm_bond *b)
+{
+    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+    const double k = bbm_bonding_stiffness(m->par.alpha, i, j);
+    bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+
+    for (int end = 0; end < 2; end++)
+        bbm_bonding_submatrices(i, &m->vertex[b->p[end]], j, &m->vertex[b->q[end]], k, &s);
+    for (int a = 0; a < 6; a++) {
+        m->F[6 * b->i + a] += s.Fi[a];
+        m->F[6 * b->j + a] += s.Fj[a];
+    }
+    bbm_status status = bbm_matrix_add(m->K, b->i, b->i, s.Kii);
+    if (!status)
+        status = bbm_matrix_add(m->K, b->i, b->j, s.Kij);
+    if (!status)
+        status = bbm_matrix_add(m->K, b->j, b->j, s.Kjj);
+    return status;
+}
+
+static void assemble_line_load(bbm_model *m, const bbm_line_load *l)
+{
+    const int i = m->vertex[l->a].element;
+    const bbm_vertex *a = &m->vertex[l->a], *b = &m->vertex[l->b];
+
+    if (l->constant)
+        bbm_constant_load_submatrix(&m->element[i], a, b, l->f[0], &m->F[6 * i]);
+    else
+        bbm_varying_load_submatrix(&m->element[i], a, b, l->f, &m->F[6 * i]);
+}
+
+/* K and F of the present geometry, section 3. */
+static bbm_status assemble(bbm_model *m)
+{
+    bbm_status status = BBM_OK;
+
+    bbm_matrix_clear(m->K);
+    memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
+    for (int i = 0; i < m->elements && !status; i++)
+        status = assemble_element(m, i);
+    for (int b = 0; b < m->bonds && !status; b++)
+        status = assemble_bond(m, &m->bond[b]);
+    for (int l = 0; l < m->line_loads; l++)
+        assemble_line_load(m, &m->line_load[l]);
+    return status;
+}
+
+/* Solves K D = F; what went wrong becomes a sentence with the numbers. */
+static bbm_status solve(bbm_model *m)
+{
+    const bbm_pcg_info *i = &m->info.pcg;
+    const bbm_status status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
+
+    if (status)
+        return fail(m, status, "step %d, %d iterations, residual %.2g, element %d", m->info.step + 1, i->iterations,
+                    i->residual, i->element);
+    return BBM_OK;
+}
+
+/* Moves one element by its D: vertices by u = T D, stress by E e, Eq. (7), velocity by Eq. (14). */
+static void update_element(bbm_model *m, bbm_element *e)
+{
+    double E[3][3], u[2];
+
+    for (int v = e->first; v < e->first + e->n; v++) {
+        bbm_vertex *p = &m->vertex[v];
+        bbm_displacement(e, p->x, p->y, u);
+        p->u += u[0];
+        p->v += u[1];
+        p->x = m->node[p->node].x + p->u;
+        p->y = m->node[p->node].y + p->v;
+    }
+    bbm_elastic_matrix(&e->material, E);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            e->stress[a] += E[a][b] * e->D[3 + b];
+    bbm_newmark_velocity(e, m->par.dt, m->par.keep);
+    e->sum[0] += e->D[0];
+    e->sum[1] += e->D[1];
+}
+
+/* Moves all elements; how small the step was against all so far, Eq. (71), is left in info.change. */
+static void update(bbm_model *m)
+{
+    double step2 = 0, sum2 = 0;
+
+    for (int i = 0; i < m->elements; i++) {
+        bbm_element *e = &m->element[i];
+        memcpy(e->D, &m->D[6 * i], sizeof e->D);
+        update_element(m, e);
+        step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
+        sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
+    }
+    m->info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
+    m->info.step++;
+    m->info.t += m->par.dt;
+}
+
+/* One time step. When it fails, the model stays as it was at the start of the step. */
+bbm_status bbm_step(bbm_model *m)
+{
+    bbm_status status = check_parameters(m);
+
+    if (status)
+        return status;
+    for (int i = 0; i < m->elements; i++)
+        bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
+    status = assemble(m);
+    if (!status)
+        status = solve(m);
+    if (!status)
+        update(m);
+    return status;
+}
+
+/* All time steps. With a tolerance they end when the step has become small against the sum of all, Eq. (71):
+ * sqrt(sum |step_i|^2) <= tolerance sqrt(sum |total_i|^2) over the barycentres i. */
+bbm_status bbm_run(bbm_model *m)
+{
+    const int last = m->info.step + m->par.steps;
+
+    do {
+        const bbm_status status = bbm_step(m);
+        if (status)
+            return status;
+        if (m->par.tolerance > 0 && m->info.change <= m->par.tolerance)
+            return BBM_OK;
+    } while (m->info.step < last);
+    if (m->par.tolerance > 0)
+        return fail(m, BBM_STEPS_EXHAUSTED, "change %.2g after step %d, expected %.2g", m->info.change, m->info.step,
+                    m->par.tolerance);
+    return BBM_OK;
+}
+
+/* ------------------------------------------------------------------------------- results, section 4 */
+
+/* von Mises stress in plane stress. */
+double bbm_mises(const double s[3])
+{
+    return sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]);
+}
+
+/* Displacement and stress at a grid point: the mean over the elements of a block (-1: of all) that meet there. */
+bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r)
+{
+    int count = 0;
+
+    *r = (bbm_result){ 0 };
+    if (!m->K || !known_node(m, node))
+        return BBM_BAD_INDEX;
+    for (int a = m->meet_first[node]; a < m->meet_first[node + 1]; a++) {
+        const bbm_vertex *v = &m->vertex[m->meet[a]];
+        const bbm_element *e = &m->element[v->element];
+        if (block >= 0 && e->block != block)
+            continue;
+        r->u += v->u;
+        r->v += v->v;
+        for (int k = 0; k < 3; k++)
+            r->stress[k] += e->stress[k];
+        count++;
+    }
+    if (count == 0)
+        return BBM_BAD_INDEX;
+    r->u /= count;
+    r->v /= count;
+    for (int k = 0; k < 3; k++)
+        r->stress[k] /= count;
+    r->mises = bbm_mises(r->stress);
+    return BBM_OK;
+}

@@ -1,0 +1,239 @@
+/* bbm.h - the bonding block model (BBM), an enrichment of discontinuous deformation analysis (DDA).
+ *
+ * Sun, Chen, Feng, Wang: "Discontinuous Deformation Analysis Enriched by the Bonding Block Model",
+ * Mathematical Problems in Engineering 2015, 723263, doi:10.1155/2015/723263. Eq. (n) and Fig. n mean that paper.
+ *
+ * A block of a jointed rock mass is subdivided into elements, polygons with the six unknowns
+ * D = (u0, v0, r0, ex, ey, gxy) each. Elements of one block that share an edge are glued there by bonding springs;
+ * different blocks only touch. Each time step minimises the potential energy, K D = F, and moves the elements by D.
+ *
+ * Read the structs from small to large, then the functions in three tiers: run a model, build one, single formulas.
+ * SI units, plane stress, indices from 0, elements counter-clockwise. What can fail returns a bbm_status.
+ */
+#ifndef BBM_H
+#define BBM_H
+
+#define BBM_VERSION "0.1"
+
+enum { BBM_GAUSS = 4 };                         /* Gauss points of a line load: exact to degree 7              */
+enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };      /* directions in which a point is held; they add up            */
+
+typedef enum {
+    BBM_OK,
+    BBM_NO_MEMORY,
+    /* --- the model is wrong: bbm_message() names the element, node or parameter --- */
+    BBM_NO_ELEMENT,             /* the model is empty                                                     */
+    BBM_NOT_FINITE,             /* a coordinate, load or parameter is NaN or infinite                     */
+    BBM_BAD_INDEX,              /* a node, element or material that does not exist                        */
+    BBM_BAD_MODULUS,            /* E <= 0                                                                 */
+    BBM_BAD_POISSON,            /* nu outside (-1, 0.5)                                                   */
+    BBM_BAD_DENSITY,            /* density <= 0                                                           */
+    BBM_BAD_THICKNESS,          /* thickness <= 0                                                         */
+    BBM_BAD_PARAMETER,          /* dt, alpha, omega, ... outside its range                                */
+    BBM_FEW_VERTICES,           /* an element of fewer than three vertices                                */
+    BBM_ZERO_AREA,              /* an element without area                                                */
+    BBM_SELF_CROSSING,          /* an element whose boundary meets itself                                 */
+    BBM_OVERLAP,                /* elements of one block that lie on the same side of an edge             */
+    BBM_UNUSED_NODE,            /* a node that no element has                                             */
+    BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                                */
+    BBM_FREE_TO_MOVE,           /* statics, and the fixed points do not hold a body against rigid motion  */
+    /* --- the solution failed: the numbers are in bbm_info --- */
+    BBM_NOT_POSITIVE_DEFINITE,  /* K is not; info.element is the row, or -1 if the iteration found out    */
+    BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                                */
+    BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps                       */
+    BBM_STATUS_COUNT
+} bbm_status;
+
+/* ------------------------------------------------------------------------------------------------ the data */
+
+typedef struct {
+    double E;                   /* Pa       Young's modulus                  */
+    double nu;                  /* -        Poisson's ratio                  */
+    double density;             /* kg/m^3   mass per volume                  */
+    double thickness;           /* m        out of the plane                 */
+} bbm_material;
+
+typedef struct {                /* a grid point of the mesh; the elements that meet there have a vertex each    */
+    double x, y;                /* m        starting position                */
+    int    held;                /* BBM_X, BBM_Y or both: a fixed point       */
+    double wall[2];             /* m        displacement of the wall point W that it is held to                 */
+    double load[2];             /* N        concentrated load                */
+} bbm_node;
+
+typedef struct {                /* a corner of one element                                                      */
+    int    node, element;
+    double x, y;                /* m        present position                 */
+    double u, v;                /* m        displacement since the start: x = node.x + u                        */
+} bbm_vertex;
+
+typedef struct {                /* an element: triangle, quadrilateral, any simple polygon, or a whole block    */
+    /* --- input --- */
+    int    block;
+    int    first, n;            /* its vertices are model.vertex[first .. first+n-1]                            */
+    bbm_material material;
+    /* --- geometry of the step, by bbm_element_geometry --- */
+    double x, y;                /* m        barycentre                       */
+    double A;                   /* m^2      area                             */
+    double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre                         */
+    /* --- state --- */
+    double A0;                  /* m^2      starting area: mass = density * thickness * A0                      */
+    double V[6];                /* 1/s      velocity of D                    */
+    double stress[3];           /* Pa       sx, sy, sxy, carried from step to step                              */
+    double sum[2];              /* m        displacement of the barycentre, summed over the steps               */
+    /* --- solution of the last step --- */
+    double D[6];                /* u0, v0 [m], r0 [rad], ex, ey, gxy [-]                                        */
+} bbm_element;
+
+typedef struct {                /* an internal edge: two bonding springs between elements i and j               */
+    int i, j;
+    int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j                      */
+} bbm_bond;
+
+typedef struct {                /* a boundary edge from vertex a to vertex b, its element on the left           */
+    int element, a, b;
+} bbm_edge;
+
+typedef struct {                /* a load along a boundary edge                                                 */
+    int    node[2];             /* its ends                                  */
+    int    constant;            /* then f[0] is all of it, Eq. (43)          */
+    double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to node[1], Eq. (42)               */
+    int    a, b;                /* the vertices at its ends, by bbm_prepare  */
+} bbm_line_load;
+
+/* A load that varies from place to place: writes f(x, y) [N/m or N/m^2] into f. */
+typedef void bbm_field(double x, double y, const void *context, double f[2]);
+
+typedef struct { double K[6][6], F[6]; } bbm_submatrix;                                 /* what one element adds */
+typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices; /* two; Kji = Kij^T    */
+
+typedef enum { BBM_EISENSTAT, BBM_TEXTBOOK } bbm_pcg_form;      /* the same iterates, the first in half the time */
+
+typedef struct {                /* how K D = F is solved                                                        */
+    double omega;               /* -        relaxation factor of SSOR, in (0, 2)                                */
+    double tolerance;           /* -        of the residual's SSOR norm against that of F                       */
+    int    iterations;          /* at most                                                                      */
+    bbm_pcg_form form;
+} bbm_pcg;
+
+typedef struct {                /* what a solve did                                                             */
+    int    iterations;
+    double residual;            /* -        |F - K D| / |F|, computed afresh at the end                         */
+    int    element;             /* block row where K is not positive definite, else -1                          */
+} bbm_pcg_info;
+
+typedef struct {
+    double dt;                  /* s        time step; INFINITY: no inertia                                     */
+    int    steps;               /* time steps, in statics load steps (Newton-Raphson iterations)                */
+    double tolerance;           /* -        of (71), statics only; 0: do all steps                              */
+    double keep;                /* -        share of its velocity that a step hands on: 1 dynamics, 0 statics   */
+    double alpha;               /* -        of the bonding stiffness, (4) and (29)                              */
+    double gravity[2];          /* m/s^2    */
+    bbm_pcg pcg;
+} bbm_parameters;
+
+typedef struct {                /* what the last step did                                                       */
+    int    step;                /* steps done                                                                   */
+    double t;                   /* s        time at their end                                                   */
+    double change;              /* -        left side of (71) over its right side without the tolerance         */
+    bbm_pcg_info pcg;
+} bbm_info;
+
+typedef struct bbm_matrix bbm_matrix;           /* K, in solver.c                                               */
+
+typedef struct {
+    /* --- input --- */
+    bbm_parameters par;
+    int nodes, elements, vertices, line_loads, materials;
+    bbm_node      *node;        /* [nodes]                                   */
+    bbm_element   *element;     /* [elements]                                */
+    bbm_vertex    *vertex;      /* [vertices], element by element            */
+    bbm_line_load *line_load;   /* [line_loads]                              */
+    bbm_material  *material;    /* [materials]                               */
+    /* --- made by bbm_prepare --- */
+    int bonds, edges;
+    bbm_bond *bond;             /* [bonds]   the internal edges              */
+    bbm_edge *edge;             /* [edges]   the boundary edges              */
+    int *meet_first, *meet;     /* [nodes+1], [vertices]: meet[meet_first[n] ..] are the vertices at node n     */
+    int free_element;           /* of a body that its fixed points leave free to move, else -1                  */
+    /* --- state and scratch --- */
+    bbm_matrix *K;
+    double *F, *D;              /* [6 elements]                              */
+    bbm_info info;
+    bbm_status status;          /* the first error while building            */
+    char message[200];          /* what the last error was about             */
+} bbm_model;
+
+typedef struct {                /* at a grid point                                                              */
+    double u, v;                /* m                                         */
+    double stress[3];           /* Pa       sx, sy, sxy                      */
+    double mises;               /* Pa       von Mises                        */
+} bbm_result;
+
+/* -------------------------------------------------------------------------------------------- 1. run a model */
+
+bbm_status  bbm_run(bbm_model *m);                      /* all steps, Fig. 8                                    */
+bbm_status  bbm_step(bbm_model *m);                     /* one step                                             */
+bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);  /* block -1: all of them */
+void        bbm_displacement(const bbm_element *e, double x, double y, double u[2]);   /* (1), of the last step */
+double      bbm_mises(const double stress[3]);
+const char *bbm_status_text(bbm_status s);
+const char *bbm_message(const bbm_model *m);            /* the last error in a sentence, with names and numbers */
+
+/* ------------------------------------------------------------------------------------------ 2. build a model
+ * Every bbm_add and bbm_set returns the status of the first one that failed and then does nothing more, so that a
+ * program may check bbm_prepare alone. The index goes through the last pointer, which may be NULL.              */
+
+bbm_status bbm_model_new(bbm_model **m);
+void       bbm_model_free(bbm_model *m);                /* takes NULL                                           */
+bbm_status bbm_add_material(bbm_model *m, const bbm_material *material, int *index);
+bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index);
+bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const int node[], int *index);
+bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v);   /* u, v of the wall point */
+bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);                 /* N, adds up            */
+bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy);/* N/m, constant         */
+bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f, const void *context);
+bbm_status bbm_prepare(bbm_model *m);                   /* checks, sorts the edges (2.2), lays out K            */
+
+/* ----------------------------------------------------------------------------- 3. single formulas, each alone
+ * A submatrix function adds to what it is given.                                                               */
+
+/* 2.1, 2.2 */
+void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]);                /* of its n vertices     */
+void   bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6]);      /* (2)                   */
+double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_element *j);/* (4)                   */
+/* 3.1, 3.2 */
+void   bbm_elastic_matrix(const bbm_material *m, double E[3][3]);                      /* (7)                   */
+void   bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s);                  /* (10)                  */
+void   bbm_mode_integral(const bbm_element *e, double M[6][6]);                        /* int T^T T dA          */
+void   bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s);       /* (16), (17)            */
+void   bbm_newmark_velocity(bbm_element *e, double dt, double keep);                   /* (14)                  */
+/* 3.3, 3.4 */
+void   bbm_bonding_submatrices(const bbm_element *i, const bbm_vertex *P, const bbm_element *j, const bbm_vertex *Q,
+                               double k, bbm_submatrices *s);                          /* (27), (28)            */
+double bbm_fixed_stiffness(double alpha, const bbm_element *e);                        /* (29)                  */
+void   bbm_fixed_submatrix(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
+                           double k, bbm_submatrix *s);                                /* (37)                  */
+/* 3.5, 3.6 */
+void   bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6]);
+void   bbm_gauss_point(int g, double *s, double *weight);                              /* on 0 <= s <= 1       */
+void   bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
+                                  const double f[BBM_GAUSS][2], double F[6]);          /* (42)                  */
+void   bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
+                                   const double f[2], double F[6]);                    /* (43)                  */
+void   bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex vertex[], bbm_field *f,
+                                    const void *context, double F[6]);                 /* (46)                  */
+void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]);     /* (47)                  */
+
+/* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
+ * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,
+ * repeats allowed. Vectors have 6 n entries in the caller's order.                                             */
+
+bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
+void       bbm_matrix_free(bbm_matrix *K);                                             /* takes NULL            */
+void       bbm_matrix_clear(bbm_matrix *K);
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]);                /* K_ij, and K_ji = B^T  */
+void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y);       /* y = K x               */
+int        bbm_matrix_bandwidth(const bbm_matrix *K);                                  /* in block rows         */
+bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info);
+
+#endif

@@ -1,0 +1,318 @@
+/* case.c - what the experiments share. A program of cases/ runs from the project's top folder: it reads
+ * cases/fem.csv and writes below out/. */
+#define _POSIX_C_SOURCE 200809L
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "case.h"
+
+static void stop(const char *what, const char *why)
+{
+    fprintf(stderr, "%s: %s\n", what, why);
+    exit(1);
+}
+
+void case_must(const bbm_model *m, bbm_status s)
+{
+    if (s)
+        stop("bbm", m ? bbm_message(m) : bbm_status_text(s));
+}
+
+bbm_model *case_model(void)
+{
+    bbm_model *m;
+
+    case_must(NULL, bbm_model_new(&m));
+    return m;
+}
+
+void case_progress(const char *what)
+{
+    printf("... %s\n", what);
+    fflush(stdout);
+}
+
+void case_print_parameters(const bbm_model *m)
+{
+    const bbm_parameters *p = &m->par;
+
+    printf("\nTable 1 - parameters\n\n| dt [s] | steps at most | tolerance (71) | omega | tolerance PCG | alpha |\n"
+           "|---|---|---|---|---|---|\n| %g | %d | %g | %g | %g | %g |\n", p->dt, p->steps, p->tolerance, p->pcg.omega,
+           p->pcg.tolerance, p->alpha);
+    printf("\n%d step%s, the last with %d SSOR-PCG iterations to a residual of %.1e\n", m->info.step,
+           m->info.step == 1 ? "" : "s", m->info.pcg.iterations, m->info.pcg.residual);
+}
+
+/* ------------------------------------------------------------------------------------------------- meshes */
+
+static int grid_node(const case_grid *g, int i, int j)
+{
+    return g->first + j * (g->nx + 1) + i;
+}
+
+static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j, int *index)
+{
+    double xy[2];
+
+    g->map(i, j, g->context, xy);
+    bbm_add_node(m, xy[0], xy[1], index);
+}
+
+/* The cell (i, j) with corners a b c d counter-clockwise:
+ *
+ *     d---c    d---c    d---c    d---c
+ *     |   |    | / |    | \ |    |\ /|
+ *     |   |    |/  |    |  \|    | o |     quads; alternating, by i + j even or odd; crossed
+ *     a---b    a---b    a---b    |/ \|
+ *                                a---b                                                                        */
+static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
+{
+    const int a = grid_node(g, i, j), b = grid_node(g, i + 1, j), c = grid_node(g, i + 1, j + 1), d = grid_node(g, i, j + 1);
+    const int quad[4] = { a, b, c, d };
+
+    if (g->cut == CASE_QUADS) {
+        bbm_add_element(m, g->block, g->material, 4, quad, NULL);
+    } else if (g->cut == CASE_ALTERNATING) {
+        const int rising = (i + j) % 2 == 0;
+        const int lower[3] = { a, b, rising ? c : d }, upper[3] = { c, d, rising ? a : b };
+        bbm_add_element(m, g->block, g->material, 3, lower, NULL);
+        bbm_add_element(m, g->block, g->material, 3, upper, NULL);
+    } else {
+        int o = 0;
+        add_mapped_node(m, g, i + 0.5, j + 0.5, &o);
+        for (int k = 0; k < 4; k++) {
+            const int triangle[3] = { quad[k], quad[(k + 1) % 4], o };
+            bbm_add_element(m, g->block, g->material, 3, triangle, NULL);
+        }
+    }
+}
+
+void case_add_grid(bbm_model *m, case_grid *g)
+{
+    g->first = m->nodes;
+    for (int j = 0; j <= g->ny; j++)
+        for (int i = 0; i <= g->nx; i++)
+            add_mapped_node(m, g, i, j, NULL);
+    for (int j = 0; j < g->ny; j++)
+        for (int i = 0; i < g->nx; i++)
+            add_cell(m, g, i, j);
+}
+
+int case_node(const bbm_model *m, double x, double y)
+{
+    int best = 0;
+
+    for (int n = 1; n < m->nodes; n++)
+        if (hypot(m->node[n].x - x, m->node[n].y - y) < hypot(m->node[best].x - x, m->node[best].y - y))
+            best = n;
+    return best;
+}
+
+bbm_result case_at(const bbm_model *m, double x, double y)
+{
+    bbm_result r;
+
+    case_must(NULL, bbm_nodal_result(m, case_node(m, x, y), -1, &r));
+    return r;
+}
+
+double case_quantity(const bbm_result *r, const char *quantity)
+{
+    const char *const name[] = { "u", "v", "sxx", "syy", "sxy", "svm" };
+    const double value[] = { r->u, r->v, r->stress[0], r->stress[1], r->stress[2], r->mises };
+
+    for (int i = 0; i < 6; i++)
+        if (strcmp(quantity, name[i]) == 0)
+            return value[i];
+    return NAN;
+}
+
+/* ---------------------------------------------------------------------------------------- reference values */
+
+/* The number up to the next comma (NaN for an empty field); *p moves behind it. */
+static double next_number(char **p)
+{
+    char *end = *p + strcspn(*p, ",\n");
+    const double value = end == *p ? NAN : strtod(*p, NULL);
+
+    *p = *end ? end + 1 : end;
+    return value;
+}
+
+void case_read_reference(const char *problem, const char *variant, case_reference *r)
+{
+    char start[64], line[256];
+    FILE *f = fopen("cases/fem.csv", "r");
+
+    *r = (case_reference){ NULL, 0 };
+    if (!f)
+        stop("cases/fem.csv", "cannot be read; run the program from the project's top folder");
+    snprintf(start, sizeof start, "%s,%s,", problem, variant);
+    while (fgets(line, sizeof line, f))
+        if (strncmp(line, start, strlen(start)) == 0) {
+            char *p = line + strlen(start), *end = p + strcspn(p, ",");
+            struct case_value v = { { 0 }, 0, 0, 0, 0, 0 };
+            if (*end == ',')
+                *end++ = '\0';
+            snprintf(v.quantity, sizeof v.quantity, "%s", p);
+            v.x = next_number(&end);
+            v.y = next_number(&end);
+            v.converged = next_number(&end);
+            v.six_node = next_number(&end);
+            v.three_node = next_number(&end);
+            void *more = realloc(r->value, ((size_t)r->values + 1) * sizeof *r->value);
+            if (!more)
+                stop("cases/fem.csv", "out of memory");
+            r->value = more;
+            r->value[r->values++] = v;
+        }
+    fclose(f);
+}
+
+void case_free_reference(case_reference *r)
+{
+    free(r->value);
+}
+
+const struct case_value *case_find(const case_reference *r, const char *quantity, double x, double y)
+{
+    for (int i = 0; i < r->values; i++)
+        if (strcmp(r->value[i].quantity, quantity) == 0 && hypot(r->value[i].x - x, r->value[i].y - y) < 1e-6)
+            return &r->value[i];
+    stop(quantity, "no such reference value in cases/fem.csv");
+    return NULL;
+}
+
+/* ------------------------------------------------------------------------------------------ results as files */
+
+const char *case_path(const case_results *r, const char *file, char path[128])
+{
+    snprintf(path, 128, "%s/%s", r->folder, file);
+    return path;
+}
+
+static void make_folder(const char *path)
+{
+    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+        stop(path, strerror(errno));
+}
+
+void case_open(case_results *r, const char *name)
+{
+    char path[128];
+
+    snprintf(r->folder, sizeof r->folder, "out/%s", name);
+    r->worst = 0;
+    make_folder("out");
+    make_folder(r->folder);
+    r->csv = fopen(case_path(r, "results.csv", path), "w");
+    if (!r->csv)
+        stop(path, strerror(errno));
+    fprintf(r->csv, "quantity,x,y,computed,reference,kind,relative_error\n");
+}
+
+void case_close(case_results *r)
+{
+    const int bad = ferror(r->csv);
+
+    if (fclose(r->csv) || bad)
+        stop(r->folder, "results.csv could not be written");
+}
+
+double case_row(case_results *r, const char *quantity, const double xy[2], double computed, double reference,
+                const char *kind)
+{
+    const double error = reference != 0 ? (computed - reference) / reference : computed;
+
+    fprintf(r->csv, "%s,%.9g,%.9g,%.15g,%.15g,%s,%.3e\n", quantity, xy[0], xy[1], computed, reference, kind, error);
+    r->worst = fmax(r->worst, fabs(error));
+    return error;
+}
+
+void case_write_curves(const case_results *r, const char *file, const char *header, int rows, int columns,
+                       const double *table)
+{
+    char path[128];
+    FILE *f = fopen(case_path(r, file, path), "w");
+
+    if (!f)
+        stop(path, strerror(errno));
+    fprintf(f, "%s\n", header);
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++) {
+            const double value = table[i * columns + j];
+            if (!isnan(value))
+                fprintf(f, "%.15g", value);
+            fputc(j + 1 < columns ? ',' : '\n', f);
+        }
+    if (ferror(f) | fclose(f))
+        stop(path, "could not be written");
+}
+
+/* ------------------------------------------------------------------------------------------------ pictures */
+
+static void *room(int count, size_t size)
+{
+    void *p = calloc((size_t)count, size);
+
+    if (!p)
+        stop("pictures", "out of memory");
+    return p;
+}
+
+void case_draw_chart(const case_results *r, const char *file, const plot_chart *c)
+{
+    char path[128];
+
+    if (!plot_write_chart(case_path(r, file, path), c))
+        stop(path, "could not be written");
+}
+
+/* A map of a nodal quantity over the mesh; on the deformed mesh unless map->magnify is negative. */
+static void draw(const case_results *r, const char *file, const bbm_model *m, const char *quantity, plot_map *map)
+{
+    double *number = room(5 * m->nodes, sizeof *number);
+    double *x = number, *y = x + m->nodes, *value = y + m->nodes, *u = value + m->nodes, *v = u + m->nodes;
+    int *first = room(m->elements + 1, sizeof *first), *corner = room(m->vertices, sizeof *corner);
+    char path[128];
+
+    for (int n = 0; n < m->nodes; n++) {
+        bbm_result here;
+        bbm_nodal_result(m, n, -1, &here);
+        x[n] = m->node[n].x;
+        y[n] = m->node[n].y;
+        u[n] = here.u;
+        v[n] = here.v;
+        value[n] = case_quantity(&here, quantity);
+    }
+    for (int e = 0; e < m->elements; e++)
+        first[e] = m->element[e].first;
+    first[m->elements] = m->vertices;
+    for (int a = 0; a < m->vertices; a++)
+        corner[a] = m->vertex[a].node;
+    map->mesh = (plot_mesh){ m->nodes, m->elements, x, y, first, corner };
+    map->value = value;
+    map->quantity.name = quantity[1] == 'v' ? "von Mises stress" : quantity;
+    map->quantity.unit = quantity[0] == 's' ? "Pa" : "m";
+    if (map->magnify >= 0)
+        map->u = u, map->v = v;
+    if (!plot_write_map(case_path(r, file, path), map))
+        stop(path, "could not be written");
+    free(number);
+    free(first);
+    free(corner);
+}
+
+void case_draw_map(const case_results *r, const char *file, const bbm_model *m, const char *quantity,
+                   const char *title)
+{
+    draw(r, file, m, quantity, &(plot_map){ .title = title, .magnify = -1 });
+}
+
+void case_draw_deformed(const case_results *r, const char *file, const bbm_model *m, const char *title)
+{
+    draw(r, file, m, "svm", &(plot_map){ .title = title });
+}

@@ -1,0 +1,61 @@
+/* case.h - what the experiments share: structured meshes, reference values, tables, results as files. */
+#ifndef CASE_H
+#define CASE_H
+
+#include <stdio.h>
+
+#include "../bbm.h"
+#include "plot.h"
+
+enum { CASE_QUADS, CASE_ALTERNATING, CASE_CROSSED };    /* how a cell of a grid is cut: not, in 2, in 4 triangles */
+
+static const double case_alpha[4] = { 10, 100, 1000, 1e5 };    /* of the tables of convergence                   */
+
+typedef struct {                    /* a grid of nx x ny cells, mapped by a function                              */
+    int nx, ny, cut, block, material;
+    void (*map)(double i, double j, const void *context, double xy[2]);    /* grid line i, j -> point             */
+    const void *context;
+    int first;                      /* its first node, set by case_add_grid: node (i, j) is first + j (nx+1) + i  */
+} case_grid;
+
+typedef struct {                    /* reference values of cases/fem.csv for one problem and variant              */
+    struct case_value { char quantity[32]; double x, y, converged, six_node, three_node; } *value;
+    int values;
+} case_reference;
+
+typedef struct {                    /* out/NAME/results.csv                                                       */
+    char folder[64];
+    FILE *csv;
+    double worst;                   /* largest |relative error| of the rows since it was last set to 0            */
+} case_results;
+
+/* A status is printed with its message and the program ends with 1: what is written so far stays. */
+void   case_must(const bbm_model *m, bbm_status s);
+bbm_model *case_model(void);                                        /* a new model, or the end of the program     */
+void   case_add_grid(bbm_model *m, case_grid *g);
+int    case_node(const bbm_model *m, double x, double y);           /* the node nearest to (x, y)                 */
+bbm_result case_at(const bbm_model *m, double x, double y);         /* the result there                           */
+double case_quantity(const bbm_result *r, const char *quantity);    /* u, v, sxx, syy, sxy, svm                   */
+
+void   case_read_reference(const char *problem, const char *variant, case_reference *r);
+const struct case_value *case_find(const case_reference *r, const char *quantity, double x, double y);
+void   case_free_reference(case_reference *r);
+
+void   case_open(case_results *r, const char *name);                /* makes out/NAME and opens its results.csv   */
+void   case_close(case_results *r);
+/* One row of results.csv; kind is theory, fem (converged) or fem_coarse (six-node triangles). Returns the error. */
+double case_row(case_results *r, const char *quantity, const double xy[2], double computed, double reference,
+                const char *kind);
+const char *case_path(const case_results *r, const char *file, char path[128]);
+void   case_write_curves(const case_results *r, const char *file, const char *header, int rows, int columns,
+                         const double *table);                      /* [rows][columns] as CSV                     */
+
+/* Pictures in the folder of the results: FILE.svg. */
+void   case_draw_chart(const case_results *r, const char *file, const plot_chart *c);
+void   case_draw_map(const case_results *r, const char *file, const bbm_model *m, const char *quantity,
+                     const char *title);                            /* contours of a nodal quantity               */
+void   case_draw_deformed(const case_results *r, const char *file, const bbm_model *m, const char *title);
+void   case_print_parameters(const bbm_model *m);                   /* Table 1, and what the solution took        */
+void   case_progress(const char *what);                             /* one line on stdout, at once                */
+
+#endif

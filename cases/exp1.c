@@ -1,0 +1,282 @@
+/* exp1.c - Experiment I: a cantilever under a load at its free end (section 4.2, Fig. 9-13, Tables 2 and 3).
+ *
+ *     y ^                          L = 48 m, H = 12 m, t = 1 m, E = 30 MPa, nu = 0.3, P = 1 kN
+ *   6 |_______________
+ *   //|               | |          a   clamped, concentrated load at (48, 0): the paper's experiment
+ *   //|---------------| v P   > x  b   clamped, the same load as parabolic shear over the end
+ *  -6 |_______________|            c   parabolic shear, and on x = 0 the displacements of (70): (70) is then exact
+ *     0               48
+ * `exp1` writes tables and out/exp1/; `exp1 converge` prints the errors on three meshes for three values of alpha. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "case.h"
+#include "plot.h"
+
+static const double L = 48, H = 12, P = 1000, E = 30e6, nu = 0.3, I = 12.0 * 12 * 12 / 12;
+
+/* Timoshenko and Goodier's solution, Eq. (70). */
+static void theory(double x, double y, double u[2])
+{
+    u[0] = P * y / (6 * E * I) * ((6 * L - 3 * x) * x + (2 + nu) * (y * y - H * H / 4));
+    u[1] = -P / (6 * E * I) * (3 * nu * y * y * (L - x) + (4 + 5 * nu) * H * H * x / 4 + (3 * L - x) * x * x);
+}
+
+/* Parabolic shear that sums to P, a field for the line loads [N/m]. */
+static void shear(double x, double y, const void *unused, double f[2])
+{
+    (void)x, (void)unused;
+    f[0] = 0;
+    f[1] = -P / (2 * I) * (H * H / 4 - y * y);
+}
+
+/* Grid line i, j of the mesh: 25 x 6 cells, each divided k x k times (k = 2 is the experiment's). Along x three zones
+ * of 12, 9 and 4 cells, 1.5, 2 and 3 m long, shorter where the bending moment is larger; along y a little thinner at
+ * the faces. Every point that the tables name is a grid point. */
+static void place(double i, double j, const void *division, double xy[2])
+{
+    const double k = *(const int *)division, c = i / k, t = j / (3 * k) - 1;
+
+    xy[0] = c <= 12 ? 1.5 * c : c <= 21 ? 18 + 2 * (c - 12) : 36 + 3 * (c - 21);
+    xy[1] = H / 2 * t * (1 + 0.1 * (1 - t * t));
+}
+
+/* Support and load of a variant on the nodes of x = 0 and x = L, which lie in steps of `row` from y = -H/2. */
+static void load(bbm_model *m, char variant, int left, int right, int row, int rows)
+{
+    for (int j = 0; j <= rows; j++) {
+        const bbm_node *n = &m->node[left + j * row];
+        double u[2] = { 0, 0 };
+        if (variant == 'c')
+            theory(n->x, n->y, u);
+        bbm_fix_node(m, left + j * row, BBM_XY, u[0], u[1]);
+    }
+    if (variant == 'a')
+        bbm_add_load(m, right + rows / 2 * row, 0, -P);
+    else
+        for (int j = 0; j < rows; j++)
+            bbm_add_varying_line_load(m, right + j * row, right + (j + 1) * row, shear, NULL);
+}
+
+/* The beam of 25 k x 6 k crossed cells. The paper's load a is solved as in the paper, by Newton-Raphson steps until
+ * (71) holds; for b and c one step gives the answer of small displacements, as their references do. */
+static bbm_model *solve_beam(char variant, int k, double alpha)
+{
+    bbm_model *m = case_model();
+    case_grid g = { .nx = 25 * k, .ny = 6 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
+
+    bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
+    case_add_grid(m, &g);
+    load(m, variant, g.first, g.first + g.nx, g.nx + 1, g.ny);
+    m->par.alpha = alpha;
+    if (variant == 'a')
+        m->par.steps = 10, m->par.tolerance = 1e-8;
+    case_must(m, bbm_prepare(m));
+    case_must(m, bbm_run(m));
+    return m;
+}
+
+/* Plain DDA: the beam is one block of six unknowns. */
+static bbm_model *solve_dda(double alpha)
+{
+    static const double corner[6][2] = { { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 }, { 0, 0 } };
+    const int node[6] = { 0, 1, 2, 3, 4, 5 };
+    bbm_model *m = case_model();
+
+    bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
+    for (int n = 0; n < 6; n++)
+        bbm_add_node(m, corner[n][0], corner[n][1], NULL);
+    bbm_add_element(m, 0, 0, 6, node, NULL);
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 4, BBM_XY, 0, 0);
+    bbm_fix_node(m, 5, BBM_XY, 0, 0);
+    bbm_add_load(m, 2, 0, -P);
+    m->par.alpha = alpha;
+    case_must(m, bbm_prepare(m));
+    case_must(m, bbm_run(m));
+    return m;
+}
+
+/* ------------------------------------------------------------------------------------------------- tables */
+
+/* Every reference value of a variant against the computed one: the rows of results.csv. */
+static void compare_all(case_results *r, const bbm_model *m, char variant, const case_reference *ref)
+{
+    for (int i = 0; i < ref->values; i++) {
+        const struct case_value *f = &ref->value[i];
+        const double xy[2] = { f->x, f->y };
+        char name[40];
+        if (isnan(f->x))
+            continue;
+        const bbm_result here = case_at(m, f->x, f->y);
+        const double computed = case_quantity(&here, f->quantity);
+        snprintf(name, sizeof name, "%c.%s", variant, f->quantity);
+        if (strlen(f->quantity) == 1) {
+            double u[2];
+            theory(f->x, f->y, u);
+            case_row(r, name, xy, computed, u[f->quantity[0] - 'u'], "theory");
+        }
+        if (!isnan(f->converged))
+            case_row(r, name, xy, computed, f->converged, "fem");
+        case_row(r, name, xy, computed, f->six_node, "fem_coarse");
+    }
+}
+
+/* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
+static double percent(double computed, double reference)
+{
+    return 100 * (computed - reference) / reference;
+}
+
+static void print_table_2(const bbm_model *dda, const bbm_model *bbm)
+{
+    printf("\nTable 2 - unknowns\n\n| DDA, one block | BBM, %d triangles | FEM of the paper, 2202 six-node triangles |\n"
+           "|---|---|---|\n| %d | %d | %d |\n", bbm->elements, 6 * dda->elements, 6 * bbm->elements, 2 * 6 * 2202);
+}
+
+/* Fig. 10 as a table and as a picture: the deflection of the axis. */
+static void show_deflection(const case_results *r, const bbm_model *dda, const bbm_model *bbm, const case_reference *ref)
+{
+    enum { N = 9 };
+    double x[N], v[4][N], table[N][5];
+
+    printf("\nFig. 10 - deflection v [mm] of the axis, load a (concentrated)\n\n"
+           "| x [m] | DDA | BBM | FEM | FEM, converged | theory (70) | BBM against FEM |\n|---|---|---|---|---|---|---|\n");
+    for (int i = 0; i < N; i++) {
+        double u[2];
+        x[i] = 6 * i;
+        const struct case_value *f = case_find(ref, "v", x[i], 0);
+        bbm_displacement(&dda->element[0], x[i], 0, u);
+        v[0][i] = u[1];
+        v[1][i] = case_at(bbm, x[i], 0).v;
+        v[2][i] = f->six_node;
+        theory(x[i], 0, u);
+        v[3][i] = u[1];
+        for (int c = 0; c < 5; c++)
+            table[i][c] = c ? v[c - 1][i] : x[i];
+        if (i == 0)
+            continue;
+        printf("| %.0f | %.4f | %.4f | %.4f | ", x[i], 1e3 * v[0][i], 1e3 * v[1][i], 1e3 * v[2][i]);
+        printf(isnan(f->converged) ? "no limit | " : "%.4f | ", 1e3 * f->converged);
+        printf("%.4f | %+.2f %% |\n", 1e3 * v[3][i], percent(v[1][i], f->six_node));
+    }
+    const plot_series s[] = {
+        { .name = "theory, Eq. (70)", .n = N, .x = x, .y = v[3], .look = 1 },
+        { .name = "FEM, six-node triangles", .n = N, .x = x, .y = v[2], .style = PLOT_MARKS, .look = 3 },
+        { .name = "BBM", .n = N, .x = x, .y = v[1], .style = PLOT_MARKS, .look = 2 },
+        { .name = "DDA, one block", .n = N, .x = x, .y = v[0], .style = PLOT_BOTH, .look = 4 },
+    };
+    case_draw_chart(r, "fig10.svg", &(plot_chart){ .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0, 0, 0 },
+                    .y = { "v", "m", 0, 0, 0 }, .count = 4, .series = s });
+    case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5, &table[0][0]);
+}
+
+/* Table 3: u and v at three points, for each way to load and to hold the beam. */
+static void print_table_3(const bbm_model *const m[3], const case_reference ref[3])
+{
+    static const struct { const char *quantity; double x, y; } at[] = {
+        { "u", 24, 6 }, { "v", 24, 6 }, { "u", 36, 0 }, { "v", 36, 0 }, { "u", 48, 6 }, { "v", 48, 6 },
+    };
+
+    printf("\nTable 3 - displacements [mm]: a clamped, concentrated; b clamped, parabolic shear; c end of (70)\n\n"
+           "| | | BBM | FEM, converged | theory (70) | against FEM | against (70) |\n|---|---|---|---|---|---|---|\n");
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 6; i++) {
+            const bbm_result here = case_at(m[k], at[i].x, at[i].y);
+            const double computed = case_quantity(&here, at[i].quantity);
+            double u[2];
+            theory(at[i].x, at[i].y, u);
+            const double exact = u[at[i].quantity[0] - 'u'];
+            printf("| %c | %s(%.0f,%.0f) | %.5f | ", "abc"[k], at[i].quantity, at[i].x, at[i].y, 1e3 * computed);
+            if (exact == 0) {
+                printf("0, by symmetry | 0 | | |\n");
+                continue;
+            }
+            const double fem = case_find(&ref[k], at[i].quantity, at[i].x, at[i].y)->converged;
+            printf("%.5f | %.5f | %+.2f %% | %+.2f %% |\n", 1e3 * fem, 1e3 * exact, percent(computed, fem),
+                   percent(computed, exact));
+        }
+}
+
+/* What the experiment comes to. */
+static void print_summary(const bbm_model *const m[3], const case_reference ref[3])
+{
+    static const struct { int k; double x; } at[] = { { 0, 24 }, { 0, 36 }, { 1, 24 }, { 1, 48 }, { 2, 24 }, { 2, 48 } };
+
+    printf("\n| Experiment I, deflection [mm], alpha = 1000 | computed | exact | error |\n|---|---|---|---|\n");
+    for (int i = 0; i < 6; i++) {
+        const double exact = case_find(&ref[at[i].k], "v", at[i].x, 0)->converged, v = case_at(m[at[i].k], at[i].x, 0).v;
+        printf("| v(%.0f,0), load %c | %.4f | %.4f | %+.2f %% |\n", at[i].x, "abc"[at[i].k], 1e3 * v, 1e3 * exact,
+               percent(v, exact));
+    }
+}
+
+/* Fig. 11-13: contours, and the deformed mesh. */
+static void draw_maps(const case_results *r, const bbm_model *m)
+{
+    case_draw_map(r, "fig11.svg", m, "u", "Fig. 11: displacement u, load a");
+    case_draw_map(r, "fig12.svg", m, "v", "Fig. 12: displacement v, load a");
+    case_draw_map(r, "fig13.svg", m, "svm", "Fig. 13: von Mises stress, load a");
+    case_draw_deformed(r, "deformed.svg", m, "Deformed beam, von Mises stress");
+}
+
+/* --------------------------------------------------------------------------------------------- convergence */
+
+/* The error of v(24,0), load b, on three meshes for three values of alpha. */
+static void converge(void)
+{
+    case_reference ref;
+
+    case_read_reference("exp1", "b", &ref);
+    const double exact = case_find(&ref, "v", 24, 0)->converged;
+    printf("\nExperiment I, load b: error of v(24,0) against the converged finite element\n\n"
+           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n|---|---|---|---|---|\n");
+    for (int k = 1; k <= 3; k++) {
+        printf("| %d |", 4 * 25 * k * 6 * k);
+        for (int a = 0; a < 4; a++) {
+            bbm_model *m = solve_beam('b', k, case_alpha[a]);
+            printf(" %+.3f %% |", percent(case_at(m, 24, 0).v, exact));
+            fflush(stdout);
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+    case_free_reference(&ref);
+}
+
+int main(int argc, char **argv)
+{
+    case_results r;
+    case_reference ref[3];
+    bbm_model *m[3], *dda = solve_dda(1000);
+
+    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
+        bbm_model_free(dda);
+        converge();
+        return 0;
+    }
+    printf("\n# Experiment I: cantilever\n\n");
+    case_open(&r, "exp1");
+    for (int k = 0; k < 3; k++) {
+        char variant[2] = { "abc"[k], '\0' };
+        case_progress(k == 0 ? "load a, concentrated" : k == 1 ? "load b, parabolic shear" : "load c, the end of (70)");
+        m[k] = solve_beam(variant[0], 2, 1000);
+        case_read_reference("exp1", variant, &ref[k]);
+        compare_all(&r, m[k], variant[0], &ref[k]);
+    }
+    case_print_parameters(m[0]);
+    print_table_2(dda, m[0]);
+    show_deflection(&r, dda, m[0], &ref[0]);
+    print_table_3((const bbm_model *const *)m, ref);
+    print_summary((const bbm_model *const *)m, ref);
+    draw_maps(&r, m[0]);
+    case_close(&r);
+    printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, deformed.svg\n", r.folder);
+    for (int k = 0; k < 3; k++) {
+        bbm_model_free(m[k]);
+        case_free_reference(&ref[k]);
+    }
+    bbm_model_free(dda);
+    return 0;
+}

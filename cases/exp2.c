@@ -1,0 +1,335 @@
+/* exp2.c - Experiment II: a plate with a circular hole under tension (section 4.3, Fig. 14-23, Tables 4 and 5).
+ *
+ *   y=5 ____________                a = 1 m, quarter of a plate 10 m x 10 m, t = 0.2 m, tension s = 1 MPa along x,
+ *      |            |-> s           E = 2900 GPa, nu = 0.3; symmetry: v = 0 on y = 0, u = 0 on x = 0
+ *     o|            |-> s
+ *     o|_           |-> s           b5  s on x = 5, y = 5 free: the paper's experiment, a finite plate
+ *        \          |-> s           k5  the tractions of (72) on x = 5 and y = 5: the infinite plate, so (72) is exact
+ *         |_________|-> s
+ *         1 o  o    5               One large step, as in the paper.
+ * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for three values of alpha. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "case.h"
+#include "plot.h"
+
+static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
+
+/* Kirsch's stresses around a hole of radius 1, Eq. (72). */
+static void theory_stress(double x, double y, double s[3])
+{
+    const double q = 1 / (x * x + y * y), th = atan2(y, x), c2 = cos(2 * th), c4 = cos(4 * th);
+    const double s2 = sin(2 * th), s4 = sin(4 * th);
+
+    s[0] = S * (1 - q * (1.5 * c2 + c4) + 1.5 * q * q * c4);
+    s[1] = S * (-q * (0.5 * c2 - c4) - 1.5 * q * q * c4);
+    s[2] = S * (-q * (0.5 * s2 + s4) + 1.5 * q * q * s4);
+}
+
+/* Kirsch's displacements, Eq. (72). */
+static void theory_displacement(double x, double y, double u[2])
+{
+    const double r = hypot(x, y), th = atan2(y, x), c = S / (8 * E / (2 * (1 + nu))), k = (3 - nu) / (1 + nu);
+    const double r3 = r * r * r;
+
+    u[0] = c * (r * (k + 1) * cos(th) + 2 / r * ((1 + k) * cos(th) + cos(3 * th)) - 2 / r3 * cos(3 * th));
+    u[1] = c * (r * (k - 3) * sin(th) + 2 / r * ((1 - k) * sin(th) + sin(3 * th)) - 2 / r3 * sin(3 * th));
+}
+
+/* Stress along the circle around the hole through (x, y). */
+static double hoop(const double stress[3], double x, double y)
+{
+    const double th = atan2(y, x), s = sin(th), c = cos(th);
+
+    return stress[0] * s * s + stress[1] * c * c - 2 * stress[2] * s * c;
+}
+
+/* The value of (72) for u, v, sxx, syy, sxy or stt (hoop stress). */
+static double theory(const char *quantity, double x, double y)
+{
+    double u[2], s[3];
+
+    theory_displacement(x, y, u);
+    theory_stress(x, y, s);
+    return strcmp(quantity, "u") == 0 ? u[0] : strcmp(quantity, "v") == 0 ? u[1]
+         : strcmp(quantity, "sxx") == 0 ? s[0] : strcmp(quantity, "syy") == 0 ? s[1]
+         : strcmp(quantity, "sxy") == 0 ? s[2] : hoop(s, x, y);
+}
+
+/* Tractions [N/m] of (72) on x = 5 and on y = 5. */
+static void traction_right(double x, double y, const void *unused, double f[2])
+{
+    double s[3];
+
+    (void)unused;
+    theory_stress(x, y, s);
+    f[0] = t * s[0];
+    f[1] = t * s[2];
+}
+
+static void traction_top(double x, double y, const void *unused, double f[2])
+{
+    double s[3];
+
+    (void)unused;
+    theory_stress(x, y, s);
+    f[0] = t * s[2];
+    f[1] = t * s[1];
+}
+
+/* Point i, j of the mesh: ring line i of 17 k, ray j of 12 k (k = 2 is the experiment's). On the axes the rings go
+ * from 1 to 1.5, 2 and 5 in zones of 7, 3 and 7 cells, each longer than the last by a constant factor, and from
+ * circles at the hole to squares at the edge. */
+static void place(double i, double j, const void *division, double xy[2])
+{
+    const double k = *(const int *)division, c = i / k, th = PI / 2 * j / (12 * k);
+    const double r = c <= 7 ? pow(1.5, c / 7) : c <= 10 ? 1.5 * pow(4.0 / 3, (c - 7) / 3) : 2 * pow(2.5, (c - 10) / 7);
+    const double edge = 5 / fmax(cos(th), sin(th)), f = 1 + (r - 1) / 4 * (edge - 1);
+
+    xy[0] = j == 12 * k ? 0 : f * cos(th);
+    xy[1] = f * sin(th);
+}
+
+/* The quarter plate of 17 k x 12 k crossed cells, solved in one step; variant k5 or b5. */
+static bbm_model *solve_plate(const char *variant, int k, double alpha)
+{
+    bbm_model *m = case_model();
+    case_grid g = { .nx = 17 * k, .ny = 12 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
+    const int row = g.nx + 1, exact = strcmp(variant, "k5") == 0;
+
+    bbm_add_material(m, &(bbm_material){ E, nu, 0.01 / t, t }, NULL);
+    case_add_grid(m, &g);
+    for (int i = 0; i <= g.nx; i++) {
+        bbm_fix_node(m, g.first + i, BBM_Y, 0, 0);
+        bbm_fix_node(m, g.first + g.ny * row + i, BBM_X, 0, 0);
+    }
+    for (int j = 0; j < g.ny; j++) {
+        const int a = g.first + j * row + g.nx, b = a + row;
+        if (exact)
+            bbm_add_varying_line_load(m, a, b, j < g.ny / 2 ? traction_right : traction_top, NULL);
+        else if (j < g.ny / 2)
+            bbm_add_line_load(m, a, b, t * S, 0);
+    }
+    m->par.alpha = alpha;
+    case_must(m, bbm_prepare(m));
+    case_must(m, bbm_run(m));
+    return m;
+}
+
+/* The computed value at a grid point; stt is the hoop stress there. */
+static double computed(const bbm_model *m, const char *quantity, double x, double y)
+{
+    const bbm_result r = case_at(m, x, y);
+
+    return strcmp(quantity, "stt") == 0 ? hoop(r.stress, x, y) : case_quantity(&r, quantity);
+}
+
+/* ------------------------------------------------------------------------------------------------- tables */
+
+/* Every reference value of a variant against the computed one: the rows of results.csv. */
+static void compare_all(case_results *r, const bbm_model *m, const char *variant, const case_reference *ref)
+{
+    for (int i = 0; i < ref->values; i++) {
+        const struct case_value *f = &ref->value[i];
+        const double xy[2] = { f->x, f->y };
+        char name[40];
+        if (isnan(f->x))
+            continue;
+        const double value = computed(m, f->quantity, f->x, f->y);
+        snprintf(name, sizeof name, "%s.%s", variant, f->quantity);
+        case_row(r, name, xy, value, theory(f->quantity, f->x, f->y), "theory");
+        case_row(r, name, xy, value, f->converged, "fem");
+        case_row(r, name, xy, value, f->six_node, "fem_coarse");
+    }
+}
+
+/* Relative error in percent: below zero means smaller. */
+static double percent(double value, double reference)
+{
+    return 100 * (value - reference) / reference;
+}
+
+typedef struct { const char *quantity; double x, y; } place_of;
+
+static void print_table(const char *title, const bbm_model *m, const case_reference *ref, const place_of at[], int n)
+{
+    const double unit = at[0].quantity[0] == 's' ? 1e-6 : 1e6;
+
+    printf("\n%s\n\n| | BBM | FEM | FEM, converged | theory (72) | against FEM | against converged |\n"
+           "|---|---|---|---|---|---|---|\n", title);
+    for (int i = 0; i < n; i++) {
+        const struct case_value *f = case_find(ref, at[i].quantity, at[i].x, at[i].y);
+        const double value = computed(m, at[i].quantity, f->x, f->y);
+        printf("| %s(%.4g,%.4g) | %.5f | %.5f | %.5f | %.5f | %+.2f %% | %+.2f %% |\n", at[i].quantity, f->x, f->y,
+               unit * value, unit * f->six_node, unit * f->converged, unit * theory(at[i].quantity, f->x, f->y),
+               percent(value, f->six_node), percent(value, f->converged));
+    }
+}
+
+/* Tables 4 and 5 for one variant. */
+static void print_tables(const bbm_model *m, const char *variant, const case_reference *ref)
+{
+    static const place_of stress[5] = {
+        { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
+    };
+    const double d = sqrt(0.5);
+    const place_of moved[6] = {
+        { "u", 1, 0 }, { "v", 0, 1 }, { "u", d, d }, { "v", d, d }, { "u", 5, 0 }, { "v", 0, 5 },
+    };
+    char title[120];
+
+    snprintf(title, sizeof title, "Table 4, %s - stress sxx [MPa]; FEM: six-node triangles", variant);
+    print_table(title, m, ref, stress, 5);
+    snprintf(title, sizeof title, "Table 5, %s - displacements [1e-6 m]; FEM: six-node triangles", variant);
+    print_table(title, m, ref, moved, 6);
+}
+
+/* What the experiment comes to: plate k5, for which (72) is exact. */
+static void print_summary(const bbm_model *m)
+{
+    static const place_of at[] = { { "u", 1, 0 }, { "v", 0, 1 }, { "u", 5, 0 }, { "sxx", 0, 1 }, { "sxx", 0, 2 } };
+
+    printf("\n| Experiment II, plate k5 [1e-6 m, MPa], alpha = 1000 | computed | exact | error |\n|---|---|---|---|\n");
+    for (int i = 0; i < 5; i++) {
+        const double value = computed(m, at[i].quantity, at[i].x, at[i].y), exact = theory(at[i].quantity, at[i].x, at[i].y);
+        const double unit = at[i].quantity[0] == 's' ? 1e-6 : 1e6;
+        printf("| %s(%.0f,%.0f) | %.4f | %.4f | %+.2f %% |\n", at[i].quantity, at[i].x, at[i].y, unit * value,
+               unit * exact, percent(value, exact));
+    }
+}
+
+/* ------------------------------------------------------------------------------------------------- curves */
+
+/* A quantity at the grid points i of a line given by from, to and a step of node numbers, against (72) and the
+ * finite element. The abscissa is x, y or the angle in degrees. */
+typedef struct { const char *file, *title, *quantity, *abscissa; int first, step, count; } line_of;
+
+static double abscissa_of(const line_of *l, double x, double y)
+{
+    return l->abscissa[0] == 'x' ? x : l->abscissa[0] == 'y' ? y : atan2(y, x) * 180 / PI;
+}
+
+/* Whether a reference value lies on the line: on an axis, or on the hole. */
+static int on_line(const line_of *l, const struct case_value *f)
+{
+    return strcmp(f->quantity, l->quantity) == 0 && (l->abscissa[0] == 'x' ? f->y == 0 : l->abscissa[0] == 'y'
+           ? f->x == 0 : fabs(hypot(f->x, f->y) - 1) < 1e-6);
+}
+
+static void draw_line(const case_results *r, const bbm_model *const m[2], const case_reference *b5, const line_of *l)
+{
+    double at[128], value[2][128], exact[128], table[128][4], fem_at[16], fem[16];
+    char csv[32], svg[32], header[80];
+    int fems = 0;
+
+    for (int i = 0; i < l->count; i++) {
+        const bbm_node *n = &m[0]->node[l->first + i * l->step];
+        at[i] = table[i][0] = abscissa_of(l, n->x, n->y);
+        exact[i] = table[i][3] = theory(l->quantity, n->x, n->y);
+        for (int k = 0; k < 2; k++)
+            value[k][i] = table[i][1 + k] = computed(m[k], l->quantity, n->x, n->y);
+    }
+    for (int i = 0; i < b5->values && fems < 16; i++)
+        if (on_line(l, &b5->value[i])) {
+            fem_at[fems] = abscissa_of(l, b5->value[i].x, b5->value[i].y);
+            fem[fems++] = b5->value[i].converged;
+        }
+    const plot_series s[] = {
+        { .name = "theory (72), infinite plate", .n = l->count, .x = at, .y = exact, .look = 1 },
+        { .name = "BBM, its tractions (k5)", .n = l->count, .x = at, .y = value[1], .style = PLOT_MARKS, .look = 4 },
+        { .name = "BBM, uniform stress (b5)", .n = l->count, .x = at, .y = value[0], .style = PLOT_MARKS, .look = 2 },
+        { .name = "FEM, converged (b5)", .n = fems, .x = fem_at, .y = fem, .style = PLOT_MARKS, .look = 3 },
+    };
+    snprintf(csv, sizeof csv, "%s.csv", l->file);
+    snprintf(svg, sizeof svg, "%s.svg", l->file);
+    snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
+    case_draw_chart(r, svg, &(plot_chart){ .title = l->title, .count = 4, .series = s,
+                    .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
+                    .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity, l->quantity[0] == 's' ? "Pa" : "m",
+                           0, 0, 0 } });
+    case_write_curves(r, csv, header, l->count, 4, &table[0][0]);
+}
+
+/* Fig. 15-19. */
+static void draw_lines(const case_results *r, const bbm_model *const m[2], const case_reference *b5)
+{
+    enum { NX = 2 * 17, NY = 2 * 12, ROW = NX + 1 };
+    const line_of line[] = {
+        { "fig15", "Fig. 15: displacement u on y = 0", "u", "x", 0, 1, ROW },
+        { "fig16", "Fig. 16: displacement v on x = 0", "v", "y", NY * ROW, 1, ROW },
+        { "fig17", "Fig. 17: stress sxx on y = 0", "sxx", "x", 0, 1, ROW },
+        { "fig18", "Fig. 18: stress sxx on x = 0", "sxx", "y", NY * ROW, 1, ROW },
+        { "fig19", "Fig. 19: hoop stress on the hole", "stt", "angle", 0, ROW, NY + 1 },
+    };
+
+    for (int i = 0; i < 5; i++)
+        draw_line(r, m, b5, &line[i]);
+}
+
+/* Fig. 20-23. */
+static void draw_maps(const case_results *r, const bbm_model *m)
+{
+    case_draw_map(r, "fig20.svg", m, "sxx", "Fig. 20: stress sxx, plate b5");
+    case_draw_map(r, "fig21a.svg", m, "syy", "Fig. 21: stress syy, plate b5");
+    case_draw_map(r, "fig21b.svg", m, "sxy", "Fig. 21: stress sxy, plate b5");
+    case_draw_map(r, "fig22.svg", m, "u", "Fig. 22: displacement u, plate b5");
+    case_draw_map(r, "fig23.svg", m, "v", "Fig. 23: displacement v, plate b5");
+    case_draw_deformed(r, "deformed.svg", m, "Deformed plate b5, von Mises stress");
+}
+
+/* --------------------------------------------------------------------------------------------- convergence */
+
+/* The error of u(1,0) and of sxx(0,1), plate k5, on three meshes for three values of alpha. */
+static void converge(void)
+{
+    printf("\nExperiment II, plate k5: error of u(1,0) | of sxx(0,1) against theory (72)\n\n"
+           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n|---|---|---|---|---|\n");
+    for (int k = 1; k <= 3; k++) {
+        printf("| %d |", 4 * 17 * k * 12 * k);
+        for (int a = 0; a < 4; a++) {
+            bbm_model *m = solve_plate("k5", k, case_alpha[a]);
+            printf(" %+.3f %%, %+.2f %% |", percent(computed(m, "u", 1, 0), theory("u", 1, 0)),
+                   percent(computed(m, "sxx", 0, 1), theory("sxx", 0, 1)));
+            fflush(stdout);
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const variant[2] = { "b5", "k5" };
+    case_results r;
+    case_reference ref[2];
+    bbm_model *m[2];
+
+    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
+        converge();
+        return 0;
+    }
+    printf("\n# Experiment II: plate with a hole\n\n");
+    case_open(&r, "exp2");
+    for (int k = 0; k < 2; k++) {
+        case_progress(k == 0 ? "plate b5, uniform stress" : "plate k5, exact tractions");
+        m[k] = solve_plate(variant[k], 2, 1000);
+        case_read_reference("exp2", variant[k], &ref[k]);
+        compare_all(&r, m[k], variant[k], &ref[k]);
+    }
+    case_print_parameters(m[0]);
+    for (int k = 0; k < 2; k++)
+        print_tables(m[k], variant[k], &ref[k]);
+    print_summary(m[1]);
+    draw_lines(&r, (const bbm_model *const *)m, &ref[0]);
+    draw_maps(&r, m[0]);
+    case_close(&r);
+    printf("\nNumbers and pictures: %s/results.csv, fig15 to fig19 as csv and svg, fig20.svg to fig23.svg, deformed.svg\n",
+           r.folder);
+    for (int k = 0; k < 2; k++) {
+        bbm_model_free(m[k]);
+        case_free_reference(&ref[k]);
+    }
+    return 0;
+}
