@@ -42,6 +42,8 @@ $O/failing/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(FAILING) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
+$O/tests/check_cases.o: CPPFLAGS += -DBUILD='"$O"'
+
 $O/tests/check_all.o: tests/check_main.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) -DCASES $(CPPFLAGS) $(CFLAGS) -c -o $@ $<

@@ -166,7 +166,8 @@ void bbm_mode_integral(const bbm_element *e, double M[6][6])
 }
 
 /* Pi_i = int u.M u'' dA with the acceleration at the end of the step, u'' = 2/dt^2 D - 2/dt V, Eq. (11)-(13) (Newmark,
- * beta = 1/2, gamma = 1)   ->   K_ii += 2 M/dt^2 int T^T T dA, Eq. (16), F_i += 2 M/dt (int T^T T dA) V, Eq. (17). */
+ * beta = 1/2, gamma = 1)   ->   K_ii += 2 M/dt^2 int T^T T dA, Eq. (16), F_i += 2 M/dt (int T^T T dA) V, Eq. (17).
+ * The force of inertia is a load: Eq. (15) is varied by the D of u alone, not by the D of u''. */
 void bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s)
 {
     const double M = mass_per_area(e);
@@ -882,27 +883,36 @@ bbm_status bbm_prepare(bbm_model *m)
 static bbm_status check_parameters(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
+    const struct { const char *name; double value; int good; const char *expected; } check[] = {
+        { "dt", p->dt, p->dt > 0, "more than 0" },
+        { "steps", p->steps, p->steps >= 1, "1 or more" },
+        { "tolerance", p->tolerance, p->tolerance >= 0 && isfinite(p->tolerance), "0 or more" },
+        { "keep", p->keep, p->keep >= 0 && p->keep <= 1, "0 to 1" },
+        { "alpha", p->alpha, p->alpha > 0 && isfinite(p->alpha), "more than 0" },
+        { "gravity[0]", p->gravity[0], isfinite(p->gravity[0]), "a finite number" },
+        { "gravity[1]", p->gravity[1], isfinite(p->gravity[1]), "a finite number" },
+        { "pcg.omega", p->pcg.omega, p->pcg.omega > 0 && p->pcg.omega < 2, "more than 0, less than 2" },
+        { "pcg.tolerance", p->pcg.tolerance, p->pcg.tolerance > 0 && p->pcg.tolerance < 1, "more than 0, less than 1" },
+        { "pcg.iterations", p->pcg.iterations, p->pcg.iterations >= 1, "1 or more" },
+    };
 
+    for (size_t i = 0; i < sizeof check / sizeof *check; i++)
+        if (!check[i].good)
+            return fail(m, BBM_BAD_PARAMETER, "%s = %g, expected %s", check[i].name, check[i].value, check[i].expected);
+    return BBM_OK;
+}
+
+/* What must hold before a step: a prepared model, parameters in their ranges, in statics bodies that are held. */
+static bbm_status check_step(bbm_model *m)
+{
     if (!m->K)
         return m->status ? m->status : fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    if (!(p->dt > 0))
-        return fail(m, BBM_BAD_PARAMETER, "dt = %g, expected more than 0", p->dt);
-    if (!(p->steps >= 1))
-        return fail(m, BBM_BAD_PARAMETER, "steps = %d, expected 1 or more", p->steps);
-    if (!(p->tolerance >= 0))
-        return fail(m, BBM_BAD_PARAMETER, "tolerance = %g, expected 0 or more", p->tolerance);
-    if (!(p->keep >= 0 && p->keep <= 1))
-        return fail(m, BBM_BAD_PARAMETER, "keep = %g, expected 0 to 1", p->keep);
-    if (!(p->alpha > 0 && isfinite(p->alpha)))
-        return fail(m, BBM_BAD_PARAMETER, "alpha = %g, expected more than 0", p->alpha);
-    if (!isfinite(p->gravity[0]) || !isfinite(p->gravity[1]))
-        return fail(m, BBM_NOT_FINITE, "gravity");
-    if (isinf(p->dt) && m->free_element >= 0) {
+    if (isinf(m->par.dt) && m->free_element >= 0) {
         const bbm_element *e = &m->element[m->free_element];
         return fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)", e->block, m->free_element,
                     e->x, e->y);
     }
-    return BBM_OK;
+    return check_parameters(m);
 }
 
 /* The sources of energy inside one element: strain, inertia, gravity. */
@@ -1021,13 +1031,13 @@ static void update(bbm_model *m)
     }
     m->info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
     m->info.step++;
-    m->info.t += m->par.dt;
+    m->info.t += isinf(m->par.dt) ? 0 : m->par.dt;
 }
 
 /* One time step. When it fails, the model stays as it was at the start of the step. */
 bbm_status bbm_step(bbm_model *m)
 {
-    bbm_status status = check_parameters(m);
+    bbm_status status = check_step(m);
 
     if (status)
         return status;

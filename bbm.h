@@ -77,7 +77,7 @@ typedef struct {                /* an element: triangle, quadrilateral, any simp
     double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre                         */
     /* --- state --- */
     double A0;                  /* m^2      starting area: mass = density * thickness * A0                      */
-    double V[6];                /* 1/s      velocity of D                    */
+    double V[6];                /* D/s      velocity of D                    */
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step                              */
     double sum[2];              /* m        displacement of the barycentre, summed over the steps               */
     /* --- solution of the last step --- */
@@ -124,7 +124,7 @@ typedef struct {                /* what a solve did                             
 typedef struct {
     double dt;                  /* s        time step; INFINITY: no inertia                                     */
     int    steps;               /* time steps, in statics load steps (Newton-Raphson iterations)                */
-    double tolerance;           /* -        of (71), statics only; 0: do all steps                              */
+    double tolerance;           /* -        of (71), ends the steps; 0: do all steps                            */
     double keep;                /* -        share of its velocity that a step hands on: 1 dynamics, 0 statics   */
     double alpha;               /* -        of the bonding stiffness, (4) and (29)                              */
     double gravity[2];          /* m/s^2    */
@@ -133,7 +133,7 @@ typedef struct {
 
 typedef struct {                /* what the last step did                                                       */
     int    step;                /* steps done                                                                   */
-    double t;                   /* s        time at their end                                                   */
+    double t;                   /* s        time at their end; statics takes none                                */
     double change;              /* -        left side of (71) over its right side without the tolerance         */
     bbm_pcg_info pcg;
 } bbm_info;

@@ -14,7 +14,7 @@
  *
  * SSOR-PCG as in the textbooks, with a relaxation factor w, 0 < w < 2:
  *
- *     M = 1/(2-w) (D/w + L) (D/w)^-1 (D/w + L)^T
+ *     M = (D/w + L) (D/w)^-1 (D/w + L)^T
  *
  *     x = 0,  r = F,  z = M^-1 r,  p = z
  *     until sqrt(r.z) <= tolerance * its first value:
@@ -24,6 +24,7 @@
  *         z = M^-1 r                          a forward sweep over L and a backward sweep over L^T
  *         p = z + (r.z / its last value) p
  *
+ * The factor 1/(2-w) that M often has is left out: it changes neither x nor the end of the iteration.
  * An iteration reads L twice for M^-1 and once for K p, where each block serves as L and as L^T.
  *
  * Eisenstat's trick (SIAM J. Sci. Stat. Comput. 2, 1981) is to iterate in the variables between the two sweeps. Factor
@@ -225,10 +226,9 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
         K->blocks += degree(g, i);
     K->blocks /= 2;
     blocks = (size_t)K->blocks;
-    K->place = calloc(3 * n + 1 + blocks, sizeof *K->place);
-    K->D = calloc(2 * (n + blocks), sizeof *K->D);
-    K->f = calloc(7 * 6 * n, sizeof *K->f);
-    if (!K->place || !K->D || !K->f)
+    if (!(K->place = calloc(3 * n + 1 + blocks, sizeof *K->place))
+        || !(K->D = calloc(2 * (n + blocks), sizeof *K->D))
+        || !(K->p = calloc(7 * 6 * n, sizeof *K->p)))
         return BBM_NO_MEMORY;
     K->caller = K->place + n;
     K->first = K->caller + n;
@@ -236,12 +236,12 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->L = K->D + n;
     K->C = K->L + blocks;
     K->S = K->C + n;
-    K->x = K->f + 6 * n;
-    K->r = K->x + 6 * n;
-    K->p = K->r + 6 * n;
     K->q = K->p + 6 * n;
-    K->y = K->q + 6 * n;
-    K->z = K->y + 6 * n;
+    K->z = K->q + 6 * n;
+    K->r = K->z + 6 * n;
+    K->x = K->r + 6 * n;
+    K->y = K->x + 6 * n;
+    K->f = K->y + 6 * n;
     return BBM_OK;
 }
 
@@ -251,7 +251,7 @@ void bbm_matrix_free(bbm_matrix *K)
         return;
     free(K->place);
     free(K->D);
-    free(K->f);
+    free(K->p);
     free(K);
 }
 
@@ -305,18 +305,19 @@ static matrix6 *find_block(const bbm_matrix *K, int i, int j)
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 {
     matrix6 *to;
-    int row, column, a, b;
+    int row, column, right, a, b;
 
     if (i < 0 || i >= K->n || j < 0 || j >= K->n)
         return BBM_BAD_INDEX;
     row = K->place[i];
     column = K->place[j];
-    to = row < column ? find_block(K, column, row) : find_block(K, row, column);
+    right = row < column;
+    to = right ? find_block(K, column, row) : find_block(K, row, column);
     if (!to)
         return BBM_BAD_INDEX;
     for (a = 0; a < 6; a++)
         for (b = 0; b < 6; b++)
-            to->a[a][b] += row < column ? B[b][a] : B[a][b];
+            to->a[a][b] += right ? B[b][a] : B[a][b];
     return BBM_OK;
 }
 
@@ -486,24 +487,25 @@ static void invert_diagonal(bbm_matrix *K, double w)
     }
 }
 
-/* z = M^-1 r:     (D/w + L) y = r                  y_i = -w D_i^-1 (sum_j<i L_ij y_j - r_i)
- *               (D/w + L^T) z = (2-w)/w D y        z_i = (2-w) y_i - w D_i^-1 sum_k>i L_ki^T z_k                */
-static void apply_ssor(const bbm_matrix *K, double w, const double *r, double *z)
+/* z = M^-1 r:     (D/w + L) y = r            y_i = -w D_i^-1 (sum_j<i L_ij y_j - r_i)
+ *               (D/w + L)^T z = D/w y        z_i = y_i - w D_i^-1 sum_k>i L_ki^T z_k, each sum gathered in z_i  */
+static void apply_ssor(const bbm_matrix *K, const double *r, double *z)
 {
     double *y = K->y, s[6];
-    int i, k;
+    int i, k, a;
 
     set_zero(K->n, y);
     set_zero(K->n, z);
     for (i = 0; i < K->n; i++) {
-        combine(1, y + 6 * i, -1.0, r + 6 * i, s);
+        for (a = 0; a < 6; a++)
+            s[a] = -r[6 * i + a];
         for (k = K->first[i]; k < K->first[i + 1]; k++)
             add_product(&K->L[k], y + 6 * K->column[k], s);
         add_transposed(&K->C[i], s, y + 6 * i);
     }
     for (i = K->n - 1; i >= 0; i--) {
         copy(1, z + 6 * i, s);
-        combine(1, y + 6 * i, 1.0 - w, y + 6 * i, z + 6 * i);
+        copy(1, y + 6 * i, z + 6 * i);
         add_transposed(&K->C[i], s, z + 6 * i);
         for (k = K->first[i]; k < K->first[i + 1]; k++)
             add_transposed(&K->L[k], z + 6 * i, z + 6 * K->column[k]);
@@ -519,7 +521,7 @@ static bbm_status textbook(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info
     invert_diagonal(K, pcg->omega);
     set_zero(n, x);
     copy(n, K->f, r);
-    apply_ssor(K, pcg->omega, r, z);
+    apply_ssor(K, r, z);
     copy(n, z, p);
     rz = dot(n, r, z);
     stop = pcg->tolerance * sqrt(rz);
@@ -531,7 +533,7 @@ static bbm_status textbook(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info
             break;
         combine(n, x, rz / pq, p, x);
         combine(n, r, -rz / pq, q, r);
-        apply_ssor(K, pcg->omega, r, z);
+        apply_ssor(K, r, z);
         last = rz;
         rz = dot(n, r, z);
         combine(n, z, rz / last, p, p);
@@ -653,9 +655,11 @@ static void scale_load(bbm_matrix *K, const double *F, double scale)
 
     for (i = 0; i < K->n; i++)
         for (a = 0; a < 6; a++) {
-            K->f[6 * i + a] = F[6 * K->caller[i] + a] / scale;
-            if (K->f[6 * i + a] == 0.0)
-                K->f[6 * i + a] = NEGLIGIBLE;
+            double *f = &K->f[6 * K->place[i] + a];
+
+            *f = F[6 * i + a] / scale;
+            if (*f == 0.0)
+                *f = NEGLIGIBLE;
         }
 }
 
@@ -704,6 +708,6 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
     info->residual = true_residual(K);
     for (i = 0; i < K->n; i++)
         for (a = 0; a < 6; a++)
-            D[6 * K->caller[i] + a] = scale * K->x[6 * i + a];
+            D[6 * i + a] = scale * K->x[6 * K->place[i] + a];
     return status == BBM_OK && !all_finite(6 * (size_t)K->n, D) ? BBM_NOT_FINITE : status;
 }

@@ -152,6 +152,41 @@ START_TEST(two_runs_write_the_same_digits)
 }
 END_TEST
 
+/* Every row of a document's tables that holds a percentage stands in the output of the programs, letter by letter. */
+static void compare_tables(const char *document, const char *output)
+{
+    char *text = slurp(document), *printed = slurp(output), *line, *rest = NULL;
+    int rows = 0;
+
+    for (line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
+        if (line[0] == '|' && strchr(line, '%')) {
+            ck_assert_msg(strstr(printed, line) != NULL, "%s: no program prints: %s", document, line);
+            rows++;
+        }
+    ck_assert_int_ge(rows, 6);
+    free(text);
+    free(printed);
+}
+
+START_TEST(the_numbers_of_the_documents_are_what_the_programs_print)
+{
+    ck_assert_int_eq(system("cat out/exp1.log out/exp2.log > out/run.log"), 0);
+    compare_tables("README.md", "out/run.log");
+    ck_assert_int_eq(system("(" BUILD "/exp1 converge; " BUILD "/exp2 converge) > out/converge.log"), 0);
+    compare_tables("doc/convergence.md", "out/converge.log");
+}
+END_TEST
+
+START_TEST(the_picture_of_the_readme_is_what_the_program_draws)
+{
+    char *shown = slurp("doc/beam.svg"), *drawn = slurp("out/exp1/deformed.svg");
+
+    ck_assert_msg(strcmp(shown, drawn) == 0, "copy out/exp1/deformed.svg to doc/beam.svg");
+    free(shown);
+    free(drawn);
+}
+END_TEST
+
 START_TEST(each_equation_points_at_a_function_and_a_test_that_exist)
 {
     static const char *const files[] = {
@@ -211,6 +246,9 @@ Suite *cases_suite(void)
     tcase_add_test(t, two_runs_write_the_same_digits);
     suite_add_tcase(s, t);
     t = tcase_create("documents");
+    tcase_set_timeout(t, 60);
+    tcase_add_test(t, the_numbers_of_the_documents_are_what_the_programs_print);
+    tcase_add_test(t, the_picture_of_the_readme_is_what_the_program_draws);
     tcase_add_test(t, each_equation_points_at_a_function_and_a_test_that_exist);
     suite_add_tcase(s, t);
     return s;

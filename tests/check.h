@@ -1,0 +1,43 @@
+/* check.h - what the test suites share: comparing numbers, the suites, an allocator that fails on demand. */
+#ifndef BBM_TESTS_CHECK_H
+#define BBM_TESTS_CHECK_H
+
+#include <check.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "../bbm.h"
+
+/* `got` differs from `expected` by at most `tolerance` times |size|: the size says what the difference is small
+ * against, because zero has no relative error. NaN is near nothing. */
+#define ck_near(got, expected, size, tolerance)                                                              \
+    do {                                                                                                     \
+        const double ck_got = (got), ck_expected = (expected), ck_size = (size);                             \
+        const double ck_bound = (tolerance) * fabs(ck_size);                                                 \
+        ck_assert_msg(fabs(ck_got - ck_expected) <= ck_bound, "%s = %.17g, expected %.17g within %.2g", #got, \
+                      ck_got, ck_expected, ck_bound);                                                        \
+    } while (0)
+
+/* The same against the expected number's own size. */
+#define ck_relative(got, expected, tolerance) ck_near(got, expected, expected, tolerance)
+
+/* A call that returns BBM_OK; if not, the model's message is shown. */
+#define ck_ok(call, model)                                                                                   \
+    do {                                                                                                     \
+        const bbm_status ck_status = (call);                                                                 \
+        ck_assert_msg(ck_status == BBM_OK, "%s: %s", #call, bbm_message(model));                             \
+    } while (0)
+
+Suite *solver_suite(void);
+Suite *bbm_suite(void);
+Suite *cases_suite(void);
+
+/* test_alloc.c: malloc, calloc and realloc as the library sees them in the tests. */
+#define TEST_ALLOCATIONS_UNLIMITED INT_MAX
+extern int test_allocations_left;       /* calls that will still succeed; counts down                    */
+void *test_malloc(size_t size);
+void *test_calloc(size_t count, size_t size);
+void *test_realloc(void *old, size_t size);
+
+#endif

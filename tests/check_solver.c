@@ -1,0 +1,878 @@
+/* check_solver.c - tests of solver.c; the name of each test is what it shows.
+ *
+ * The oracles are a dense matrix, to which every test system is added a second time, and three short dense algorithms:
+ * the product, Cholesky, and SSOR-PCG with M formed as a matrix. For the order of the rows there are shapes whose least
+ * bandwidth is known: chains, rings, strips.
+ *
+ * Tolerances. ROUNDING: sums of some hundred products, 100 eps. SOLVED: the iteration stops at 1e-13, and the test
+ * systems have condition numbers of some thousand. ITERATES: the first steps of two conjugate gradient iterations that
+ * differ only in rounding, which each step amplifies.
+ */
+#include <float.h>
+#include <string.h>
+
+#include "check.h"
+
+#define ROUNDING 1e-13
+#define SOLVED   1e-9
+#define ITERATES 1e-9
+
+#define COUNT(array) ((int)(sizeof (array) / sizeof (array)[0]))
+
+enum { MOST = 40, MOST_PAIRS = 120, MOST_6 = 6 * MOST };
+
+static const double OMEGA[] = { 0.3, 1.0, 1.1, 1.7 };
+static const bbm_pcg_form FORM[] = { BBM_EISENSTAT, BBM_TEXTBOOK };
+
+/* A number in [-1, 1], in the same order in every run. */
+static double random_number(unsigned *seed)
+{
+    *seed = (1103515245u * *seed + 12345u) & 0x7fffffffu;
+    return (double)(*seed >> 7) / 8388608.0 - 1;
+}
+
+/* ------------------------------------------------------------------------------------------------- test systems */
+
+typedef struct {
+    int n, pairs, pair[MOST_PAIRS][2];
+    double A[MOST_6][MOST_6], F[MOST_6 + 1];    /* F ends with a NaN that nobody may read */
+    bbm_matrix *K;
+} dense_system;
+
+static void add_block(dense_system *s, int i, int j, double B[6][6])
+{
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++) {
+            s->A[6 * i + a][6 * j + b] += B[a][b];
+            if (i != j)
+                s->A[6 * j + b][6 * i + a] += B[a][b];
+        }
+    ck_assert_int_eq(bbm_matrix_add(s->K, i, j, B), BBM_OK);
+}
+
+/* A spring between rows i and j: k g g^T, where g has twelve random entries. */
+static void add_spring(dense_system *s, int i, int j, double k, unsigned *seed)
+{
+    double g[12], B[3][6][6];
+
+    for (int a = 0; a < 12; a++)
+        g[a] = random_number(seed);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++) {
+            B[0][a][b] = k * g[a] * g[b];
+            B[1][a][b] = k * g[a] * g[6 + b];
+            B[2][a][b] = k * g[6 + a] * g[6 + b];
+        }
+    add_block(s, i, i, B[0]);
+    add_block(s, i, j, B[1]);
+    add_block(s, j, j, B[2]);
+}
+
+/* Three springs for each pair on rows that are held softly, and a random load. */
+static void fill(dense_system *s, unsigned seed)
+{
+    memset(s->A, 0, sizeof s->A);
+    for (int i = 0; i < s->n; i++) {
+        double B[6][6] = { { 0 } };
+
+        for (int a = 0; a < 6; a++)
+            B[a][a] = 0.1 * (1 + a);
+        add_block(s, i, i, B);
+    }
+    for (int k = 0; k < 3 * s->pairs; k++)
+        if (s->pair[k / 3][0] != s->pair[k / 3][1])
+            add_spring(s, s->pair[k / 3][0], s->pair[k / 3][1], 1 + k % 3, &seed);
+    for (int i = 0; i < 6 * s->n; i++)
+        s->F[i] = random_number(&seed);
+    s->F[6 * s->n] = NAN;
+}
+
+static void connect(dense_system *s, int i, int j)
+{
+    s->pair[s->pairs][0] = i;
+    s->pair[s->pairs++][1] = j;
+}
+
+enum { CHAIN, GRID, STAR, PARTS, REPEATED, SINGLE, PATTERNS };
+
+/* The patterns; the grid's rows are in a scattered order, 7 i mod 24. */
+static dense_system *new_system(int pattern, unsigned seed)
+{
+    static const int size[PATTERNS] = { 12, 24, 9, 11, 6, 1 };
+    dense_system *s = calloc(1, sizeof *s);
+
+    s->n = size[pattern];
+    for (int i = 1; i < s->n; i++) {
+        if (pattern == CHAIN || (pattern == PARTS && i != 4 && i != 5 && i != 10))
+            connect(s, i - 1, i);
+        if (pattern == GRID && i % 4 != 0)
+            connect(s, 7 * i % 24, 7 * (i - 1) % 24);
+        if (pattern == GRID && i >= 4)
+            connect(s, 7 * (i - 4) % 24, 7 * i % 24);
+        if (pattern == STAR)
+            connect(s, i % 2 ? 3 : (i + 3) % 9, i % 2 ? (i + 3) % 9 : 3);
+        for (int j = 0; pattern == REPEATED && j <= i; j++) {
+            connect(s, i, j);
+            connect(s, j, i);
+        }
+    }
+    ck_assert_int_eq(bbm_matrix_new(s->n, s->pairs, s->pair, &s->K), BBM_OK);
+    fill(s, seed);
+    return s;
+}
+
+static void free_system(dense_system *s)
+{
+    bbm_matrix_free(s->K);
+    free(s);
+}
+
+/* ------------------------------------------------------------------------------------------- dense algorithms */
+
+static double product(int n, const double *x, const double *y)
+{
+    double sum = 0;
+
+    for (int i = 0; i < n; i++)
+        sum += x[i] * y[i];
+    return sum;
+}
+
+static void dense_multiply(const dense_system *s, const double *x, double *y)
+{
+    for (int i = 0; i < 6 * s->n; i++)
+        y[i] = product(6 * s->n, s->A[i], x);
+}
+
+/* x = A^-1 f by Cholesky, A = C C^T. */
+static void dense_solve(int n, double A[MOST_6][MOST_6], const double *f, double *x)
+{
+    static double C[MOST_6][MOST_6];
+
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j <= i; j++) {
+            const double d = A[i][j] - product(j, C[i], C[j]);
+            C[i][j] = i == j ? sqrt(d) : d / C[j][j];
+        }
+        x[i] = (f[i] - product(i, C[i], x)) / C[i][i];
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int j = i + 1; j < n; j++)
+            x[i] -= C[j][i] * x[j];
+        x[i] /= C[i][i];
+    }
+}
+
+/* M = 1/(2-w) (D/w + L) (D/w)^-1 (D/w + L)^T, here with the textbooks' factor; D and L are blocks of A in the order
+ * of its rows. */
+static void form_ssor(const dense_system *s, double w, double M[MOST_6][MOST_6])
+{
+    static double D[MOST_6][MOST_6], E[MOST_6][MOST_6], column[MOST_6][MOST_6];
+    const int n = 6 * s->n;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            D[i][j] = i / 6 == j / 6 ? s->A[i][j] / w : 0;
+            E[i][j] = i / 6 > j / 6 ? s->A[i][j] : D[i][j];
+        }
+    for (int j = 0; j < n; j++)
+        dense_solve(n, D, E[j], column[j]);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            M[i][j] = product(n, E[i], column[j]) / (2 - w);
+}
+
+/* Conjugate gradients with M, as the textbooks have it. Returns the iterations. */
+static int dense_ssor_pcg(const dense_system *s, double w, double tolerance, int limit, double *x)
+{
+    static double M[MOST_6][MOST_6];
+    double r[MOST_6], z[MOST_6], p[MOST_6], q[MOST_6], rz, first;
+    const int n = 6 * s->n;
+    int k;
+
+    form_ssor(s, w, M);
+    memcpy(r, s->F, (size_t)n * sizeof *r);
+    dense_solve(n, M, r, z);
+    memcpy(p, z, sizeof p);
+    memset(x, 0, MOST_6 * sizeof *x);
+    first = rz = product(n, r, z);
+    for (k = 0; k < limit && sqrt(rz) > tolerance * sqrt(first); k++) {
+        dense_multiply(s, p, q);
+        const double a = rz / product(n, p, q), last = rz;
+        for (int i = 0; i < n; i++) {
+            x[i] += a * p[i];
+            r[i] -= a * q[i];
+        }
+        dense_solve(n, M, r, z);
+        rz = product(n, r, z);
+        for (int i = 0; i < n; i++)
+            p[i] = z[i] + rz / last * p[i];
+    }
+    return k;
+}
+
+static double norm(int n, const double *x)
+{
+    return sqrt(product(n, x, x));
+}
+
+static void assert_same(int n, const double *x, const double *y, double tolerance)
+{
+    const double size = norm(n, y);
+
+    for (int i = 0; i < n; i++)
+        ck_near(x[i], y[i], size, tolerance);
+}
+
+static bbm_pcg accurate(double omega, bbm_pcg_form form)
+{
+    return (bbm_pcg){ .omega = omega, .tolerance = 1e-13, .iterations = 1000, .form = form };
+}
+
+/* ------------------------------------------------------------------------------------------------- the matrix */
+
+START_TEST(product_is_that_of_the_dense_matrix)
+{
+    dense_system *s = new_system(_i, 1);
+    double y[MOST_6], expected[MOST_6];
+
+    bbm_matrix_multiply(s->K, s->F, y);
+    dense_multiply(s, s->F, expected);
+    assert_same(6 * s->n, y, expected, ROUNDING);
+    free_system(s);
+}
+END_TEST
+
+START_TEST(product_is_symmetric)
+{
+    dense_system *s = new_system(_i, 2);
+    double x[MOST_6], Kx[MOST_6], KF[MOST_6];
+    unsigned seed = 3;
+
+    for (int i = 0; i < 6 * s->n; i++)
+        x[i] = random_number(&seed);
+    bbm_matrix_multiply(s->K, x, Kx);
+    bbm_matrix_multiply(s->K, s->F, KF);
+    ck_near(product(6 * s->n, s->F, Kx), product(6 * s->n, x, KF), norm(6 * s->n, x) * norm(6 * s->n, KF), ROUNDING);
+    free_system(s);
+}
+END_TEST
+
+START_TEST(order_direction_and_repetition_of_the_pairs_change_no_bit)
+{
+    dense_system *s = new_system(_i, 4), *t = new_system(_i, 4);
+    const bbm_pcg pcg = accurate(1, BBM_EISENSTAT);
+    bbm_pcg_info info;
+    int other[3 * MOST_PAIRS][2], pairs = 0;
+    double D[MOST_6], E[MOST_6];
+
+    for (int k = s->pairs - 1; k >= 0; k--)         /* last pair first, turned round, one to three times, and (i, i) */
+        for (int times = 0; times <= k % 3; times++, pairs++) {
+            other[pairs][0] = s->pair[k][1];
+            other[pairs][1] = times == 2 ? s->pair[k][1] : s->pair[k][0];
+        }
+    bbm_matrix_free(t->K);
+    ck_assert_int_eq(bbm_matrix_new(t->n, pairs, other, &t->K), BBM_OK);
+    fill(t, 4);
+    ck_assert_int_eq(bbm_matrix_bandwidth(s->K), bbm_matrix_bandwidth(t->K));
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+    ck_assert_int_eq(bbm_solve(t->K, t->F, E, &pcg, &info), BBM_OK);
+    ck_assert_mem_eq(D, E, (size_t)(6 * s->n) * sizeof *D);
+    free_system(s);
+    free_system(t);
+}
+END_TEST
+
+START_TEST(block_added_as_ij_or_transposed_as_ji_is_the_same)
+{
+    dense_system *s = new_system(GRID, 5);
+    double x[MOST_6], y[MOST_6], B[6][6], T[6][6];
+    unsigned seed = 6;
+
+    bbm_matrix_multiply(s->K, s->F, x);
+    for (int k = 0; k < s->pairs; k++) {
+        for (int a = 0; a < 36; a++) {
+            B[a / 6][a % 6] = random_number(&seed);
+            T[a % 6][a / 6] = -B[a / 6][a % 6];
+        }
+        ck_assert_int_eq(bbm_matrix_add(s->K, s->pair[k][0], s->pair[k][1], B), BBM_OK);
+        ck_assert_int_eq(bbm_matrix_add(s->K, s->pair[k][1], s->pair[k][0], T), BBM_OK);
+    }
+    bbm_matrix_multiply(s->K, s->F, y);
+    assert_same(6 * s->n, y, x, ROUNDING);
+    free_system(s);
+}
+END_TEST
+
+START_TEST(cleared_matrix_is_zero_and_can_be_filled_again)
+{
+    dense_system *s = new_system(_i, 7);
+    double x[MOST_6], y[MOST_6];
+
+    bbm_matrix_multiply(s->K, s->F, x);
+    bbm_matrix_clear(s->K);
+    bbm_matrix_multiply(s->K, s->F, y);
+    for (int i = 0; i < 6 * s->n; i++)
+        ck_assert(y[i] == 0);
+    fill(s, 7);
+    bbm_matrix_multiply(s->K, s->F, y);
+    ck_assert_mem_eq(x, y, (size_t)(6 * s->n) * sizeof *x);
+    free_system(s);
+}
+END_TEST
+
+START_TEST(pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing)
+{
+    static const int wrong[][2] = { { 0, 2 }, { 2, 0 }, { 11, 1 }, { -1, 0 }, { 0, -1 }, { 12, 0 }, { 0, 12 } };
+    dense_system *s = new_system(CHAIN, 8);
+    double x[MOST_6], y[MOST_6], B[6][6] = { { 1 } };
+
+    bbm_matrix_multiply(s->K, s->F, x);
+    for (int k = 0; k < COUNT(wrong); k++)
+        ck_assert_int_eq(bbm_matrix_add(s->K, wrong[k][0], wrong[k][1], B), BBM_BAD_INDEX);
+    bbm_matrix_multiply(s->K, s->F, y);
+    ck_assert_mem_eq(x, y, (size_t)(6 * s->n) * sizeof *x);
+    free_system(s);
+}
+END_TEST
+
+START_TEST(pattern_with_a_row_that_does_not_exist_is_refused)
+{
+    int wrong[][2][2] = {
+        { { 0, 1 }, { 1, 3 } }, { { 0, 1 }, { 3, 1 } }, { { -1, 0 }, { 1, 2 } }, { { 0, -1 }, { 1, 2 } }
+    };
+    bbm_matrix *K;
+
+    for (int k = 0; k < COUNT(wrong); k++) {
+        K = (bbm_matrix *)wrong;
+        ck_assert_int_eq(bbm_matrix_new(3, 2, wrong[k], &K), BBM_BAD_INDEX);
+        ck_assert_ptr_null(K);
+    }
+    ck_assert_int_eq(bbm_matrix_new(0, 0, NULL, &K), BBM_NO_ELEMENT);
+    ck_assert_ptr_null(K);
+    bbm_matrix_free(K);
+}
+END_TEST
+
+START_TEST(running_out_of_memory_at_any_call_is_reported)
+{
+    int pair[3][2] = { { 0, 1 }, { 1, 2 }, { 0, 2 } };
+    bbm_matrix *K = NULL;
+    int calls;
+
+    for (calls = 0; !K; calls++) {
+        test_allocations_left = calls;
+        const bbm_status status = bbm_matrix_new(3, 3, pair, &K);
+        test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
+        ck_assert_int_eq(status, K ? BBM_OK : BBM_NO_MEMORY);
+    }
+    ck_assert_int_gt(calls, 1);
+    bbm_matrix_free(K);
+}
+END_TEST
+
+/* -------------------------------------------------------------------------------------------- the order of rows */
+
+enum { LONG = 400 };
+
+/* A permutation of n numbers. */
+static void shuffle(int n, int *number, unsigned seed)
+{
+    for (int i = 0; i < n; i++) {
+        const int j = (int)((random_number(&seed) + 1) / 2 * i);
+        number[i] = number[j];
+        number[j] = i;
+    }
+}
+
+/* The bandwidth of a strip of width x length rows, each a neighbour of those beside it, numbered at random. */
+static int strip_bandwidth(int width, int length, int ring, unsigned seed)
+{
+    int pair[2 * LONG][2], number[LONG], pairs = 0, bandwidth;
+    bbm_matrix *K;
+
+    shuffle(width * length, number, seed);
+    for (int i = 0; i < width * length; i++) {
+        if (i % width != 0) {
+            pair[pairs][0] = number[i];
+            pair[pairs++][1] = number[i - 1];
+        }
+        if (i >= width || ring) {
+            pair[pairs][0] = number[(i + width * (length - 1)) % (width * length)];
+            pair[pairs++][1] = number[i];
+        }
+    }
+    ck_assert_int_eq(bbm_matrix_new(width * length, pairs, pair, &K), BBM_OK);
+    bandwidth = bbm_matrix_bandwidth(K);
+    bbm_matrix_free(K);
+    return bandwidth;
+}
+
+/* An order by levels of a strip, from one end: a row and those of the next level, no more than two widths in all. From
+ * the middle it would be twice that. The least possible: 1 for a chain, 2 for a ring, the width for a strip. */
+START_TEST(long_strips_in_any_numbering_get_a_narrow_band)
+{
+    const unsigned seed = (unsigned)_i;
+
+    ck_assert_int_eq(strip_bandwidth(1, LONG, 0, seed), 1);
+    ck_assert_int_eq(strip_bandwidth(1, LONG, 1, seed), 2);
+    ck_assert_int_le(strip_bandwidth(2, LONG / 2, 0, seed), 3);
+    ck_assert_int_le(strip_bandwidth(4, LONG / 4, 0, seed), 6);
+}
+END_TEST
+
+/* A comb: a chain with a tooth at each row. The tooth, of degree 1, comes before the next row: the band is 2, not 3. */
+START_TEST(neighbours_of_low_degree_come_first)
+{
+    int pair[LONG][2], number[LONG], pairs = 0;
+    bbm_matrix *K;
+
+    shuffle(LONG, number, (unsigned)_i);
+    for (int i = 0; i < LONG; i += 2, pairs += 2) {
+        pair[pairs][0] = pair[pairs + 1][0] = number[i];
+        pair[pairs][1] = number[i + 1];
+        pair[pairs + 1][1] = number[(i + 2) % LONG];
+    }
+    ck_assert_int_eq(bbm_matrix_new(LONG, pairs - 1, pair, &K), BBM_OK);
+    ck_assert_int_eq(bbm_matrix_bandwidth(K), 2);
+    bbm_matrix_free(K);
+}
+END_TEST
+
+START_TEST(bandwidths_of_small_patterns_are_those_of_theory)
+{
+    static const int expected[PATTERNS] = { [CHAIN] = 1, [GRID] = 4, [STAR] = 7, [PARTS] = 1, [REPEATED] = 5 };
+
+    for (int k = 0; k < PATTERNS; k++) {
+        dense_system *s = new_system(k, 9);
+        ck_assert_int_eq(bbm_matrix_bandwidth(s->K), expected[k]);
+        free_system(s);
+    }
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------------------- the solution */
+
+START_TEST(solution_is_that_of_the_dense_matrix)
+{
+    dense_system *s = new_system(_i, 10);
+    double expected[MOST_6], D[MOST_6];
+    bbm_pcg_info info;
+
+    dense_solve(6 * s->n, s->A, s->F, expected);
+    for (int k = 0; k < COUNT(OMEGA) * COUNT(FORM); k++) {
+        const bbm_pcg pcg = accurate(OMEGA[k / COUNT(FORM)], FORM[k % COUNT(FORM)]);
+        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+        assert_same(6 * s->n, D, expected, SOLVED);
+        ck_assert_int_gt(info.iterations, 0);
+        ck_assert_int_eq(info.element, -1);
+    }
+    free_system(s);
+}
+END_TEST
+
+/* A chain keeps its order, so that L is the same here and in solver.c. */
+START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
+{
+    dense_system *s = new_system(CHAIN, 11);
+    double expected[MOST_6], D[MOST_6];
+    bbm_pcg_info info;
+
+    for (int k = 0; k < COUNT(OMEGA) * COUNT(FORM); k++) {
+        bbm_pcg pcg = accurate(OMEGA[k / COUNT(FORM)], FORM[k % COUNT(FORM)]);
+        for (pcg.iterations = 1; pcg.iterations <= 4; pcg.iterations++) {
+            ck_assert_int_eq(dense_ssor_pcg(s, pcg.omega, 1e-13, pcg.iterations, expected), pcg.iterations);
+            ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
+            ck_assert_int_eq(info.iterations, pcg.iterations);
+            assert_same(6 * s->n, D, expected, ITERATES);
+        }
+    }
+    free_system(s);
+}
+END_TEST
+
+START_TEST(iterations_are_as_many_as_with_dense_matrices)
+{
+    static const double tolerance[] = { 0.5, 1e-2, 1e-4, 1e-6, 1e-8 };
+    dense_system *s = new_system(CHAIN, 12);
+    double expected[MOST_6], D[MOST_6];
+    bbm_pcg_info info;
+
+    for (int k = 0; k < COUNT(tolerance) * COUNT(FORM); k++) {
+        bbm_pcg pcg = accurate(OMEGA[_i], FORM[k % COUNT(FORM)]);
+        pcg.tolerance = tolerance[k / COUNT(FORM)];
+        const int iterations = dense_ssor_pcg(s, pcg.omega, pcg.tolerance, 1000, expected);
+        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+        ck_assert_int_eq(info.iterations, iterations);
+    }
+    free_system(s);
+}
+END_TEST
+
+/* By one iteration they may differ, when rounding decides whether the tolerance is met. */
+START_TEST(eisenstat_takes_the_textbook_iterations_to_the_same_solution)
+{
+    dense_system *s = new_system(_i, 13);
+    double D[MOST_6], E[MOST_6];
+    bbm_pcg_info textbook, eisenstat;
+
+    for (int k = 0; k < COUNT(OMEGA); k++) {
+        bbm_pcg pcg = accurate(OMEGA[k], BBM_TEXTBOOK);
+        pcg.tolerance = 1e-10;
+        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &textbook), BBM_OK);
+        pcg.form = BBM_EISENSTAT;
+        ck_assert_int_eq(bbm_solve(s->K, s->F, E, &pcg, &eisenstat), BBM_OK);
+        ck_assert_int_le(abs(eisenstat.iterations - textbook.iterations), 1);
+        assert_same(6 * s->n, E, D, 1e-8);
+    }
+    free_system(s);
+}
+END_TEST
+
+START_TEST(residual_is_the_true_one)
+{
+    dense_system *s = new_system(_i, 14);
+    double D[MOST_6], r[MOST_6];
+    bbm_pcg_info info;
+
+    for (int k = 0; k < COUNT(FORM); k++) {
+        bbm_pcg pcg = accurate(1.2, FORM[k]);
+        pcg.tolerance = 1e-3;
+        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+        dense_multiply(s, D, r);
+        for (int i = 0; i < 6 * s->n; i++)
+            r[i] = s->F[i] - r[i];
+        /* two ways to round K D, against a residual that may be rounding itself */
+        ck_near(info.residual, norm(6 * s->n, r) / norm(6 * s->n, s->F), 1.0, ROUNDING);
+    }
+    free_system(s);
+}
+END_TEST
+
+START_TEST(two_solutions_are_equal_to_the_last_bit)
+{
+    dense_system *s = new_system(GRID, 15);
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    double D[MOST_6], E[MOST_6];
+    bbm_pcg_info info[2];
+
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info[0]), BBM_OK);
+    ck_assert_int_eq(bbm_solve(s->K, s->F, E, &pcg, &info[1]), BBM_OK);
+    ck_assert_mem_eq(D, E, (size_t)(6 * s->n) * sizeof *D);
+    ck_assert_int_eq(info[0].iterations, info[1].iterations);
+    ck_assert(info[0].residual == info[1].residual);
+    free_system(s);
+}
+END_TEST
+
+/* A power of two changes no digit, and the squares of such loads would not be numbers any more. */
+START_TEST(loads_of_any_size_give_the_same_digits)
+{
+    static const int exponent[] = { 900, 600, -600, -900 };
+    dense_system *s = new_system(CHAIN, 16);
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    double D[MOST_6], E[MOST_6], F[MOST_6];
+    bbm_pcg_info info;
+
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+    for (int k = 0; k < COUNT(exponent); k++) {
+        for (int i = 0; i < 6 * s->n; i++)
+            F[i] = ldexp(s->F[i], exponent[k]);
+        ck_assert_int_eq(bbm_solve(s->K, F, E, &pcg, &info), BBM_OK);
+        for (int i = 0; i < 6 * s->n; i++)
+            ck_assert(E[i] == ldexp(D[i], exponent[k]));
+    }
+    free_system(s);
+}
+END_TEST
+
+START_TEST(no_load_gives_no_displacement_in_no_iteration)
+{
+    dense_system *s = new_system(PARTS, 17);
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    double F[MOST_6] = { 0 }, D[MOST_6];
+    bbm_pcg_info info;
+
+    memcpy(D, s->F, (size_t)(6 * s->n) * sizeof *D);
+    ck_assert_int_eq(bbm_solve(s->K, F, D, &pcg, &info), BBM_OK);
+    ck_assert_int_eq(info.iterations, 0);
+    ck_assert_int_eq(info.element, -1);
+    ck_assert(info.residual == 0);
+    ck_assert_mem_eq(D, F, (size_t)(6 * s->n) * sizeof *D);
+    free_system(s);
+}
+END_TEST
+
+/* K = tridiagonal (c, 1, c), six times. */
+static bbm_matrix *tridiagonal(int n, double c)
+{
+    int (*pair)[2] = calloc((size_t)n, sizeof *pair);
+    bbm_matrix *K;
+
+    for (int i = 1; i < n; i++) {
+        pair[i - 1][0] = i - 1;
+        pair[i - 1][1] = i;
+    }
+    ck_assert_int_eq(bbm_matrix_new(n, n - 1, pair, &K), BBM_OK);
+    for (int i = 0; i < n; i++) {
+        double I[6][6] = { { 0 } }, C[6][6] = { { 0 } };
+
+        for (int a = 0; a < 6; a++) {
+            I[a][a] = 1;
+            C[a][a] = c;
+        }
+        ck_assert_int_eq(bbm_matrix_add(K, i, i, I), BBM_OK);
+        if (i > 0)
+            ck_assert_int_eq(bbm_matrix_add(K, i, i - 1, C), BBM_OK);
+    }
+    free(pair);
+    return K;
+}
+
+/* The exact solution falls by 0.8 from row to row, below every number in 3200 rows: D_i = 0.8^i / (1 - 0.8 c), where
+ * 0.8 = (1 - sqrt(1 - 4 c^2)) / (2 c), c = 0.8 / 1.64. */
+START_TEST(load_on_one_of_many_rows_makes_no_denormals)
+{
+    enum { ROWS = 4000 };
+    const double c = 0.8 / 1.64;
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    bbm_matrix *K = tridiagonal(ROWS, -c);
+    double *F = calloc(6 * ROWS, sizeof *F), *D = calloc(6 * ROWS, sizeof *D);
+    bbm_pcg_info info;
+
+    F[0] = 1;
+    ck_assert_int_eq(bbm_solve(K, F, D, &pcg, &info), BBM_OK);
+    for (int i = 0; i < ROWS; i++) {
+        ck_near(D[6 * i], pow(0.8, i) / (1 - 0.8 * c), 1.0, 1e-11);
+        ck_assert(fabs(D[6 * i]) >= 1e-110 && fabs(D[6 * i + 5]) >= 1e-110 && fabs(D[6 * i + 5]) <= 1e-90);
+    }
+    bbm_matrix_free(K);
+    free(F);
+    free(D);
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------------------- what can fail */
+
+/* A solve that fails before the first iteration: D = 0. */
+static bbm_status refused(dense_system *s, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    double D[MOST_6];
+    bbm_status status;
+
+    memcpy(D, s->F, (size_t)(6 * s->n) * sizeof *D);
+    info->element = info->iterations = 77;
+    info->residual = 77;
+    status = bbm_solve(s->K, s->F, D, pcg, info);
+    ck_assert_int_eq(info->iterations, 0);
+    ck_assert(info->residual == 1);
+    for (int i = 0; i < 6 * s->n; i++)
+        ck_assert(D[i] == 0);
+    return status;
+}
+
+START_TEST(parameter_outside_its_range_is_refused)
+{
+    static const bbm_pcg wrong[] = {
+        { 0, 1e-8, 100, BBM_EISENSTAT }, { 2, 1e-8, 100, BBM_EISENSTAT }, { -1, 1e-8, 100, BBM_EISENSTAT },
+        { 3, 1e-8, 100, BBM_EISENSTAT }, { NAN, 1e-8, 100, BBM_EISENSTAT }, { 1, 0, 100, BBM_EISENSTAT },
+        { 1, -1e-8, 100, BBM_EISENSTAT }, { 1, NAN, 100, BBM_EISENSTAT }, { 1, INFINITY, 100, BBM_EISENSTAT },
+        { 1, 1, 100, BBM_EISENSTAT }, { 1, 1e-8, 0, BBM_EISENSTAT }, { 1, 1e-8, -1, BBM_EISENSTAT },
+    };
+    dense_system *s = new_system(CHAIN, 18);
+    bbm_pcg_info info;
+
+    for (int k = 0; k < COUNT(wrong); k++) {
+        ck_assert_int_eq(refused(s, &wrong[k], &info), BBM_BAD_PARAMETER);
+        ck_assert_int_eq(info.element, -1);
+    }
+    free_system(s);
+}
+END_TEST
+
+START_TEST(entry_of_the_load_that_is_not_finite_is_refused)
+{
+    static const double wrong[] = { NAN, INFINITY, -INFINITY };
+    dense_system *s = new_system(CHAIN, 19);
+    const bbm_pcg pcg = accurate(1, BBM_EISENSTAT);
+    bbm_pcg_info info;
+
+    for (int i = 0; i < 6 * s->n; i++) {
+        const double right = s->F[i];
+        s->F[i] = wrong[i % 3];
+        ck_assert_int_eq(refused(s, &pcg, &info), BBM_NOT_FINITE);
+        s->F[i] = right;
+    }
+    free_system(s);
+}
+END_TEST
+
+/* _i is the entry; in a chain row 11 is last, in either direction of the order. */
+START_TEST(entry_of_the_matrix_that_is_not_finite_is_refused)
+{
+    static const int place[][2] = { { 0, 0 }, { 11, 11 }, { 0, 1 }, { 10, 11 }, { 5, 5 } };
+    dense_system *s = new_system(CHAIN, 20);
+    const bbm_pcg pcg = accurate(1, BBM_EISENSTAT);
+    bbm_pcg_info info;
+    double B[6][6] = { { 0 } };
+
+    for (int k = 0; k < COUNT(place); k++) {
+        B[_i / 6][_i % 6] = k % 2 ? NAN : INFINITY;
+        ck_assert_int_eq(bbm_matrix_add(s->K, place[k][0], place[k][1], B), BBM_OK);
+        ck_assert_int_eq(refused(s, &pcg, &info), BBM_NOT_FINITE);
+        bbm_matrix_clear(s->K);
+        fill(s, 20);
+    }
+    free_system(s);
+}
+END_TEST
+
+/* _i is the pivot; it is 0 or -1. */
+START_TEST(diagonal_block_that_is_not_positive_definite_is_named)
+{
+    dense_system *s = new_system(GRID, 21);
+    bbm_pcg_info info;
+
+    for (int k = 0; k < COUNT(FORM); k++)
+        for (int row = 0; row < s->n; row += 5) {
+            const bbm_pcg pcg = accurate(1, FORM[k]);
+            double I[6][6] = { { 0 } };
+
+            bbm_matrix_clear(s->K);
+            for (int i = 0; i < s->n; i++) {
+                for (int a = 0; a < 6; a++)
+                    I[a][a] = i == row && a == _i ? -(row % 2) : 1;
+                ck_assert_int_eq(bbm_matrix_add(s->K, i, i, I), BBM_OK);
+            }
+            ck_assert_int_eq(refused(s, &pcg, &info), BBM_NOT_POSITIVE_DEFINITE);
+            ck_assert_int_eq(info.element, row);
+        }
+    free_system(s);
+}
+END_TEST
+
+/* K = [1 c; c 1] six times. c = 2: -1 is an eigenvalue. c = 1: p is (1, -1) at once and p.Kp exactly 0. */
+START_TEST(matrix_that_is_not_positive_definite_is_found_out_by_the_iteration)
+{
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    double F[12] = { 0 }, D[12];
+    bbm_pcg_info info;
+
+    for (int c = 1; c <= 2; c++) {
+        bbm_matrix *K = tridiagonal(2, c);
+
+        for (int a = 0; a < 6; a++)
+            F[6 + a] = 1;
+        ck_assert_int_eq(bbm_solve(K, F, D, &pcg, &info), BBM_NOT_POSITIVE_DEFINITE);
+        ck_assert_int_eq(info.element, -1);
+        ck_assert_int_eq(info.iterations, 0);
+        ck_assert(info.residual == 1);
+        bbm_matrix_free(K);
+    }
+}
+END_TEST
+
+START_TEST(limit_of_iterations_ends_with_the_last_iterate_and_its_residual)
+{
+    dense_system *s = new_system(GRID, 22);
+    bbm_pcg pcg = accurate(1, FORM[_i]);
+    double D[MOST_6], r[MOST_6];
+    bbm_pcg_info info;
+    int needed;
+
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+    needed = pcg.iterations = info.iterations;
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+    pcg.iterations = needed - 1;
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
+    ck_assert_int_eq(info.iterations, needed - 1);
+    ck_assert_int_eq(info.element, -1);
+    pcg.iterations = 3;
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
+    dense_multiply(s, D, r);
+    for (int i = 0; i < 6 * s->n; i++)
+        r[i] = s->F[i] - r[i];
+    ck_near(info.residual, norm(6 * s->n, r) / norm(6 * s->n, s->F), 1.0, ROUNDING);
+    free_system(s);
+}
+END_TEST
+
+START_TEST(solution_too_large_for_a_number_is_not_returned_in_silence)
+{
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    double B[6][6] = { { 0 } }, F[18] = { 0 }, D[18];
+    bbm_pcg_info info;
+    bbm_matrix *K;
+
+    ck_assert_int_eq(bbm_matrix_new(3, 0, NULL, &K), BBM_OK);
+    for (int a = 0; a < 6; a++)
+        B[a][a] = 1e-20;
+    for (int i = 0; i < 3; i++)
+        ck_assert_int_eq(bbm_matrix_add(K, i, i, B), BBM_OK);
+    F[17] = 1e300;
+    ck_assert_int_eq(bbm_solve(K, F, D, &pcg, &info), BBM_NOT_FINITE);
+    bbm_matrix_free(K);
+}
+END_TEST
+
+/* With these numbers nothing is rounded: one iteration leaves no residual. The first value, 1/1024, times the tolerance
+ * is 0. */
+START_TEST(least_tolerance_is_met_by_an_exact_solution)
+{
+    const bbm_pcg pcg = { .omega = 1, .tolerance = DBL_MIN * DBL_EPSILON, .iterations = 10, .form = FORM[_i] };
+    double B[6][6] = { { 0 } }, F[6] = { 1, 1, 1, 1, 1, 1 }, D[6];
+    bbm_pcg_info info;
+    bbm_matrix *K;
+
+    ck_assert_int_eq(bbm_matrix_new(1, 0, NULL, &K), BBM_OK);
+    for (int a = 0; a < 6; a++)
+        B[a][a] = 1048576;
+    ck_assert_int_eq(bbm_matrix_add(K, 0, 0, B), BBM_OK);
+    ck_assert_int_eq(bbm_solve(K, F, D, &pcg, &info), BBM_OK);
+    ck_assert_int_eq(info.iterations, 1);
+    for (int a = 0; a < 6; a++)
+        ck_assert(D[a] == 1.0 / 1048576);
+    bbm_matrix_free(K);
+}
+END_TEST
+
+Suite *solver_suite(void)
+{
+    Suite *suite = suite_create("solver");
+    TCase *matrix = tcase_create("matrix"), *order = tcase_create("order");
+    TCase *solution = tcase_create("solution"), *failure = tcase_create("failure");
+
+    tcase_add_loop_test(matrix, product_is_that_of_the_dense_matrix, 0, PATTERNS);
+    tcase_add_loop_test(matrix, product_is_symmetric, 0, PATTERNS);
+    tcase_add_loop_test(matrix, order_direction_and_repetition_of_the_pairs_change_no_bit, 0, PATTERNS);
+    tcase_add_test(matrix, block_added_as_ij_or_transposed_as_ji_is_the_same);
+    tcase_add_loop_test(matrix, cleared_matrix_is_zero_and_can_be_filled_again, 0, PATTERNS);
+    tcase_add_test(matrix, pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing);
+    tcase_add_test(matrix, pattern_with_a_row_that_does_not_exist_is_refused);
+    tcase_add_test(matrix, running_out_of_memory_at_any_call_is_reported);
+    tcase_add_loop_test(order, long_strips_in_any_numbering_get_a_narrow_band, 0, 5);
+    tcase_add_loop_test(order, neighbours_of_low_degree_come_first, 0, 5);
+    tcase_add_test(order, bandwidths_of_small_patterns_are_those_of_theory);
+    tcase_add_loop_test(solution, solution_is_that_of_the_dense_matrix, 0, PATTERNS);
+    tcase_add_test(solution, iterates_are_those_of_ssor_pcg_with_dense_matrices);
+    tcase_add_loop_test(solution, iterations_are_as_many_as_with_dense_matrices, 0, COUNT(OMEGA));
+    tcase_add_loop_test(solution, eisenstat_takes_the_textbook_iterations_to_the_same_solution, 0, PATTERNS);
+    tcase_add_loop_test(solution, residual_is_the_true_one, 0, PATTERNS);
+    tcase_add_loop_test(solution, two_solutions_are_equal_to_the_last_bit, 0, COUNT(FORM));
+    tcase_add_loop_test(solution, loads_of_any_size_give_the_same_digits, 0, COUNT(FORM));
+    tcase_add_loop_test(solution, no_load_gives_no_displacement_in_no_iteration, 0, COUNT(FORM));
+    tcase_add_loop_test(solution, load_on_one_of_many_rows_makes_no_denormals, 0, COUNT(FORM));
+    tcase_add_test(failure, parameter_outside_its_range_is_refused);
+    tcase_add_test(failure, entry_of_the_load_that_is_not_finite_is_refused);
+    tcase_add_loop_test(failure, entry_of_the_matrix_that_is_not_finite_is_refused, 0, 36);
+    tcase_add_loop_test(failure, diagonal_block_that_is_not_positive_definite_is_named, 0, 6);
+    tcase_add_loop_test(failure, matrix_that_is_not_positive_definite_is_found_out_by_the_iteration, 0, COUNT(FORM));
+    tcase_add_loop_test(failure, limit_of_iterations_ends_with_the_last_iterate_and_its_residual, 0, COUNT(FORM));
+    tcase_add_loop_test(failure, solution_too_large_for_a_number_is_not_returned_in_silence, 0, COUNT(FORM));
+    tcase_add_loop_test(solution, least_tolerance_is_met_by_an_exact_solution, 0, COUNT(FORM));
+    suite_add_tcase(suite, matrix);
+    suite_add_tcase(suite, order);
+    suite_add_tcase(suite, solution);
+    suite_add_tcase(suite, failure);
+    return suite;
+}
