@@ -38,14 +38,14 @@
  *     until sqrt(r.r) <= tolerance * its first value:
  *         t = E^-T p                          backward sweep
  *         y = E^-1 (p - (2-w) t)              forward sweep
- *         q = t + y
- *         a = r.r / p.q
- *         x += a t,  r -= a q
+ *         a = r.r / p.(t + y)
+ *         x += a t,  r -= a (t + y)
  *         p = r + (r.r / its last value) p
  *     D = w C^-T x
  *
  * Both take the same iterations to the same D but for rounding, and stop at the same one: r.r here is r.z there, but
- * for a constant factor. The second form leaves out the product with K and all products with D_i^-1.
+ * for a constant factor. The second form leaves out the product with K and all products with D_i^-1; what is left is
+ * so little that reading and writing the vectors counts, too, and steps that use the same ones are done together.
  *
  * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but F - K D cannot become
  * smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps = 2e-16). A tolerance much below 1e-10 buys
@@ -565,17 +565,7 @@ static void scale_blocks(bbm_matrix *K, double w)
         }
 }
 
-/* E y = b, where y holds b at first. */
-static void forward(const bbm_matrix *K, double *y)
-{
-    int i, k;
-
-    for (i = 0; i < K->n; i++)
-        for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_product(&K->S[k], y + 6 * K->column[k], y + 6 * i);
-}
-
-/* E^T t = b, where t holds b at first: each row, once it is done, is passed on to the rows that need it. */
+/* t = E^-T p, where t holds p at first: each row, once it is done, is passed on to the rows that need it. */
 static void backward(const bbm_matrix *K, double *t)
 {
     int i, k;
@@ -585,41 +575,89 @@ static void backward(const bbm_matrix *K, double *t)
             add_transposed(&K->S[k], t + 6 * i, t + 6 * K->column[k]);
 }
 
+/* y = E^-1 (p - (2-w) t) */
+static void forward(const bbm_matrix *K, double w, const double *p, const double *t, double *restrict y)
+{
+    int i, k, a;
+
+    for (i = 0; i < K->n; i++) {
+        for (a = 6 * i; a < 6 * i + 6; a++)
+            y[a] = p[a] - (2.0 - w) * t[a];
+        for (k = K->first[i]; k < K->first[i + 1]; k++)
+            add_product(&K->S[k], y + 6 * K->column[k], y + 6 * i);
+    }
+}
+
+/* p.(t + y) */
+static double dot_sum(int n, const double *p, const double *t, const double *y)
+{
+    double s = 0.0;
+    int i;
+
+    for (i = 0; i < n; i++, p += 6, t += 6, y += 6)
+        s += (p[0] * (t[0] + y[0]) + p[1] * (t[1] + y[1])) + (p[2] * (t[2] + y[2]) + p[3] * (t[3] + y[3]))
+           + (p[4] * (t[4] + y[4]) + p[5] * (t[5] + y[5]));
+    return s;
+}
+
+/* x += a t, r -= a (t + y). Returns r.r. */
+static double advance(const bbm_matrix *K, double a, const double *restrict t, const double *restrict y)
+{
+    double *restrict x = K->x, *restrict r = K->r, even = 0.0, odd = 0.0;
+    int i;
+
+    for (i = 0; i < 6 * K->n; i += 2) {
+        x[i] += a * t[i];
+        x[i + 1] += a * t[i + 1];
+        r[i] -= a * (t[i] + y[i]);
+        r[i + 1] -= a * (t[i + 1] + y[i + 1]);
+        even += r[i] * r[i];
+        odd += r[i + 1] * r[i + 1];
+    }
+    return even + odd;
+}
+
+/* p = r + b p, and a copy of it in t */
+static void turn(int n, const double *restrict r, double b, double *restrict p, double *restrict t)
+{
+    int i;
+
+    for (i = 0; i < 6 * n; i += 2) {
+        p[i] = t[i] = r[i] + b * p[i];
+        p[i + 1] = t[i + 1] = r[i + 1] + b * p[i + 1];
+    }
+}
+
 static bbm_status eisenstat(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     const int n = K->n;
     const double w = pcg->omega;
-    double *x = K->x, *r = K->r, *p = K->p, *q = K->q, *t = K->z, *y = K->y, rr, last, stop, pq;
+    double *x = K->x, *r = K->r, *p = K->p, *t = K->z, *y = K->y, rr, last, stop, pq;
     bbm_status status = BBM_OK;
     int i;
 
     scale_blocks(K, w);
     set_zero(n, x);
-    set_zero(n, r);
-    for (i = 0; i < n; i++)
-        add_product(&K->C[i], K->f + 6 * i, r + 6 * i);
-    forward(K, r);
-    copy(n, r, p);
+    set_zero(n, p);
+    for (i = 0; i < n; i++)                     /* p = b */
+        add_product(&K->C[i], K->f + 6 * i, p + 6 * i);
+    forward(K, w, p, x, r);                     /* r = E^-1 b, as x = 0 */
+    turn(n, r, 0.0, p, t);
     rr = dot(n, r, r);
     stop = pcg->tolerance * sqrt(rr);
     while (!(sqrt(rr) <= stop)) {
-        copy(n, p, t);
         backward(K, t);
-        combine(n, p, w - 2.0, t, y);
-        forward(K, y);
-        combine(n, t, 1.0, y, q);
-        pq = dot(n, p, q);
+        forward(K, w, p, t, y);
+        pq = dot_sum(n, p, t, y);
         status = may_go_on(pq, pcg, info);
         if (status != BBM_OK)
             break;
-        combine(n, x, rr / pq, t, x);
-        combine(n, r, -rr / pq, q, r);
         last = rr;
-        rr = dot(n, r, r);
-        combine(n, r, rr / last, p, p);
+        rr = advance(K, rr / pq, t, y);
+        turn(n, r, rr / last, p, t);
     }
     set_zero(n, y);
-    for (i = 0; i < n; i++)
+    for (i = 0; i < n; i++)                     /* x = w C^-T x */
         add_transposed(&K->C[i], x + 6 * i, y + 6 * i);
     combine(n, y, w - 1.0, y, x);
     return status;

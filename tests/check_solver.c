@@ -35,7 +35,7 @@ static double random_number(unsigned *seed)
 
 typedef struct {
     int n, pairs, pair[MOST_PAIRS][2];
-    double A[MOST_6][MOST_6], F[MOST_6 + 1];    /* F ends with a NaN that nobody may read */
+    double A[MOST_6][MOST_6], F[MOST_6 + 1];    /* F ends with an infinity that nobody may read */
     bbm_matrix *K;
 } dense_system;
 
@@ -84,7 +84,7 @@ static void fill(dense_system *s, unsigned seed)
             add_spring(s, s->pair[k / 3][0], s->pair[k / 3][1], 1 + k % 3, &seed);
     for (int i = 0; i < 6 * s->n; i++)
         s->F[i] = random_number(&seed);
-    s->F[6 * s->n] = NAN;
+    s->F[6 * s->n] = INFINITY;
 }
 
 static void connect(dense_system *s, int i, int j)
@@ -456,14 +456,16 @@ END_TEST
 START_TEST(solution_is_that_of_the_dense_matrix)
 {
     dense_system *s = new_system(_i, 10);
-    double expected[MOST_6], D[MOST_6];
+    double expected[MOST_6], D[MOST_6 + 1];
     bbm_pcg_info info;
 
     dense_solve(6 * s->n, s->A, s->F, expected);
+    D[6 * s->n] = 77;
     for (int k = 0; k < COUNT(OMEGA) * COUNT(FORM); k++) {
         const bbm_pcg pcg = accurate(OMEGA[k / COUNT(FORM)], FORM[k % COUNT(FORM)]);
         ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
         assert_same(6 * s->n, D, expected, SOLVED);
+        ck_assert(D[6 * s->n] == 77);
         ck_assert_int_gt(info.iterations, 0);
         ck_assert_int_eq(info.element, -1);
     }
