@@ -231,7 +231,7 @@ void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]
 bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                                             /* takes NULL            */
 void       bbm_matrix_clear(bbm_matrix *K);
-bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]);                /* K_ij, and K_ji = B^T  */
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]);  /* K_ij, K_ji = B^T; i = j: B symmetric */
 void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y);       /* y = K x               */
 int        bbm_matrix_bandwidth(const bbm_matrix *K);                                  /* in block rows         */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info);
