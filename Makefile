@@ -6,7 +6,7 @@
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm solver
+LIBRARY  = bbm contact solver
 RUN      = exp1 exp2
 CASES    = $(RUN)
 SHARED   = case plot

@@ -354,6 +354,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
         [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
+        [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
     };
 
     return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
@@ -402,7 +403,7 @@ bbm_status bbm_model_new(bbm_model **out)
     *out = m;
     if (!m)
         return BBM_NO_MEMORY;
-    m->par = (bbm_parameters){ .dt = INFINITY, .steps = 1, .alpha = 100,
+    m->par = (bbm_parameters){ .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8,
                                .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 } };
     return BBM_OK;
 }
@@ -417,6 +418,14 @@ static void free_prepared(bbm_model *m)
     free(m->F);
     free(m->D);
     bbm_matrix_free(m->K);
+    bbm_contact_free(m->work);
+    free(m->contact);
+    free(m->pair);
+    m->work = NULL;
+    m->contact = NULL;
+    m->contacts = m->contact_room = 0;
+    m->pair = NULL;
+    m->pairs = 0;
     m->bond = NULL;
     m->edge = NULL;
     m->meet_first = m->meet = NULL;
@@ -792,11 +801,24 @@ static int regular(double G[3][3])
     return 1;
 }
 
-/* Sums up the fixed points of each body: what bonds join, known by its root in up[]. */
-static void sum_holds(const bbm_model *m, int up[], hold h[])
+/* Joins what bonds and contacts connect to bodies, known by their root in up[]. That a contact holds in each direction
+ * is too kind to it: a block on a slope passes. */
+static void join_bodies(const bbm_model *m, int up[])
 {
+    for (int e = 0; e < m->elements; e++)
+        up[e] = e;
     for (int b = 0; b < m->bonds; b++)
         up[root_of(up, m->bond[b].j)] = root_of(up, m->bond[b].i);
+    for (int c = 0; c < bbm_contact_count(m); c++) {
+        int pair[2];
+        bbm_contact_pair(m, c, pair);
+        up[root_of(up, pair[1])] = root_of(up, pair[0]);
+    }
+}
+
+/* Sums up the fixed points of each body. */
+static void sum_holds(const bbm_model *m, int up[], hold h[])
+{
     for (int v = 0; v < m->vertices; v++) {
         const bbm_node *n = &m->node[m->vertex[v].node];
         hold *body = &h[root_of(up, m->vertex[v].element)];
@@ -812,46 +834,54 @@ static void sum_holds(const bbm_model *m, int up[], hold h[])
         add_hold(&h[root_of(up, m->vertex[v].element)], &m->node[m->vertex[v].node]);
 }
 
-/* Finds an element of a body that its fixed points leave free to move, or -1. */
-static bbm_status find_free_body(bbm_model *m)
+/* Statics needs bodies that fixed points hold, by themselves or through contacts. */
+static bbm_status check_held(bbm_model *m)
 {
     int *up = calloc((size_t)m->elements, sizeof *up);
     hold *h = calloc((size_t)m->elements, sizeof *h);
     bbm_status status = BBM_OK;
 
-    m->free_element = -1;
     if (!up || !h) {
         status = out_of_memory(m);
     } else {
-        for (int e = 0; e < m->elements; e++)
-            up[e] = e;
+        join_bodies(m, up);
         sum_holds(m, up, h);
-        for (int e = 0; e < m->elements && m->free_element < 0; e++)
-            if (root_of(up, e) == e && !regular(h[e].G))
-                m->free_element = e;
+        for (int i = 0; i < m->elements && !status; i++)
+            if (root_of(up, i) == i && !regular(h[i].G))
+                status = fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)", m->element[i].block,
+                              i, m->element[i].x, m->element[i].y);
     }
     free(up);
     free(h);
     return status;
 }
 
-/* Lays out K: a submatrix for each element and for each bond, Eq. (5). */
+/* Lays out K: a submatrix for each element, each bond and each contact, Eq. (5). */
 static bbm_status lay_out_matrix(bbm_model *m)
 {
-    int (*pair)[2] = calloc((size_t)m->bonds + 1, sizeof *pair);
-    bbm_status status = BBM_NO_MEMORY;
+    const int n = m->work ? bbm_contact_count(m) : 0;
+    int (*pair)[2] = calloc((size_t)(m->bonds + n) + 1, sizeof *pair);
+    int same = m->K && n == m->pairs;
 
-    m->F = calloc(6 * (size_t)m->elements, sizeof *m->F);
-    m->D = calloc(6 * (size_t)m->elements, sizeof *m->D);
-    if (pair && m->F && m->D) {
-        for (int b = 0; b < m->bonds; b++) {
-            pair[b][0] = m->bond[b].i;
-            pair[b][1] = m->bond[b].j;
-        }
-        status = bbm_matrix_new(m->elements, m->bonds, pair, &m->K);
+    if (!pair)
+        return out_of_memory(m);
+    for (int k = 0; k < n; k++)
+        bbm_contact_pair(m, k, pair[k]);
+    for (int k = 0; k < n && same; k++)
+        same = pair[k][0] == m->pair[k][0] && pair[k][1] == m->pair[k][1];
+    if (same) {
+        free(pair);
+        return BBM_OK;
     }
-    free(pair);
-    return status ? out_of_memory(m) : BBM_OK;
+    for (int b = 0; b < m->bonds; b++) {
+        pair[n + b][0] = m->bond[b].i;
+        pair[n + b][1] = m->bond[b].j;
+    }
+    bbm_matrix_free(m->K);
+    free(m->pair);
+    m->pair = pair;
+    m->pairs = n;
+    return bbm_matrix_new(m->elements, n + m->bonds, pair, &m->K) ? out_of_memory(m) : BBM_OK;
 }
 
 /* Checks the model and makes all that the steps need: the vertices at each node, boundary and internal edges, K. */
@@ -870,10 +900,13 @@ bbm_status bbm_prepare(bbm_model *m)
         status = connect_elements(m);
     if (!status)
         status = place_line_loads(m);
+    if (!status) {
+        m->F = calloc(6 * (size_t)m->elements, sizeof *m->F);
+        m->D = calloc(6 * (size_t)m->elements, sizeof *m->D);
+        status = m->F && m->D ? lay_out_matrix(m) : out_of_memory(m);
+    }
     if (!status)
-        status = find_free_body(m);
-    if (!status)
-        status = lay_out_matrix(m);
+        status = bbm_contact_new(m) ? out_of_memory(m) : BBM_OK;
     return status;
 }
 
@@ -891,6 +924,11 @@ static bbm_status check_parameters(bbm_model *m)
         { "alpha", p->alpha, p->alpha > 0 && isfinite(p->alpha), "more than 0" },
         { "gravity[0]", p->gravity[0], isfinite(p->gravity[0]), "a finite number" },
         { "gravity[1]", p->gravity[1], isfinite(p->gravity[1]), "a finite number" },
+        { "p_n", p->p_n, p->p_n > 0 && isfinite(p->p_n), "more than 0" },
+        { "p_s", p->p_s, p->p_s > 0 && isfinite(p->p_s), "more than 0" },
+        { "friction", p->friction, p->friction >= 0 && p->friction < 90, "0 to less than 90 degrees" },
+        { "cohesion", p->cohesion, p->cohesion >= 0 && isfinite(p->cohesion), "0 or more" },
+        { "tension", p->tension, p->tension >= 0 && isfinite(p->tension), "0 or more" },
         { "pcg.omega", p->pcg.omega, p->pcg.omega > 0 && p->pcg.omega < 2, "more than 0, less than 2" },
         { "pcg.tolerance", p->pcg.tolerance, p->pcg.tolerance > 0 && p->pcg.tolerance < 1, "more than 0, less than 1" },
         { "pcg.iterations", p->pcg.iterations, p->pcg.iterations >= 1, "1 or more" },
@@ -902,16 +940,11 @@ static bbm_status check_parameters(bbm_model *m)
     return BBM_OK;
 }
 
-/* What must hold before a step: a prepared model, parameters in their ranges, in statics bodies that are held. */
+/* What must hold before a step: a prepared model, parameters in their ranges. */
 static bbm_status check_step(bbm_model *m)
 {
     if (!m->K)
         return m->status ? m->status : fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    if (isinf(m->par.dt) && m->free_element >= 0) {
-        const bbm_element *e = &m->element[m->free_element];
-        return fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)", e->block, m->free_element,
-                    e->x, e->y);
-    }
     return check_parameters(m);
 }
 
@@ -923,7 +956,7 @@ static bbm_status assemble_element(bbm_model *m, int i)
     bbm_submatrix s = { { { 0 } }, { 0 } };
 
     bbm_elastic_submatrix(e, &s);
-    bbm_inertia_submatrix(e, m->par.dt, &s);
+    bbm_inertia_submatrix(e, m->h, &s);
     bbm_volume_submatrix(e, weight, s.F);
     for (int v = e->first; v < e->first + e->n; v++) {
         const int n = m->vertex[v].node, meeting = m->meet_first[n + 1] - m->meet_first[n];
@@ -980,7 +1013,7 @@ static bbm_status assemble(bbm_model *m)
         status = assemble_bond(m, &m->bond[b]);
     for (int l = 0; l < m->line_loads; l++)
         assemble_line_load(m, &m->line_load[l]);
-    return status;
+    return status ? status : bbm_assemble_contacts(m);
 }
 
 /* Solves K D = F; what went wrong becomes a sentence with the numbers. */
@@ -995,14 +1028,43 @@ static bbm_status solve(bbm_model *m)
     return BBM_OK;
 }
 
-/* Moves one element by its D: vertices by u = T D, stress by E e, Eq. (7), velocity by Eq. (14). */
+/* How a point at X from the barycentre moves: translation, strain, then exact rotation by r0,
+ * u = (u0, v0) + R(r0) (1 + e) X - X. The paper's u = T D is its first order in r0, by which a turning block
+ * swells. Deviation: the positions are updated by the exact form. */
+void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y, double u[2])
+{
+    const double X = x - e->x, Y = y - e->y;
+    const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
+
+    if (m->par.rotation == BBM_EXACT && !isinf(m->h)) {
+        const double s = sin(D[2]), c1 = -2 * sin(D[2] / 2) * sin(D[2] / 2);
+        u[0] = D[0] + ux + c1 * (X + ux) - s * (Y + uy);
+        u[1] = D[1] + uy + c1 * (Y + uy) + s * (X + ux);
+    } else {
+        u[0] = D[0] + ux - D[2] * Y;
+        u[1] = D[1] + uy + D[2] * X;
+    }
+}
+
+/* The stress turns with the element: R s R^T. */
+static void turn_stress(double s[3], double r)
+{
+    const double c = cos(2 * r), n = sin(2 * r), mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2, t = s[2];
+
+    s[0] = mean + half * c - t * n;
+    s[1] = mean - half * c + t * n;
+    s[2] = half * n + t * c;
+}
+
+/* Moves one element by its D: vertices, stress by E e, Eq. (7), velocity by Eq. (14). */
 static void update_element(bbm_model *m, bbm_element *e)
 {
+    const int exact = m->par.rotation == BBM_EXACT && !isinf(m->h);
     double E[3][3], u[2];
 
     for (int v = e->first; v < e->first + e->n; v++) {
         bbm_vertex *p = &m->vertex[v];
-        bbm_displacement(e, p->x, p->y, u);
+        bbm_move(m, e, e->D, p->x, p->y, u);
         p->u += u[0];
         p->v += u[1];
         p->x = m->node[p->node].x + p->u;
@@ -1012,7 +1074,9 @@ static void update_element(bbm_model *m, bbm_element *e)
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
             e->stress[a] += E[a][b] * e->D[3 + b];
-    bbm_newmark_velocity(e, m->par.dt, m->par.keep);
+    if (exact)
+        turn_stress(e->stress, e->D[2]);
+    bbm_newmark_velocity(e, m->h, m->par.keep);
     e->sum[0] += e->D[0];
     e->sum[1] += e->D[1];
 }
@@ -1030,25 +1094,77 @@ static void update(bbm_model *m)
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
     }
     m->info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
-    m->info.step++;
-    m->info.t += isinf(m->par.dt) ? 0 : m->par.dt;
+    m->info.t += isinf(m->h) ? 0 : m->h;
 }
 
-/* One time step. When it fails, the model stays as it was at the start of the step. */
-bbm_status bbm_step(bbm_model *m)
+/* Assembles and solves until the contacts have settled. */
+static bbm_status settle_contacts(bbm_model *m)
 {
-    bbm_status status = check_step(m);
+    bbm_pass pass = BBM_PASS_AGAIN;
+    bbm_status status = lay_out_matrix(m);
 
-    if (status)
-        return status;
+    while (!status && pass == BBM_PASS_AGAIN) {
+        status = assemble(m);
+        if (!status)
+            status = solve(m);
+        if (!status)
+            status = bbm_open_close(m, &pass);
+    }
+    if (!status && pass == BBM_PASS_GIVE_UP)
+        return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1,
+                    m->info.t, m->h, m->info.passes, bbm_contact_count(m));
+    return status;
+}
+
+/* Fig. 8 once with the step m->h. Nothing moves before all has gone well. */
+static bbm_status try_step(bbm_model *m)
+{
+    enum { DETECTIONS = 8 };
+    bbm_status status = BBM_OK;
+
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
-    status = assemble(m);
+    bbm_guess_step(m);
+    for (int k = 0; k < DETECTIONS && !status; k++) {
+        status = bbm_detect_contacts(m);
+        if (!status && isinf(m->h))
+            status = check_held(m);
+        if (!status)
+            status = settle_contacts(m);
+        if (!status && !bbm_moved_too_far(m))
+            break;
+    }
+    if (status)
+        return status;
+    update(m);
+    return bbm_keep_contacts(m);
+}
+
+/* One time step. If the contacts do not settle, dt is halved and the step done again, down to dt/1024; the nominal step
+ * is completed in parts, which grow again. When it fails, the model is that of the last part that went well. */
+bbm_status bbm_step(bbm_model *m)
+{
+    enum { PARTS = 1024 };
+    int left = PARTS, part = PARTS;
+    bbm_status status = check_step(m);
+
+    m->info.passes = m->info.cuts = 0;
+    while (!status && left > 0) {
+        m->h = isinf(m->par.dt) ? m->par.dt : m->par.dt * part / PARTS;
+        status = try_step(m);
+        if (status == BBM_OPEN_CLOSE && part > 1 && !isinf(m->par.dt)) {
+            part /= 2;
+            m->info.cuts++;
+            status = BBM_OK;
+            continue;
+        }
+        left -= part;
+        if (left > 0 && (left / part) % 2 == 0 && part < PARTS)
+            part *= 2;
+    }
     if (!status)
-        status = solve(m);
-    if (!status)
-        update(m);
-    return status;
+        m->info.step++;
+    return status == BBM_NO_MEMORY ? out_of_memory(m) : status;
 }
 
 /* All time steps. With a tolerance they end when the step has become small against the sum of all, Eq. (71):

@@ -41,6 +41,7 @@ typedef enum {
     BBM_NOT_POSITIVE_DEFINITE,  /* K is not; info.element is the row, or -1 if the iteration found out    */
     BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                                */
     BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps                       */
+    BBM_OPEN_CLOSE,             /* the open-close iteration does not settle, even in the smallest step    */
     BBM_STATUS_COUNT
 } bbm_status;
 
@@ -121,6 +122,39 @@ typedef struct {                /* what a solve did                             
     int    element;             /* block row where K is not positive definite, else -1                          */
 } bbm_pcg_info;
 
+typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X, or the paper's x + T D           */
+
+typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;
+typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
+
+typedef struct {                /* vertex P1 of one block against an edge P2 P3 of another                      */
+    /* --- identity: boundary edges; P1 starts `corner`, P2 ends `edge`, P3 starts it --- */
+    int    corner, edge;
+    int    rival[2];            /* where two corners meet, other lines of entrance (in the list), or -1         */
+    /* --- state, carried from step to step --- */
+    bbm_contact_state state;
+    double sign;                /* of the slip while it slides: 1 towards P3                                    */
+    double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                                          */
+    double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
+    int    whole;               /* a joint since the start: has a tensile strength                              */
+    /* --- of the step --- */
+    double gap;                 /* m        d_n at the start                                                    */
+    double length;              /* m        of the joint: what cohesion and tension act on                      */
+    int    off;                 /* the foot is not on the edge at the start                                     */
+    double d_n, d_s;            /* m        normal distance and slip at the end                                 */
+    double more[2];             /* m        second-order terms of d_n and d_s that (54) and (60) drop           */
+    double used;                /* N        the N that the friction of the last solution used                   */
+    bbm_contact_state next;
+    int    closings;            /* in this step                                                                 */
+} bbm_contact;
+
+typedef struct {                /* what the formulas of 3.7 take                                                */
+    const bbm_element *i, *j;
+    const bbm_vertex *P1, *P2, *P3;
+} bbm_touch;
+
+typedef struct { double d, e[6], g[6]; } bbm_spring;    /* its length is d + e.D_i + g.D_j                      */
+
 typedef struct {
     double dt;                  /* s        time step; INFINITY: no inertia                                     */
     int    steps;               /* time steps, in statics load steps (Newton-Raphson iterations)                */
@@ -128,6 +162,11 @@ typedef struct {
     double keep;                /* -        share of its velocity that a step hands on: 1 dynamics, 0 statics   */
     double alpha;               /* -        of the bonding stiffness, (4) and (29)                              */
     double gravity[2];          /* m/s^2    */
+    double p_n, p_s;            /* N/m      stiffness of the normal and of the shear spring of a contact        */
+    double friction;            /* degree   friction angle                                                      */
+    double cohesion, tension;   /* Pa       shear and tensile strength of joints that touch at the start        */
+    bbm_rotation rotation;      /* how positions are updated                                                    */
+    int    faces;               /* whether grid points inside straight sides touch other blocks, too            */
     bbm_pcg pcg;
 } bbm_parameters;
 
@@ -136,9 +175,14 @@ typedef struct {                /* what the last step did                       
     double t;                   /* s        time at their end; statics takes none                                */
     double change;              /* -        left side of (71) over its right side without the tolerance         */
     bbm_pcg_info pcg;
+    int    passes;              /* solutions of the open-close iteration                                        */
+    int    cuts;                /* how often dt was halved                                                      */
+    int    contacts;            /* closed                                                                       */
+    double penetration;         /* m        the deepest                                                         */
 } bbm_info;
 
 typedef struct bbm_matrix bbm_matrix;           /* K, in solver.c                                               */
+typedef struct bbm_contact_work bbm_contact_work;       /* scratch of contact.c                                 */
 
 typedef struct {
     /* --- input --- */
@@ -154,10 +198,14 @@ typedef struct {
     bbm_bond *bond;             /* [bonds]   the internal edges              */
     bbm_edge *edge;             /* [edges]   the boundary edges              */
     int *meet_first, *meet;     /* [nodes+1], [vertices]: meet[meet_first[n] ..] are the vertices at node n     */
-    int free_element;           /* of a body that its fixed points leave free to move, else -1                  */
     /* --- state and scratch --- */
     bbm_matrix *K;
     double *F, *D;              /* [6 elements]                              */
+    double h;                   /* s        the step in hand: dt, or a part of it                               */
+    int contacts, contact_room;
+    bbm_contact *contact;       /* [contacts] at the end of the last step, sorted by corner and edge            */
+    bbm_contact_work *work;
+    int pairs, (*pair)[2];      /* elements of the contacts that K has room for                                 */
     bbm_info info;
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
@@ -223,6 +271,29 @@ void   bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, co
 void   bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex vertex[], bbm_field *f,
                                     const void *context, double F[6]);                 /* (46)                  */
 void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]);     /* (47)                  */
+
+/* 3.7, 3.8 */
+void   bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);                          /* (52)-(57)             */
+void   bbm_normal_submatrices(const bbm_touch *c, double more, double p_n, bbm_submatrices *s);   /* (58a-f)    */
+void   bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s);            /* (53), (60)-(62)       */
+void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double more, double p_s,
+                             bbm_submatrices *s);                                      /* (63), (64)            */
+void   bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y, double u[2]);
+void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s); /* (65)-(69) */
+double bbm_shear_strength(const bbm_parameters *p, double N, double length);
+bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, double slack);    /* the table */
+
+/* ------------------------------------------------------------ the parts of a step with contacts, for bbm_step    */
+bbm_status bbm_contact_new(bbm_model *m);
+void       bbm_contact_free(bbm_contact_work *w);
+void       bbm_guess_step(bbm_model *m);
+int        bbm_moved_too_far(bbm_model *m);
+bbm_status bbm_detect_contacts(bbm_model *m);
+int        bbm_contact_count(const bbm_model *m);
+void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
+bbm_status bbm_assemble_contacts(bbm_model *m);
+bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
+bbm_status bbm_keep_contacts(bbm_model *m);
 
 /* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
  * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,

@@ -1301,6 +1301,7 @@ START_TEST(a_spinning_element_keeps_its_angular_velocity_and_its_mass)
 {
     bbm_model *m = unit_square(&SOLID);
 
+    m->par.rotation = _i == 0 ? BBM_LINEAR : BBM_EXACT;
     ck_ok(bbm_prepare(m), m);
     m->par.dt = 0.01;
     m->par.steps = 50;
@@ -1309,7 +1310,8 @@ START_TEST(a_spinning_element_keeps_its_angular_velocity_and_its_mass)
     ck_ok(bbm_run(m), m);
     for (int a = 0; a < 6; a++)
         ck_near(m->element[0].V[a], a == 2 ? 3 : 0, 3, ROUNDING);
-    ck_relative(m->element[0].A, pow(1 + 0.03 * 0.03, 49), ROUNDING);      /* as I + r dt J turns, it grows */
+    /* as I + r dt J turns, it grows; the exact rotation keeps the area */
+    ck_relative(m->element[0].A, _i == 0 ? pow(1 + 0.03 * 0.03, 49) : 1, ROUNDING);
     ck_relative(m->element[0].A0, 1, ROUNDING);
     bbm_model_free(m);
 }
@@ -2118,7 +2120,6 @@ START_TEST(statics_refuses_a_body_that_is_free_to_move_and_names_it)
             ck_ok(status, m);
         } else {
             check_error(m, status, BBM_FREE_TO_MOVE, HOLDS[_i].free_block == 5 ? "block 5" : "block 7");
-            ck_assert_int_eq(m->element[m->free_element].block, HOLDS[_i].free_block);
             if (HOLDS[_i].free_block == 5 && way == 0)
                 check_error(m, status, BBM_FREE_TO_MOVE, "element 0 at (0.5, 0.5)");
             m->par.dt = 0.1;                                               /* with inertia it may move */
@@ -2141,7 +2142,7 @@ START_TEST(fixed_points_close_together_hold_a_body_within_reason)
         ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
         ck_ok(bbm_fix_node(m, 1, BBM_XY, 0, 0), m);
         ck_ok(bbm_prepare(m), m);
-        ck_assert_int_eq(m->free_element, way ? -1 : 0);
+        ck_assert_int_eq(bbm_step(m), way ? BBM_OK : BBM_FREE_TO_MOVE);
         bbm_model_free(m);
     }
 }
@@ -2366,7 +2367,8 @@ START_TEST(whichever_allocation_fails_the_status_is_no_memory_and_nothing_leaks)
         ck_assert(status == BBM_NO_MEMORY || status == BBM_OK);
         if (status && m)
             check_error(m, status, BBM_NO_MEMORY, " nodes");
-        if (status && m && m->status == BBM_OK) {                          /* bbm_prepare failed: it can be repeated */
+        if (status && m && m->status == BBM_OK) {       /* bbm_prepare or a step failed: both can be repeated */
+            m->par.steps = 3 - m->info.step;
             ck_ok(bbm_prepare(m), m);
             ck_ok(bbm_run(m), m);
             check_same_state(m, reference);
@@ -2474,7 +2476,7 @@ static void add_models(Suite *s)
     };
     const entry steps[] = {
         { a_thrown_body_follows_the_parabola, 2 },
-        { a_spinning_element_keeps_its_angular_velocity_and_its_mass, 1 },
+        { a_spinning_element_keeps_its_angular_velocity_and_its_mass, 2 },
         { bonded_elements_keep_their_momentum_while_they_shake_each_other, 2 },
         { a_vibrating_element_is_damped_as_newmarks_recurrence_says, 1 },
         { steps_without_memory_of_velocity_end_in_the_static_answer, 1 },

@@ -1,0 +1,1157 @@
+/* contact.c - contacts between blocks: sections 3.7 and 3.8 of the paper, and the open-close iteration.
+ *
+ * Blocks touch where a vertex P1 of one meets an edge P2 P3 of another. A stiff spring p_n then resists penetration, a
+ * spring p_s resists slip, and where Mohr and Coulomb's bound is passed, friction takes the place of p_s:
+ *
+ *                        d_n < 0                     |T| > N tan(phi) + c l
+ *            .------.  ------------->  .------.  --------------------------->  .-------.
+ *            | OPEN |                  | LOCK |                                | SLIDE |
+ *            '------'  <-------------  '------'  <---------------------------  '-------'
+ *                ^     N < -tension l               s T < N tan(phi) + c l         |
+ *                '-----------------------------------------------------------------'
+ *                                            N < 0
+ *
+ * N = -p_n d_n is the normal force, T = p_s d_s what the shear spring carries or would carry, s the sign of the slip.
+ * d_s counts from the anchor P0, a point of the edge's material: where P1 hit, and there it stays while the contact is
+ * locked; while it slides, the anchor follows so that the spring would just carry the friction force of the last step.
+ * What is left of s T above the bound is slip; when it turns against the friction, s T falls below the bound and the
+ * contact locks with the force it had.
+ *
+ * A step reads (bbm_step): detect, assemble, solve, open-close - again until nothing changes - update.
+ *
+ * Detection. The boundary edges, in boxes widened by the search distance, are entered into a uniform grid; each corner
+ * looks up its own cell. `corner` c is the vertex that starts boundary edge c, so that (corner, edge) are two indices
+ * of edges: the identity of a contact. A corner may touch an edge if neither of its two sides points into it.
+ *
+ * Where two corners P and Q meet, several of these pairs describe one contact. The lines along which P can enter are
+ *
+ *          \  P  /              |   A                   the two edges of Q (left), or one edge of each block (right).
+ *           \   /               P______                 Two lines that differ are rivals: the blocks overlap when both
+ *            \ /                 Q_____                 are crossed, and the spring goes on the one with the least
+ *      _______Q                  |                      penetration, the shortest way out. Two lines that coincide
+ *             |                  |   B                  are one contact: of P on Q's edge and Q on P's edge that one
+ *        B    |                  |                      stays whose foot lies on its edge; at a tie, the one that it
+ *                                                       was before; at first, the edge that faces up.
+ *
+ * The iteration. N of a sliding contact depends on its friction and the friction on N. For given states that map is
+ * affine: its fixed point is found by conjugate residuals (agree), in at most one solve for each sliding contact,
+ * however badly the plain iteration N -> friction -> N converges. Only then are the states judged, on forces that
+ * belong to them. When a set of states comes back that has been there before, the iteration would cycle: from then on
+ * only the first contact that wants to change does so in each pass (Murty's rule of the least index), and a contact
+ * that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a step that does
+ * not settle is done again with half the time step, without a trace of the first trial.
+ */
+#include "bbm.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- tolerances; none depends on the size of the domain ---
+ * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side: rounding of a model file
+ * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies on it: what
+ *                 penetration and elastic bending turn
+ * END      [-]    feet closer to the end of an edge, in its lengths, are at the end: rounding, elastic strain
+ * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start: rounding of a model file
+ * AGREE    [-]    forces that differ by less, against the largest force of the model, agree: what the solver can tell
+ * SECOND   [-]    forces of second-order terms that are wrong by less, against the same, are left to the next step   */
+#define STRAIGHT 1e-4
+#define PARALLEL 1e-2
+#define END 1e-6
+#define TOUCH 1e-6
+#define AGREE 1e-9
+#define SECOND 1e-4
+
+/* Directions that `agree` remembers; passes that change states, and that change forces between two of them. */
+enum { DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
+
+typedef struct { double x, y, length; } direction;              /* unit vector along an edge                     */
+typedef struct { int corner, edge; } pair;
+typedef struct { int edge, next; } entry;
+
+struct bbm_contact_work {
+    /* --- the boundary, [edges]; the block lies on the left of an edge --- */
+    int *before, *after;        /* neighbours along the boundary                                                */
+    int *side;                  /* first edge of the straight side                                              */
+    direction *along;           /* of the present positions                                                     */
+    double mean;                /* m        mean length at the start                                            */
+    /* --- what the step may do --- */
+    double *guess;              /* [6 elements] D, as far as known before the solution                          */
+    double search;              /* m        vertices further from an edge do not reach it                       */
+    /* --- the grid --- */
+    double x0, y0, cell;        /* m        origin and width                                                    */
+    size_t columns, cells;      /* from left to right; places for cells (a larger grid is wrapped round)        */
+    int *head;                  /* [cells]  the last entry of each place, or -1                                 */
+    entry *entries;
+    int entered, entry_room;
+    /* --- the list in the making, sorted by corner and edge --- */
+    int pairs, pair_room, list_room;
+    pair *pairs_of;             /* [pairs]                                                                      */
+    int *first;                 /* [edges+1] those of corner c are pairs_of[first[c] ..]                        */
+    bbm_contact *list;          /* [pairs]                                                                      */
+    /* --- the iteration --- */
+    int passes, forces, single;
+    uint64_t seen[PASSES + 1];  /* the states of each pass                                                      */
+    int directions, vector_room;
+    double *x, *r;              /* [pairs]  the N that friction used; what the solution adds to it              */
+    double *dx, *dr;            /* [(DIRECTIONS+1) pairs] changes of x, and the orthonormal changes of r        */
+};
+
+/* ------------------------------------------------------------------------------- 3.7.1 Normal submatrices */
+
+/* The normal distance of P1 from P2 P3, positive outside, d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57):
+ *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
+ *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l. */
+void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
+{
+    const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y, x3 = c->P3->x, y3 = c->P3->y;
+    const double l = hypot(x3 - x2, y3 - y2);
+    double T1[2][6], T2[2][6], T3[2][6];
+
+    bbm_mode_matrix(c->i, x1, y1, T1);
+    bbm_mode_matrix(c->j, x2, y2, T2);
+    bbm_mode_matrix(c->j, x3, y3, T3);
+    n->d = ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) / l;
+    for (int a = 0; a < 6; a++) {
+        n->e[a] = (T1[0][a] * (y2 - y3) + T1[1][a] * (x3 - x2)) / l;
+        n->g[a] = (T2[0][a] * (y3 - y1) + T2[1][a] * (x1 - x3) + T3[0][a] * (y1 - y2) + T3[1][a] * (x2 - x1)) / l;
+    }
+}
+
+/* A spring p over d = d0 + e.D_i + g.D_j, Pi = p/2 d^2, Eq. (51): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T,
+ * F_i -= p d0 e, F_j -= p d0 g. */
+static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
+{
+    for (int a = 0; a < 6; a++) {
+        for (int b = 0; b < 6; b++) {
+            s->Kii[a][b] += p * v->e[a] * v->e[b];
+            s->Kij[a][b] += p * v->e[a] * v->g[b];
+            s->Kjj[a][b] += p * v->g[a] * v->g[b];
+        }
+        s->Fi[a] -= p * v->d * v->e[a];
+        s->Fj[a] -= p * v->d * v->g[a];
+    }
+}
+
+/* Pi_n = p_n/2 d_n^2   ->   Eq. (58a-f). `more` is added to d_n: the second-order term that (54) drops, or 0. */
+void bbm_normal_submatrices(const bbm_touch *c, double more, double p_n, bbm_submatrices *s)
+{
+    bbm_spring n;
+
+    bbm_normal_vectors(c, &n);
+    n.d += more;
+    add_spring(p_n, &n, s);
+}
+
+/* -------------------------------------------------------------------------------- 3.7.2 Shear submatrices */
+
+/* The displacement of P1 along the edge against its anchor P0, d_s = S1 + e.D_i + g.D_j, Eq. (53), (60)-(62), with
+ *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m.
+ * The anchor is the point P0 = P3 + anchor (P2 - P3) of the edge's material. */
+void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
+{
+    const double x0 = c->P3->x + anchor * (c->P2->x - c->P3->x), y0 = c->P3->y + anchor * (c->P2->y - c->P3->y);
+    const double l = hypot(c->P3->x - c->P2->x, c->P3->y - c->P2->y);
+    const double mx = (c->P3->x - c->P2->x) / l, my = (c->P3->y - c->P2->y) / l;
+    double T1[2][6], T0[2][6];
+
+    bbm_mode_matrix(c->i, c->P1->x, c->P1->y, T1);
+    bbm_mode_matrix(c->j, x0, y0, T0);
+    s->d = (c->P1->x - x0) * mx + (c->P1->y - y0) * my;
+    for (int a = 0; a < 6; a++) {
+        s->e[a] = T1[0][a] * mx + T1[1][a] * my;
+        s->g[a] = -T0[0][a] * mx - T0[1][a] * my;
+    }
+}
+
+/* Pi_s = p_s/2 d_s^2   ->   Eq. (63), (64). `more` as above. */
+void bbm_shear_submatrices(const bbm_touch *c, double anchor, double more, double p_s, bbm_submatrices *s)
+{
+    bbm_spring v;
+
+    bbm_shear_vectors(c, anchor, &v);
+    v.d += more;
+    add_spring(p_s, &v, s);
+}
+
+/* ----------------------------------------------------------------------------- 3.8 Friction submatrices */
+
+/* The friction force Fr, positive when P1 slips towards P3, Eq. (65): F_i -= Fr e, F_j -= Fr g, Eq. (66)-(69). */
+void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s)
+{
+    bbm_spring v;
+
+    bbm_shear_vectors(c, anchor, &v);
+    for (int a = 0; a < 6; a++) {
+        s->Fi[a] -= Fr * v.e[a];
+        s->Fj[a] -= Fr * v.g[a];
+    }
+}
+
+/* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65) with cohesion on the joint's length. */
+double bbm_shear_strength(const bbm_parameters *p, double N, double length)
+{
+    return N * tan(p->friction * acos(-1) / 180) + p->cohesion * length;
+}
+
+/* The transfer table of the figure above: the state that follows from d_n, N and T. Forces within `slack` agree. An
+ * opening contact has none: a slack there would be a hidden tensile strength. */
+bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, double slack)
+{
+    const double strength = fmax(0, bbm_shear_strength(p, c->N, c->length));
+    const double tension = c->whole && c->state == BBM_LOCK ? p->tension * c->length : 0;
+
+    if (c->state == BBM_OPEN)
+        return -p->p_n * c->d_n > slack ? BBM_LOCK : BBM_OPEN;
+    if (c->N < -tension)
+        return BBM_OPEN;
+    if (p->friction == 0 && p->cohesion == 0)
+        return BBM_SLIDE;
+    if (c->state == BBM_LOCK)
+        return fabs(c->T) > strength + slack ? BBM_SLIDE : BBM_LOCK;
+    return c->sign * c->T < strength - slack ? BBM_LOCK : BBM_SLIDE;
+}
+
+/* ------------------------------------------------------------------------- the boundary of the blocks, once */
+
+static const bbm_vertex *start_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].a]; }
+static const bbm_vertex *end_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].b]; }
+static int block_of(const bbm_model *m, int e) { return m->element[m->edge[e].element].block; }
+static double cross(direction p, direction q) { return p.x * q.y - p.y * q.x; }
+
+/* A vertex inside a straight side is no corner. */
+static int is_corner(const bbm_contact_work *w, int c) { return w->side[c] == c; }
+
+static void find_directions(bbm_model *m)
+{
+    for (int e = 0; e < m->edges; e++) {
+        const double x = end_of(m, e)->x - start_of(m, e)->x, y = end_of(m, e)->y - start_of(m, e)->y, l = hypot(x, y);
+        m->work->along[e] = (direction){ x / l, y / l, l };
+    }
+}
+
+/* The boundary edge that ends where e starts; ends[v] is that which ends in vertex v, or -1. Where the boundary of a
+ * block touches itself there are several: the right one leaves the smallest angle inside. */
+static int find_before(const bbm_model *m, const int ends[], int e)
+{
+    const int node = start_of(m, e)->node;
+    const direction q = m->work->along[e];
+    double least = INFINITY;
+    int found = e;
+
+    for (int a = m->meet_first[node]; a < m->meet_first[node + 1]; a++) {
+        const int f = ends[m->meet[a]];
+        if (f < 0 || block_of(m, f) != block_of(m, e))
+            continue;
+        const direction p = m->work->along[f];
+        double angle = atan2(-cross(q, p), -q.x * p.x - q.y * p.y);
+        if (angle < 0)
+            angle += 2 * acos(-1);
+        if (angle < least) {
+            least = angle;
+            found = f;
+        }
+    }
+    return found;
+}
+
+/* Whether edge e goes straight on from the one before it. */
+static int goes_on(const bbm_contact_work *w, int e)
+{
+    const direction p = w->along[w->before[e]], q = w->along[e];
+
+    return fabs(cross(p, q)) < STRAIGHT && p.x * q.x + p.y * q.y > 0;
+}
+
+static void link_edges(bbm_model *m, int ends[])
+{
+    bbm_contact_work *w = m->work;
+
+    find_directions(m);
+    for (int v = 0; v < m->vertices; v++)
+        ends[v] = -1;
+    for (int e = 0; e < m->edges; e++)
+        ends[m->edge[e].b] = e;
+    for (int e = 0; e < m->edges; e++) {
+        w->before[e] = find_before(m, ends, e);
+        w->after[w->before[e]] = e;
+        w->side[e] = e;
+        w->mean += w->along[e].length / m->edges;
+    }
+    for (int e = 0; e < m->edges; e++)
+        for (int f = w->after[e]; !goes_on(w, e) && f != e && goes_on(w, f); f = w->after[f])
+            w->side[f] = e;
+}
+
+void bbm_contact_free(bbm_contact_work *w)
+{
+    if (!w)
+        return;
+    free(w->before);
+    free(w->after);
+    free(w->side);
+    free(w->along);
+    free(w->guess);
+    free(w->head);
+    free(w->entries);
+    free(w->pairs_of);
+    free(w->first);
+    free(w->list);
+    free(w->x);
+    free(w->r);
+    free(w->dx);
+    free(w->dr);
+    free(w);
+}
+
+bbm_status bbm_contact_new(bbm_model *m)
+{
+    const size_t n = (size_t)m->edges + 1;
+    int *ends = calloc((size_t)m->vertices, sizeof *ends);
+    bbm_contact_work *w = m->work = calloc(1, sizeof *w);
+
+    if (w) {
+        w->before = calloc(n, sizeof *w->before);
+        w->after = calloc(n, sizeof *w->after);
+        w->side = calloc(n, sizeof *w->side);
+        w->along = calloc(n, sizeof *w->along);
+        w->first = calloc(n, sizeof *w->first);
+        w->head = calloc(4 * n, sizeof *w->head);
+        w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
+    }
+    const int ok = ends && w && w->before && w->after && w->side && w->along && w->first && w->head && w->guess;
+    if (ok)
+        link_edges(m, ends);
+    free(ends);
+    return ok ? BBM_OK : BBM_NO_MEMORY;
+}
+
+/* -------------------------------------------------------------------------------- detection: the grid */
+
+/* Makes room for one more entry in an array: twice the room when it is full. */
+static int grow(void **array, int count, int *room, size_t size)
+{
+    if (count < *room)
+        return 1;
+    void *larger = realloc(*array, (2 * (size_t)count + 64) * size);
+    if (!larger)
+        return 0;
+    *array = larger;
+    *room = 2 * count + 64;
+    return 1;
+}
+
+/* Origin and cells. A cell is as wide as a mean edge's box; the table has at most four places an edge, and a
+ * larger grid is wrapped round into it: cells that share a place only cost a comparison. */
+static void lay_out_grid(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+    double x1 = -INFINITY, y1 = -INFINITY;
+
+    w->x0 = w->y0 = INFINITY;
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *a = start_of(m, e);
+        w->x0 = fmin(w->x0, a->x);
+        w->y0 = fmin(w->y0, a->y);
+        x1 = fmax(x1, a->x);
+        y1 = fmax(y1, a->y);
+    }
+    w->cell = 1.01 * w->mean + 2 * w->search;
+    w->x0 -= w->cell;
+    w->y0 -= w->cell;
+    w->columns = (size_t)((x1 - w->x0) / w->cell) + 2;
+    w->cells = (size_t)fmin(((y1 - w->y0) / w->cell + 2) * (double)w->columns, 4.0 * (m->edges + 1));
+    w->entered = 0;
+    for (size_t i = 0; i < w->cells; i++)
+        w->head[i] = -1;
+}
+
+static size_t column_of(const bbm_contact_work *w, double x) { return (size_t)((x - w->x0) / w->cell); }
+static size_t row_of(const bbm_contact_work *w, double y) { return (size_t)((y - w->y0) / w->cell); }
+
+/* Enters the box of the piece of edge e from (xa, ya) to (xb, yb), widened by the search distance. */
+static int enter_piece(bbm_contact_work *w, int e, const double xa[2], const double xb[2])
+{
+    const size_t left = column_of(w, fmin(xa[0], xb[0]) - w->search);
+    const size_t right = column_of(w, fmax(xa[0], xb[0]) + w->search);
+    const size_t low = row_of(w, fmin(xa[1], xb[1]) - w->search);
+    const size_t high = row_of(w, fmax(xa[1], xb[1]) + w->search);
+
+    for (size_t row = low; row <= high; row++)
+        for (size_t column = left; column <= right; column++) {
+            int *head = &w->head[(row * w->columns + column) % w->cells];
+            if (*head >= 0 && w->entries[*head].edge == e)
+                continue;
+            if (!grow((void **)&w->entries, w->entered, &w->entry_room, sizeof *w->entries))
+                return 0;
+            w->entries[w->entered] = (entry){ e, *head };
+            *head = w->entered++;
+        }
+    return 1;
+}
+
+/* Enters all edges, the last first so that the lists ascend; long ones in pieces of a mean length. */
+static bbm_status fill_grid(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+
+    lay_out_grid(m);
+    for (int e = m->edges - 1; e >= 0; e--) {
+        const bbm_vertex *a = start_of(m, e), *b = end_of(m, e);
+        const int pieces = (int)(w->along[e].length / w->cell) + 1;
+        for (int p = 0; p < pieces; p++) {
+            const double s = (double)p / pieces, t = (p + 1.0) / pieces;
+            const double xa[2] = { a->x + s * (b->x - a->x), a->y + s * (b->y - a->y) };
+            const double xb[2] = { a->x + t * (b->x - a->x), a->y + t * (b->y - a->y) };
+            if (!enter_piece(w, e, xa, xb))
+                return BBM_NO_MEMORY;
+        }
+    }
+    return BBM_OK;
+}
+
+/* --------------------------------------------------------------------- detection: who may touch whom */
+
+typedef struct { double d, s, off; } foot;  /* of P1 on an edge: distance, way along it, how far beyond its ends */
+
+static foot find_foot(const bbm_model *m, int corner, int e)
+{
+    const bbm_vertex *P = start_of(m, corner), *a = start_of(m, e);
+    const direction t = m->work->along[e];
+    const double x = P->x - a->x, y = P->y - a->y, s = x * t.x + y * t.y;
+
+    return (foot){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
+}
+
+/* By how much the block of `corner` turns against that of `edge`. */
+static double turning(const bbm_model *m, const double D[], int corner, int e)
+{
+    return D[6 * m->edge[corner].element + 2] - D[6 * m->edge[e].element + 2];
+}
+
+/* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's:
+ * so the block is convex there and lies on the outside. */
+static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
+{
+    const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
+    const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
+
+    return cross(q, s) >= -slack && -cross(p, s) >= -slack && cross(p, q) > -PARALLEL;
+}
+
+/* Whether the corner may come to touch the edge in this step. If it is still outside it may also turn there first, as
+ * when a side falls flat on an edge. */
+static int may_touch(const bbm_model *m, int corner, int e)
+{
+    const bbm_contact_work *w = m->work;
+    const foot f = find_foot(m, corner, e);
+
+    if (fabs(f.d) > w->search || f.off > w->search)
+        return 0;
+    return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * fabs(turning(m, w->guess, corner, e)) : PARALLEL);
+}
+
+/* All pairs that may touch. */
+static bbm_status list_pairs(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+
+    w->pairs = 0;
+    for (int c = 0; c < m->edges; c++) {
+        const size_t i = (row_of(w, start_of(m, c)->y) * w->columns + column_of(w, start_of(m, c)->x)) % w->cells;
+        w->first[c] = w->pairs;
+        for (int k = w->head[i]; k >= 0 && (is_corner(w, c) || m->par.faces); k = w->entries[k].next) {
+            const int e = w->entries[k].edge;
+            if (block_of(m, e) == block_of(m, c) || !may_touch(m, c, e))
+                continue;
+            if (!grow((void **)&w->pairs_of, w->pairs, &w->pair_room, sizeof *w->pairs_of))
+                return BBM_NO_MEMORY;
+            w->pairs_of[w->pairs++] = (pair){ c, e };
+        }
+    }
+    w->first[m->edges] = w->pairs;
+    return BBM_OK;
+}
+
+/* The place of (corner, edge) in the list in the making, or -1. */
+static int find_pair(const bbm_contact_work *w, int corner, int edge)
+{
+    for (int k = w->first[corner]; k < w->first[corner + 1]; k++)
+        if (w->pairs_of[k].edge == edge)
+            return k;
+    return -1;
+}
+
+/* The contact (corner, edge) of the last step if it was closed, else NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
+{
+    int low = 0, high = m->contacts;
+
+    while (low < high) {
+        const int k = low + (high - low) / 2;
+        const bbm_contact *c = &m->contact[k];
+        if (c->corner < corner || (c->corner == corner && c->edge < edge))
+            low = k + 1;
+        else
+            high = k;
+    }
+    if (low == m->contacts || m->contact[low].corner != corner || m->contact[low].edge != edge)
+        return NULL;
+    return m->contact[low].state == BBM_OPEN ? NULL : &m->contact[low];
+}
+
+/* Of two neighbours e and f on one straight side, P touches the first if its foot comes before the end of that one. */
+static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
+{
+    const bbm_contact_work *w = m->work;
+    const int f = w->after[e], d = w->before[e];
+
+    if (!is_corner(w, f) && find_pair(w, corner, f) >= 0 && find_foot(m, corner, e).s >= w->along[e].length)
+        return 1;
+    return !is_corner(w, e) && find_pair(w, corner, d) >= 0 && find_foot(m, corner, d).s < w->along[d].length;
+}
+
+static int coincide(const bbm_contact_work *w, int e, int f)
+{
+    return fabs(cross(w->along[e], w->along[f])) <= PARALLEL;
+}
+
+/* Whether the outward normal (t.y, -t.x) of an edge along t points up rather than down, or else to the right. */
+static int faces_up(direction t)
+{
+    return fabs(t.x) > PARALLEL ? t.x < 0 : t.y > 0;
+}
+
+/* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the edges
+ * coincide. When the sides that end in P and Q are aligned, starting there and running the same way, just one of P and
+ * Q has its foot on the other's edge. Whether P on f has to go. */
+static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
+{
+    const bbm_contact_work *w = m->work;
+
+    if (!coincide(w, mine.edge, other.edge) || find_pair(w, other.corner, other.edge) < 0)
+        return 0;
+    const double P = find_foot(m, mine.corner, mine.edge).off / w->along[mine.edge].length;
+    const double Q = find_foot(m, other.corner, other.edge).off / w->along[other.edge].length;
+    if (fabs(P) > END || fabs(Q) > END)
+        return aligned && P > 0 && Q <= P;
+    if (find_closed(m, other.corner, other.edge))
+        return 1;
+    return !find_closed(m, mine.corner, mine.edge) && !faces_up(w->along[mine.edge]);
+}
+
+/* The four pairs of an end Q of P's edge with an edge that ends in P: 0 and 3 have aligned sides. */
+static pair reversed_pair(const bbm_contact_work *w, pair p, int k)
+{
+    return (pair){ k < 2 ? p.edge : w->after[p.edge], k % 2 ? p.corner : w->before[p.corner] };
+}
+
+static int is_duplicate(const bbm_model *m, pair p)
+{
+    const bbm_contact_work *w = m->work;
+
+    for (int k = 0; k < 4; k++) {
+        const pair q = reversed_pair(w, p, k);
+        if (loses_to(m, p, q, k % 3 == 0 && is_corner(w, p.corner) && is_corner(w, q.corner)))
+            return 1;
+    }
+    return belongs_to_neighbour(m, p.corner, p.edge);
+}
+
+/* Drops the pairs that another one stands for; all are judged on the full list before the first one goes. */
+static bbm_status drop_duplicates(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+    char *drop = malloc((size_t)w->pairs + 1);
+    int kept = 0;
+
+    if (!drop)
+        return BBM_NO_MEMORY;
+    for (int k = 0; k < w->pairs; k++)
+        drop[k] = (char)is_duplicate(m, w->pairs_of[k]);
+    for (int c = 0, k = 0; c < m->edges; c++) {
+        w->first[c] = kept;
+        for (; k < w->pairs && w->pairs_of[k].corner == c; k++)
+            if (!drop[k])
+                w->pairs_of[kept++] = w->pairs_of[k];
+    }
+    w->first[m->edges] = w->pairs = kept;
+    free(drop);
+    return BBM_OK;
+}
+
+/* The other line along which P and Q, two corners that may meet in this step, can enter each other, or -1. */
+static int find_rival(const bbm_model *m, pair p, int Q, int other_edge)
+{
+    const bbm_contact_work *w = m->work;
+    const pair line[3] = { { p.corner, other_edge }, { Q, p.corner }, { Q, w->before[p.corner] } };
+    const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
+
+    if (!is_corner(w, Q) || !is_corner(w, p.corner) || hypot(a->x - b->x, a->y - b->y) > 2 * w->search)
+        return -1;
+    for (int k = 0; k < 3; k++) {
+        const int found = find_pair(w, line[k].corner, line[k].edge);
+        if (found >= 0 && !coincide(w, p.edge, line[k].edge))
+            return found;
+    }
+    return -1;
+}
+
+/* ------------------------------------------------------------- detection: what carries over from step to step */
+
+static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *P1 = start_of(m, c->corner), *P2 = end_of(m, c->edge), *P3 = start_of(m, c->edge);
+
+    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3 };
+}
+
+/* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s, m from P2 to P3. */
+static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
+{
+    c->anchor = (find_foot(m, c->corner, c->edge).s + T / m->par.p_s) / m->work->along[c->edge].length;
+}
+
+/* The closed contact of the last step that lives on in p: the same; one of the same corner with the same straight side;
+ * or, where two corners have passed each other, that of the other corner if it is no longer in the list. */
+static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
+{
+    const bbm_contact_work *w = m->work;
+    const bbm_contact *old = find_closed(m, p.corner, p.edge);
+
+    for (int e = p.edge; !old && !is_corner(w, e); )
+        old = find_closed(m, p.corner, e = w->before[e]);
+    for (int e = w->after[p.edge]; !old && !is_corner(w, e); e = w->after[e])
+        old = find_closed(m, p.corner, e);
+    for (int k = 0; k < 4 && !old; k++) {
+        const pair q = reversed_pair(w, p, k);
+        if (coincide(w, p.edge, q.edge) && find_pair(w, q.corner, q.edge) < 0)
+            old = find_closed(m, q.corner, q.edge);
+    }
+    return old;
+}
+
+/* Where the straight side of edge e begins and ends along edge f. */
+static void find_span(const bbm_model *m, int e, int f, double *low, double *high)
+{
+    const bbm_contact_work *w = m->work;
+    int last = w->side[e];
+
+    while (!is_corner(w, w->after[last]))
+        last = w->after[last];
+    const double a = find_foot(m, w->side[e], f).s, b = find_foot(m, w->after[last], f).s;
+    *low = fmin(a, b);
+    *high = fmax(a, b);
+}
+
+/* Half the length on which the straight sides of the corner and of the edge lie on each other: a corner's share of
+ * the joint, on which cohesion and tensile strength act. */
+static double joint_length(const bbm_model *m, pair p)
+{
+    double low, high, from, to, length = 0;
+
+    find_span(m, p.edge, p.edge, &low, &high);
+    for (int k = 0; k < 2; k++) {
+        const int mine = k ? p.corner : m->work->before[p.corner];
+        if (!coincide(m->work, mine, p.edge))
+            continue;
+        find_span(m, mine, p.edge, &from, &to);
+        length = fmax(length, (fmin(high, to) - fmax(low, from)) / 2);
+    }
+    return length;
+}
+
+/* Makes a pair a contact, with the state of the one that it continues. A joint that touches at the start is closed
+ * from the start in statics, or if it has a strength. */
+static void make_contact(bbm_model *m, pair p, bbm_contact *c)
+{
+    const bbm_contact_work *w = m->work;
+    const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
+    const foot f = find_foot(m, p.corner, p.edge);
+    const int strong = m->par.cohesion > 0 || m->par.tension > 0;
+
+    *c = old ? *old : (bbm_contact){ .whole = m->info.t == 0 && fabs(f.d) <= TOUCH * w->mean && f.off <= 0 };
+    if (!old && c->whole && (strong || isinf(m->h)))
+        c->state = BBM_LOCK;
+    c->corner = p.corner;
+    c->edge = p.edge;
+    c->rival[0] = find_rival(m, p, p.edge, w->before[p.edge]);
+    c->rival[1] = find_rival(m, p, w->after[p.edge], w->after[p.edge]);
+    c->gap = f.d;
+    c->off = f.off > END * w->along[p.edge].length;
+    c->length = strong ? joint_length(m, p) : 0;
+    c->used = c->N;
+    c->more[0] = c->more[1] = 0;
+    c->closings = 0;
+    if (!old || old->corner != p.corner || old->edge != p.edge)
+        place_anchor(m, c, c->T);
+}
+
+/* A closed contact is free when P has left past a corner Q: its rival line is open, or its foot is off the edge. */
+static void release_past_corner(const bbm_model *m, bbm_contact *c)
+{
+    const bbm_contact_work *w = m->work;
+    int out = c->off && c->rival[0] < 0 && c->rival[1] < 0;
+
+    for (int k = 0; k < 2 && !out; k++) {
+        const bbm_contact *r = &w->list[c->rival[k] < 0 ? 0 : c->rival[k]];
+        out = c->rival[k] >= 0 && r->gap > 0 && can_enter(w, r->corner, r->edge, 0, PARALLEL);
+    }
+    if (out)
+        c->state = BBM_OPEN;
+}
+
+static double largest_displacement(const bbm_model *m, const double D[])
+{
+    double largest = 0, u[2];
+
+    for (int v = 0; v < m->vertices; v++) {
+        const bbm_vertex *p = &m->vertex[v];
+        bbm_move(m, &m->element[p->element], &D[6 * p->element], p->x, p->y, u);
+        largest = fmax(largest, u[0] * u[0] + u[1] * u[1]);
+    }
+    return sqrt(largest);
+}
+
+/* What the velocities and gravity foretell of the step. */
+void bbm_guess_step(bbm_model *m)
+{
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 0; a < 6; a++) {
+            const double fall = a < 2 ? m->par.gravity[a] * m->h * m->h / 2 : 0;
+            m->work->guess[6 * i + a] = isinf(m->h) ? 0 : m->element[i].V[a] * m->h + fall;
+        }
+}
+
+/* Whether the solution moves further than the detection has foreseen; it then is the next guess. */
+int bbm_moved_too_far(bbm_model *m)
+{
+    const bbm_contact_work *w = m->work;
+    int too_far = 2 * largest_displacement(m, m->D) > w->search;
+
+    for (int i = 0; i < m->elements && !too_far; i++)
+        too_far = fabs(m->D[6 * i + 2]) > 2 * fabs(w->guess[6 * i + 2]) + PARALLEL / 2;
+    if (too_far)
+        memcpy(w->guess, m->D, 6 * (size_t)m->elements * sizeof *w->guess);
+    return too_far;
+}
+
+/* Lists the contacts that may be closed in this step, from the present positions and the contacts of the last step,
+ * which stay as they are. The search distance: two vertices approach each other by twice the largest displacement of
+ * the guess at most; and a closed contact must stay in the list, however deep. */
+bbm_status bbm_detect_contacts(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+    double deepest = 0;
+
+    find_directions(m);
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            deepest = fmax(deepest, fabs(m->contact[k].d_n));
+    w->search = 2.2 * largest_displacement(m, w->guess) + 2 * deepest + TOUCH * w->mean;
+    bbm_status status = fill_grid(m);
+    if (!status)
+        status = list_pairs(m);
+    if (!status)
+        status = drop_duplicates(m);
+    while (!status && w->list_room < w->pairs)
+        if (!grow((void **)&w->list, w->pairs, &w->list_room, sizeof *w->list))
+            status = BBM_NO_MEMORY;
+    for (int k = 0; k < w->pairs && !status; k++)
+        make_contact(m, w->pairs_of[k], &w->list[k]);
+    for (int k = 0; k < w->pairs && !status; k++)
+        release_past_corner(m, &w->list[k]);
+    w->passes = w->forces = w->single = w->directions = 0;
+    return status;
+}
+
+/* ------------------------------------------------------------------------------------------ assembly */
+
+int bbm_contact_count(const bbm_model *m)
+{
+    return m->work->pairs;
+}
+
+/* The elements of contact k. */
+void bbm_contact_pair(const bbm_model *m, int k, int elements[2])
+{
+    elements[0] = m->edge[m->work->pairs_of[k].corner].element;
+    elements[1] = m->edge[m->work->pairs_of[k].edge].element;
+}
+
+static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
+{
+    const bbm_touch t = touch_of(m, c);
+    const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
+    bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+
+    bbm_normal_submatrices(&t, c->more[0], m->par.p_n, &s);
+    if (c->state == BBM_LOCK)
+        bbm_shear_submatrices(&t, c->anchor, c->more[1], m->par.p_s, &s);
+    else
+        bbm_friction_submatrices(&t, c->anchor, c->sign * bbm_shear_strength(&m->par, c->used, c->length), &s);
+    for (int a = 0; a < 6; a++) {
+        m->F[6 * i + a] += s.Fi[a];
+        m->F[6 * j + a] += s.Fj[a];
+    }
+    bbm_status status = bbm_matrix_add(m->K, i, i, s.Kii);
+    if (!status)
+        status = bbm_matrix_add(m->K, i, j, s.Kij);
+    if (!status)
+        status = bbm_matrix_add(m->K, j, j, s.Kjj);
+    return status;
+}
+
+bbm_status bbm_assemble_contacts(bbm_model *m)
+{
+    bbm_status status = BBM_OK;
+
+    for (int k = 0; k < m->work->pairs && !status; k++)
+        if (m->work->list[k].state != BBM_OPEN)
+            status = assemble_contact(m, &m->work->list[k]);
+    return status;
+}
+
+/* ---------------------------------------------------------------- the open-close iteration: distances */
+
+/* d_n and d_s at the end of the step, as the update will move the points, without dropping anything. */
+static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
+{
+    const bbm_touch t = touch_of(m, c);
+    const double *Di = &m->D[6 * m->edge[c->corner].element], *Dj = &m->D[6 * m->edge[c->edge].element];
+    const double x0 = t.P3->x + c->anchor * (t.P2->x - t.P3->x), y0 = t.P3->y + c->anchor * (t.P2->y - t.P3->y);
+    double u1[2], u2[2], u3[2], u0[2];
+
+    bbm_move(m, t.i, Di, t.P1->x, t.P1->y, u1);
+    bbm_move(m, t.j, Dj, t.P2->x, t.P2->y, u2);
+    bbm_move(m, t.j, Dj, t.P3->x, t.P3->y, u3);
+    bbm_move(m, t.j, Dj, x0, y0, u0);
+    const double x = t.P3->x - t.P2->x + u3[0] - u2[0], y = t.P3->y - t.P2->y + u3[1] - u2[1], l = hypot(x, y);
+    const double px = t.P1->x - t.P2->x + u1[0] - u2[0], py = t.P1->y - t.P2->y + u1[1] - u2[1];
+    d[0] = (x * py - y * px) / l;
+    d[1] = ((t.P1->x - x0 + u1[0] - u0[0]) * x + (t.P1->y - y0 + u1[1] - u0[1]) * y) / l;
+}
+
+/* d = d0 + e.D_i + g.D_j of the solution. */
+static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
+{
+    const double *Di = &m->D[6 * m->edge[c->corner].element], *Dj = &m->D[6 * m->edge[c->edge].element];
+    double d = v->d;
+
+    for (int a = 0; a < 6; a++)
+        d += v->e[a] * Di[a] + v->g[a] * Dj[a];
+    return d;
+}
+
+/* The linear d_n and d_s of the solution, Eq. (54) and (60). */
+static void linear_distances(const bbm_model *m, const bbm_contact *c, double d[2])
+{
+    const bbm_touch t = touch_of(m, c);
+    bbm_spring n, s;
+
+    bbm_normal_vectors(&t, &n);
+    bbm_shear_vectors(&t, c->anchor, &s);
+    d[0] = spring_length(m, c, &n);
+    d[1] = spring_length(m, c, &s);
+}
+
+/* d_n, d_s, N and T of the solution. An open contact has its anchor at P3, so that -d_s is the way along the edge. */
+static void measure(const bbm_model *m, bbm_contact *c)
+{
+    double d[2];
+
+    if (c->state == BBM_OPEN) {
+        c->anchor = c->more[0] = c->more[1] = 0;
+        exact_distances(m, c, d);
+    } else {
+        linear_distances(m, c, d);
+    }
+    c->d_n = d[0] + c->more[0];
+    c->d_s = d[1] + c->more[1];
+    c->N = c->state == BBM_OPEN ? 0 : -m->par.p_n * c->d_n;
+    c->T = c->state == BBM_OPEN ? 0 : m->par.p_s * c->d_s;
+}
+
+/* What (54) and (60) leave out, of second order in the turning. Deviation: it is put back. Without it a corner that
+ * turns by r ends the step r^2/2 times its lever away from where the spring held it: for a stiff spring, a blow. */
+static void put_back(const bbm_model *m, bbm_contact *c)
+{
+    double d[2];
+
+    exact_distances(m, c, c->more);
+    linear_distances(m, c, d);
+    c->more[0] -= d[0];
+    c->more[1] -= d[1];
+}
+
+/* Puts the terms back that belong to the solution; whether those it was made with were off by more than the slack. */
+static int correct_distances(bbm_model *m, double slack)
+{
+    int off = 0;
+
+    for (int k = 0; k < m->work->pairs; k++) {
+        bbm_contact *c = &m->work->list[k];
+        const double more[2] = { c->more[0], c->more[1] };
+        if (c->state == BBM_OPEN)
+            continue;
+        put_back(m, c);
+        if (fabs(more[0] - c->more[0]) > slack || (c->state == BBM_LOCK && fabs(more[1] - c->more[1]) > slack))
+            off = 1;
+    }
+    return off;
+}
+
+/* The largest force in the model: on an element, inertia included, or in a contact. What the solver leaves as its
+ * residual, and so in every N, is small against this and nothing else. */
+static double largest_force(const bbm_model *m)
+{
+    const bbm_contact_work *w = m->work;
+    double F = 0;
+
+    for (int i = 0; i < m->elements; i++)
+        F = fmax(F, fmax(fabs(m->F[6 * i]), fabs(m->F[6 * i + 1])));
+    for (int k = 0; k < w->pairs; k++)
+        F = fmax(F, fabs(w->list[k].N));
+    return F;
+}
+
+/* ------------------------------------------------------------------- the open-close iteration: friction */
+
+/* Room for the vectors of `agree`. */
+static int vectors_fit(bbm_contact_work *w)
+{
+    const size_t n = (size_t)w->pairs + 1;
+
+    if (w->pairs < w->vector_room)
+        return 1;
+    free(w->x), free(w->r), free(w->dx), free(w->dr);
+    w->x = calloc(n, sizeof *w->x);
+    w->r = calloc(n, sizeof *w->r);
+    w->dx = calloc(n * (DIRECTIONS + 1), sizeof *w->dx);
+    w->dr = calloc(n * (DIRECTIONS + 1), sizeof *w->dr);
+    w->vector_room = w->x && w->r && w->dx && w->dr ? w->pairs + 1 : 0;
+    return w->vector_room > 0;
+}
+
+/* Takes from (dr, dx) what the directions before `d` account for. */
+static void remove_directions(const bbm_contact_work *w, int d, double dr[], double dx[])
+{
+    for (int q = 0; q < d; q++) {
+        double a = 0;
+        for (int k = 0; k < w->pairs; k++)
+            a += dr[k] * w->dr[q * w->pairs + k];
+        for (int k = 0; k < w->pairs; k++) {
+            dr[k] -= a * w->dr[q * w->pairs + k];
+            dx[k] -= a * w->dx[q * w->pairs + k];
+        }
+    }
+}
+
+/* The last change of x, and the change of r that it made, become a direction: in r orthonormal to the others. */
+static void learn_direction(bbm_contact_work *w)
+{
+    double *dx = &w->dx[w->directions * w->pairs], *dr = &w->dr[w->directions * w->pairs], size = 0;
+
+    for (int k = 0; k < w->pairs; k++) {
+        const bbm_contact *c = &w->list[k];
+        const int slides = c->state == BBM_SLIDE;
+        dx[k] = slides ? c->used - w->x[k] : 0;
+        dr[k] = slides ? c->N - c->used - w->r[k] : 0;
+    }
+    remove_directions(w, w->directions, dr, dx);
+    for (int k = 0; k < w->pairs; k++)
+        size += dr[k] * dr[k];
+    for (int k = 0; k < w->pairs && size > 0; k++) {
+        dx[k] /= sqrt(size);
+        dr[k] /= sqrt(size);
+    }
+    w->directions += size > 0;
+}
+
+/* The next N for the friction of the sliding contacts, by conjugate residuals. With x the N that friction used and
+ * r = N - x of the solution, r is affine in x as long as no state changes. Move x so that the known directions remove
+ * of r what they can, and by the rest of r, which makes a new direction. */
+static bbm_status agree(bbm_contact_work *w)
+{
+    if (!vectors_fit(w))
+        return BBM_NO_MEMORY;
+    if (w->directions == DIRECTIONS)
+        w->directions = 0;
+    if (w->forces++ > 0)
+        learn_direction(w);
+    for (int k = 0; k < w->pairs; k++) {
+        const bbm_contact *c = &w->list[k];
+        w->x[k] = c->used;
+        w->r[k] = c->state == BBM_SLIDE ? c->N - c->used : 0;
+    }
+    double *dr = &w->dr[w->directions * w->pairs], *dx = &w->dx[w->directions * w->pairs];
+    memcpy(dr, w->r, (size_t)w->pairs * sizeof *dr);
+    memset(dx, 0, (size_t)w->pairs * sizeof *dx);
+    remove_directions(w, w->directions, dr, dx);
+    for (int k = 0; k < w->pairs; k++)
+        if (w->list[k].state == BBM_SLIDE)
+            w->list[k].used = w->x[k] + dx[k] + dr[k];
+    return BBM_OK;
+}
+
+/* Whether every friction force belongs to its N. */
+static int forces_agree(const bbm_model *m, double slack)
+{
+    const bbm_contact_work *w = m->work;
+
+    for (int k = 0; k < w->pairs && m->par.friction > 0; k++)
+        if (w->list[k].state == BBM_SLIDE && fabs(w->list[k].N - w->list[k].used) > slack)
+            return 0;
+    return 1;
+}
+
+/* --------------------------------------------------------------------- the open-close iteration: states */
+
+static int foot_on_edge(const bbm_model *m, const bbm_contact *c)
+{
+    return !c->off || (c->d_s <= 0 && -c->d_s <= m->work->along[c->edge].length);
+}
+
+static int enters_at_end(const bbm_model *m, const bbm_contact *c)
+{
+    return can_enter(m->work, c->corner, c->edge, turning(m, m->D, c->corner, c->edge), PARALLEL);
+}
+
+/* Whether an open contact, though crossed, may not close: not on the edge, or not a corner's point at the end of the
+ * step; or a rival line is closed, is not crossed, or is the shorter way out (at a tie, the first). */
+static int is_blocked(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_contact_work *w = m->work;
+
+    if (!foot_on_edge(m, c) || !enters_at_end(m, c))
+        return 1;
+    for (int k = 0; k < 2; k++) {
+        const bbm_contact *r = &w->list[c->rival[k] < 0 ? 0 : c->rival[k]];
+        if (c->rival[k] < 0)
+            continue;
+        if (r->state != BBM_OPEN)
+            return 1;
+        if (!enters_at_end(m, r))
+            continue;
+        if (r->d_n >= 0 || (foot_on_edge(m, r) && (r->d_n > c->d_n || (r->d_n == c->d_n && r < c))))
+            return 1;
+    }
+    return 0;
+}
+
+/* A contact closes where P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Returns
+ * the slip since then, towards P3. */
+static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
+{
+    const double when = c->gap > 0 ? c->gap / (c->gap - c->d_n) : 0;
+    const double s = find_foot(m, c->corner, c->edge).s, way = -c->d_s - s;
+
+    c->anchor = (s + when * way) / m->work->along[c->edge].length;
+    put_back(m, c);
+    return -(1 - when) * way;
+}
+
+/* A contact that closes for a second time in a step was opened by the shear spring of its first trial, which need not
+ * be there: it tries to slide. */
+static void change_state(const bbm_model *m, bbm_contact *c)
+{
+    const double slip = c->state == BBM_OPEN ? anchor_at_hit(m, c) : c->T;
+
+    if (c->state == BBM_OPEN && ++c->closings > 1)
+        c->next = BBM_SLIDE;
+    if (c->next == BBM_SLIDE) {
+        c->sign = slip < 0 ? -1 : 1;
+        c->used = fmax(0, c->N);
+    }
+    c->state = c->next;
+}
+
+/* Changes the states that do not fit the solution, all or the first of them; the number of changes. */
+static int change_states(bbm_model *m, double slack)
+{
+    bbm_contact_work *w = m->work;
+    int changes = 0;
+
+    for (int k = 0; k < w->pairs; k++) {
+        bbm_contact *c = &w->list[k];
+        c->next = bbm_next_state(&m->par, c, slack);
+        if (c->state == BBM_OPEN && c->next != BBM_OPEN && is_blocked(m, c))
+            c->next = BBM_OPEN;
+    }
+    for (int k = 0; k < w->pairs && !(w->single && changes); k++)
+        if (w->list[k].next != w->list[k].state) {
+            change_state(m, &w->list[k]);
+            changes++;
+        }
+    return changes;
+}
+
+/* Notes the states of this pass as one number (FNV-1a); if they have been there before, the iteration cycles. */
+static void watch_for_cycles(bbm_contact_work *w)
+{
+    uint64_t hash = 14695981039346656037u;
+
+    for (int k = 0; k < w->pairs; k++)
+        hash = (hash ^ ((uint64_t)w->list[k].state + (w->list[k].sign > 0 ? 4u : 0u))) * 1099511628211u;
+    for (int p = 0; p < w->passes; p++)
+        if (w->seen[p] == hash)
+            w->single = 1;
+    w->seen[w->passes] = hash;
+}
+
+/* One look at the solution: whether the friction forces belong to their N, then the states to the forces, then the
+ * distances to the displacements. */
+bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
+{
+    bbm_contact_work *w = m->work;
+
+    m->info.passes++;
+    for (int k = 0; k < w->pairs; k++)
+        measure(m, &w->list[k]);
+    const double scale = largest_force(m);
+    if (!forces_agree(m, AGREE * scale)) {
+        *pass = w->forces < FORCES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
+        return agree(w);
+    }
+    w->forces = w->directions = 0;
+    watch_for_cycles(w);
+    if (!change_states(m, AGREE * scale) && !correct_distances(m, SECOND * scale / m->par.p_n))
+        *pass = BBM_PASS_DONE;
+    else
+        *pass = ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
+    return BBM_OK;
+}
+
+/* ------------------------------------------------------------------------------------------- end of the step */
+
+/* After the positions have moved: the anchor of a sliding contact follows, so that its spring would carry the friction
+ * force, and the list becomes that of the model. */
+bbm_status bbm_keep_contacts(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+    bbm_contact *last = m->contact;
+    const int room = m->contact_room;
+
+    find_directions(m);
+    m->info.contacts = 0;
+    m->info.penetration = 0;
+    for (int k = 0; k < w->pairs; k++) {
+        bbm_contact *c = &w->list[k];
+        c->whole = c->whole && c->state == BBM_LOCK;
+        if (c->state == BBM_SLIDE) {
+            c->T = c->sign * bbm_shear_strength(&m->par, fmax(0, c->N), c->length);
+            place_anchor(m, c, c->T);
+        }
+        if (c->state != BBM_OPEN) {
+            m->info.contacts++;
+            m->info.penetration = fmax(m->info.penetration, -c->d_n);
+        }
+    }
+    m->contact = w->list;
+    m->contacts = w->pairs;
+    m->contact_room = w->list_room;
+    w->list = last;
+    w->list_room = room;
+    return BBM_OK;
+}
