@@ -101,6 +101,44 @@ void case_add_grid(bbm_model *m, case_grid *g)
             add_cell(m, g, i, j);
 }
 
+int case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[2])
+{
+    int node[64], element = -1;
+
+    if (n > 64)
+        stop("case_add_polygon", "more than 64 vertices");
+    for (int i = 0; i < n; i++)
+        bbm_add_node(m, xy[i][0], xy[i][1], &node[i]);
+    bbm_add_element(m, block, material, n, node, &element);
+    return element;
+}
+
+static void place_in_box(double i, double j, const void *box, double xy[2])
+{
+    const case_box *b = box;
+    const double x = b->x + b->w * i / b->nx, y = b->y + b->h * j / b->ny, c = cos(b->turn), s = sin(b->turn);
+
+    xy[0] = c * x - s * y;
+    xy[1] = s * x + c * y;
+}
+
+int case_add_box(bbm_model *m, const case_box *b)
+{
+    const int first = m->elements;
+    case_grid g = { .nx = b->nx, .ny = b->ny, .cut = CASE_QUADS, .block = b->block, .material = b->material,
+                    .map = place_in_box, .context = b };
+
+    case_add_grid(m, &g);
+    return first;
+}
+
+void case_fix_block(bbm_model *m, int block)
+{
+    for (int v = 0; v < m->vertices; v++)
+        if (m->element[m->vertex[v].element].block == block)
+            bbm_fix_node(m, m->vertex[v].node, BBM_XY, 0, 0);
+}
+
 int case_node(const bbm_model *m, double x, double y)
 {
     int best = 0;
@@ -229,6 +267,14 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
 
     fprintf(r->csv, "%s,%.9g,%.9g,%.15g,%.15g,%s,%.3e\n", quantity, xy[0], xy[1], computed, reference, kind, error);
     r->worst = fmax(r->worst, fabs(error));
+    return error;
+}
+
+double case_compare(case_results *r, const char *name, double computed, double reference)
+{
+    const double nowhere[2] = { NAN, NAN }, error = case_row(r, name, nowhere, computed, reference, "theory");
+
+    printf("| %s | %.10g | %.10g | %.1e |\n", name, computed, reference, error);
     return error;
 }
 

@@ -33,6 +33,13 @@ typedef struct {                    /* out/NAME/results.csv                     
 void   case_must(const bbm_model *m, bbm_status s);
 bbm_model *case_model(void);                                        /* a new model, or the end of the program     */
 void   case_add_grid(bbm_model *m, case_grid *g);
+/* A block of one element: the polygon through xy, nodes of its own. Returns the element. */
+int    case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[2]);
+/* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h, then turned about the origin by an angle.
+ * Returns its first element; element (i, j) is j nx + i further.                                                 */
+typedef struct { int block, material, nx, ny; double x, y, w, h, turn; } case_box;
+int    case_add_box(bbm_model *m, const case_box *b);
+void   case_fix_block(bbm_model *m, int block);                     /* every node of it                           */
 int    case_node(const bbm_model *m, double x, double y);           /* the node nearest to (x, y)                 */
 bbm_result case_at(const bbm_model *m, double x, double y);         /* the result there                           */
 double case_quantity(const bbm_result *r, const char *quantity);    /* u, v, sxx, syy, sxy, svm                   */
@@ -46,6 +53,8 @@ void   case_close(case_results *r);
 /* One row of results.csv; kind is theory, fem (converged) or fem_coarse (six-node triangles). Returns the error. */
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed, double reference,
                 const char *kind);
+/* The row `| name | computed | theory | error |` on stdout and in results.csv (without a place). */
+double case_compare(case_results *r, const char *name, double computed, double reference);
 const char *case_path(const case_results *r, const char *file, char path[128]);
 void   case_write_curves(const case_results *r, const char *file, const char *header, int rows, int columns,
                          const double *table);                      /* [rows][columns] as CSV                     */
