@@ -1,15 +1,17 @@
 # make           builds the experiments        make check     every test (needs libcheck)
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make bench     time ratios of the solver     make memcheck  the tests under valgrind
+# make gallery   blocks that slide, topple, fall
 # make converge  meshes against alpha          make sanitize  the tests under ASan and UBSan
 
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 LIBRARY  = bbm contact solver
-RUN      = exp1 exp2
-CASES    = $(RUN)
-SHARED   = case plot
+RUN      = exp1 exp2 exp3
+GALLERY  = incline shaken topple
+CASES    = $(RUN) $(GALLERY)
+SHARED   = case plot scene
 SUITES   = check_bbm check_solver
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
@@ -21,8 +23,11 @@ all: $(CASES:%=$O/%) $O/bench
 run: $(RUN:%=$O/%)
 	@for c in $(RUN); do $O/$$c || exit 1; done
 
-converge: $(RUN:%=$O/%)
-	@for c in $(RUN); do $O/$$c converge || exit 1; done
+gallery: $(GALLERY:%=$O/%)
+	@for c in $(GALLERY); do $O/$$c || exit 1; done
+
+converge: $O/exp1 $O/exp2
+	@for c in exp1 exp2; do $O/$$c converge || exit 1; done
 
 bench: $O/bench
 	@$O/bench
@@ -77,5 +82,5 @@ sanitize:
 clean:
 	rm -rf out
 
-.PHONY: all run converge bench quick check memcheck sanitize libcheck clean
+.PHONY: all run gallery converge bench quick check memcheck sanitize libcheck clean
 .DELETE_ON_ERROR:
