@@ -9,10 +9,10 @@ CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 LIBRARY  = bbm contact solver
 RUN      = exp1 exp2 exp3
-GALLERY  = incline shaken topple
+GALLERY  = incline shaken topple column overhang drop impact turning arch resting
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene
-SUITES   = check_bbm check_solver
+SUITES   = check_bbm check_contact check_solver
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc

@@ -403,7 +403,7 @@ bbm_status bbm_model_new(bbm_model **out)
     *out = m;
     if (!m)
         return BBM_NO_MEMORY;
-    m->par = (bbm_parameters){ .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8,
+    m->par = (bbm_parameters){ .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
                                .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 } };
     return BBM_OK;
 }
@@ -716,7 +716,7 @@ static bbm_status sort_edges(bbm_model *m, const side s[])
                 break;
         const side *i = &s[v], *j = &s[v + 1];
         if (same == 1)
-            m->edge[m->edges++] = (bbm_edge){ i->element, i->a, i->b };
+            m->edge[m->edges++] = (bbm_edge){ i->element, i->a, i->b, i->block };
         else if (same > 2 || m->vertex[i->a].node == m->vertex[j->a].node)
             return fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d", i->element,
                         s[v + same - 1].element, i->low, i->high);

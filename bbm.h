@@ -91,7 +91,7 @@ typedef struct {                /* an internal edge: two bonding springs between
 } bbm_bond;
 
 typedef struct {                /* a boundary edge from vertex a to vertex b, its element on the left           */
-    int element, a, b;
+    int element, a, b, block;
 } bbm_edge;
 
 typedef struct {                /* a load along a boundary edge                                                 */
@@ -166,7 +166,8 @@ typedef struct {
     double friction;            /* degree   friction angle                                                      */
     double cohesion, tension;   /* Pa       shear and tensile strength of joints that touch at the start        */
     bbm_rotation rotation;      /* how positions are updated                                                    */
-    int    faces;               /* whether grid points inside straight sides touch other blocks, too            */
+    int    faces;               /* 1: grid points inside a straight side touch other blocks, too, so that a     */
+                                /* deformable block rests on its whole side; 0: on its two corners, as a bridge */
     bbm_pcg pcg;
 } bbm_parameters;
 

@@ -73,11 +73,12 @@ typedef struct { int edge, next; } entry;
 struct bbm_contact_work {
     /* --- the boundary, [edges]; the block lies on the left of an edge --- */
     int *before, *after;        /* neighbours along the boundary                                                */
-    int *side;                  /* first edge of the straight side                                              */
+    int *side, *last;           /* first and last edge of the straight side that the edge belongs to            */
     direction *along;           /* of the present positions                                                     */
     double mean;                /* m        mean length at the start                                            */
     /* --- what the step may do --- */
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
+    double deepest;             /* m        |d_n| of the closed contacts, at most, at the end of the last step  */
     double search;              /* m        vertices further from an edge do not reach it                       */
     /* --- the grid --- */
     double x0, y0, cell;        /* m        origin and width                                                    */
@@ -88,7 +89,8 @@ struct bbm_contact_work {
     /* --- the list in the making, sorted by corner and edge --- */
     int pairs, pair_room, list_room;
     pair *pairs_of;             /* [pairs]                                                                      */
-    int *first;                 /* [edges+1] those of corner c are pairs_of[first[c] ..]                        */
+    int *first, *old;           /* [edges+1] those of corner c are pairs_of[first[c] ..]; in the model's list,  */
+                                /*           of the last step, contact[old[c] ..]                               */
     bbm_contact *list;          /* [pairs]                                                                      */
     /* --- the iteration --- */
     int passes, forces, single;
@@ -217,7 +219,6 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
 
 static const bbm_vertex *start_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].a]; }
 static const bbm_vertex *end_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].b]; }
-static int block_of(const bbm_model *m, int e) { return m->element[m->edge[e].element].block; }
 static double cross(direction p, direction q) { return p.x * q.y - p.y * q.x; }
 
 /* A vertex inside a straight side is no corner. */
@@ -242,7 +243,7 @@ static int find_before(const bbm_model *m, const int ends[], int e)
 
     for (int a = m->meet_first[node]; a < m->meet_first[node + 1]; a++) {
         const int f = ends[m->meet[a]];
-        if (f < 0 || block_of(m, f) != block_of(m, e))
+        if (f < 0 || m->edge[f].block != m->edge[e].block)
             continue;
         const direction p = m->work->along[f];
         double angle = atan2(-cross(q, p), -q.x * p.x - q.y * p.y);
@@ -276,12 +277,16 @@ static void link_edges(bbm_model *m, int ends[])
     for (int e = 0; e < m->edges; e++) {
         w->before[e] = find_before(m, ends, e);
         w->after[w->before[e]] = e;
-        w->side[e] = e;
         w->mean += w->along[e].length / m->edges;
     }
     for (int e = 0; e < m->edges; e++)
+        w->side[e] = w->last[e] = e;
+    for (int e = 0; e < m->edges; e++) {
         for (int f = w->after[e]; !goes_on(w, e) && f != e && goes_on(w, f); f = w->after[f])
-            w->side[f] = e;
+            w->side[f] = e, w->last[e] = f;
+    }
+    for (int e = 0; e < m->edges; e++)
+        w->last[e] = w->last[w->side[e]];
 }
 
 void bbm_contact_free(bbm_contact_work *w)
@@ -291,12 +296,14 @@ void bbm_contact_free(bbm_contact_work *w)
     free(w->before);
     free(w->after);
     free(w->side);
+    free(w->last);
     free(w->along);
     free(w->guess);
     free(w->head);
     free(w->entries);
     free(w->pairs_of);
     free(w->first);
+    free(w->old);
     free(w->list);
     free(w->x);
     free(w->r);
@@ -315,12 +322,15 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->before = calloc(n, sizeof *w->before);
         w->after = calloc(n, sizeof *w->after);
         w->side = calloc(n, sizeof *w->side);
+        w->last = calloc(n, sizeof *w->last);
         w->along = calloc(n, sizeof *w->along);
         w->first = calloc(n, sizeof *w->first);
+        w->old = calloc(n, sizeof *w->old);
         w->head = calloc(4 * n, sizeof *w->head);
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
     }
-    const int ok = ends && w && w->before && w->after && w->side && w->along && w->first && w->head && w->guess;
+    const int ok = ends && w && w->before && w->after && w->side && w->last && w->along && w->first && w->old
+                   && w->head && w->guess;
     if (ok)
         link_edges(m, ends);
     free(ends);
@@ -452,6 +462,20 @@ static int may_touch(const bbm_model *m, int corner, int e)
     return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * fabs(turning(m, w->guess, corner, e)) : PARALLEL);
 }
 
+static double side_length(const bbm_model *m, int e)
+{
+    const bbm_vertex *a = start_of(m, m->work->side[e]), *b = end_of(m, m->work->last[e]);
+
+    return hypot(b->x - a->x, b->y - a->y);
+}
+
+/* Corners touch any edge; a grid point inside a straight side touches (`faces`) only sides at least as long as its own.
+ * The springs of the shorter side then carry all of it, and none comes or goes while it slides along the longer one. */
+static int may_carry(const bbm_model *m, int c, int e)
+{
+    return is_corner(m->work, c) || (m->par.faces && side_length(m, c) <= (1 + STRAIGHT) * side_length(m, e));
+}
+
 /* All pairs that may touch. */
 static bbm_status list_pairs(bbm_model *m)
 {
@@ -461,9 +485,9 @@ static bbm_status list_pairs(bbm_model *m)
     for (int c = 0; c < m->edges; c++) {
         const size_t i = (row_of(w, start_of(m, c)->y) * w->columns + column_of(w, start_of(m, c)->x)) % w->cells;
         w->first[c] = w->pairs;
-        for (int k = w->head[i]; k >= 0 && (is_corner(w, c) || m->par.faces); k = w->entries[k].next) {
+        for (int k = w->head[i]; k >= 0; k = w->entries[k].next) {
             const int e = w->entries[k].edge;
-            if (block_of(m, e) == block_of(m, c) || !may_touch(m, c, e))
+            if (m->edge[e].block == m->edge[c].block || !may_carry(m, c, e) || !may_touch(m, c, e))
                 continue;
             if (!grow((void **)&w->pairs_of, w->pairs, &w->pair_room, sizeof *w->pairs_of))
                 return BBM_NO_MEMORY;
@@ -483,22 +507,22 @@ static int find_pair(const bbm_contact_work *w, int corner, int edge)
     return -1;
 }
 
-/* The contact (corner, edge) of the last step if it was closed, else NULL. */
-static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
+/* The closed contact of the last step between `corner` and the edge - or, if `all`, another one of its straight side -
+ * or NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
 {
-    int low = 0, high = m->contacts;
+    const bbm_contact *found = NULL;
 
-    while (low < high) {
-        const int k = low + (high - low) / 2;
+    for (int k = m->work->old[corner]; k < m->work->old[corner + 1]; k++) {
         const bbm_contact *c = &m->contact[k];
-        if (c->corner < corner || (c->corner == corner && c->edge < edge))
-            low = k + 1;
-        else
-            high = k;
+        if (c->state == BBM_OPEN)
+            continue;
+        if (c->edge == edge)
+            return c;
+        if (all && m->work->side[c->edge] == m->work->side[edge])
+            found = c;
     }
-    if (low == m->contacts || m->contact[low].corner != corner || m->contact[low].edge != edge)
-        return NULL;
-    return m->contact[low].state == BBM_OPEN ? NULL : &m->contact[low];
+    return found;
 }
 
 /* Of two neighbours e and f on one straight side, P touches the first if its foot comes before the end of that one. */
@@ -536,9 +560,9 @@ static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
     const double Q = find_foot(m, other.corner, other.edge).off / w->along[other.edge].length;
     if (fabs(P) > END || fabs(Q) > END)
         return aligned && P > 0 && Q <= P;
-    if (find_closed(m, other.corner, other.edge))
+    if (find_closed(m, other.corner, other.edge, 0))
         return 1;
-    return !find_closed(m, mine.corner, mine.edge) && !faces_up(w->along[mine.edge]);
+    return !find_closed(m, mine.corner, mine.edge, 0) && !faces_up(w->along[mine.edge]);
 }
 
 /* The four pairs of an end Q of P's edge with an edge that ends in P: 0 and 3 have aligned sides. */
@@ -618,16 +642,12 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
     const bbm_contact_work *w = m->work;
-    const bbm_contact *old = find_closed(m, p.corner, p.edge);
+    const bbm_contact *old = find_closed(m, p.corner, p.edge, 1);
 
-    for (int e = p.edge; !old && !is_corner(w, e); )
-        old = find_closed(m, p.corner, e = w->before[e]);
-    for (int e = w->after[p.edge]; !old && !is_corner(w, e); e = w->after[e])
-        old = find_closed(m, p.corner, e);
     for (int k = 0; k < 4 && !old; k++) {
         const pair q = reversed_pair(w, p, k);
         if (coincide(w, p.edge, q.edge) && find_pair(w, q.corner, q.edge) < 0)
-            old = find_closed(m, q.corner, q.edge);
+            old = find_closed(m, q.corner, q.edge, 0);
     }
     return old;
 }
@@ -636,11 +656,7 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 static void find_span(const bbm_model *m, int e, int f, double *low, double *high)
 {
     const bbm_contact_work *w = m->work;
-    int last = w->side[e];
-
-    while (!is_corner(w, w->after[last]))
-        last = w->after[last];
-    const double a = find_foot(m, w->side[e], f).s, b = find_foot(m, w->after[last], f).s;
+    const double a = find_foot(m, w->side[e], f).s, b = find_foot(m, w->after[w->last[e]], f).s;
     *low = fmin(a, b);
     *high = fmax(a, b);
 }
@@ -660,6 +676,19 @@ static double joint_length(const bbm_model *m, pair p)
         length = fmax(length, (fmin(high, to) - fmax(low, from)) / 2);
     }
     return length;
+}
+
+/* A closed contact is free when P has left past a corner Q: its rival line is open, or its foot is off the edge. */
+static int has_left(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_contact_work *w = m->work;
+
+    for (int k = 0; k < 2; k++) {
+        const pair r = w->pairs_of[c->rival[k] < 0 ? 0 : c->rival[k]];
+        if (c->rival[k] >= 0 && find_foot(m, r.corner, r.edge).d > 0 && can_enter(w, r.corner, r.edge, 0, PARALLEL))
+            return 1;
+    }
+    return c->off && c->rival[0] < 0 && c->rival[1] < 0;
 }
 
 /* Makes a pair a contact, with the state of the one that it continues. A joint that touches at the start is closed
@@ -686,19 +715,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->closings = 0;
     if (!old || old->corner != p.corner || old->edge != p.edge)
         place_anchor(m, c, c->T);
-}
-
-/* A closed contact is free when P has left past a corner Q: its rival line is open, or its foot is off the edge. */
-static void release_past_corner(const bbm_model *m, bbm_contact *c)
-{
-    const bbm_contact_work *w = m->work;
-    int out = c->off && c->rival[0] < 0 && c->rival[1] < 0;
-
-    for (int k = 0; k < 2 && !out; k++) {
-        const bbm_contact *r = &w->list[c->rival[k] < 0 ? 0 : c->rival[k]];
-        out = c->rival[k] >= 0 && r->gap > 0 && can_enter(w, r->corner, r->edge, 0, PARALLEL);
-    }
-    if (out)
+    if (c->state != BBM_OPEN && has_left(m, c))
         c->state = BBM_OPEN;
 }
 
@@ -743,13 +760,9 @@ int bbm_moved_too_far(bbm_model *m)
 bbm_status bbm_detect_contacts(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
-    double deepest = 0;
 
     find_directions(m);
-    for (int k = 0; k < m->contacts; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            deepest = fmax(deepest, fabs(m->contact[k].d_n));
-    w->search = 2.2 * largest_displacement(m, w->guess) + 2 * deepest + TOUCH * w->mean;
+    w->search = 2.2 * largest_displacement(m, w->guess) + 2 * w->deepest + TOUCH * w->mean;
     bbm_status status = fill_grid(m);
     if (!status)
         status = list_pairs(m);
@@ -760,8 +773,6 @@ bbm_status bbm_detect_contacts(bbm_model *m)
             status = BBM_NO_MEMORY;
     for (int k = 0; k < w->pairs && !status; k++)
         make_contact(m, w->pairs_of[k], &w->list[k]);
-    for (int k = 0; k < w->pairs && !status; k++)
-        release_past_corner(m, &w->list[k]);
     w->passes = w->forces = w->single = w->directions = 0;
     return status;
 }
@@ -1131,11 +1142,11 @@ bbm_status bbm_keep_contacts(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
     bbm_contact *last = m->contact;
-    const int room = m->contact_room;
+    int *first = w->old, room = m->contact_room;
 
     find_directions(m);
     m->info.contacts = 0;
-    m->info.penetration = 0;
+    m->info.penetration = w->deepest = 0;
     for (int k = 0; k < w->pairs; k++) {
         bbm_contact *c = &w->list[k];
         c->whole = c->whole && c->state == BBM_LOCK;
@@ -1146,12 +1157,15 @@ bbm_status bbm_keep_contacts(bbm_model *m)
         if (c->state != BBM_OPEN) {
             m->info.contacts++;
             m->info.penetration = fmax(m->info.penetration, -c->d_n);
+            w->deepest = fmax(w->deepest, fabs(c->d_n));
         }
     }
     m->contact = w->list;
     m->contacts = w->pairs;
     m->contact_room = w->list_room;
+    w->old = w->first;
     w->list = last;
     w->list_room = room;
+    w->first = first;
     return BBM_OK;
 }

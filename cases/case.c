@@ -15,6 +15,15 @@ static void stop(const char *what, const char *why)
     exit(1);
 }
 
+static void *room(int count, size_t size)
+{
+    void *p = calloc((size_t)count, size);
+
+    if (!p)
+        stop("pictures", "out of memory");
+    return p;
+}
+
 void case_must(const bbm_model *m, bbm_status s)
 {
     if (s)
@@ -38,11 +47,14 @@ void case_progress(const char *what)
 void case_print_parameters(const bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
+    const int touch = m->info.contacts > 0;
 
-    printf("\nTable 1 - parameters\n\n| dt [s] | steps at most | tolerance (71) | omega | tolerance PCG | alpha |\n"
-           "|---|---|---|---|---|---|\n| %g | %d | %g | %g | %g | %g |\n", p->dt, p->steps, p->tolerance, p->pcg.omega,
-           p->pcg.tolerance, p->alpha);
-    printf("\n%d step%s, the last with %d SSOR-PCG iterations to a residual of %.1e\n", m->info.step,
+    printf("\nTable 1 - parameters\n\n| dt [s] | steps at most | tolerance (71) | omega | tolerance PCG | alpha |%s\n"
+           "|---|---|---|---|---|---|%s\n| %g | %d | %g | %g | %g | %g |", touch ? " p_n [N/m] | p_s [N/m] |" : "",
+           touch ? "---|---|" : "", p->dt, p->steps, p->tolerance, p->pcg.omega, p->pcg.tolerance, p->alpha);
+    if (touch)
+        printf(" %g | %g |", p->p_n, p->p_s);
+    printf("\n\n%d step%s, the last with %d SSOR-PCG iterations to a residual of %.1e\n", m->info.step,
            m->info.step == 1 ? "" : "s", m->info.pcg.iterations, m->info.pcg.residual);
 }
 
@@ -70,7 +82,8 @@ static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j
  *                                a---b                                                                        */
 static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
 {
-    const int a = grid_node(g, i, j), b = grid_node(g, i + 1, j), c = grid_node(g, i + 1, j + 1), d = grid_node(g, i, j + 1);
+    const int a = grid_node(g, i, j), b = grid_node(g, i + 1, j);
+    const int c = grid_node(g, i + 1, j + 1), d = grid_node(g, i, j + 1);
     const int quad[4] = { a, b, c, d };
 
     if (g->cut == CASE_QUADS) {
@@ -166,6 +179,77 @@ double case_quantity(const bbm_result *r, const char *quantity)
         if (strcmp(quantity, name[i]) == 0)
             return value[i];
     return NAN;
+}
+
+/* ------------------------------------------------------------------------------------- blocks that touch */
+
+bbm_model *case_block_on_slope(const case_slope *s)
+{
+    const double turn = s->angle * acos(-1) / 180;
+    bbm_model *m = case_model();
+
+    bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
+    bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
+    case_add_box(m, &(case_box){ .nx = s->base, .ny = 1, .x = -12, .y = -1, .w = 18, .h = 1, .turn = turn });
+    case_fix_block(m, 0);
+    case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = s->w, .h = s->h, .turn = turn });
+    m->par.dt = s->dt;
+    m->par.keep = 1;
+    m->par.gravity[1] = -9.81;
+    m->par.p_n = s->p_n;
+    m->par.p_s = 0.4 * s->p_n;
+    m->par.friction = s->friction;
+    m->par.pcg.tolerance = 1e-14;
+    return m;
+}
+
+double case_slid(const bbm_model *m, double angle)
+{
+    const bbm_element *e = &m->element[m->elements - 1];
+    const double a = angle * acos(-1) / 180;
+
+    return -cos(a) * e->sum[0] - sin(a) * e->sum[1];
+}
+
+void case_step(bbm_model *m, case_effort *e, scene *s)
+{
+    case_must(m, bbm_step(m));
+    if (e) {
+        e->passes = e->passes > m->info.passes ? e->passes : m->info.passes;
+        e->cuts += m->info.cuts;
+    }
+    if (s)
+        case_record(s, m);
+}
+
+void case_settle(bbm_model *m, int steps)
+{
+    m->par.keep = 0;
+    for (int i = 0; i < steps; i++)
+        case_step(m, NULL, NULL);
+    m->par.keep = 1;
+}
+
+/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's block; turned
+ * round if it points down, so that arrows stand on what carries and point into what is carried. */
+static scene_force force_of(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a], *P2 = &m->vertex[m->edge[c->edge].b];
+    const bbm_vertex *P3 = &m->vertex[m->edge[c->edge].a];
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+    const double f[2] = { -c->N * y - c->T * x, c->N * x - c->T * y }, up = f[1] < 0 ? -1 : 1;
+
+    return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], (int)c->state };
+}
+
+void case_record(scene *s, const bbm_model *m)
+{
+    scene_force *force = room(m->contacts + 1, sizeof *force);
+
+    for (int k = 0; k < m->contacts; k++)
+        force[k] = force_of(m, &m->contact[k]);
+    scene_record(s, m, m->info.t, m->contacts, force);
+    free(force);
 }
 
 /* ---------------------------------------------------------------------------------------- reference values */
@@ -300,20 +384,42 @@ void case_write_curves(const case_results *r, const char *file, const char *head
 
 /* ------------------------------------------------------------------------------------------------ pictures */
 
-static void *room(int count, size_t size)
-{
-    void *p = calloc((size_t)count, size);
-
-    if (!p)
-        stop("pictures", "out of memory");
-    return p;
-}
-
 void case_draw_chart(const case_results *r, const char *file, const plot_chart *c)
 {
     char path[128];
 
     if (!plot_write_chart(case_path(r, file, path), c))
+        stop(path, "could not be written");
+}
+
+void case_open_page(const case_results *r, const char *file, plot *p, double width, double height)
+{
+    char path[128];
+
+    if (!plot_open(p, case_path(r, file, path), width, height))
+        stop(path, "could not be written");
+}
+
+void case_close_page(const case_results *r, plot *p)
+{
+    if (!plot_close(p))
+        stop(r->folder, "a picture could not be written");
+}
+
+void case_draw_movie(const case_results *r, const char *file, const bbm_model *m, const scene *s)
+{
+    char path[128];
+
+    if (!scene_write_movie(s, m, case_path(r, file, path)))
+        stop(path, "could not be written");
+}
+
+void case_draw_panels(const case_results *r, const char *file, const bbm_model *m, const scene *s, int n,
+                      const double time[])
+{
+    char path[128];
+
+    if (!scene_write_panels(s, m, case_path(r, file, path), n, time))
         stop(path, "could not be written");
 }
 

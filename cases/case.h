@@ -6,6 +6,7 @@
 
 #include "../bbm.h"
 #include "plot.h"
+#include "scene.h"
 
 enum { CASE_QUADS, CASE_ALTERNATING, CASE_CROSSED };    /* how a cell of a grid is cut: not, in 2, in 4 triangles */
 
@@ -40,9 +41,20 @@ int    case_add_polygon(bbm_model *m, int block, int material, int n, double (*x
 typedef struct { int block, material, nx, ny; double x, y, w, h, turn; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
 void   case_fix_block(bbm_model *m, int block);                     /* every node of it                           */
+/* Element 0: a fixed, rigid incline, falling to the left, from `base` pieces; the last element: a block that stands
+ * on it, its lower left corner in the origin. Ready to be prepared, with p_s = 0.4 p_n, 2500 kg/m^3 and gravity.  */
+typedef struct { double angle, w, h, friction, p_n, dt; int base; } case_slope;
+bbm_model *case_block_on_slope(const case_slope *s);                /* angles in degrees                          */
+double case_slid(const bbm_model *m, double angle);                 /* the way of its barycentre down the incline */
 int    case_node(const bbm_model *m, double x, double y);           /* the node nearest to (x, y)                 */
 bbm_result case_at(const bbm_model *m, double x, double y);         /* the result there                           */
 double case_quantity(const bbm_result *r, const char *quantity);    /* u, v, sxx, syy, sxy, svm                   */
+
+typedef struct { int passes, cuts; } case_effort;                   /* most passes of a step; all halvings of dt  */
+void   case_step(bbm_model *m, case_effort *e, scene *s);           /* one step; e and s may be NULL              */
+void   case_record(scene *s, const bbm_model *m);                   /* positions, and contact forces as arrows    */
+/* Steps without inertia, to start a run in equilibrium: springs that are loaded suddenly would swing.             */
+void   case_settle(bbm_model *m, int steps);
 
 void   case_read_reference(const char *problem, const char *variant, case_reference *r);
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x, double y);
@@ -61,6 +73,11 @@ void   case_write_curves(const case_results *r, const char *file, const char *he
 
 /* Pictures in the folder of the results: FILE.svg. */
 void   case_draw_chart(const case_results *r, const char *file, const plot_chart *c);
+void   case_open_page(const case_results *r, const char *file, plot *p, double width, double height);
+void   case_close_page(const case_results *r, plot *p);             /* several charts in one file, by plot.h       */
+void   case_draw_movie(const case_results *r, const char *file, const bbm_model *m, const scene *s);
+void   case_draw_panels(const case_results *r, const char *file, const bbm_model *m, const scene *s, int n,
+                        const double time[]);                       /* the frames nearest to n times              */
 void   case_draw_map(const case_results *r, const char *file, const bbm_model *m, const char *quantity,
                      const char *title);                            /* contours of a nodal quantity               */
 void   case_draw_deformed(const case_results *r, const char *file, const bbm_model *m, const char *title);

@@ -13,6 +13,7 @@ int main(void)
     SRunner *runner = srunner_create(solver_suite());
 
     srunner_add_suite(runner, bbm_suite());
+    srunner_add_suite(runner, contact_suite());
 #ifdef CASES
     srunner_add_suite(runner, cases_suite());
 #endif

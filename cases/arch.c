@@ -1,0 +1,294 @@
+/* arch.c - a semicircular masonry arch: how thick, and how rough, it has to be.
+ *
+ *             .--'--.                 N = 15 equal voussoirs with radial joints, mean radius R = 10 m, thickness t,
+ *          .-'\  |  /'-.              2500 kg/m^3, between fixed springers.
+ *        .'\ .-'"""'-. /'.
+ *       /--.'    |    '.--\           Cut at the crown, where by symmetry the thrust H is horizontal, at a height h.
+ *      |--|      |<- R ->|-|          The joint at the angle a from the horizontal carries (H, W), W the weight from
+ *   ___|__|_____________|__|___       the crown to it, whose line of action lies at x. Moments about the centre tell
+ *   ///////             ///////       at which radius r the thrust crosses the joint:
+ *
+ *                   r (H sin a + W cos a) = H h + W x.
+ *
+ * The arch stands if there are H, h so that r is between R - t/2 and R + t/2 in all joints - else the arch turns about
+ * hinges - and so that nowhere
+ *
+ *                   abs(H cos a - W sin a) > tan(phi) (H sin a + W cos a),
+ *
+ * or it slides. Both are linear in H and H h. A search over H gives the least t/R: 0.1061 for N = 15, and 0.1063 if the
+ * voussoirs were sectors of a ring and not straight between their corners (Milankovitch's 0.1075 for N to infinity,
+ * 21.6 degrees). It also gives the least H of a thicker arch, which needs the least friction: it slides first at the
+ * springing, a = 0, where tan(phi) = H/W.
+ *
+ * Computed: an arch stands if no voussoir has moved by 0.2 m in 4 s. Limits are found by bisection. */
+#include <math.h>
+
+#include "case.h"
+
+enum { N = 15, SETTLE = 100, STEPS = 400 };
+
+static const double R = 10, density = 2500, RIGHT = 1.57079632679489661923;
+
+static double joint(double k)               /* angle of joint k = 0 .. N from the right springing */
+{
+    return 2 * RIGHT * k / N;
+}
+
+/* --------------------------------------------------------------------------------------- the line of thrust */
+
+/* W and W x of joint k < N/2 for rho g = 1. A voussoir, a trapezium, has the area A = (ro^2 - ri^2)/2 sin(b), b its
+ * angle, and the barycentre at 2/3 cos(b/2) d, d = (ro^2 + ro ri + ri^2)/(ro + ri); of its half at the crown x is
+ * d/3 sin(b/2). */
+static void weigh(double t, int k, double *W, double *Wx)
+{
+    const double ri = R - t / 2, ro = R + t / 2, b = joint(1), A = (ro * ro - ri * ri) / 2 * sin(b);
+    const double d = (ro * ro + ro * ri + ri * ri) / (ro + ri);
+
+    *W = A / 2;
+    *Wx = A / 2 * d / 3 * sin(b / 2);
+    for (int i = k; i < N / 2; i++) {
+        *W += A;
+        *Wx += A * 2 / 3 * cos(b / 2) * d * cos(joint(i + 0.5));
+    }
+}
+
+/* Room for H h under the thrust H: the least of the upper bounds less the largest of the lower ones. */
+static double room(double t, double H)
+{
+    double low = -INFINITY, high = INFINITY, W, Wx;
+
+    for (int k = 0; k <= N / 2; k++) {
+        weigh(t, k, &W, &Wx);
+        const double along = H * sin(joint(k)) + W * cos(joint(k));
+        low = fmax(low, (R - t / 2) * along - Wx);
+        high = fmin(high, (R + t / 2) * along - Wx);
+    }
+    return high - low;
+}
+
+/* The thrust with the most room, which is concave in H: search by thirds. */
+static double roomiest(double t)
+{
+    double low = 0, high = 10 * R * t;
+
+    while (high - low > 1e-12 * R) {
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        if (room(t, a) < room(t, b))
+            low = a;
+        else
+            high = b;
+    }
+    return low;
+}
+
+static double least_ratio(void)
+{
+    double low = 0.05, high = 0.2;
+
+    while (high - low > 1e-9) {
+        const double mid = (low + high) / 2;
+        if (room(mid * R, roomiest(mid * R)) < 0)
+            low = mid;
+        else
+            high = mid;
+    }
+    return high;
+}
+
+/* The friction angle [degree] that the least thrust needs, in the joint that needs most. */
+static double least_friction(double ratio)
+{
+    double low = 0, high = roomiest(ratio * R), most = 0, W, Wx;
+
+    while (high - low > 1e-12 * R)
+        *(room(ratio * R, (low + high) / 2) < 0 ? &low : &high) = (low + high) / 2;
+    for (int k = 0; k <= N / 2; k++) {
+        const double s = sin(joint(k)), c = cos(joint(k));
+        weigh(ratio * R, k, &W, &Wx);
+        most = fmax(most, fabs(high * c - W * s) / (high * s + W * c));
+    }
+    return atan(most) * 90 / RIGHT;
+}
+
+/* -------------------------------------------------------------------------------------------- the computation */
+
+/* Block 0 is the right springer, 1 .. N are the voussoirs from there on, N+1 is the left springer. */
+static bbm_model *build_arch(double ratio, double friction)
+{
+    const double t = ratio * R, ri = R - t / 2, ro = R + t / 2;
+    bbm_model *m = case_model();
+
+    bbm_add_material(m, &(bbm_material){ 1e14, 0.25, density, 1 }, NULL);
+    bbm_add_material(m, &(bbm_material){ 1e12, 0.2, density, 1 }, NULL);
+    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = ri - 1, .y = -1, .w = t + 2, .h = 1 });
+    for (int k = 0; k < N; k++) {
+        const double a = joint(k), b = joint(k + 1);
+        case_add_polygon(m, k + 1, 1, 4, (double[4][2]){ { ri * cos(a), ri * sin(a) }, { ro * cos(a), ro * sin(a) },
+                                                         { ro * cos(b), ro * sin(b) }, { ri * cos(b), ri * sin(b) } });
+    }
+    case_add_box(m, &(case_box){ .block = N + 1, .nx = 1, .ny = 1, .x = -ro - 1, .y = -1, .w = t + 2, .h = 1 });
+    case_fix_block(m, 0);
+    case_fix_block(m, N + 1);
+    m->par.dt = 0.01;
+    m->par.gravity[1] = -9.81;
+    m->par.p_n = 1e10;
+    m->par.p_s = 4e9;
+    m->par.friction = friction;
+    m->par.pcg.tolerance = 1e-12;
+    case_must(m, bbm_prepare(m));
+    return m;
+}
+
+static double moved(const bbm_model *m)
+{
+    double d = 0;
+
+    for (int k = 1; k <= N; k++)
+        d = fmax(d, hypot(m->element[k].sum[0], m->element[k].sum[1]));
+    return d;
+}
+
+/* Whether an arch stands. */
+static int stands(double ratio, double friction)
+{
+    bbm_model *m = build_arch(ratio, friction);
+
+    case_settle(m, SETTLE);
+    for (int i = 0; i < STEPS && moved(m) < 0.2; i++)
+        case_step(m, NULL, NULL);
+    const double d = moved(m);
+    bbm_model_free(m);
+    return d < 0.2;
+}
+
+/* Between a value where the arch falls and one where it stands; of t/R if friction > 0, else of the friction. */
+static double find_limit(double falls, double good, double ratio, double friction)
+{
+    const double close = 1e-3 * (good - falls);
+
+    while (good - falls > close) {
+        const double mid = (falls + good) / 2;
+        *(stands(friction > 0 ? mid : ratio, friction > 0 ? friction : mid) ? &good : &falls) = mid;
+    }
+    return (falls + good) / 2;
+}
+
+/* ------------------------------------------------------------------------------------------------- pictures */
+
+/* The radius at which the thrust crosses joint k: (p cross f) summed over its contacts is r n cross sum f, with
+ * n = (cos a, sin a). */
+static double thrust_radius(const bbm_model *m, int k)
+{
+    const double a = joint(k);
+    double f[2] = { 0, 0 }, moment = 0;
+
+    for (int i = 0; i < m->contacts; i++) {
+        const bbm_contact *c = &m->contact[i];
+        const bbm_edge *corner = &m->edge[c->corner], *edge = &m->edge[c->edge];
+        const bbm_vertex *P1 = &m->vertex[corner->a], *P2 = &m->vertex[edge->b], *P3 = &m->vertex[edge->a];
+        const int up = m->element[corner->element].block > k, below = m->element[edge->element].block > k;
+        const int far = m->element[corner->element].block - m->element[edge->element].block;
+        const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+        if (c->state == BBM_OPEN || up == below || far > 1 || far < -1)
+            continue;
+        const double fx = (up ? 1 : -1) * (-c->N * y - c->T * x), fy = (up ? 1 : -1) * (c->N * x - c->T * y);
+        f[0] += fx;
+        f[1] += fy;
+        moment += P1->x * fy - P1->y * fx;
+    }
+    return moment / (cos(a) * f[1] - sin(a) * f[0]);
+}
+
+/* An arch with the line through those points, below `top` pixels. */
+static void draw_thrust(plot *p, double top, const bbm_model *m, const char *title)
+{
+    double x[4 * N + 8], y[4 * N + 8];
+    int first[N + 3], corner[4 * N + 8];
+    const plot_map map = { .title = title, .mesh = { m->vertices, m->elements, x, y, first, corner } };
+
+    for (int i = 0; i < m->vertices; i++) {
+        x[i] = m->vertex[i].x;
+        y[i] = m->vertex[i].y;
+        corner[i] = i;
+    }
+    for (int i = 0; i < m->elements; i++)
+        first[i] = m->element[i].first;
+    first[m->elements] = m->vertices;
+    plot_draw_map(p, (plot_box){ 0, top, 800, 470 }, &map);
+    plot_put(p, "<path fill=\"none\" stroke=\"#cc3311\" stroke-width=\"2\" d=\"");
+    for (int k = 0; k <= N; k++) {
+        const double s = thrust_radius(m, k);
+        plot_put(p, "%s%.2f %.2f", k ? " " : "M", plot_pixel(&p->x, s * cos(joint(k))),
+                 plot_pixel(&p->y, s * sin(joint(k))));
+    }
+    plot_put(p, "\"/>\n");
+}
+
+/* The lines of thrust of a thick arch and of one near its limit, at rest. */
+static void draw_thrusts(const case_results *r)
+{
+    bbm_model *thick = build_arch(0.15, 30), *thin = build_arch(0.107, 30);
+    char path[128];
+    plot p;
+
+    case_settle(thick, SETTLE);
+    case_settle(thin, SETTLE);
+    if (!plot_open(&p, case_path(r, "thrust.svg", path), 800, 940))
+        case_progress("thrust.svg cannot be written");
+    draw_thrust(&p, 0, thick, "Line of thrust of the contact forces, t/R = 0.15");
+    draw_thrust(&p, 470, thin, "and near the limit, t/R = 0.107");
+    plot_close(&p);
+    bbm_model_free(thick);
+    bbm_model_free(thin);
+}
+
+/* Lets an arch go and draws it: NAME.svg at rest or its fall, NAME-states.svg. Returns whether it stood. */
+static int show(const case_results *r, double ratio, double friction, const char *name, const char *title)
+{
+    bbm_model *m = build_arch(ratio, friction);
+    scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 }, .most = 80, .longest = 5e5 };
+    char file[60];
+
+    case_settle(m, SETTLE);
+    m->info.t = 0;
+    case_record(&s, m);
+    for (int i = 0; i < STEPS && moved(m) < 8; i++)
+        case_step(m, NULL, &s);
+    const int stood = moved(m) < 0.2;
+    const double t = m->info.t;
+    snprintf(file, sizeof file, "%s.svg", name);
+    if (stood)
+        case_draw_panels(r, file, m, &s, 1, &t);
+    else
+        case_draw_movie(r, file, m, &s);
+    snprintf(file, sizeof file, "%s-states.svg", name);
+    if (!stood)
+        case_draw_panels(r, file, m, &s, 4, (double[]){ 0.25 * t, 0.5 * t, 0.75 * t, t });
+    scene_free(&s);
+    bbm_model_free(m);
+    return stood;
+}
+
+int main(void)
+{
+    static const double ratio[] = { 0.107, 0.11, 0.13, 0.15 };
+    case_results r;
+
+    printf("\n# Semicircular arch of %d voussoirs\n\n| | computed | theory | error |\n|---|---|---|---|\n", N);
+    case_open(&r, "arch");
+    case_compare(&r, "least t/R, phi = 30 degrees", find_limit(0.095, 0.12, 0, 30), least_ratio());
+    for (int i = 0; i < 4; i++) {
+        char name[60];
+        snprintf(name, sizeof name, "least phi [degree], t/R = %g", ratio[i]);
+        case_compare(&r, name, find_limit(10, 30, ratio[i], 0), least_friction(ratio[i]));
+    }
+    case_compare(&r, "t/R = 0.15, phi = 30 stands (1 yes, 0 no)",
+                 show(&r, 0.15, 30, "stands", "t/R = 0.15, phi = 30 degrees"), 1);
+    case_compare(&r, "t/R = 0.15, phi = 15 stands", show(&r, 0.15, 15, "slides", "t/R = 0.15, phi = 15 degrees"), 0);
+    case_compare(&r, "t/R = 0.10, phi = 30 stands", show(&r, 0.10, 30, "folds", "t/R = 0.10, phi = 30 degrees"), 0);
+    draw_thrusts(&r);
+    case_close(&r);
+    printf("\nNumbers and pictures: %s/results.csv, stands.svg, thrust.svg, and as films and states slides, folds\n",
+           r.folder);
+    return 0;
+}
