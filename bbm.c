@@ -513,7 +513,7 @@ static int segments_meet(const bbm_node *a, const bbm_node *b, const bbm_node *c
 {
     const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
 
-    if (((abc > 0 && abd < 0) || (abc < 0 && abd > 0)) && ((cda > 0 && cdb < 0) || (cda < 0 && cdb > 0)))
+    if ((abc > 0) != (abd > 0) && (cda > 0) != (cdb > 0))
         return 1;
     return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
            (cdb == 0 && between(c, d, b));
@@ -524,9 +524,7 @@ static int segments_meet(const bbm_node *a, const bbm_node *b, const bbm_node *c
 static int meets_itself(const bbm_model *m, int n, const int node[])
 {
     for (int i = 0; i < n; i++) {
-        const bbm_node *a = &m->node[node[i]], *b = &m->node[node[(i + 1) % n]], *c = &m->node[node[(i + 2) % n]];
-        if (turn(a, b, c) == 0 && (b->x - a->x) * (c->x - b->x) + (b->y - a->y) * (c->y - b->y) <= 0)
-            return 1;
+        const bbm_node *a = &m->node[node[i]], *b = &m->node[node[(i + 1) % n]];
         for (int j = i + 2; j < n && (j + 1) % n != i; j++)
             if (segments_meet(a, b, &m->node[node[j]], &m->node[node[(j + 1) % n]]))
                 return 1;
@@ -856,12 +854,13 @@ static bbm_status check_held(bbm_model *m)
     return status;
 }
 
-/* Lays out K: a submatrix for each element, each bond and each contact, Eq. (5). */
+/* Lays out K: a submatrix for each element, each bond and each contact, Eq. (5). Without memory the old one stays. */
 static bbm_status lay_out_matrix(bbm_model *m)
 {
     const int n = m->work ? bbm_contact_count(m) : 0;
     int (*pair)[2] = calloc((size_t)(m->bonds + n) + 1, sizeof *pair);
     int same = m->K && n == m->pairs;
+    bbm_matrix *K;
 
     if (!pair)
         return out_of_memory(m);
@@ -877,11 +876,16 @@ static bbm_status lay_out_matrix(bbm_model *m)
         pair[n + b][0] = m->bond[b].i;
         pair[n + b][1] = m->bond[b].j;
     }
+    if (bbm_matrix_new(m->elements, n + m->bonds, pair, &K)) {
+        free(pair);
+        return out_of_memory(m);
+    }
     bbm_matrix_free(m->K);
     free(m->pair);
+    m->K = K;
     m->pair = pair;
     m->pairs = n;
-    return bbm_matrix_new(m->elements, n + m->bonds, pair, &m->K) ? out_of_memory(m) : BBM_OK;
+    return BBM_OK;
 }
 
 /* Checks the model and makes all that the steps need: the vertices at each node, boundary and internal edges, K. */

@@ -136,10 +136,10 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     double sign;                /* of the slip while it slides: 1 towards P3                                    */
     double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                                          */
     double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
-    int    whole;               /* a joint since the start: has a tensile strength                              */
+    int    whole;               /* closed since the start and not broken: has cohesion and tensile strength     */
     /* --- of the step --- */
     double gap;                 /* m        d_n at the start                                                    */
-    double length;              /* m        of the joint: what cohesion and tension act on                      */
+    double area;                /* m^2      of the joint that P1 stands for; 0 if it is not whole               */
     int    off;                 /* the foot is not on the edge at the start                                     */
     double d_n, d_s;            /* m        normal distance and slip at the end                                 */
     double more[2];             /* m        second-order terms of d_n and d_s that (54) and (60) drop           */
@@ -164,7 +164,7 @@ typedef struct {
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      stiffness of the normal and of the shear spring of a contact        */
     double friction;            /* degree   friction angle                                                      */
-    double cohesion, tension;   /* Pa       shear and tensile strength of joints that touch at the start        */
+    double cohesion, tension;   /* Pa       shear and tensile strength of unbroken joints, see bbm_contact      */
     bbm_rotation rotation;      /* how positions are updated                                                    */
     int    faces;               /* 1: grid points inside a straight side touch other blocks, too, so that a     */
                                 /* deformable block rests on its whole side; 0: on its two corners, as a bridge */
@@ -281,7 +281,7 @@ void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double more, dou
                              bbm_submatrices *s);                                      /* (63), (64)            */
 void   bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y, double u[2]);
 void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s); /* (65)-(69) */
-double bbm_shear_strength(const bbm_parameters *p, double N, double length);
+double bbm_shear_strength(const bbm_parameters *p, double N, double area);
 bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, double slack);    /* the table */
 
 /* ------------------------------------------------------------ the parts of a step with contacts, for bbm_step    */

@@ -74,6 +74,7 @@ struct bbm_contact_work {
     /* --- the boundary, [edges]; the block lies on the left of an edge --- */
     int *before, *after;        /* neighbours along the boundary                                                */
     int *side, *last;           /* first and last edge of the straight side that the edge belongs to            */
+    double *span;               /* m        length of that side at the start                                    */
     direction *along;           /* of the present positions                                                     */
     double mean;                /* m        mean length at the start                                            */
     /* --- what the step may do --- */
@@ -191,22 +192,22 @@ void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_
     }
 }
 
-/* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65) with cohesion on the joint's length. */
-double bbm_shear_strength(const bbm_parameters *p, double N, double length)
+/* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65) with cohesion on the joint's area.
+ * A joint under tension has what is left of its cohesion. */
+double bbm_shear_strength(const bbm_parameters *p, double N, double area)
 {
-    return N * tan(p->friction * acos(-1) / 180) + p->cohesion * length;
+    return fmax(0, N * tan(p->friction * acos(-1) / 180) + p->cohesion * area);
 }
 
 /* The transfer table of the figure above: the state that follows from d_n, N and T. Forces within `slack` agree. An
  * opening contact has none: a slack there would be a hidden tensile strength. */
 bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, double slack)
 {
-    const double strength = fmax(0, bbm_shear_strength(p, c->N, c->length));
-    const double tension = c->whole && c->state == BBM_LOCK ? p->tension * c->length : 0;
+    const double strength = bbm_shear_strength(p, c->N, c->area);
 
     if (c->state == BBM_OPEN)
         return -p->p_n * c->d_n > slack ? BBM_LOCK : BBM_OPEN;
-    if (c->N < -tension)
+    if (c->N < (c->whole ? -p->tension * c->area : 0))
         return BBM_OPEN;
     if (p->friction == 0 && p->cohesion == 0)
         return BBM_SLIDE;
@@ -223,6 +224,12 @@ static double cross(direction p, direction q) { return p.x * q.y - p.y * q.x; }
 
 /* A vertex inside a straight side is no corner. */
 static int is_corner(const bbm_contact_work *w, int c) { return w->side[c] == c; }
+
+/* Less than 180 degrees inside, or straight. */
+static int is_convex(const bbm_contact_work *w, int c)
+{
+    return cross(w->along[w->before[c]], w->along[c]) > -PARALLEL;
+}
 
 static void find_directions(bbm_model *m)
 {
@@ -287,6 +294,10 @@ static void link_edges(bbm_model *m, int ends[])
     }
     for (int e = 0; e < m->edges; e++)
         w->last[e] = w->last[w->side[e]];
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *a = start_of(m, w->side[e]), *b = end_of(m, w->last[e]);
+        w->span[e] = hypot(b->x - a->x, b->y - a->y);
+    }
 }
 
 void bbm_contact_free(bbm_contact_work *w)
@@ -297,6 +308,7 @@ void bbm_contact_free(bbm_contact_work *w)
     free(w->after);
     free(w->side);
     free(w->last);
+    free(w->span);
     free(w->along);
     free(w->guess);
     free(w->head);
@@ -323,13 +335,14 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->after = calloc(n, sizeof *w->after);
         w->side = calloc(n, sizeof *w->side);
         w->last = calloc(n, sizeof *w->last);
+        w->span = calloc(n, sizeof *w->span);
         w->along = calloc(n, sizeof *w->along);
         w->first = calloc(n, sizeof *w->first);
         w->old = calloc(n, sizeof *w->old);
         w->head = calloc(4 * n, sizeof *w->head);
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
     }
-    const int ok = ends && w && w->before && w->after && w->side && w->last && w->along && w->first && w->old
+    const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
                    && w->head && w->guess;
     if (ok)
         link_edges(m, ends);
@@ -447,7 +460,30 @@ static int can_enter(const bbm_contact_work *w, int corner, int e, double r, dou
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
 
-    return cross(q, s) >= -slack && -cross(p, s) >= -slack && cross(p, q) > -PARALLEL;
+    return cross(q, s) >= -slack && -cross(p, s) >= -slack && is_convex(w, corner);
+}
+
+static int coincide(const bbm_contact_work *w, int e, int f)
+{
+    return fabs(cross(w->along[e], w->along[f])) <= PARALLEL;
+}
+
+/* Whether the outward normal (t.y, -t.x) of an edge along t points up rather than down, or else to the right. */
+static int faces_up(direction t)
+{
+    return fabs(t.x) > PARALLEL ? t.x < 0 : t.y > 0;
+}
+
+/* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side do,
+ * of equal sides those of the upper one. They carry all of it, and none comes or goes while it slides on the longer. */
+static int carries(const bbm_model *m, int c, int e)
+{
+    const bbm_contact_work *w = m->work;
+    const direction p = w->along[c], q = w->along[e];
+
+    if (!m->par.faces || fabs(w->span[c] - w->span[e]) > STRAIGHT * w->span[e])
+        return m->par.faces && w->span[c] < w->span[e];
+    return faces_up((direction){ q.x - p.x, q.y - p.y, 0 });
 }
 
 /* Whether the corner may come to touch the edge in this step. If it is still outside it may also turn there first, as
@@ -462,20 +498,6 @@ static int may_touch(const bbm_model *m, int corner, int e)
     return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * fabs(turning(m, w->guess, corner, e)) : PARALLEL);
 }
 
-static double side_length(const bbm_model *m, int e)
-{
-    const bbm_vertex *a = start_of(m, m->work->side[e]), *b = end_of(m, m->work->last[e]);
-
-    return hypot(b->x - a->x, b->y - a->y);
-}
-
-/* Corners touch any edge; a grid point inside a straight side touches (`faces`) only sides at least as long as its own.
- * The springs of the shorter side then carry all of it, and none comes or goes while it slides along the longer one. */
-static int may_carry(const bbm_model *m, int c, int e)
-{
-    return is_corner(m->work, c) || (m->par.faces && side_length(m, c) <= (1 + STRAIGHT) * side_length(m, e));
-}
-
 /* All pairs that may touch. */
 static bbm_status list_pairs(bbm_model *m)
 {
@@ -487,7 +509,7 @@ static bbm_status list_pairs(bbm_model *m)
         w->first[c] = w->pairs;
         for (int k = w->head[i]; k >= 0; k = w->entries[k].next) {
             const int e = w->entries[k].edge;
-            if (m->edge[e].block == m->edge[c].block || !may_carry(m, c, e) || !may_touch(m, c, e))
+            if (m->edge[e].block == m->edge[c].block || !(is_corner(w, c) || carries(m, c, e)) || !may_touch(m, c, e))
                 continue;
             if (!grow((void **)&w->pairs_of, w->pairs, &w->pair_room, sizeof *w->pairs_of))
                 return BBM_NO_MEMORY;
@@ -534,17 +556,6 @@ static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
     if (!is_corner(w, f) && find_pair(w, corner, f) >= 0 && find_foot(m, corner, e).s >= w->along[e].length)
         return 1;
     return !is_corner(w, e) && find_pair(w, corner, d) >= 0 && find_foot(m, corner, d).s < w->along[d].length;
-}
-
-static int coincide(const bbm_contact_work *w, int e, int f)
-{
-    return fabs(cross(w->along[e], w->along[f])) <= PARALLEL;
-}
-
-/* Whether the outward normal (t.y, -t.x) of an edge along t points up rather than down, or else to the right. */
-static int faces_up(direction t)
-{
-    return fabs(t.x) > PARALLEL ? t.x < 0 : t.y > 0;
 }
 
 /* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the edges
@@ -605,14 +616,15 @@ static bbm_status drop_duplicates(bbm_model *m)
     return BBM_OK;
 }
 
-/* The other line along which P and Q, two corners that may meet in this step, can enter each other, or -1. */
+/* The other line along which P and Q, two convex corners that may meet in this step, can enter each other, or -1. In a
+ * notch Q both edges hold P at once. */
 static int find_rival(const bbm_model *m, pair p, int Q, int other_edge)
 {
     const bbm_contact_work *w = m->work;
     const pair line[3] = { { p.corner, other_edge }, { Q, p.corner }, { Q, w->before[p.corner] } };
     const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
 
-    if (!is_corner(w, Q) || !is_corner(w, p.corner) || hypot(a->x - b->x, a->y - b->y) > 2 * w->search)
+    if (!is_corner(w, Q) || !is_convex(w, Q) || !is_corner(w, p.corner) || hypot(a->x - b->x, a->y - b->y) > 2 * w->search)
         return -1;
     for (int k = 0; k < 3; k++) {
         const int found = find_pair(w, line[k].corner, line[k].edge);
@@ -652,30 +664,28 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     return old;
 }
 
-/* Where the straight side of edge e begins and ends along edge f. */
-static void find_span(const bbm_model *m, int e, int f, double *low, double *high)
+/* Area of the joint that P stands for, on which cohesion and tensile strength act: to both sides, as far as its own
+ * side lies on the edge, half the way to the next point that touches - the next grid point of the side that `carries`,
+ * or the end of either side. */
+static double joint_area(const bbm_model *m, pair p)
 {
     const bbm_contact_work *w = m->work;
-    const double a = find_foot(m, w->side[e], f).s, b = find_foot(m, w->after[w->last[e]], f).s;
-    *low = fmin(a, b);
-    *high = fmax(a, b);
-}
+    const double s = find_foot(m, p.corner, p.edge).s;
+    double length = 0;
 
-/* Half the length on which the straight sides of the corner and of the edge lie on each other: a corner's share of
- * the joint, on which cohesion and tensile strength act. */
-static double joint_length(const bbm_model *m, pair p)
-{
-    double low, high, from, to, length = 0;
-
-    find_span(m, p.edge, p.edge, &low, &high);
     for (int k = 0; k < 2; k++) {
-        const int mine = k ? p.corner : m->work->before[p.corner];
-        if (!coincide(m->work, mine, p.edge))
+        const int mine = k ? p.corner : w->before[p.corner];
+        const int i = carries(m, mine, p.edge), j = carries(m, p.edge, mine);
+        int a = k ? w->after[i ? mine : w->last[mine]] : i ? mine : w->side[mine];
+        int b = k ? (j ? p.edge : w->side[p.edge]) : w->after[j ? p.edge : w->last[p.edge]];
+        if (!coincide(w, mine, p.edge))
             continue;
-        find_span(m, mine, p.edge, &from, &to);
-        length = fmax(length, (fmin(high, to) - fmax(low, from)) / 2);
+        if (!is_corner(w, b) && fabs(find_foot(m, b, p.edge).s - s) <= END * w->along[p.edge].length)
+            b = k ? w->before[b] : w->after[b];
+        length += fmin(fabs(find_foot(m, a, p.edge).s - s), fabs(find_foot(m, b, p.edge).s - s)) / 2;
     }
-    return length;
+    return length * fmin(m->element[m->edge[p.corner].element].material.thickness,
+                         m->element[m->edge[p.edge].element].material.thickness);
 }
 
 /* A closed contact is free when P has left past a corner Q: its rival line is open, or its foot is off the edge. */
@@ -700,7 +710,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const foot f = find_foot(m, p.corner, p.edge);
     const int strong = m->par.cohesion > 0 || m->par.tension > 0;
 
-    *c = old ? *old : (bbm_contact){ .whole = m->info.t == 0 && fabs(f.d) <= TOUCH * w->mean && f.off <= 0 };
+    *c = old ? *old : (bbm_contact){ .whole = m->info.step == 0 && fabs(f.d) <= TOUCH * w->mean && f.off <= 0 };
     if (!old && c->whole && (strong || isinf(m->h)))
         c->state = BBM_LOCK;
     c->corner = p.corner;
@@ -709,7 +719,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[1] = find_rival(m, p, w->after[p.edge], w->after[p.edge]);
     c->gap = f.d;
     c->off = f.off > END * w->along[p.edge].length;
-    c->length = strong ? joint_length(m, p) : 0;
+    c->area = strong && c->whole ? joint_area(m, p) : 0;
     c->used = c->N;
     c->more[0] = c->more[1] = 0;
     c->closings = 0;
@@ -801,7 +811,7 @@ static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
     if (c->state == BBM_LOCK)
         bbm_shear_submatrices(&t, c->anchor, c->more[1], m->par.p_s, &s);
     else
-        bbm_friction_submatrices(&t, c->anchor, c->sign * bbm_shear_strength(&m->par, c->used, c->length), &s);
+        bbm_friction_submatrices(&t, c->anchor, c->sign * bbm_shear_strength(&m->par, c->used, c->area), &s);
     for (int a = 0; a < 6; a++) {
         m->F[6 * i + a] += s.Fi[a];
         m->F[6 * j + a] += s.Fj[a];
@@ -1073,7 +1083,7 @@ static void change_state(const bbm_model *m, bbm_contact *c)
         c->next = BBM_SLIDE;
     if (c->next == BBM_SLIDE) {
         c->sign = slip < 0 ? -1 : 1;
-        c->used = fmax(0, c->N);
+        c->used = c->N;
     }
     c->state = c->next;
 }
@@ -1137,7 +1147,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
 /* ------------------------------------------------------------------------------------------- end of the step */
 
 /* After the positions have moved: the anchor of a sliding contact follows, so that its spring would carry the friction
- * force, and the list becomes that of the model. */
+ * force; a joint that has opened, or slid against a shear strength, is broken; the list becomes that of the model. */
 bbm_status bbm_keep_contacts(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
@@ -1149,9 +1159,10 @@ bbm_status bbm_keep_contacts(bbm_model *m)
     m->info.penetration = w->deepest = 0;
     for (int k = 0; k < w->pairs; k++) {
         bbm_contact *c = &w->list[k];
-        c->whole = c->whole && c->state == BBM_LOCK;
+        const double strength = bbm_shear_strength(&m->par, c->N, c->area);
+        c->whole = c->whole && (c->state == BBM_LOCK || (c->state == BBM_SLIDE && strength == 0));
         if (c->state == BBM_SLIDE) {
-            c->T = c->sign * bbm_shear_strength(&m->par, fmax(0, c->N), c->length);
+            c->T = c->sign * strength;
             place_anchor(m, c, c->T);
         }
         if (c->state != BBM_OPEN) {

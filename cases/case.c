@@ -349,7 +349,12 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
 {
     const double error = reference != 0 ? (computed - reference) / reference : computed;
 
-    fprintf(r->csv, "%s,%.9g,%.9g,%.15g,%.15g,%s,%.3e\n", quantity, xy[0], xy[1], computed, reference, kind, error);
+    fprintf(r->csv, strchr(quantity, ',') ? "\"%s\"," : "%s,", quantity);
+    if (isnan(xy[0]))
+        fprintf(r->csv, ",,");
+    else
+        fprintf(r->csv, "%.9g,%.9g,", xy[0], xy[1]);
+    fprintf(r->csv, "%.15g,%.15g,%s,%.3e\n", computed, reference, kind, error);
     r->worst = fmax(r->worst, fabs(error));
     return error;
 }

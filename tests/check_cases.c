@@ -103,6 +103,105 @@ START_TEST(an_experiment_meets_its_target)
 }
 END_TEST
 
+/* The row of a result without a place, by the start of its name; names with a comma are in quotes. */
+static row find_result(const char *name, const char *quantity)
+{
+    char path[100], *text, *line, *rest = NULL;
+
+    snprintf(path, sizeof path, "out/%s/results.csv", name);
+    text = slurp(path);
+    for (line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        const char *p = line + (line[0] == '"'), *numbers = strstr(line, ",,,");
+        row r;
+        if (strncmp(p, quantity, strlen(quantity)) == 0 && numbers
+            && sscanf(numbers, ",,,%lf,%lf,%*[a-z],%lf", &r.computed, &r.reference, &r.error) == 3) {
+            free(text);
+            return r;
+        }
+    }
+    ck_abort_msg("%s: no row %s", path, quantity);
+    return (row){ 0, 0, 0 };
+}
+
+/* Targets of the discontinuous cases; against 0 the error is absolute. */
+static const struct { const char *name, *quantity; double most; } moving[] = {
+    /* Experiment III: rigid motion is exact but for the solver's 1e-10; 1e-8 is the promise, 1e-3 for the marked point. */
+    { "exp3", "without.centre.u", 1e-8 },       { "exp3", "rigid.centre.u", 1e-8 },
+    { "exp3", "without.mark.u", 1e-3 },         { "exp3", "rigid.mark.u", 1e-3 },
+    { "exp3", "gravity.mark.u", 1e-3 },
+    /* The plate of 10 GPa dents under the weight: its slope, 1e-7, drives the block. */
+    { "exp3", "gravity.centre.u", 5e-7 },
+    /* v within the static penetration of one corner, W/(2 p_n) = 9.8e-8 m. */
+    { "exp3", "without.mark.v", 9.81e-8 },      { "exp3", "rigid.mark.v", 9.81e-8 },
+    { "exp3", "gravity.mark.v", 9.81e-8 },
+    /* Stop: the moment of standstill falls inside a step, a dt^2/2 = 4e-4 m for dt = 0.01. */
+    { "incline", "stops after 3 m/s down 30 degrees at phi = 40; dt = 0.01", 1e-3 },
+    { "incline", "1 s after 1 m/s down 30 degrees at phi = 10; dt = 0.01", 1e-9 },
+    { "shaken", "slip1.a10.phi20.dt0.01.p_n1e+09", 0.01 }, { "shaken", "slip5.a10.phi20.dt0.01.p_n1e+09", 0.01 },
+    { "shaken", "slip5.a10.phi20.dt0.01.p_n1e+11", 0.01 }, { "shaken", "slip5.a10.phi20.dt0.002.p_n1e+11", 0.01 },
+    { "topple", "agreeing", 0 },
+    { "column", "force under block 1 ", 1e-9 }, { "column", "penetration under block 1 ", 1e-9 },
+    { "column", "force under block 10", 1e-9 }, { "column", "penetration under block 10", 1e-9 },
+    { "column", "largest velocity", 1e-9 },     { "column", "largest drift", 1e-12 },
+    { "overhang", "0.98 stands", 0 },           { "overhang", "1.02 stands", 0 },
+    { "overhang", "greatest overhang", 1e-3 },
+    { "impact", "momentum for phi = 0 p_n = 1e+09", 1e-9 }, { "impact", "momentum for phi = 30 p_n = 1e+11", 1e-9 },
+    /* Shear forces act d_n apart, a couple: it falls as p_n^(-1/2). */
+    { "impact", "angular momentum gained for phi = 0 p_n = 1e+10", 1e-5 },
+    { "impact", "angular momentum gained for phi = 30 p_n = 1e+09 dt = 2e-05", 5e-4 },
+    { "turning", "exact rotation", 1e-9 },      { "turning", "linear update, dt = 0.01 s", 1e-9 },
+    /* The bisection stops at a thousandth. */
+    { "arch", "least t/R", 0.002 },             { "arch", "least phi [degree], t/R = 0.107", 0.002 },
+    { "arch", "t/R = 0.15, phi = 30 stands", 0 }, { "arch", "t/R = 0.15, phi = 15 stands", 0 },
+    { "arch", "t/R = 0.10, phi = 30 stands", 0 },
+    { "resting", "faces too, mean of row 1", 1e-5 }, { "resting", "faces too, mean of row 8", 1e-5 },
+};
+
+START_TEST(a_moving_case_meets_its_target)
+{
+    const row r = find_result(moving[_i].name, moving[_i].quantity);
+
+    ck_assert_msg(fabs(r.error) <= moving[_i].most, "%s, %s: %g, theory %g, error %.2g of %.2g", moving[_i].name,
+                  moving[_i].quantity, r.computed, r.reference, r.error, moving[_i].most);
+    const double difference = r.computed - r.reference;
+    ck_assert_double_eq_tol(r.error, r.reference != 0 ? difference / r.reference : difference, 1e-3 * fabs(r.error) + 1e-12);
+}
+END_TEST
+
+START_TEST(the_incline_is_right_for_every_friction_angle)
+{
+    static const char *const how[4] = { "dt0.01.p_n1e+09", "dt0.01.p_n1e+10", "dt0.01.p_n1e+11", "dt0.002.p_n1e+11" };
+    static const int phi[7] = { 0, 10, 20, 25, 29, 31, 40 }, pieces[2] = { 1, 13 };
+
+    for (int p = 0; p < 2; p++)
+        for (int f = 0; f < 7; f++) {
+            char name[80];
+            snprintf(name, sizeof name, "%s.base%d.%s.phi%d", phi[f] > 30 ? "stick" : "slide", pieces[p], how[_i], phi[f]);
+            /* The promise: 1e-5, but 1e-4 at 29 degrees, where 4 % of the weight's pull is left; 1e-5 m of drift. */
+            ck_assert_double_le(fabs(find_result("incline", name).error), phi[f] == 29 ? 1e-4 : 1e-5);
+        }
+}
+END_TEST
+
+START_TEST(a_dropped_block_never_rebounds_faster_than_it_came)
+{
+    static const char *const dt[7] = { "0.002", "0.001", "0.0005", "0.0002", "0.0001", "5e-05", "2e-05" };
+    char name[80];
+
+    snprintf(name, sizeof name, "rebound/impact at dt = %s s", dt[_i]);
+    const row r = find_result("drop", name);
+    ck_assert_double_le(r.computed, 1);
+    ck_assert_double_le(fabs(r.error), 0.05);       /* the moment of the impact falls anywhere in its step */
+}
+END_TEST
+
+START_TEST(the_arch_needs_the_thickness_of_the_literature)
+{
+    /* N = 15: t/R = 0.1063 for voussoirs that are ring sectors; ours have straight sides. 1.5 % is the promise. */
+    ck_assert_double_eq_tol(find_result("arch", "least t/R").computed, 0.1063, 0.015 * 0.1063);
+}
+END_TEST
+
 START_TEST(theory_in_the_results_is_the_textbook_formula)
 {
     /* Timoshenko and Goodier: v(L,0) = -P L^3/(3EI) - (4+5nu) P H^2 L/(24 EI) = -8.9 mm; Kirsch: 3 s, -s at the hole. */
@@ -123,7 +222,9 @@ START_TEST(every_file_of_an_experiment_is_complete)
     static const char *const svg[] = {
         "exp1/fig10", "exp1/fig11", "exp1/fig12", "exp1/fig13", "exp1/deformed", "exp2/fig15", "exp2/fig16",
         "exp2/fig17", "exp2/fig18", "exp2/fig19", "exp2/fig20", "exp2/fig21a", "exp2/fig21b", "exp2/fig22",
-        "exp2/fig23", "exp2/deformed",
+        "exp2/fig23", "exp2/deformed", "exp3/fig25", "exp3/slide", "exp3/states", "incline/slide", "incline/distance",
+        "shaken/slip", "topple/chart", "column/forces", "overhang/movie", "drop/rebound", "impact/cradle", "turning/area",
+        "resting/faces", "arch/thrust", "arch/folds",
     };
 
     for (size_t i = 0; i < sizeof svg / sizeof *svg; i++) {
@@ -170,7 +271,7 @@ static void compare_tables(const char *document, const char *output)
 
 START_TEST(the_numbers_of_the_documents_are_what_the_programs_print)
 {
-    ck_assert_int_eq(system("cat out/exp1.log out/exp2.log > out/run.log"), 0);
+    ck_assert_int_eq(system("cat out/exp1.log out/exp2.log out/exp3.log > out/run.log"), 0);
     compare_tables("README.md", "out/run.log");
     ck_assert_int_eq(system("(" BUILD "/exp1 converge; " BUILD "/exp2 converge) > out/converge.log"), 0);
     compare_tables("doc/convergence.md", "out/converge.log");
@@ -190,8 +291,8 @@ END_TEST
 START_TEST(each_equation_points_at_a_function_and_a_test_that_exist)
 {
     static const char *const files[] = {
-        "bbm.h", "bbm.c", "solver.c", "cases/exp1.c", "cases/exp2.c", "tests/check_bbm.c", "tests/check_solver.c",
-        "tests/check_cases.c",
+        "bbm.h", "bbm.c", "contact.c", "solver.c", "cases/exp1.c", "cases/exp2.c", "cases/exp3.c", "tests/check_bbm.c",
+        "tests/check_contact.c", "tests/check_solver.c", "tests/check_cases.c",
     };
     enum { FILES = sizeof files / sizeof *files };
     char *source[FILES], *text = slurp("doc/equations.md"), *line, *rest = NULL;
@@ -220,7 +321,7 @@ START_TEST(each_equation_points_at_a_function_and_a_test_that_exist)
         ck_assert_msg(got < 1 || names >= 2, "no function or no test: %s", line);
     }
     for (int n = 1; n <= 72; n++)
-        ck_assert_msg(seen[n] || (n >= 48 && n <= 69), "doc/equations.md has no row for equation (%d)", n);
+        ck_assert_msg(seen[n], "doc/equations.md has no row for equation (%d)", n);
     free(text);
     for (int f = 0; f < FILES; f++)
         free(source[f]);
@@ -229,8 +330,13 @@ END_TEST
 
 static void run_experiments(void)
 {
-    run("exp1");
-    run("exp2");
+    static const char *const program[] = {
+        "exp1", "exp2", "exp3", "incline", "shaken", "topple", "column", "overhang", "drop", "impact", "turning", "arch",
+        "resting",
+    };
+
+    for (size_t i = 0; i < sizeof program / sizeof *program; i++)
+        run(program[i]);
 }
 
 Suite *cases_suite(void)
@@ -241,6 +347,10 @@ Suite *cases_suite(void)
     tcase_set_timeout(t, 60);
     tcase_add_unchecked_fixture(t, run_experiments, NULL);
     tcase_add_loop_test(t, an_experiment_meets_its_target, 0, sizeof targets / sizeof *targets);
+    tcase_add_loop_test(t, a_moving_case_meets_its_target, 0, sizeof moving / sizeof *moving);
+    tcase_add_loop_test(t, the_incline_is_right_for_every_friction_angle, 0, 4);
+    tcase_add_loop_test(t, a_dropped_block_never_rebounds_faster_than_it_came, 0, 7);
+    tcase_add_test(t, the_arch_needs_the_thickness_of_the_literature);
     tcase_add_test(t, theory_in_the_results_is_the_textbook_formula);
     tcase_add_test(t, every_file_of_an_experiment_is_complete);
     tcase_add_test(t, two_runs_write_the_same_digits);
