@@ -53,7 +53,7 @@ double case_quantity(const bbm_result *r, const char *quantity);    /* u, v, sxx
 typedef struct { int passes, cuts; } case_effort;                   /* most passes of a step; all halvings of dt  */
 void   case_step(bbm_model *m, case_effort *e, scene *s);           /* one step; e and s may be NULL              */
 void   case_record(scene *s, const bbm_model *m);                   /* positions, and contact forces as arrows    */
-/* Steps without inertia, to start a run in equilibrium: springs that are loaded suddenly would swing.             */
+/* Quasi-static steps, to start a run in equilibrium: springs that are loaded suddenly would swing.             */
 void   case_settle(bbm_model *m, int steps);
 
 void   case_read_reference(const char *problem, const char *variant, case_reference *r);

@@ -9,7 +9,7 @@
  *   ___'---'___                     Once at rest it stays there: no velocity, no drift in 1,000 dynamic steps.
  *   ///////////
  *
- * A hundred steps without inertia lead to equilibrium. What they cannot take away is no error: the blocks are
+ * A hundred quasi-static steps lead to equilibrium. What they cannot take away is no error: the blocks are
  * squeezed and bulge, the lower ones more, so that friction pulls inwards at one corner and outwards at the other. */
 #include <math.h>
 

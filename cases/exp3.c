@@ -17,7 +17,7 @@
  * As a line load, Eq. (43), it acts on the side's present length, and the weight shortens that by about
  * density g h/(2 E) = 1e-6: so much of F is missing, and of u.
  *
- * The block is first brought into equilibrium under its weight and the traction, in steps without inertia:
+ * The block is first brought into equilibrium under its weight and the traction, in quasi-static steps:
  * displacements count from there, without the elastic shortening of about F L/(2 E A) = 2e-6 m. Then it is let go from
  * rest and moves 2 m in 2 s, with P over four edges of the plate. */
 #include <math.h>

@@ -17,7 +17,7 @@
  * Angular momentum is not exact where there is friction. The normal forces of a contact lie on one line, but its shear
  * forces act on P1 and on P0, a point of the edge that P1 has crossed: a couple of the shear force and the penetration,
  * which the formulas (60)-(62) leave unbalanced. The deepest penetration falls as p_n^(-1/2), and so does the error;
- * the time step does not change it. What is left without friction comes from the strain of the blocks, for it falls as
+ * the time step hardly changes it. What is left without friction comes from the strain of the blocks, for it falls as
  * 1/E. The table gives the error as a share of what the first block brings along, m v0 times the offset. */
 #include <math.h>
 

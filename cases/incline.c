@@ -11,8 +11,9 @@
  *
  * Shown are the errors at t = 1 s after a start from rest, gravity switched on suddenly, on an incline of one piece and
  * on one of 13: corners then pass from edge to edge. A second table goes on to where the errors grow: soft springs and
- * small steps. By W = dt sqrt(2 p_n/m) the block swings on its normal springs in a step; a step damps the swing by
- * (1 + W^2/2)^(-1/2), so that where W is small it lasts, and the block hops. A third table starts in equilibrium. */
+ * small steps. By W = dt sqrt(2 p_n/m) the block swings on its springs in a step; a step damps the swing by
+ * (1 + W^2/2)^(-1/2), so that where W is small it lasts: the springs wind up for many steps before the block slides, and
+ * in very soft ones it hops. A third table starts in equilibrium. */
 #include <math.h>
 
 #include "case.h"
@@ -36,7 +37,7 @@ static double theory(double phi, double t) { return phi < A ? pull(A, phi, 1) * 
 /* By how much the block swings on its normal springs in a step. */
 static double swing(double dt, double p_n) { return dt * sqrt(2 * p_n / (WEIGHT / G)); }
 
-/* Steps without inertia until a swing has shrunk by 1e-12; each shrinks it by 1 + W^2/2. */
+/* Quasi-static steps until a swing has shrunk by 1e-12; each shrinks it by 1 + W^2/2. */
 static int settling(double dt, double p_n) { return (int)(28 / log1p(swing(dt, p_n) * swing(dt, p_n) / 2)) + 2; }
 
 static bbm_model *start(const slide *s)
@@ -124,11 +125,11 @@ static void print_sweep(case_results *r, int settle)
     for (int k = 0; k < COLUMNS; k++)
         s[k] = (plot_series){ .name = name[k], .n = ROWS, .x = dt, .y = from[k], .style = PLOT_BOTH };
     printf("\n%s\n", settle
-           ? "Nothing hops: the error is that of rounding and of the tolerance of the linear solver."
+           ? "Nothing swings: the error is that of rounding and of the tolerance of the linear solver."
            : "To the right the error is what the shear springs, and at last the block itself, give way once.\n"
-             "To the left and below, where W is under about 5, the block hops on its springs. In the air there is no\n"
-             "friction, and where it lands hard friction can only stop it: part of what N tan(phi) allows is not "
-             "used,\nand it gets too far.");
+             "To the left and below, where W is under about 5, the suddenly loaded block first winds up its springs: it\n"
+             "is locked at less than full friction for several steps, and then runs ahead with what it did not lose.\n"
+             "In the softest springs it hops, too.");
     case_write_curves(r, settle ? "settled.csv" : "sudden.csv", "dt,p_n=1e7,1e8,1e9,1e10,1e11,1e12", ROWS, 1 + COLUMNS,
                       &table[0][0]);
     if (!settle)

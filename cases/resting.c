@@ -31,7 +31,7 @@ static void place(double i, double j, const void *unused, double xy[2])
     xy[1] = h * j / NY;
 }
 
-/* The block in equilibrium: steps without inertia. */
+/* The block in equilibrium: quasi-static steps. */
 static bbm_model *settle_block(int faces)
 {
     bbm_model *m = case_model();
