@@ -40,6 +40,9 @@
  * only the first contact that wants to change does so in each pass (Murty's rule of the least index), and a contact
  * that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a step that does
  * not settle is done again with half the time step, without a trace of the first trial.
+ *
+ * Deviations from the paper: the second-order terms that (54) and (60) drop are put back (put_back); grid points inside
+ * the shorter of two straight sides touch, too (carries), so that a deformable block rests on its whole side.
  */
 #include "bbm.h"
 
@@ -370,7 +373,7 @@ static int grow(void **array, int count, int *room, size_t size)
 static void lay_out_grid(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
-    double x1 = -INFINITY, y1 = -INFINITY;
+    double x1 = -INFINITY, y1 = -INFINITY, mean = 0;
 
     w->x0 = w->y0 = INFINITY;
     for (int e = 0; e < m->edges; e++) {
@@ -379,8 +382,9 @@ static void lay_out_grid(bbm_model *m)
         w->y0 = fmin(w->y0, a->y);
         x1 = fmax(x1, a->x);
         y1 = fmax(y1, a->y);
+        mean += w->along[e].length / m->edges;
     }
-    w->cell = 1.01 * w->mean + 2 * w->search;
+    w->cell = 1.01 * mean + 2 * w->search;
     w->x0 -= w->cell;
     w->y0 -= w->cell;
     w->columns = (size_t)((x1 - w->x0) / w->cell) + 2;
@@ -474,8 +478,8 @@ static int faces_up(direction t)
     return fabs(t.x) > PARALLEL ? t.x < 0 : t.y > 0;
 }
 
-/* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side do,
- * of equal sides those of the upper one. They carry all of it, and none comes or goes while it slides on the longer. */
+/* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side
+ * do, of equal sides those of the upper one. They carry all of it; none comes or goes while it slides on the longer. */
 static int carries(const bbm_model *m, int c, int e)
 {
     const bbm_contact_work *w = m->work;
@@ -616,22 +620,27 @@ static bbm_status drop_duplicates(bbm_model *m)
     return BBM_OK;
 }
 
-/* The other line along which P and Q, two convex corners that may meet in this step, can enter each other, or -1. In a
- * notch Q both edges hold P at once. */
+/* The other line along which P and Q, two convex corners that may meet in this step, can enter each other, or -1;
+ * rather one along which they can as they stand now. In a notch Q both edges hold P at once. */
 static int find_rival(const bbm_model *m, pair p, int Q, int other_edge)
 {
     const bbm_contact_work *w = m->work;
+    int rival = -1;
     const pair line[3] = { { p.corner, other_edge }, { Q, p.corner }, { Q, w->before[p.corner] } };
     const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
 
-    if (!is_corner(w, Q) || !is_convex(w, Q) || !is_corner(w, p.corner) || hypot(a->x - b->x, a->y - b->y) > 2 * w->search)
+    if (!is_corner(w, Q) || !is_convex(w, Q) || !is_corner(w, p.corner))
         return -1;
-    for (int k = 0; k < 3; k++) {
+    if (hypot(a->x - b->x, a->y - b->y) > 2 * w->search)
+        return -1;
+    for (int k = 2; k >= 0; k--) {
         const int found = find_pair(w, line[k].corner, line[k].edge);
-        if (found >= 0 && !coincide(w, p.edge, line[k].edge))
-            return found;
+        if (found < 0 || coincide(w, p.edge, line[k].edge))
+            continue;
+        if (rival < 0 || can_enter(w, line[k].corner, line[k].edge, 0, PARALLEL))
+            rival = found;
     }
-    return -1;
+    return rival;
 }
 
 /* ------------------------------------------------------------- detection: what carries over from step to step */
@@ -701,8 +710,9 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     return c->off && c->rival[0] < 0 && c->rival[1] < 0;
 }
 
-/* Makes a pair a contact, with the state of the one that it continues. A joint that touches at the start is closed
- * from the start in statics, or if it has a strength. */
+/* Makes a pair a contact, with the state of the one that it continues. A foot beyond the end of the edge is off it,
+ * but not in a notch, where it lies inside the block. A joint that touches at the start is closed from the start in
+ * statics, or if it has a strength. */
 static void make_contact(bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
@@ -718,7 +728,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[0] = find_rival(m, p, p.edge, w->before[p.edge]);
     c->rival[1] = find_rival(m, p, w->after[p.edge], w->after[p.edge]);
     c->gap = f.d;
-    c->off = f.off > END * w->along[p.edge].length;
+    c->off = f.off > END * w->along[p.edge].length && is_convex(w, f.s < 0 ? p.edge : w->after[p.edge]);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
     c->used = c->N;
     c->more[0] = c->more[1] = 0;
@@ -1040,7 +1050,8 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
 }
 
 /* Whether an open contact, though crossed, may not close: not on the edge, or not a corner's point at the end of the
- * step; or a rival line is closed, is not crossed, or is the shorter way out (at a tie, the first). */
+ * step; or a rival line is closed, is not crossed, or is the shorter way out (at a tie, the first). A line counts by
+ * its deepest in the step: P does not come in through one that it has been behind from the start, beyond the corner. */
 static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
@@ -1055,7 +1066,8 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
             return 1;
         if (!enters_at_end(m, r))
             continue;
-        if (r->d_n >= 0 || (foot_on_edge(m, r) && (r->d_n > c->d_n || (r->d_n == c->d_n && r < c))))
+        const double mine = fmin(c->gap, c->d_n), other = fmin(r->gap, r->d_n);
+        if (r->d_n >= 0 || (foot_on_edge(m, r) && (other > mine || (other == mine && r < c))))
             return 1;
     }
     return 0;
