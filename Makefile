@@ -12,7 +12,7 @@ RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene
-SUITES   = check_bbm check_contact check_solver
+SUITES   = check_bbm check_contact check_solver check_beyond
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc

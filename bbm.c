@@ -28,6 +28,9 @@
 #define FLAT 1e-12
 /* Pivots of the (dimensionless) matrix of a body's fixings below this are zero: about 1e-5 rad of free turning. */
 #define LOOSE 1e-10
+/* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured, with blocks of 2 to
+ * 300 elements they break even at 1 to 4. */
+#define CROSSED 3.0
 
 /* ------------------------------------------------------------------------ 2.1 Displacement of an element */
 
@@ -225,6 +228,126 @@ void bbm_bonding_submatrices(const bbm_element *i, const bbm_vertex *P, const bb
     add_force(Tj, pull, s->Fj);
 }
 
+/* ---------------------------------------------------------------- beyond the paper: bonds for bending
+ * Two quadrilaterals that bend open, at the ends of their edge, the gaps d1 and d2 = -d1, for no D bends. Springs
+ * at the ends forbid that: the mesh locks. Seen as one bond the two springs are k |(d1 + d2)/2|^2 + 1/2 dd.M dd with
+ * dd = (d1 - d2)/2 and M = 2 k I. Deviation: M is only as large as the bending stiffness that the elements lack. */
+
+/* Condenses the symmetric 6x6 W, rows (h, a, b), to its first two rows: minimises the energy over a and b. */
+static void condense(double W[6][6], double S[2][2])
+{
+    for (int p = 5; p > 1; p--)
+        for (int a = 0; a < p; a++)
+            for (int b = 0; b < p; b++)
+                W[a][b] -= W[a][p] * W[p][b] / W[p][p];
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            S[a][b] = W[a][b];
+}
+
+/* The stiffness of a quadrilateral x = c + xi p + eta q, -1/2 <= xi, eta <= 1/2, against the bending that D lacks,
+ * u = h xi eta + a xi^2/2 + b eta^2/2 with h, a, b vectors (Wilson's incompatible modes: Taylor, Beresford, Wilson, Int. J.
+ * Num. Meth. Eng. 10, 1976). Its gradient is xi (a gx + h gy) + eta (h gx + b gy) with gx, gy the gradients of xi and
+ * eta, its strain xi Ex + eta Ey; W = t A/12 (Ex^T E Ex + Ey^T E Ey). What the two bonds that p crosses and the two that
+ * q crosses feel is dd = h/2, therefore S = 4 (W condensed to h). */
+static void bending_stiffness(const bbm_element *e, const double p[2], const double q[2], double S[2][2])
+{
+    const double det = p[0] * q[1] - p[1] * q[0], tA = e->material.thickness * e->A;
+    const double gx[2] = { q[1] / det, -q[0] / det }, gy[2] = { -p[1] / det, p[0] / det };
+    const double strain[2][3][6] = {
+        /*  hx     hy       ax     ay       bx     by */
+        { { gy[0], 0,       gx[0], 0,       0,     0     },             /* Ex: strain ex                            */
+          { 0,     gy[1],   0,     gx[1],   0,     0     },             /*     ey                                   */
+          { gy[1], gy[0],   gx[1], gx[0],   0,     0     } },           /*     gxy                                  */
+        { { gx[0], 0,       0,     0,       gy[0], 0     },             /* Ey                                       */
+          { 0,     gx[1],   0,     0,       0,     gy[1] },
+          { gx[1], gx[0],   0,     0,       gy[1], gy[0] } },
+    };
+    double E[3][3], W[6][6] = { { 0 } };
+
+    bbm_elastic_matrix(&e->material, E);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            for (int r = 0; r < 9; r++)
+                for (int x = 0; x < 2; x++)
+                    W[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3] * strain[x][r % 3][b];
+    condense(W, S);
+}
+
+/* S s s^T S / (s^T S s) */
+static void project(double S[2][2], const double s[2], double P[2][2])
+{
+    const double f[2] = { S[0][0] * s[0] + S[0][1] * s[1], S[1][0] * s[0] + S[1][1] * s[1] };
+    const double sSs = f[0] * s[0] + f[1] * s[1];
+
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            P[a][b] = f[a] * f[b] / sSs;
+}
+
+/* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0 to 1, from 2 to 3), which q
+ * crosses, M[1] for 1 and 3, which p crosses. M[1] = 1/2 [S p p^T S/(p.S p) + S - S q q^T S/(q.S q)], M[0] = S - M[1]: for
+ * a rectangle the bending stiffness of the edge as a beam's section, E t l^3/12 over the distance w of the centres. */
+void bbm_hinge_moments(const bbm_element *e, const bbm_vertex v[], double M[2][2][2])
+{
+    const double p[2] = { (v[1].x + v[2].x - v[0].x - v[3].x) / 2, (v[1].y + v[2].y - v[0].y - v[3].y) / 2 };
+    const double q[2] = { (v[2].x + v[3].x - v[0].x - v[1].x) / 2, (v[2].y + v[3].y - v[0].y - v[1].y) / 2 };
+    double S[2][2], P[2][2], Q[2][2];
+
+    bending_stiffness(e, p, q, S);
+    project(S, p, P);
+    project(S, q, Q);
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++) {
+            M[1][a][b] = (P[a][b] + S[a][b] - Q[a][b]) / 2;
+            M[0][a][b] = S[a][b] - M[1][a][b];
+        }
+}
+
+/* K += Ti^T W Tj with a 2x2 weight W. */
+static void add_weighted(double Ti[2][6], const double W[2][2], double Tj[2][6], double sign, double K[6][6])
+{
+    double WT[2][6];
+
+    for (int r = 0; r < 2; r++)
+        for (int b = 0; b < 6; b++)
+            WT[r][b] = sign * (W[r][0] * Tj[0][b] + W[r][1] * Tj[1][b]);
+    add_product(1, Ti, WT, K);
+}
+
+/* One of the two gaps of an edge bond: d = (d1 + s d2)/2 with s = 1 (mean) or -1 (dd), of weight W. */
+static void add_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
+                    const bbm_vertex *const Q[2], const double W[2][2], double s, bbm_submatrices *m)
+{
+    const double d[2] = { (P[0]->u - Q[0]->u + s * (P[1]->u - Q[1]->u)) / 2,
+                          (P[0]->v - Q[0]->v + s * (P[1]->v - Q[1]->v)) / 2 };
+    const double pull[2] = { W[0][0] * d[0] + W[0][1] * d[1], W[1][0] * d[0] + W[1][1] * d[1] };
+    const double push[2] = { -pull[0], -pull[1] };
+    double T[2][2][6], Ti[2][6], Tj[2][6];
+
+    for (int end = 0; end < 2; end++)
+        bbm_mode_matrix(i, P[end]->x, P[end]->y, T[end]);
+    for (int a = 0; a < 12; a++)
+        Ti[a / 6][a % 6] = (T[0][a / 6][a % 6] + s * T[1][a / 6][a % 6]) / 2;
+    for (int end = 0; end < 2; end++)
+        bbm_mode_matrix(j, Q[end]->x, Q[end]->y, T[end]);
+    for (int a = 0; a < 12; a++)
+        Tj[a / 6][a % 6] = (T[0][a / 6][a % 6] + s * T[1][a / 6][a % 6]) / 2;
+    add_weighted(Ti, W, Ti, 1, m->Kii);
+    add_weighted(Ti, W, Tj, -1, m->Kij);
+    add_weighted(Tj, W, Tj, 1, m->Kjj);
+    add_force(Ti, push, m->Fi);
+    add_force(Tj, pull, m->Fj);
+}
+
+/* A whole edge as one bond between P[0], P[1] of i and Q[0], Q[1] of j. */
+void bbm_hinge_submatrices(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
+                           const bbm_vertex *const Q[2], const bbm_hinge *h, bbm_submatrices *s)
+{
+    add_gap(i, P, j, Q, h->K, 1, s);
+    add_gap(i, P, j, Q, h->M, -1, s);
+}
+
 /* ---------------------------------------------------------- 3.4 Bonding submatrices at fixed points */
 
 /* Stiffness [N/m] of the spring at a fixed point, Eq. (29): k = alpha G t, (4) with the wall like the element. */
@@ -248,6 +371,39 @@ void bbm_fixed_submatrix(const bbm_element *e, const bbm_vertex *P, const bbm_no
                 s->K[a][b] += k * T[r][a] * T[r][b];
             s->F[a] += T[r][a] * push[r];
         }
+}
+
+/* ------------------------------------------------- The coarse space of the linear solver, see solver.c */
+
+/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the displacements linear in x, y
+ * the one nearest to those of all n corners, by least squares; on a triangle it is exact. With `middles` it is the one
+ * nearest to the means over the sides, for elements that are bonded there. Fitted about the mean of the corners, a
+ * linear function has the value mean(u) there and the gradient g = M^-1 sum_a d_a u_a, M = sum d d^T:
+ *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx, r0 = (vx - uy)/2. */
+void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int middles, int a, double P[6][2])
+{
+    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0;
+
+    for (int k = 0; k < e->n; k++) {
+        x += v[k].x / e->n;
+        y += v[k].y / e->n;
+    }
+    for (int k = 0; k < e->n; k++) {
+        const int next = (k + 1) % e->n;
+        const double dx = (middles ? (v[k].x + v[next].x) / 2 : v[k].x) - x;
+        const double dy = (middles ? (v[k].y + v[next].y) / 2 : v[k].y) - y;
+        const double share = middles ? (k == a || next == a) / 2.0 : k == a;
+        xx += dx * dx;
+        yy += dy * dy;
+        xy += dx * dy;
+        X += share * dx;
+        Y += share * dy;
+    }
+    const double det = xx * yy - xy * xy, gx = (yy * X - xy * Y) / det, gy = (xx * Y - xy * X) / det;
+    const double u0 = 1.0 / e->n + gx * (e->x - x) + gy * (e->y - y);
+    const double matrix[6][2] = { { u0, 0 }, { 0, u0 }, { -gy / 2, gx / 2 }, { gx, 0 }, { 0, gy }, { gy, gx } };
+
+    memcpy(P, matrix, sizeof matrix);
 }
 
 /* ------------------------------------------------------------------------ 3.5 Line loading submatrices */
@@ -404,7 +560,8 @@ bbm_status bbm_model_new(bbm_model **out)
     if (!m)
         return BBM_NO_MEMORY;
     m->par = (bbm_parameters){ .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
-                               .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 } };
+                               .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000,
+                                        .form = BBM_TWO_LEVEL } };
     return BBM_OK;
 }
 
@@ -417,6 +574,8 @@ static void free_prepared(bbm_model *m)
     free(m->meet);
     free(m->F);
     free(m->D);
+    free(m->force);
+    free(m->force_before);
     bbm_matrix_free(m->K);
     bbm_contact_free(m->work);
     free(m->contact);
@@ -429,7 +588,7 @@ static void free_prepared(bbm_model *m)
     m->bond = NULL;
     m->edge = NULL;
     m->meet_first = m->meet = NULL;
-    m->F = m->D = NULL;
+    m->F = m->D = m->force = m->force_before = NULL;
     m->K = NULL;
 }
 
@@ -854,29 +1013,81 @@ static bbm_status check_held(bbm_model *m)
     return status;
 }
 
+/* Whether fixed points hold every corner of an element. */
+static int held_all_round(const bbm_model *m, const bbm_element *e)
+{
+    int held = 0;
+
+    for (int v = e->first; v < e->first + e->n; v++)
+        held += m->node[m->vertex[v].node].held == BBM_XY;
+    return held == e->n;
+}
+
+/* Joins the corners that bonds tie together, in the forest up[], and counts the corners of the elements in corners[]
+ * that are in the coarse space. An element without bonds is not, for there would be as many coarse unknowns as it has of
+ * its own; nor is one held at every corner, which hardly moves. SSOR alone is faster for both. */
+static void join_corners(const bbm_model *m, int up[], int corners[])
+{
+    for (int v = 0; v < m->vertices; v++)
+        up[v] = v;
+    for (int b = 0; b < m->bonds; b++) {
+        const bbm_bond *k = &m->bond[b];
+        for (int end = 0; end < 2; end++)
+            up[root_of(up, k->q[end])] = root_of(up, k->p[end]);
+        corners[k->i] = held_all_round(m, &m->element[k->i]) ? 0 : m->element[k->i].n;
+        corners[k->j] = held_all_round(m, &m->element[k->j]) ? 0 : m->element[k->j].n;
+    }
+}
+
+/* Lays out the coarse space of the solver: corners that bonds tie together are one node, so that a crack parts them. */
+static bbm_status lay_out_coarse(const bbm_model *m, bbm_matrix *K)
+{
+    const size_t v = (size_t)m->vertices;
+    int *up = calloc(3 * v + (size_t)m->elements + 1, sizeof *up), nodes = 0;
+
+    if (!up)
+        return BBM_NO_MEMORY;
+    int *number = up + v, *node = number + v, *first = node + v;
+    join_corners(m, up, first + 1);
+    for (int e = 0; e < m->elements; e++) {
+        const int corners = first[e + 1];
+        for (int k = 0; k < corners; k++) {
+            int *n = &number[root_of(up, m->element[e].first + k)];
+            if (*n == 0)
+                *n = ++nodes;
+            node[first[e] + k] = *n - 1;
+        }
+        first[e + 1] = first[e] + corners;
+    }
+    const bbm_status status = bbm_matrix_coarse(K, nodes, first, node);
+    free(up);
+    return status;
+}
+
 /* Lays out K: a submatrix for each element, each bond and each contact, Eq. (5). Without memory the old one stays. */
 static bbm_status lay_out_matrix(bbm_model *m)
 {
-    const int n = m->work ? bbm_contact_count(m) : 0;
-    int (*pair)[2] = calloc((size_t)(m->bonds + n) + 1, sizeof *pair);
+    const int contacts = m->work ? bbm_contact_count(m) : 0, n = contacts + m->bonds;
+    int (*pair)[2] = calloc((size_t)n + 1, sizeof *pair);
     int same = m->K && n == m->pairs;
     bbm_matrix *K;
 
     if (!pair)
         return out_of_memory(m);
-    for (int k = 0; k < n; k++)
+    for (int k = 0; k < contacts; k++)
         bbm_contact_pair(m, k, pair[k]);
+    for (int b = 0; b < m->bonds; b++) {
+        pair[contacts + b][0] = m->bond[b].i;
+        pair[contacts + b][1] = m->bond[b].j;
+    }
     for (int k = 0; k < n && same; k++)
         same = pair[k][0] == m->pair[k][0] && pair[k][1] == m->pair[k][1];
     if (same) {
         free(pair);
         return BBM_OK;
     }
-    for (int b = 0; b < m->bonds; b++) {
-        pair[n + b][0] = m->bond[b].i;
-        pair[n + b][1] = m->bond[b].j;
-    }
-    if (bbm_matrix_new(m->elements, n + m->bonds, pair, &K)) {
+    if (bbm_matrix_new(m->elements, n, pair, &K) || lay_out_coarse(m, K)) {
+        bbm_matrix_free(K);
         free(pair);
         return out_of_memory(m);
     }
@@ -907,7 +1118,9 @@ bbm_status bbm_prepare(bbm_model *m)
     if (!status) {
         m->F = calloc(6 * (size_t)m->elements, sizeof *m->F);
         m->D = calloc(6 * (size_t)m->elements, sizeof *m->D);
-        status = m->F && m->D ? lay_out_matrix(m) : out_of_memory(m);
+        m->force = calloc(4 * (size_t)(m->bonds + m->vertices), sizeof *m->force);
+        m->force_before = calloc(4 * (size_t)(m->bonds + m->vertices), sizeof *m->force);
+        status = m->F && m->D && m->force && m->force_before ? lay_out_matrix(m) : out_of_memory(m);
     }
     if (!status)
         status = bbm_contact_new(m) ? out_of_memory(m) : BBM_OK;
@@ -925,6 +1138,7 @@ static bbm_status check_parameters(bbm_model *m)
         { "steps", p->steps, p->steps >= 1, "1 or more" },
         { "tolerance", p->tolerance, p->tolerance >= 0 && isfinite(p->tolerance), "0 or more" },
         { "keep", p->keep, p->keep >= 0 && p->keep <= 1, "0 to 1" },
+        { "augment", p->augment, p->augment >= 0, "0 or more" },
         { "alpha", p->alpha, p->alpha > 0 && isfinite(p->alpha), "more than 0" },
         { "gravity[0]", p->gravity[0], isfinite(p->gravity[0]), "a finite number" },
         { "gravity[1]", p->gravity[1], isfinite(p->gravity[1]), "a finite number" },
@@ -952,6 +1166,211 @@ static bbm_status check_step(bbm_model *m)
     return check_parameters(m);
 }
 
+/* ---------------------------------------------------------- bonds and fixed points of the model */
+
+/* Whether the edge between two elements is bonded as a whole: both are quadrilaterals. */
+static int is_hinge(const bbm_model *m, const bbm_bond *b)
+{
+    return m->par.bonding != BBM_VERTICES && m->element[b->i].n == 4 && m->element[b->j].n == 4;
+}
+
+/* Adds `share` of the moment that a quadrilateral asks for on its edge from vertex v on. */
+static void add_moment(const bbm_model *m, const bbm_element *e, int v, double share, double M[2][2])
+{
+    double own[2][2][2];
+
+    if (m->par.bonding != BBM_MOMENT)
+        return;
+    bbm_hinge_moments(e, &m->vertex[e->first], own);
+    for (int a = 0; a < 4; a++)
+        M[a / 2][a % 2] += share * own[(v - e->first) % 2][a / 2][a % 2];
+}
+
+/* The bonding submatrices of one bond: at both vertices, or of the edge as a whole with the mean of both moments. */
+static void add_bond(const bbm_model *m, const bbm_bond *b, bbm_submatrices *s)
+{
+    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+    const bbm_vertex *const P[2] = { &m->vertex[b->p[0]], &m->vertex[b->p[1]] };
+    const bbm_vertex *const Q[2] = { &m->vertex[b->q[0]], &m->vertex[b->q[1]] };
+    const double k = bbm_bonding_stiffness(m->par.alpha, i, j);
+    bbm_hinge h = { { { 2 * k, 0 }, { 0, 2 * k } }, { { 0 } } };
+
+    if (is_hinge(m, b)) {
+        add_moment(m, i, b->p[0], 0.5, h.M);
+        add_moment(m, j, b->q[1], 0.5, h.M);                    /* the edge runs the other way in j */
+        bbm_hinge_submatrices(i, P, j, Q, &h, s);
+    } else {
+        for (int end = 0; end < 2; end++)
+            bbm_bonding_submatrices(i, P[end], j, Q[end], k, s);
+    }
+}
+
+static int next_vertex(const bbm_element *e, int v)
+{
+    return v + 1 < e->first + e->n ? v + 1 : e->first;
+}
+
+/* The directions in which the edge from vertex v on is held as a whole: those of both its ends, in a quadrilateral that is
+ * bonded that way. Held at its vertices, such an edge locks like a bond. */
+static int held_edge(const bbm_model *m, const bbm_element *e, int v)
+{
+    if (m->par.bonding == BBM_VERTICES || e->n != 4)
+        return 0;
+    return m->node[m->vertex[v].node].held & m->node[m->vertex[next_vertex(e, v)].node].held;
+}
+
+/* The directions in which vertex v is held by itself: those in which no edge holds it. */
+static int held_vertex(const bbm_model *m, const bbm_element *e, int v)
+{
+    const int last = v > e->first ? v - 1 : e->first + e->n - 1;
+
+    return m->node[m->vertex[v].node].held & ~(held_edge(m, e, v) | held_edge(m, e, last));
+}
+
+/* The wall at vertex v as the vertex of an element that keeps still, section 3.4. */
+static bbm_vertex wall_vertex(const bbm_model *m, int v)
+{
+    bbm_vertex Q = m->vertex[v];
+
+    Q.u = m->node[Q.node].wall[0];
+    Q.v = m->node[Q.node].wall[1];
+    return Q;
+}
+
+/* The edge from vertex v on, held in the given directions: a bond with the wall, whose mirror image bends alike, so
+ * that the moment is twice the element's own. */
+static void hold_edge(const bbm_model *m, const bbm_element *e, int v, int directions, bbm_submatrix *s)
+{
+    const int next = next_vertex(e, v), in[2] = { directions & BBM_X, directions & BBM_Y };
+    const bbm_vertex Q0 = wall_vertex(m, v), Q1 = wall_vertex(m, next);
+    const bbm_vertex *const P[2] = { &m->vertex[v], &m->vertex[next] }, *const Q[2] = { &Q0, &Q1 };
+    const double k = bbm_fixed_stiffness(m->par.alpha, e);
+    bbm_hinge h = { { { 2 * k, 0 }, { 0, 2 * k } }, { { 0 } } };
+    bbm_submatrices both = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+
+    add_moment(m, e, v, 2, h.M);
+    for (int a = 0; a < 4; a++)
+        if (!in[a / 2] || !in[a % 2])
+            h.K[a / 2][a % 2] = h.M[a / 2][a % 2] = 0;
+    bbm_hinge_submatrices(e, P, e, Q, &h, &both);
+    for (int a = 0; a < 6; a++) {
+        for (int b = 0; b < 6; b++)
+            s->K[a][b] += both.Kii[a][b];
+        s->F[a] += both.Fi[a];
+    }
+}
+
+/* The fixed points of one element. */
+static void hold_element(const bbm_model *m, const bbm_element *e, bbm_submatrix *s)
+{
+    for (int v = e->first; v < e->first + e->n; v++) {
+        bbm_node W = m->node[m->vertex[v].node];
+        if (!W.held)
+            continue;
+        W.held = held_vertex(m, e, v);
+        bbm_fixed_submatrix(e, &m->vertex[v], &W, bbm_fixed_stiffness(m->par.alpha, e), s);
+        if (held_edge(m, e, v))
+            hold_edge(m, e, v, held_edge(m, e, v), s);
+    }
+}
+
+/* --------------------------------------------------------------- beyond the paper: bonds that do not give
+ * A spring opens under the force that it carries. Deviation: with a multiplier that carries the force in its place it
+ * need not: solve, add to each multiplier the force of its spring, f += k d, put f on the right of K D = F in place of the
+ * spring's force, solve again (the augmented Lagrangian of Hestenes and Powell; the paper names it for contacts).
+ * K stays, and so does all that was made of it. */
+
+/* What a multiplier f makes meet: the mean of P[0], P[1] and that of Q[0], Q[1], or the wall (Q NULL). */
+typedef struct { int P[2], Q[2], wall, directions; double k, *f; } condition;
+
+static int bond_conditions(bbm_model *m, int number, condition c[2])
+{
+    const bbm_bond *b = &m->bond[number];
+    const double k = bbm_bonding_stiffness(m->par.alpha, &m->element[b->i], &m->element[b->j]);
+    double *f = &m->force[4 * number];
+
+    if (is_hinge(m, b)) {
+        c[0] = (condition){ { b->p[0], b->p[1] }, { b->q[0], b->q[1] }, 0, BBM_XY, 2 * k, f };
+        return 1;
+    }
+    for (int end = 0; end < 2; end++)
+        c[end] = (condition){ { b->p[end], b->p[end] }, { b->q[end], b->q[end] }, 0, BBM_XY, k, f + 2 * end };
+    return 2;
+}
+
+static int vertex_conditions(bbm_model *m, int v, condition c[2])
+{
+    const bbm_element *e = &m->element[m->vertex[v].element];
+    const double k = bbm_fixed_stiffness(m->par.alpha, e);
+    double *f = &m->force[4 * (m->bonds + v)];
+
+    if (!m->node[m->vertex[v].node].held)
+        return 0;
+    c[0] = (condition){ { v, v }, { v, v }, 1, held_vertex(m, e, v), k, f };
+    c[1] = (condition){ { v, next_vertex(e, v) }, { v, next_vertex(e, v) }, 1, held_edge(m, e, v), 2 * k, f + 2 };
+    return 2;
+}
+
+/* Vertex v, or its wall point, after the step, as a displacement from the start. */
+static void moved_vertex(const bbm_model *m, int v, int wall, double u[2])
+{
+    const bbm_vertex *p = &m->vertex[v];
+    double T[2][6];
+
+    if (wall) {
+        memcpy(u, m->node[p->node].wall, 2 * sizeof *u);
+        return;
+    }
+    bbm_mode_matrix(&m->element[p->element], p->x, p->y, T);
+    for (int r = 0; r < 2; r++) {
+        u[r] = r == 0 ? p->u : p->v;
+        for (int a = 0; a < 6; a++)
+            u[r] += T[r][a] * m->D[6 * p->element + a];
+    }
+}
+
+/* f += k d */
+static void take_over_force(const bbm_model *m, const condition *c)
+{
+    for (int end = 0; end < 2; end++) {
+        double P[2], Q[2];
+        moved_vertex(m, c->P[end], 0, P);
+        moved_vertex(m, c->Q[end], c->wall, Q);
+        for (int r = 0; r < 2; r++)
+            if (c->directions & (r == 0 ? BBM_X : BBM_Y))
+                c->f[r] += c->k * (P[r] - Q[r]) / 2;
+    }
+}
+
+/* F_i -= T_i^T f, F_j += T_j^T f */
+static void load_multiplier(bbm_model *m, const condition *c)
+{
+    const double pull[2] = { c->f[0] / 2, c->f[1] / 2 }, push[2] = { -pull[0], -pull[1] };
+
+    for (int end = 0; end < 2; end++) {
+        const bbm_vertex *P = &m->vertex[c->P[end]], *Q = &m->vertex[c->Q[end]];
+        bbm_point_load(&m->element[P->element], P, push, &m->F[6 * P->element]);
+        if (!c->wall)
+            bbm_point_load(&m->element[Q->element], Q, pull, &m->F[6 * Q->element]);
+    }
+}
+
+/* Does one of the two with every multiplier. */
+static void visit_multipliers(bbm_model *m, int take_over)
+{
+    condition c[2];
+
+    for (int k = 0; k < m->bonds + m->vertices; k++) {
+        const int n = k < m->bonds ? bond_conditions(m, k, c) : vertex_conditions(m, k - m->bonds, c);
+        for (int a = 0; a < n; a++) {
+            if (take_over)
+                take_over_force(m, &c[a]);
+            else
+                load_multiplier(m, &c[a]);
+        }
+    }
+}
+
 /* The sources of energy inside one element: strain, inertia, gravity. */
 static bbm_status assemble_element(bbm_model *m, int i)
 {
@@ -965,32 +1384,67 @@ static bbm_status assemble_element(bbm_model *m, int i)
     for (int v = e->first; v < e->first + e->n; v++) {
         const int n = m->vertex[v].node, meeting = m->meet_first[n + 1] - m->meet_first[n];
         const double share[2] = { m->node[n].load[0] / meeting, m->node[n].load[1] / meeting };
-        bbm_fixed_submatrix(e, &m->vertex[v], &m->node[n], bbm_fixed_stiffness(m->par.alpha, e), &s);
         bbm_point_load(e, &m->vertex[v], share, s.F);
     }
+    hold_element(m, e, &s);
     for (int a = 0; a < 6; a++)
         m->F[6 * i + a] += s.F[a];
-    return bbm_matrix_add(m->K, i, i, s.K);
+    return m->keep_K ? BBM_OK : bbm_matrix_add(m->K, i, i, s.K);
+}
+
+/* Adds the submatrices of a pair of elements to F, and to K unless it is kept. */
+bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
+{
+    bbm_status status = BBM_OK;
+
+    for (int a = 0; a < 6; a++) {
+        m->F[6 * i + a] += s->Fi[a];
+        m->F[6 * j + a] += s->Fj[a];
+    }
+    if (!m->keep_K)
+        status = bbm_matrix_add(m->K, i, i, s->Kii);
+    if (!m->keep_K && !status)
+        status = bbm_matrix_add(m->K, i, j, s->Kij);
+    if (!m->keep_K && !status)
+        status = bbm_matrix_add(m->K, j, j, s->Kjj);
+    return status;
+}
+
+/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element by itself, and
+ * SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs to cross some elements. */
+static int long_step(const bbm_model *m)
+{
+    for (int b = 0; b < m->bonds; b++) {
+        const bbm_element *e = &m->element[m->bond[b].i];
+        const double way2 = e->material.E / e->material.density * m->h * m->h;
+        if (way2 > CROSSED * CROSSED * e->A && !held_all_round(m, e))
+            return 1;
+    }
+    return 0;
+}
+
+/* The coarse space of the present geometry. Elements that are not in it are refused, which does no harm. */
+static void interpolate_elements(bbm_model *m)
+{
+    double P[6][2];
+
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        const int middles = m->par.bonding != BBM_VERTICES && e->n == 4;
+        for (int a = 0; a < e->n; a++) {
+            bbm_interpolation(e, &m->vertex[e->first], middles, a, P);
+            if (bbm_matrix_interpolate(m->K, i, a, P))
+                break;
+        }
+    }
 }
 
 static bbm_status assemble_bond(bbm_model *m, const bbm_bond *b)
 {
-    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
-    const double k = bbm_bonding_stiffness(m->par.alpha, i, j);
     bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
 
-    for (int end = 0; end < 2; end++)
-        bbm_bonding_submatrices(i, &m->vertex[b->p[end]], j, &m->vertex[b->q[end]], k, &s);
-    for (int a = 0; a < 6; a++) {
-        m->F[6 * b->i + a] += s.Fi[a];
-        m->F[6 * b->j + a] += s.Fj[a];
-    }
-    bbm_status status = bbm_matrix_add(m->K, b->i, b->i, s.Kii);
-    if (!status)
-        status = bbm_matrix_add(m->K, b->i, b->j, s.Kij);
-    if (!status)
-        status = bbm_matrix_add(m->K, b->j, b->j, s.Kjj);
-    return status;
+    add_bond(m, b, &s);
+    return bbm_add_submatrices(m, b->i, b->j, &s);
 }
 
 static void assemble_line_load(bbm_model *m, const bbm_line_load *l)
@@ -1004,19 +1458,24 @@ static void assemble_line_load(bbm_model *m, const bbm_line_load *l)
         bbm_varying_load_submatrix(&m->element[i], a, b, l->f, &m->F[6 * i]);
 }
 
-/* K and F of the present geometry, section 3. */
+/* K, unless it is kept, and F of the present geometry, section 3. */
 static bbm_status assemble(bbm_model *m)
 {
     bbm_status status = BBM_OK;
 
-    bbm_matrix_clear(m->K);
+    if (!m->keep_K)
+        bbm_matrix_clear(m->K);
     memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
+    if (!m->keep_K && m->par.pcg.form == BBM_TWO_LEVEL && long_step(m))
+        interpolate_elements(m);
     for (int i = 0; i < m->elements && !status; i++)
         status = assemble_element(m, i);
     for (int b = 0; b < m->bonds && !status; b++)
         status = assemble_bond(m, &m->bond[b]);
     for (int l = 0; l < m->line_loads; l++)
         assemble_line_load(m, &m->line_load[l]);
+    if (m->par.augment > 0)
+        visit_multipliers(m, 0);
     return status ? status : bbm_assemble_contacts(m);
 }
 
@@ -1024,8 +1483,11 @@ static bbm_status assemble(bbm_model *m)
 static bbm_status solve(bbm_model *m)
 {
     const bbm_pcg_info *i = &m->info.pcg;
-    const bbm_status status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
+    bbm_pcg pcg = m->par.pcg;
 
+    if (pcg.form == BBM_TWO_LEVEL && !long_step(m))
+        pcg.form = BBM_EISENSTAT;
+    const bbm_status status = bbm_solve(m->K, m->F, m->D, &pcg, &m->info.pcg);
     if (status)
         return fail(m, status, "step %d, %d iterations, residual %.2g, element %d", m->info.step + 1, i->iterations,
                     i->residual, i->element);
@@ -1097,22 +1559,32 @@ static void update(bbm_model *m)
         step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
     }
+    memcpy(m->force_before, m->force, 4 * (size_t)(m->bonds + m->vertices) * sizeof *m->force);
     m->info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
     m->info.t += isinf(m->h) ? 0 : m->h;
 }
 
-/* Assembles and solves until the contacts have settled. */
+/* Assembles and solves until the contacts have settled, and then once more for each round of multipliers, which change
+ * F alone: K and all that the solver made of it are kept. */
 static bbm_status settle_contacts(bbm_model *m)
 {
     bbm_pass pass = BBM_PASS_AGAIN;
     bbm_status status = lay_out_matrix(m);
 
-    while (!status && pass == BBM_PASS_AGAIN) {
+    memcpy(m->force, m->force_before, 4 * (size_t)(m->bonds + m->vertices) * sizeof *m->force);
+    m->keep_K = 0;
+    for (int rounds = 0; !status && pass == BBM_PASS_AGAIN;) {
         status = assemble(m);
+        m->keep_K = 0;
         if (!status)
             status = solve(m);
         if (!status)
             status = bbm_open_close(m, &pass);
+        if (!status && pass == BBM_PASS_DONE && rounds++ < m->par.augment) {
+            visit_multipliers(m, 1);
+            m->keep_K = 1;
+            pass = BBM_PASS_AGAIN;
+        }
     }
     if (!status && pass == BBM_PASS_GIVE_UP)
         return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1,

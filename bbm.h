@@ -94,6 +94,16 @@ typedef struct {                /* a boundary edge from vertex a to vertex b, it
     int element, a, b, block;
 } bbm_edge;
 
+typedef enum {                  /* how quadrilaterals are bonded along an edge; all others are at its vertices  */
+    BBM_MOMENT,                 /* in its middle, with the resistance to opening that bending needs             */
+    BBM_MIDPOINTS,              /* in its middle alone                                                          */
+    BBM_VERTICES                /* at both ends: the paper                                                      */
+} bbm_bonding;
+
+/* A bond of a whole edge. With d1, d2 the gaps at its ends, d = (d1 + d2)/2, dd = (d1 - d2)/2:
+ * Pi = 1/2 d.K d + 1/2 dd.M dd. Two springs k at the ends are K = M = 2 k I.                                     */
+typedef struct { double K[2][2], M[2][2]; } bbm_hinge;
+
 typedef struct {                /* a load along a boundary edge                                                 */
     int    node[2];             /* its ends                                  */
     int    constant;            /* then f[0] is all of it, Eq. (43)          */
@@ -107,11 +117,15 @@ typedef void bbm_field(double x, double y, const void *context, double f[2]);
 typedef struct { double K[6][6], F[6]; } bbm_submatrix;                                 /* what one element adds */
 typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices; /* two; Kji = Kij^T    */
 
-typedef enum { BBM_EISENSTAT, BBM_TEXTBOOK } bbm_pcg_form;      /* the same iterates, the first in half the time */
+typedef enum {                  /* how K D = F is solved                                                        */
+    BBM_EISENSTAT,              /* the paper's SSOR-PCG in half the time of the next, with the same iterates    */
+    BBM_TEXTBOOK,               /* the paper's SSOR-PCG                                                         */
+    BBM_TWO_LEVEL               /* beyond the paper: with a coarse space; where there is none, the first        */
+} bbm_pcg_form;
 
-typedef struct {                /* how K D = F is solved                                                        */
-    double omega;               /* -        relaxation factor of SSOR, in (0, 2)                                */
-    double tolerance;           /* -        of the residual's SSOR norm against that of F                       */
+typedef struct {
+    double omega;               /* -        relaxation factor of SSOR, in (0, 2); with two levels it is 1       */
+    double tolerance;           /* -        of the residual, in the norm of the preconditioner, against F      */
     int    iterations;          /* at most                                                                      */
     bbm_pcg_form form;
 } bbm_pcg;
@@ -161,6 +175,8 @@ typedef struct {
     double tolerance;           /* -        of (71), ends the steps; 0: do all steps                            */
     double keep;                /* -        share of its velocity that a step hands on: 1 dynamics, 0 statics   */
     double alpha;               /* -        of the bonding stiffness, (4) and (29)                              */
+    int    augment;             /* further solutions of a step that take the give out of the springs; 0: paper  */
+    bbm_bonding bonding;        /* of quadrilaterals; BBM_VERTICES: paper                                       */
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      stiffness of the normal and of the shear spring of a contact        */
     double friction;            /* degree   friction angle                                                      */
@@ -202,11 +218,14 @@ typedef struct {
     /* --- state and scratch --- */
     bbm_matrix *K;
     double *F, *D;              /* [6 elements]                              */
+    double *force, *force_before;   /* N    [4 (bonds + vertices)] multipliers of bonds and fixed points: forces
+                                   from i on j, from element on wall; and those of the start of the step       */
     double h;                   /* s        the step in hand: dt, or a part of it                               */
     int contacts, contact_room;
     bbm_contact *contact;       /* [contacts] at the end of the last step, sorted by corner and edge            */
     bbm_contact_work *work;
-    int pairs, (*pair)[2];      /* elements of the contacts that K has room for                                 */
+    int keep_K;                 /* F alone is assembled                      */
+    int pairs, (*pair)[2];      /* elements of the contacts and bonds that K has room for                       */
     bbm_info info;
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
@@ -259,9 +278,14 @@ void   bbm_newmark_velocity(bbm_element *e, double dt, double keep);            
 /* 3.3, 3.4 */
 void   bbm_bonding_submatrices(const bbm_element *i, const bbm_vertex *P, const bbm_element *j, const bbm_vertex *Q,
                                double k, bbm_submatrices *s);                          /* (27), (28)            */
+void   bbm_hinge_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
+void   bbm_hinge_submatrices(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
+                             const bbm_vertex *const Q[2], const bbm_hinge *h, bbm_submatrices *s);
 double bbm_fixed_stiffness(double alpha, const bbm_element *e);                        /* (29)                  */
 void   bbm_fixed_submatrix(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
                            double k, bbm_submatrix *s);                                /* (37)                  */
+void   bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int middles, int a,
+                         double P[6][2]);                                              /* for two levels        */
 /* 3.5, 3.6 */
 void   bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6]);
 void   bbm_gauss_point(int g, double *s, double *weight);                              /* on 0 <= s <= 1       */
@@ -292,6 +316,7 @@ int        bbm_moved_too_far(bbm_model *m);
 bbm_status bbm_detect_contacts(bbm_model *m);
 int        bbm_contact_count(const bbm_model *m);
 void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
+bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s);
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
 bbm_status bbm_keep_contacts(bbm_model *m);
@@ -304,8 +329,12 @@ bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                                             /* takes NULL            */
 void       bbm_matrix_clear(bbm_matrix *K);
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]);  /* K_ij, K_ji = B^T; i = j: B symmetric */
+void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);          /* B = K_ij              */
 void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y);       /* y = K x               */
 int        bbm_matrix_bandwidth(const bbm_matrix *K);                                  /* in block rows         */
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node); /* for two levels:
+                                   block row i hangs on node[first[i]] .. node[first[i+1]-1], each with two unknowns */
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);        /* by P on the k-th      */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info);
 
 #endif

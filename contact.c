@@ -822,16 +822,7 @@ static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
         bbm_shear_submatrices(&t, c->anchor, c->more[1], m->par.p_s, &s);
     else
         bbm_friction_submatrices(&t, c->anchor, c->sign * bbm_shear_strength(&m->par, c->used, c->area), &s);
-    for (int a = 0; a < 6; a++) {
-        m->F[6 * i + a] += s.Fi[a];
-        m->F[6 * j + a] += s.Fj[a];
-    }
-    bbm_status status = bbm_matrix_add(m->K, i, i, s.Kii);
-    if (!status)
-        status = bbm_matrix_add(m->K, i, j, s.Kij);
-    if (!status)
-        status = bbm_matrix_add(m->K, j, j, s.Kjj);
-    return status;
+    return bbm_add_submatrices(m, i, j, &s);
 }
 
 bbm_status bbm_assemble_contacts(bbm_model *m)

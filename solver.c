@@ -1,4 +1,6 @@
-/* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with SSOR.
+/* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with SSOR. This is complete
+ * in itself and comes first. After it, under an essay of its own, comes what goes beyond the paper: a second, coarse
+ * level, by which the number of iterations no longer grows with the mesh.
  *
  * Storage. K is symmetric and consists of 6x6 blocks, a block row for each element. Write
  *
@@ -66,6 +68,19 @@
 #define NEGLIGIBLE 1e-100                       /* -  against the largest entry of F                            */
 
 typedef struct { double a[6][6]; } matrix6;
+typedef struct { double a[6][2]; } matrix62;
+typedef struct { double a[2][2]; } matrix2;
+
+typedef struct {                /* the coarse space; its nodes are numbered by their place in an RCM order      */
+    int n;                      /* nodes, two unknowns each                                                     */
+    int *first, *node;          /* [rows+1]  the nodes of block row i are node[first[i]] .. node[first[i+1]-1]  */
+    int *left;                  /* [n]       the first column of row i of Kc that is not zero                   */
+    size_t *diagonal;           /* [n]       where Kc_ii is; the row left of it comes before it, without gaps   */
+    size_t blocks;              /* in Kc                                                                        */
+    matrix62 *P, *Q;            /* [first[rows]]  P as given, and C_i^T P                                       */
+    matrix2 *A;                 /* [blocks]  Kc, then its factor, with inverted diagonal blocks                 */
+    double *size, *c;           /* [2 n]     what a pivot is measured by; the coarse vector                     */
+} coarse_space;
 
 /* Block rows are numbered in two ways: by the caller, and by their place in the reverse Cuthill-McKee order.    */
 struct bbm_matrix {
@@ -78,6 +93,10 @@ struct bbm_matrix {
     matrix6 *C, *S;             /* [n], [blocks]  C_i^-1 and -w S_ij; in the textbook form C is -w D_i^-1       */
     double *f, *x, *r, *p, *q;  /* right-hand side, solution, residual, direction, product                      */
     double *y, *z;              /* results of a forward and of a backward sweep                                 */
+    coarse_space *coarse;       /* NULL: none                                                                   */
+    int ready;                  /* C, S and the coarse factor belong to D, L and the following                  */
+    bbm_pcg_form form;
+    double omega;
 };
 
 /* ------------------------------------------------------------------------------------ the pattern and its order */
@@ -181,10 +200,10 @@ static int order_component(graph *g, int start, int *order)
     }
 }
 
-/* place and caller: all components one after the other, then the whole order turned round. */
-static void reverse_cuthill_mckee(graph *g, bbm_matrix *K)
+/* order and place, its inverse: all components one after the other, then the whole order turned round. */
+static void reverse_cuthill_mckee(graph *g, int *order, int *place)
 {
-    int *order = K->caller, done = 0, i;
+    int done = 0, i;
 
     for (i = 0; i < g->n; i++)
         g->level[i] = -1;
@@ -192,9 +211,9 @@ static void reverse_cuthill_mckee(graph *g, bbm_matrix *K)
         if (g->level[i] < 0)
             done += order_component(g, i, order + done);
     for (i = 0; i < g->n; i++)
-        K->place[order[i]] = g->n - 1 - i;
+        place[order[i]] = g->n - 1 - i;
     for (i = 0; i < g->n; i++)
-        K->caller[K->place[i]] = i;
+        order[place[i]] = i;
 }
 
 /* first and column: the neighbours left of the diagonal. */
@@ -245,10 +264,23 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     return BBM_OK;
 }
 
+static void coarse_free(coarse_space *c)
+{
+    if (!c)
+        return;
+    free(c->first);
+    free(c->diagonal);
+    free(c->P);
+    free(c->A);
+    free(c->size);
+    free(c);
+}
+
 void bbm_matrix_free(bbm_matrix *K)
 {
     if (!K)
         return;
+    coarse_free(K->coarse);
     free(K->place);
     free(K->D);
     free(K->p);
@@ -274,7 +306,7 @@ bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K)
         status = allocate(A, &g);
     if (status != BBM_OK)
         goto done;
-    reverse_cuthill_mckee(&g, A);
+    reverse_cuthill_mckee(&g, A->caller, A->place);
     lay_out_rows(&g, A);
     *K = A;
     A = NULL;
@@ -288,6 +320,7 @@ void bbm_matrix_clear(bbm_matrix *K)
 {
     memset(K->D, 0, (size_t)K->n * sizeof *K->D);
     memset(K->L, 0, (size_t)K->blocks * sizeof *K->L);
+    K->ready = 0;
 }
 
 /* The block of row i and column j <= i, or NULL. A row has one to three blocks left of the diagonal: look at each. */
@@ -318,7 +351,20 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
     for (a = 0; a < 6; a++)
         for (b = 0; b < 6; b++)
             to->a[a][b] += right ? B[b][a] : B[a][b];
+    K->ready = 0;
     return BBM_OK;
+}
+
+/* B = K_ij; 0 where the pattern has no block. */
+void bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6])
+{
+    const int right = K->place[i] < K->place[j];
+    const matrix6 *from = right ? find_block(K, K->place[j], K->place[i]) : find_block(K, K->place[i], K->place[j]);
+    int a, b;
+
+    for (a = 0; a < 6; a++)
+        for (b = 0; b < 6; b++)
+            B[a][b] = !from ? 0.0 : right ? from->a[b][a] : from->a[a][b];
 }
 
 int bbm_matrix_bandwidth(const bbm_matrix *K)
@@ -518,7 +564,6 @@ static bbm_status textbook(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info
     double *x = K->x, *r = K->r, *z = K->z, *p = K->p, *q = K->q, rz, last, stop, pq;
     bbm_status status = BBM_OK;
 
-    invert_diagonal(K, pcg->omega);
     set_zero(n, x);
     copy(n, K->f, r);
     apply_ssor(K, r, z);
@@ -636,7 +681,6 @@ static bbm_status eisenstat(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *inf
     bbm_status status = BBM_OK;
     int i;
 
-    scale_blocks(K, w);
     set_zero(n, x);
     set_zero(n, p);
     for (i = 0; i < n; i++)                     /* p = b */
@@ -660,6 +704,461 @@ static bbm_status eisenstat(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *inf
     for (i = 0; i < n; i++)                     /* x = w C^-T x */
         add_transposed(&K->C[i], x + 6 * i, y + 6 * i);
     combine(n, y, w - 1.0, y, x);
+    return status;
+}
+
+/* ------------------------------------------------------------------------ beyond the paper: two levels
+ *
+ * SSOR removes in one iteration what is stiff and local, but carries news of the load by one element per sweep; the
+ * finer the mesh, the more iterations. What it is slow at is known beforehand: displacements that are continuous from
+ * element to element cost the bonding springs nothing, so that in their sight everything else is stiff. On triangles
+ * these are the displacements of the constant-strain finite element. So take the corners of the elements as a coarse
+ * grid, where corners tied together by bonds are one node, and correct between the two sweeps of SSOR in the whole
+ * space of its displacements at once. With w = 1 and in the scaled variables of Eisenstat, E = I + S, Q = C^T P,
+ *
+ *     z = E^-1 r                              forward sweep
+ *     z += Q Kc^-1 Q^T (r - K z)              r - K z = -S^T z, gathered in the same sweep
+ *     u = E^-T (r - S z)                      backward sweep; without the correction: E^-T E^-1 r, which is SSOR
+ *
+ * P takes the displacements of the nodes to the unknowns of the elements, six rows and two columns for each corner;
+ * Kc = P^T K P = Q^T (I + S + S^T) Q is the stiffness on the coarse grid, with all fixed points, contacts and inertia
+ * in it. Since E^T u = r - S z, K u needs no product with all of K, and conjugate gradients go
+ *
+ *     K u = (I + S + S^T) u = r + S (u - z)
+ *     p = u + b p,  q = K u + b q             q is K p
+ *     a = r.u / p.q,  x += a p,  r -= a q
+ *
+ * with three passes over L an iteration. That many iterations, some 15, suffice on a mesh of any fineness.
+ *
+ * Kc has an envelope: from the first block of each row that is not zero to the diagonal, everything is stored and
+ * factored by Cholesky; Cuthill and McKee number its nodes, too. Displacements of the nodes that move no element (the
+ * hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left, some eps of what was summed up
+ * before it cancelled. A pivot below VANISHING of that is struck out with its row: the coarse space is then a
+ * little smaller, and the preconditioner as positive definite as before.                                          */
+
+#define VANISHING 1e-12                         /* -  against the pivot's share of P^T D P                      */
+
+/* Whether the elements of two block rows are triangles with a side in common. The springs of that side feel only the
+ * displacements of its two nodes: K_ij adds to their diagonal blocks in Kc and to nothing else.                   */
+static int share_a_side(const coarse_space *c, int i, int j)
+{
+    int common = 0, a, b;
+
+    if (c->first[i + 1] - c->first[i] != 3 || c->first[j + 1] - c->first[j] != 3)
+        return 0;
+    for (a = c->first[i]; a < c->first[i + 1]; a++)
+        for (b = c->first[j]; b < c->first[j + 1]; b++)
+            common += c->node[a] == c->node[b];
+    return common == 2;
+}
+
+/* Lists, or only counts, the pairs of nodes that belong to one element, or to two elements with a block in K. */
+static int list_coarse_pairs(const bbm_matrix *K, const coarse_space *c, int (*pair)[2])
+{
+    int count = 0, i, j, k, a, b;
+
+    for (i = 0; i < K->n; i++)
+        for (k = K->first[i]; k <= K->first[i + 1]; k++) {
+            j = k < K->first[i + 1] ? K->column[k] : i;
+            if (i != j && share_a_side(c, i, j))
+                continue;
+            for (a = c->first[i]; a < c->first[i + 1]; a++)
+                for (b = c->first[j]; b < (i == j ? a : c->first[j + 1]); b++, count++)
+                    if (pair) {
+                        pair[count][0] = c->node[a];
+                        pair[count][1] = c->node[b];
+                    }
+        }
+    return count;
+}
+
+/* Numbers the nodes anew, by their place in the order, and lays out the envelope. */
+static bbm_status lay_out_envelope(const bbm_matrix *K, coarse_space *c)
+{
+    const int pairs = list_coarse_pairs(K, c, NULL);
+    int (*pair)[2] = calloc((size_t)pairs + 1, sizeof *pair);
+    int *order = calloc(2 * (size_t)c->n, sizeof *order), *place;
+    graph g = { 0, NULL, NULL, NULL, NULL, NULL };
+    bbm_status status = BBM_NO_MEMORY;
+    int i, k;
+
+    if (!pair || !order)
+        goto done;
+    place = order + c->n;
+    list_coarse_pairs(K, c, pair);
+    status = graph_new(&g, c->n, pairs, pair);
+    if (status != BBM_OK)
+        goto done;
+    reverse_cuthill_mckee(&g, order, place);
+    for (k = 0; k < c->first[K->n]; k++)
+        c->node[k] = place[c->node[k]];
+    for (i = 0; i < c->n; i++) {
+        c->left[i] = i;
+        for (k = g.first[order[i]]; k < g.end[order[i]]; k++)
+            if (place[g.list[k]] < c->left[i])
+                c->left[i] = place[g.list[k]];
+        c->diagonal[i] = c->blocks + (size_t)(i - c->left[i]);
+        c->blocks = c->diagonal[i] + 1;
+    }
+done:
+    free(g.first);
+    free(pair);
+    free(order);
+    return status;
+}
+
+static bbm_status allocate_coarse(coarse_space *c, int rows, int corners, int nodes)
+{
+    const size_t n = (size_t)nodes;
+
+    if (!(c->first = calloc((size_t)rows + 1 + (size_t)corners + n, sizeof *c->first))
+        || !(c->diagonal = calloc(n, sizeof *c->diagonal))
+        || !(c->P = calloc(2 * (size_t)corners, sizeof *c->P))
+        || !(c->size = calloc(4 * n, sizeof *c->size)))
+        return BBM_NO_MEMORY;
+    c->n = nodes;
+    c->node = c->first + rows + 1;
+    c->left = c->node + corners;
+    c->Q = c->P + corners;
+    c->c = c->size + 2 * n;
+    return BBM_OK;
+}
+
+/* Gives K a coarse space in place of the one it had: block row i hangs on node[first[i]] .. node[first[i+1]-1], all
+ * different, or on none. Rows of three nodes that share two of them must be triangles bonded along that side.    */
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node)
+{
+    const int corners = first[K->n];
+    coarse_space *c;
+    bbm_status status;
+    int i, k;
+
+    for (k = 0; k < corners; k++)
+        if (node[k] < 0 || node[k] >= nodes)
+            return BBM_BAD_INDEX;
+    coarse_free(K->coarse);
+    K->coarse = NULL;
+    K->ready = 0;
+    if (corners == 0)
+        return BBM_OK;
+    c = calloc(1, sizeof *c);
+    status = c ? allocate_coarse(c, K->n, corners, nodes) : BBM_NO_MEMORY;
+    for (i = 0; i < K->n && status == BBM_OK; i++) {
+        const int *from = node + first[K->caller[i]], *end = node + first[K->caller[i] + 1];
+
+        for (k = c->first[i]; from < end; k++, from++)
+            c->node[k] = *from;
+        c->first[i + 1] = k;
+    }
+    if (status == BBM_OK)
+        status = lay_out_envelope(K, c);
+    if (status == BBM_OK && !(c->A = calloc(c->blocks, sizeof *c->A)))
+        status = BBM_NO_MEMORY;
+    if (status == BBM_OK)
+        K->coarse = c;
+    else
+        coarse_free(c);
+    return status;
+}
+
+/* The displacement of the k-th node of block row i alone gives the row's unknowns the values P (u, v). */
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
+{
+    const coarse_space *c = K->coarse;
+    int at;
+
+    if (!c || i < 0 || i >= K->n)
+        return BBM_BAD_INDEX;
+    at = c->first[K->place[i]] + k;
+    if (k < 0 || at >= c->first[K->place[i] + 1])
+        return BBM_BAD_INDEX;
+    memcpy(c->P[at].a, P, sizeof c->P[at]);
+    K->ready = 0;
+    return BBM_OK;
+}
+
+/* Y = B X */
+static void multiply62(const matrix6 *B, const matrix62 *X, matrix62 *Y)
+{
+    int a, b, k;
+
+    for (a = 0; a < 6; a++)
+        for (b = 0; b < 2; b++) {
+            double s = 0.0;
+
+            for (k = 0; k < 6; k++)
+                s += B->a[a][k] * X->a[k][b];
+            Y->a[a][b] = s;
+        }
+}
+
+/* Q = C^T P = C^-1 D P */
+static void scale_interpolation(bbm_matrix *K)
+{
+    const coarse_space *c = K->coarse;
+    matrix62 DP;
+    int i, k;
+
+    for (i = 0; i < K->n; i++)
+        for (k = c->first[i]; k < c->first[i + 1]; k++) {
+            multiply62(&K->D[i], &c->P[k], &DP);
+            multiply62(&K->C[i], &DP, &c->Q[k]);
+        }
+}
+
+/* Kc_ij += sign P^T Q and Kc_ji += its transpose, of which only the one left of the diagonal is stored. */
+static void add_coarse(coarse_space *c, int i, int j, double sign, const matrix62 *P, const matrix62 *Q)
+{
+    const int right = i < j, from = right ? i : j, row = right ? j : i;
+    matrix2 *to = &c->A[c->diagonal[row] - (size_t)(row - from)];
+    int a, b, k;
+
+    for (a = 0; a < 2; a++)
+        for (b = 0; b < 2; b++) {
+            double s = 0.0;
+
+            for (k = 0; k < 6; k++)
+                s += P->a[k][a] * Q->a[k][b];
+            to->a[right ? b : a][right ? a : b] += sign * s;
+            if (i == j)
+                to->a[b][a] += sign * s;
+        }
+}
+
+/* The part Q_i^T S_ij Q_j of Kc, from the block -S_ij. */
+static void add_coarse_block(coarse_space *c, int i, int j, const matrix6 *S)
+{
+    const int side = share_a_side(c, i, j);
+    matrix62 SQ;
+    int a, b;
+
+    for (b = c->first[j]; b < c->first[j + 1]; b++) {
+        multiply62(S, &c->Q[b], &SQ);
+        for (a = c->first[i]; a < c->first[i + 1]; a++)
+            if (!side || c->node[a] == c->node[b])
+                add_coarse(c, c->node[a], c->node[b], -1.0, &c->Q[a], &SQ);
+    }
+}
+
+/* Kc = Q^T (I + S + S^T) Q: first Q^T Q, whose diagonal is what the pivots are measured by. */
+static void sum_coarse(const bbm_matrix *K, coarse_space *c)
+{
+    int i, k, a, b;
+
+    memset(c->A, 0, c->blocks * sizeof *c->A);
+    for (i = 0; i < K->n; i++)
+        for (a = c->first[i]; a < c->first[i + 1]; a++)
+            for (b = c->first[i]; b <= a; b++)
+                add_coarse(c, c->node[a], c->node[b], a == b ? 0.5 : 1.0, &c->Q[a], &c->Q[b]);
+    for (i = 0; i < 2 * c->n; i++)
+        c->size[i] = c->A[c->diagonal[i / 2]].a[i % 2][i % 2];
+    for (i = 0; i < K->n; i++)
+        for (k = K->first[i]; k < K->first[i + 1]; k++)
+            add_coarse_block(c, i, K->column[k], &K->S[k]);
+}
+
+/* s -= sum_k A_k B_k^T over n blocks, in partial sums of the even and of the odd columns. */
+static void subtract_products(int n, const matrix2 *A, const matrix2 *B, matrix2 *s)
+{
+    double t[2][2][2] = { { { 0, 0 }, { 0, 0 } }, { { 0, 0 }, { 0, 0 } } };
+    int k;
+
+    for (k = 0; k < n; k++) {
+        const double *a = A[k].a[0], *b = B[k].a[0];
+
+        t[0][0][0] += a[0] * b[0];
+        t[0][0][1] += a[1] * b[1];
+        t[0][1][0] += a[0] * b[2];
+        t[0][1][1] += a[1] * b[3];
+        t[1][0][0] += a[2] * b[0];
+        t[1][0][1] += a[3] * b[1];
+        t[1][1][0] += a[2] * b[2];
+        t[1][1][1] += a[3] * b[3];
+    }
+    for (k = 0; k < 4; k++)
+        s->a[k / 2][k % 2] -= t[k / 2][k % 2][0] + t[k / 2][k % 2][1];
+}
+
+/* s = C_ii^-1, where C_ii C_ii^T = s; 0 in place of 1/sqrt(pivot) where the pivot vanishes. */
+static void invert_small(const double *size, matrix2 *s)
+{
+    const double p0 = s->a[0][0], g0 = p0 > VANISHING * size[0] ? 1.0 / sqrt(p0) : 0.0, c10 = s->a[1][0] * g0;
+    const double p1 = s->a[1][1] - c10 * c10, g1 = p1 > VANISHING * size[1] ? 1.0 / sqrt(p1) : 0.0;
+    const matrix2 G = { { { g0, 0.0 }, { -g1 * c10 * g0, g1 } } };
+
+    *s = G;
+}
+
+/* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk^T) C_jj^-T */
+static void factor_coarse(coarse_space *c)
+{
+    int i, j, a;
+
+    for (i = 0; i < c->n; i++)
+        for (j = c->left[i]; j <= i; j++) {
+            const int from = c->left[i] > c->left[j] ? c->left[i] : c->left[j];
+            matrix2 *s = &c->A[c->diagonal[i] - (size_t)(i - j)], *G = &c->A[c->diagonal[j]];
+
+            subtract_products(j - from, s - (j - from), G - (j - from), s);
+            if (i == j)
+                invert_small(c->size + 2 * i, s);
+            for (a = 0; a < 2 && j < i; a++) {
+                s->a[a][1] = s->a[a][0] * G->a[1][0] + s->a[a][1] * G->a[1][1];
+                s->a[a][0] = s->a[a][0] * G->a[0][0];
+            }
+        }
+}
+
+/* s -= sum_k A_k x_k over n blocks, each row in two partial sums: one alone would wait for each addition to end. */
+static void subtract_row(int n, const matrix2 *A, const double *x, double *s)
+{
+    double t[2][2] = { { 0, 0 }, { 0, 0 } };
+    int k;
+
+    for (k = 0; k < n; k++, x += 2) {
+        t[0][0] += A[k].a[0][0] * x[0];
+        t[0][1] += A[k].a[0][1] * x[1];
+        t[1][0] += A[k].a[1][0] * x[0];
+        t[1][1] += A[k].a[1][1] * x[1];
+    }
+    s[0] -= t[0][0] + t[0][1];
+    s[1] -= t[1][0] + t[1][1];
+}
+
+/* x_k -= A_k^T y for n blocks. */
+static void subtract_column(int n, const matrix2 *restrict A, const double y[2], double *restrict x)
+{
+    const double y0 = y[0], y1 = y[1];
+    int k;
+
+    for (k = 0; k < n; k++, x += 2) {
+        x[0] -= A[k].a[0][0] * y0 + A[k].a[1][0] * y1;
+        x[1] -= A[k].a[0][1] * y0 + A[k].a[1][1] * y1;
+    }
+}
+
+/* c = Kc^-1 c = C^-T C^-1 c */
+static void solve_coarse(const coarse_space *c)
+{
+    int i;
+
+    for (i = 0; i < c->n; i++) {
+        const int count = i - c->left[i];
+        const matrix2 *G = &c->A[c->diagonal[i]];
+        double *y = c->c + 2 * i;
+
+        subtract_row(count, G - count, y - 2 * count, y);
+        y[1] = G->a[1][0] * y[0] + G->a[1][1] * y[1];
+        y[0] = G->a[0][0] * y[0];
+    }
+    for (i = c->n - 1; i >= 0; i--) {
+        const int count = i - c->left[i];
+        const matrix2 *G = &c->A[c->diagonal[i]];
+        double *y = c->c + 2 * i;
+
+        y[0] = G->a[0][0] * y[0] + G->a[1][0] * y[1];
+        y[1] = G->a[1][1] * y[1];
+        subtract_column(count, G - count, y, y - 2 * count);
+    }
+}
+
+/* z += Q Kc^-1 Q^T g */
+static void correct(const bbm_matrix *K, const double *g, double *z)
+{
+    const coarse_space *c = K->coarse;
+    int i, k, a;
+
+    memset(c->c, 0, 2 * (size_t)c->n * sizeof *c->c);
+    for (i = 0; i < K->n; i++, g += 6)
+        for (k = c->first[i]; k < c->first[i + 1]; k++) {
+            double *to = c->c + 2 * c->node[k];
+
+            for (a = 0; a < 6; a++) {
+                to[0] += c->Q[k].a[a][0] * g[a];
+                to[1] += c->Q[k].a[a][1] * g[a];
+            }
+        }
+    solve_coarse(c);
+    for (i = 0; i < K->n; i++, z += 6)
+        for (k = c->first[i]; k < c->first[i + 1]; k++) {
+            const double *from = c->c + 2 * c->node[k];
+
+            for (a = 0; a < 6; a++)
+                z[a] += c->Q[k].a[a][0] * from[0] + c->Q[k].a[a][1] * from[1];
+        }
+}
+
+/* y = z and z = u of the table above. Returns r.u. */
+static double precondition(const bbm_matrix *K)
+{
+    double *restrict y = K->y, *restrict u = K->z;
+    int i, k;
+
+    copy(K->n, K->r, y);
+    set_zero(K->n, u);
+    for (i = 0; i < K->n; i++) {                /* y = E^-1 r; u = -S^T y */
+        for (k = K->first[i]; k < K->first[i + 1]; k++)
+            add_product(&K->S[k], y + 6 * K->column[k], y + 6 * i);
+        for (k = K->first[i]; k < K->first[i + 1]; k++)
+            add_transposed(&K->S[k], y + 6 * i, u + 6 * K->column[k]);
+    }
+    correct(K, u, y);
+    copy(K->n, K->r, u);
+    for (i = K->n - 1; i >= 0; i--) {           /* u = E^-T (r - S y) */
+        for (k = K->first[i]; k < K->first[i + 1]; k++)
+            add_product(&K->S[k], y + 6 * K->column[k], u + 6 * i);
+        for (k = K->first[i]; k < K->first[i + 1]; k++)
+            add_transposed(&K->S[k], u + 6 * i, u + 6 * K->column[k]);
+    }
+    return dot(K->n, K->r, u);
+}
+
+/* p = u + b p, q = r + S (u - z) + b q. Returns p.q. */
+static double new_direction(const bbm_matrix *K, double b)
+{
+    double *restrict y = K->y, *restrict q = K->q;
+    int i, k;
+
+    combine(K->n, K->z, b, K->p, K->p);
+    combine(K->n, K->r, b, q, q);
+    for (i = 0; i < K->n; i++) {
+        combine(1, y + 6 * i, -1.0, K->z + 6 * i, y + 6 * i);
+        for (k = K->first[i]; k < K->first[i + 1]; k++)
+            add_product(&K->S[k], y + 6 * K->column[k], q + 6 * i);
+    }
+    return dot(K->n, K->p, q);
+}
+
+static bbm_status two_level(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    const int n = K->n;
+    double *x = K->x, *r = K->r, *p = K->p, *q = K->q, b = 0.0, last, ru, stop, pq;
+    bbm_status status = BBM_OK;
+    int i;
+
+    set_zero(n, x);
+    set_zero(n, p);
+    set_zero(n, q);
+    set_zero(n, r);
+    for (i = 0; i < n; i++)                     /* r = C^-1 f */
+        add_product(&K->C[i], K->f + 6 * i, r + 6 * i);
+    ru = precondition(K);
+    stop = pcg->tolerance * sqrt(ru);
+    while (!(sqrt(ru) <= stop)) {
+        pq = new_direction(K, b);
+        status = may_go_on(pq, pcg, info);
+        if (status != BBM_OK)
+            break;
+        combine(n, x, ru / pq, p, x);
+        combine(n, r, -ru / pq, q, r);
+        last = ru;
+        ru = precondition(K);
+        b = ru / last;
+    }
+    copy(n, x, p);
+    set_zero(n, x);
+    for (i = 0; i < n; i++)                     /* x = C^-T x */
+        add_transposed(&K->C[i], p + 6 * i, x + 6 * i);
     return status;
 }
 
@@ -701,16 +1200,41 @@ static void scale_load(bbm_matrix *K, const double *F, double scale)
         }
 }
 
-static bbm_status check(const bbm_matrix *K, const double *F, const bbm_pcg *pcg)
+static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
 {
-    const size_t n = (size_t)K->n, blocks = (size_t)K->blocks;
-
     if (!(pcg->omega > 0.0 && pcg->omega < 2.0) || !(pcg->tolerance > 0.0 && pcg->tolerance < 1.0))
         return BBM_BAD_PARAMETER;
     if (pcg->iterations < 1)
         return BBM_BAD_PARAMETER;
-    if (!all_finite(6 * n, F) || !all_finite(36 * n, (double *)K->D) || !all_finite(36 * blocks, (double *)K->L))
+    return all_finite(6 * (size_t)n, F) ? BBM_OK : BBM_NOT_FINITE;
+}
+
+/* Makes of K what the solution needs; further solutions with the same K find it ready. */
+static bbm_status make_ready(bbm_matrix *K, bbm_pcg_form form, double omega, bbm_pcg_info *info)
+{
+    const size_t n = (size_t)K->n, blocks = (size_t)K->blocks;
+    bbm_status status;
+
+    if (K->ready && K->form == form && K->omega == omega)
+        return BBM_OK;
+    K->ready = 0;
+    if (!all_finite(36 * n, (double *)K->D) || !all_finite(36 * blocks, (double *)K->L))
         return BBM_NOT_FINITE;
+    status = factor_diagonal(K, info);
+    if (status != BBM_OK)
+        return status;
+    if (form == BBM_TEXTBOOK)
+        invert_diagonal(K, omega);
+    else
+        scale_blocks(K, omega);
+    if (form == BBM_TWO_LEVEL) {
+        scale_interpolation(K);
+        sum_coarse(K, K->coarse);
+        factor_coarse(K->coarse);
+    }
+    K->ready = 1;
+    K->form = form;
+    K->omega = omega;
     return BBM_OK;
 }
 
@@ -726,14 +1250,15 @@ static double true_residual(bbm_matrix *K)
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     const bbm_pcg_info none = { 0, 1.0, -1 };
-    bbm_status status = check(K, F, pcg);
+    const bbm_pcg_form form = pcg->form == BBM_TWO_LEVEL && !K->coarse ? BBM_EISENSTAT : pcg->form;
+    bbm_status status = check(F, K->n, pcg);
     double scale;
     int i, a;
 
     *info = none;
     set_zero(K->n, D);
     if (status == BBM_OK)
-        status = factor_diagonal(K, info);
+        status = make_ready(K, form, form == BBM_TWO_LEVEL ? 1.0 : pcg->omega, info);
     if (status != BBM_OK)
         return status;
     scale = largest(K->n, F);
@@ -742,7 +1267,10 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
         return BBM_OK;
     }
     scale_load(K, F, scale);
-    status = pcg->form == BBM_TEXTBOOK ? textbook(K, pcg, info) : eisenstat(K, pcg, info);
+    if (form == BBM_TWO_LEVEL)
+        status = two_level(K, pcg, info);
+    else
+        status = form == BBM_TEXTBOOK ? textbook(K, pcg, info) : eisenstat(K, pcg, info);
     info->residual = true_residual(K);
     for (i = 0; i < K->n; i++)
         for (a = 0; a < 6; a++)

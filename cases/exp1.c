@@ -61,7 +61,7 @@ static void load(bbm_model *m, char variant, int left, int right, int row, int r
 
 /* The beam of 25 k x 6 k crossed cells. The paper's load a is solved as in the paper, by Newton-Raphson steps until
  * (71) holds; for b and c one step gives the answer of small displacements, as their references do. */
-static bbm_model *solve_beam(char variant, int k, double alpha)
+static bbm_model *solve_beam(char variant, int k, double alpha, int augment)
 {
     bbm_model *m = case_model();
     case_grid g = { .nx = 25 * k, .ny = 6 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
@@ -70,6 +70,8 @@ static bbm_model *solve_beam(char variant, int k, double alpha)
     case_add_grid(m, &g);
     load(m, variant, g.first, g.first + g.nx, g.nx + 1, g.ny);
     m->par.alpha = alpha;
+    m->par.augment = augment;
+    m->par.pcg.form = augment ? BBM_TWO_LEVEL : BBM_EISENSTAT;         /* the paper's unless beyond it */
     if (variant == 'a')
         m->par.steps = 10, m->par.tolerance = 1e-8;
     case_must(m, bbm_prepare(m));
@@ -212,6 +214,71 @@ static void print_summary(const bbm_model *const m[3], const case_reference ref[
     }
 }
 
+/* ------------------------------------------------------------------------------------------ beyond the paper */
+
+static void place_uniform(double i, double j, const void *grid, double xy[2])
+{
+    const case_grid *g = grid;
+
+    xy[0] = L * i / g->nx;
+    xy[1] = H * (j / g->ny - 0.5);
+}
+
+/* The beam under load b on a uniform grid, with bonds that do not give. */
+static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
+{
+    bbm_model *m = case_model();
+    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place_uniform };
+
+    g.context = &g;
+    bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
+    case_add_grid(m, &g);
+    load(m, 'b', g.first, g.first + g.nx, g.nx + 1, g.ny);
+    m->par.augment = 2;
+    m->par.bonding = bonding;
+    case_must(m, bbm_prepare(m));
+    case_must(m, bbm_run(m));
+    return m;
+}
+
+/* Multipliers: v(24,0) for three values of alpha, after one solution (the paper's springs), two and three. */
+static void print_augmented(const case_reference *b)
+{
+    const double exact = case_find(b, "v", 24, 0)->converged;
+
+    printf("\nBeyond the paper: multipliers. v(24,0), load b, against the converged finite element\n\n"
+           "| alpha | paper | augmented once | augmented twice |\n|---|---|---|---|\n");
+    for (double alpha = 10; alpha <= 1000; alpha *= 10) {
+        printf("| %g |", alpha);
+        for (int augment = 0; augment <= 2; augment++) {
+            bbm_model *m = solve_beam('b', 2, alpha, augment);
+            printf(" %+.4f %% |", percent(case_at(m, 24, 0).v, exact));
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+}
+
+/* Quadrilaterals by their bond, beside triangles of as many unknowns. */
+static void print_quadrilaterals(const case_reference *b)
+{
+    printf("\nBeyond the paper: quadrilaterals that bend. Load b, augmented twice, error of v(48,0), v(24,0)\n\n"
+           "| unknowns | quads at vertices (paper) | at midpoints | with moment | triangles |\n|---|---|---|---|---|\n");
+    for (int n = 1; n <= 4; n *= 2) {
+        printf("| %d |", 6 * 24 * 6 * n * n);
+        for (int kind = 0; kind < 4; kind++) {
+            static const bbm_bonding bonding[4] = { BBM_VERTICES, BBM_MIDPOINTS, BBM_MOMENT, BBM_VERTICES };
+            bbm_model *m = kind < 3 ? solve_uniform(24 * n, 6 * n, CASE_QUADS, bonding[kind])
+                                    : solve_uniform(18 * n, 4 * n, CASE_ALTERNATING, bonding[kind]);
+            printf(" %+.3f %%, %+.3f %% |", percent(case_at(m, 48, 0).v, case_find(b, "v", 48, 0)->converged),
+                   percent(case_at(m, 24, 0).v, case_find(b, "v", 24, 0)->converged));
+            fflush(stdout);
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+}
+
 /* Fig. 11-13: contours, and the deformed mesh. */
 static void draw_maps(const case_results *r, const bbm_model *m)
 {
@@ -235,7 +302,7 @@ static void converge(void)
     for (int k = 1; k <= 3; k++) {
         printf("| %d |", 4 * 25 * k * 6 * k);
         for (int a = 0; a < 4; a++) {
-            bbm_model *m = solve_beam('b', k, case_alpha[a]);
+            bbm_model *m = solve_beam('b', k, case_alpha[a], 0);
             printf(" %+.3f %% |", percent(case_at(m, 24, 0).v, exact));
             fflush(stdout);
             bbm_model_free(m);
@@ -261,7 +328,7 @@ int main(int argc, char **argv)
     for (int k = 0; k < 3; k++) {
         char variant[2] = { "abc"[k], '\0' };
         case_progress(k == 0 ? "load a, concentrated" : k == 1 ? "load b, parabolic shear" : "load c, the end of (70)");
-        m[k] = solve_beam(variant[0], 2, 1000);
+        m[k] = solve_beam(variant[0], 2, 1000, 0);
         case_read_reference("exp1", variant, &ref[k]);
         compare_all(&r, m[k], variant[0], &ref[k]);
     }
@@ -270,6 +337,8 @@ int main(int argc, char **argv)
     show_deflection(&r, dda, m[0], &ref[0]);
     print_table_3((const bbm_model *const *)m, ref);
     print_summary((const bbm_model *const *)m, ref);
+    print_augmented(&ref[1]);
+    print_quadrilaterals(&ref[1]);
     draw_maps(&r, m[0]);
     case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, deformed.svg\n", r.folder);

@@ -1,8 +1,14 @@
-/* bench.c - `make bench`: how long an iteration of the linear solver takes, in the paper's textbook form and in
- * Eisenstat's, and what that means for a solve; and how the time to find the contacts grows with the model. What is
- * compared is timed in turn in one run, and what is printed are medians and their ratio, since these survive a busy
- * machine. */
+/* bench.c - `make bench`: how long the linear solver takes, and finding the contacts. First an iteration of the paper's
+ * SSOR-PCG, in its textbook form and in Eisenstat's, then whole solutions of it and on two levels, up to 221,952
+ * unknowns; then how the time to find the contacts grows with the model. What is compared is timed in turn in one run;
+ * printed are medians and their ratio, since these survive a busy machine.
+ *
+ *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix Market form, so that
+ *                                         any other solver can be timed with the same equations
+ */
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "../cases/case.h"
@@ -16,21 +22,30 @@ static void place(double i, double j, const void *unused, double xy[2])
     xy[1] = j;
 }
 
-/* A cantilever of nx x ny crossed cells with its K and F assembled. */
-static bbm_model *beam(int nx, int ny)
+/* A cantilever of nx x ny cells with its K and F assembled. */
+static bbm_model *beam(int nx, int ny, int cut, double alpha)
 {
     bbm_model *m = case_model();
-    case_grid g = { .nx = nx, .ny = ny, .cut = CASE_CROSSED, .map = place };
+    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place };
 
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
     case_add_grid(m, &g);
     for (int j = 0; j <= ny; j++)
         bbm_fix_node(m, j * (nx + 1), BBM_XY, 0, 0);
     bbm_add_load(m, nx + ny / 2 * (nx + 1), 0, -1000);
+    m->par.alpha = alpha;
     m->par.pcg.iterations = 1;
     case_must(m, bbm_prepare(m));
     (void)bbm_step(m);              /* leaves K and F; one iteration is not meant to converge */
     return m;
+}
+
+/* Adds nothing to K, so that the next solution has to make everything of it anew. */
+static void touch(bbm_matrix *K)
+{
+    double zero[6][6] = { { 0 } };
+
+    case_must(NULL, bbm_matrix_add(K, 0, 0, zero));
 }
 
 /* Seconds of a solve that is cut short after some iterations. */
@@ -38,8 +53,9 @@ static double solve_time(bbm_model *m, bbm_pcg_form form, int iterations)
 {
     bbm_pcg pcg = { .omega = 1, .tolerance = 1e-300, .iterations = iterations, .form = form };
     bbm_pcg_info info;
-    const clock_t start = clock();
 
+    touch(m->K);
+    const clock_t start = clock();
     (void)bbm_solve(m->K, m->F, m->D, &pcg, &info);
     return (double)(clock() - start) / CLOCKS_PER_SEC;
 }
@@ -75,13 +91,14 @@ static double median(double v[TURNS])
     return v[TURNS / 2];
 }
 
-static void bench_solver(void)
+/* An iteration of SSOR-PCG in both forms. */
+static void print_forms(void)
 {
     printf("SSOR-PCG, omega = 1, alpha = 100: microseconds an iteration, medians of %d turns\n\n"
            "| unknowns | textbook | Eisenstat | ratio | iterations to 1e-10, textbook | Eisenstat |\n"
            "|---|---|---|---|---|---|\n", TURNS);
     for (int n = 1; n <= 4; n *= 2) {
-        bbm_model *m = beam(24 * n, 6 * n);
+        bbm_model *m = beam(24 * n, 6 * n, CASE_CROSSED, 100);
         double textbook[TURNS], eisenstat[TURNS], ratio[TURNS];
         for (int i = 0; i < TURNS; i++) {
             textbook[i] = 1e6 * iteration_time(m, BBM_TEXTBOOK);
@@ -164,9 +181,89 @@ static void bench_detection(const char *name, void add(bbm_model *, int), const 
     }
 }
 
-int main(void)
+/* Milliseconds of a whole solution, all that it makes of K included: the median of some turns. */
+static double whole_time(bbm_model *m, bbm_pcg_form form, int turns, int *count)
 {
-    bench_solver();
+    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000, .form = form };
+    bbm_pcg_info info;
+    double t[TURNS];
+
+    for (int i = 0; i < turns; i++) {
+        touch(m->K);
+        const clock_t start = clock();
+        case_must(NULL, bbm_solve(m->K, m->F, m->D, &pcg, &info));
+        t[i] = 1e3 * (double)(clock() - start) / CLOCKS_PER_SEC;
+    }
+    *count = info.iterations;
+    qsort(t, (size_t)turns, sizeof *t, ascending);
+    return t[turns / 2];
+}
+
+/* The paper's SSOR-PCG against two levels, and how both grow with the number of unknowns. */
+static void print_levels(void)
+{
+    static const int rows[] = { 6, 17, 34, 68 };
+
+    printf("\nSolutions to 1e-10, SSOR-PCG against two levels; growth is the power of the number of unknowns by which a\n"
+           "time grows from the line above\n\n"
+           "| unknowns | alpha | SSOR: iterations | ms | growth | two levels: iterations | ms | growth | ratio |\n"
+           "|---|---|---|---|---|---|---|---|---|\n");
+    for (double alpha = 10; alpha <= 1000; alpha *= 10) {
+        double last[3] = { 0 };
+        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+            bbm_model *m = beam(4 * rows[k], rows[k], CASE_ALTERNATING, alpha);
+            const int turns = k < 2 ? TURNS : k < 3 ? 3 : 1, n = 6 * m->elements;
+            int one, two;
+            const double t1 = whole_time(m, BBM_EISENSTAT, turns, &one), t2 = whole_time(m, BBM_TWO_LEVEL, TURNS, &two);
+            const double by = log(n / last[0]);
+            printf(k ? "| %d | %g | %d | %.1f | %.2f |" : "| %d | %g | %d | %.1f | |", n, alpha, one, t1,
+                   log(t1 / last[1]) / by);
+            printf(k ? " %d | %.1f | %.2f |" : " %d | %.1f | |", two, t2, log(t2 / last[2]) / by);
+            printf(" %.1f |\n", t1 / t2);
+            fflush(stdout);
+            last[0] = n, last[1] = t1, last[2] = t2;
+            bbm_model_free(m);
+        }
+    }
+}
+
+static void write_block(FILE *f, const bbm_matrix *K, int i, int j)
+{
+    double B[6][6];
+
+    bbm_matrix_get(K, i, j, B);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < (i == j ? a + 1 : 6); b++)
+            fprintf(f, "%d %d %.17g\n", 6 * i + a + 1, 6 * j + b + 1, B[a][b]);
+}
+
+/* The lower triangle of K. */
+static int write_matrix(const char *file, int rows)
+{
+    bbm_model *m = beam(4 * rows, rows, CASE_ALTERNATING, 100);
+    FILE *f = fopen(file, "w");
+
+    if (!f) {
+        fprintf(stderr, "%s: cannot be written\n", file);
+        return 1;
+    }
+    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %d\n", 6 * m->elements, 6 * m->elements,
+            21 * m->elements + 36 * m->bonds);
+    for (int i = 0; i < m->elements; i++)
+        write_block(f, m->K, i, i);
+    for (int b = 0; b < m->bonds; b++)
+        write_block(f, m->K, m->bond[b].i > m->bond[b].j ? m->bond[b].i : m->bond[b].j,
+                    m->bond[b].i > m->bond[b].j ? m->bond[b].j : m->bond[b].i);
+    bbm_model_free(m);
+    return fclose(f) != 0;
+}
+
+int main(int count, char **argument)
+{
+    if (count == 4 && strcmp(argument[1], "matrix") == 0 && atoi(argument[3]) > 0)
+        return write_matrix(argument[2], atoi(argument[3]));
+    print_forms();
+    print_levels();
     printf("\nDetection of contacts: nanoseconds a boundary edge, and against the smallest model\n\n"
            "| model | edges | contacts | ns an edge | ratio |\n|---|---|---|---|---|\n");
     bench_detection("wall of bricks", add_wall, (const int[]){ 16, 50, 158 });

@@ -704,6 +704,7 @@ static bbm_model *new_model(const bbm_material *material)
     bbm_model *m;
 
     ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    m->par.bonding = BBM_VERTICES;         /* the paper's bonds; check_beyond.c has the others */
     ck_ok(bbm_add_material(m, material, NULL), m);
     m->par.pcg.tolerance = 1e-15;
     return m;
@@ -2448,6 +2449,7 @@ static bbm_status build_and_run(bbm_model **m)
 
     if (status)
         return status;
+    (*m)->par.bonding = BBM_VERTICES;
     (*m)->par.gravity[1] = -1;
     (*m)->par.steps = 3;
     bbm_add_material(*m, &SOLID, NULL);
