@@ -3,15 +3,16 @@
  * Blocks touch where a vertex P1 of one meets an edge P2 P3 of another. A stiff spring p_n then resists penetration, a
  * spring p_s resists slip, and where Mohr and Coulomb's bound is passed, friction takes the place of p_s:
  *
- *                        d_n < 0                     |T| > N tan(phi) + c l
+ *                        d_n < 0                     |T| > N tan(phi) + c A
  *            .------.  ------------->  .------.  --------------------------->  .-------.
  *            | OPEN |                  | LOCK |                                | SLIDE |
  *            '------'  <-------------  '------'  <---------------------------  '-------'
- *                ^     N < -tension l               s T < N tan(phi) + c l         |
+ *                ^     N < -tension A               s T < N tan(phi) + c A         |
  *                '-----------------------------------------------------------------'
  *                                            N < 0
  *
- * N = -p_n d_n is the normal force, T = p_s d_s what the shear spring carries or would carry, s the sign of the slip.
+ * N = -p_n d_n is the normal force, T = p_s d_s what the shear spring carries or would carry, s the sign of the slip, A
+ * the contact's share of the area of an unbroken joint.
  * d_s counts from the anchor P0, a point of the edge's material: where P1 hit, and there it stays while the contact is
  * locked; while it slides, the anchor follows so that the spring would just carry the friction force of the last step.
  * What is left of s T above the bound is slip; when it turns against the friction, s T falls below the bound and the
@@ -32,10 +33,11 @@
  *             |                  |   B                  are one contact: of P on Q's edge and Q on P's edge that one
  *        B    |                  |                      stays whose foot lies on its edge; at a tie, the one that it
  *                                                       was before; at first, the edge that faces up.
+ * Corner exactly on corner, each takes the first of its own two lines: fixed, and the same in any order of the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N. For given states that map is
- * affine: its fixed point is found by conjugate residuals (agree), in at most one solve for each sliding contact,
- * however badly the plain iteration N -> friction -> N converges. Only then are the states judged, on forces that
+ * affine: its fixed point is found by conjugate residuals (agree), in few more solutions than there are contacts
+ * that slide, however badly the plain iteration N -> friction -> N converges. Only then are the states judged, on forces that
  * belong to them. When a set of states comes back that has been there before, the iteration would cycle: from then on
  * only the first contact that wants to change does so in each pass (Murty's rule of the least index), and a contact
  * that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a step that does
@@ -106,7 +108,8 @@ struct bbm_contact_work {
 
 /* ------------------------------------------------------------------------------- 3.7.1 Normal submatrices */
 
-/* The normal distance of P1 from P2 P3, positive outside, d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57):
+/* The normal distance of P1 from P2 P3, positive outside. With the three points moved by T D, Eq. (48)-(50), and the
+ * terms of second order dropped, d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
@@ -140,7 +143,7 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2   ->   Eq. (58a-f). `more` is added to d_n: the second-order term that (54) drops, or 0. */
+/* Pi_n = p_n/2 d_n^2   ->   Eq. (58a-f), (59). `more` is added to d_n: the second-order term that (54) drops, or 0. */
 void bbm_normal_submatrices(const bbm_touch *c, double more, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;
@@ -479,7 +482,8 @@ static int faces_up(direction t)
 }
 
 /* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side
- * do, of equal sides those of the upper one. They carry all of it; none comes or goes while it slides on the longer. */
+ * do, of equal sides those of the upper one. They carry all of it; none comes or goes while it slides on the longer.
+ * Deviation: with `faces` = 0 corners alone touch, and a block of many elements sags between them. */
 static int carries(const bbm_model *m, int c, int e)
 {
     const bbm_contact_work *w = m->work;
