@@ -1,7 +1,8 @@
 # make           builds the experiments        make check     every test (needs libcheck)
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make bench     time ratios of the solver     make memcheck  the tests under valgrind
-# make gallery   blocks that slide, topple, fall
+# make gallery   blocks that slide, topple, fall; the model files
+# make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  the tests under ASan and UBSan
 
 CC      ?= cc
@@ -12,19 +13,22 @@ RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene
+PROGRAM  = bbm model msh write
 SUITES   = check_bbm check_contact check_solver check_beyond
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
 
-all: $(CASES:%=$O/%) $O/bench
+all: $(CASES:%=$O/%) $O/bench bbm
 
 run: $(RUN:%=$O/%)
 	@for c in $(RUN); do $O/$$c || exit 1; done
 
-gallery: $(GALLERY:%=$O/%)
+gallery: $(GALLERY:%=$O/%) bbm
 	@for c in $(GALLERY); do $O/$$c || exit 1; done
+	@mkdir -p out/models
+	@for m in cases/models/*.model; do ./bbm $$m -o out/models/$$(basename $$m .model) || exit 1; done
 
 converge: $O/exp1 $O/exp2
 	@for c in exp1 exp2; do $O/$$c converge || exit 1; done
@@ -33,6 +37,12 @@ bench: $O/bench
 	@$O/bench
 
 $(CASES:%=$O/%): $O/%: $O/cases/%.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+bbm: $O/bbm
+	cp $O/bbm bbm
+
+$O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
@@ -47,7 +57,7 @@ $O/failing/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(FAILING) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$O/tests/check_cases.o: CPPFLAGS += -DBUILD='"$O"'
+$O/tests/check_cases.o $O/tests/check_model.o: CPPFLAGS += -DBUILD='"$O"'
 
 $O/tests/check_all.o: tests/check_main.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
@@ -58,10 +68,10 @@ TESTED = $(SUITES:%=$O/tests/%.o) $O/tests/test_alloc.o $(LIBRARY:%=$O/failing/%
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$O/check: $O/tests/check_all.o $O/tests/check_cases.o $(TESTED)
+$O/check: $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$(SUITES:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/check_cases.o: | libcheck
+$(SUITES:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o: | libcheck
 
 libcheck:
 	@echo '#include <check.h>' | $(CC) $(CPPFLAGS) -E - >/dev/null 2>&1 || \
@@ -70,7 +80,7 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
-check: $O/check $(CASES:%=$O/%)
+check: $O/check $(CASES:%=$O/%) $O/bbm
 	$O/check
 
 memcheck: $O/quick
@@ -79,8 +89,14 @@ memcheck: $O/quick
 sanitize:
 	$(MAKE) O=out/sanitize CFLAGS="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all" quick
 
-clean:
-	rm -rf out
+fuzz:
+	@mkdir -p out/corpus
+	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz tests/fuzz_model.c \
+	cases/model.c cases/msh.c $(LIBRARY:%=%.c) -lm
+	out/fuzz -max_len=4096 -timeout=20 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
-.PHONY: all run gallery converge bench quick check memcheck sanitize libcheck clean
+clean:
+	rm -rf out bbm
+
+.PHONY: all run gallery converge bench quick check memcheck sanitize fuzz libcheck clean
 .DELETE_ON_ERROR:

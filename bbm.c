@@ -21,6 +21,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "bbm.h"
 
@@ -574,6 +575,7 @@ static void free_prepared(bbm_model *m)
     free(m->meet);
     free(m->F);
     free(m->D);
+    free(m->load);
     free(m->force);
     free(m->force_before);
     bbm_matrix_free(m->K);
@@ -588,7 +590,7 @@ static void free_prepared(bbm_model *m)
     m->bond = NULL;
     m->edge = NULL;
     m->meet_first = m->meet = NULL;
-    m->F = m->D = m->force = m->force_before = NULL;
+    m->F = m->D = m->load = m->force = m->force_before = NULL;
     m->K = NULL;
 }
 
@@ -781,7 +783,7 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
 static bbm_status add_line_load(bbm_model *m, const bbm_line_load *load)
 {
     for (int g = 0; g < BBM_GAUSS; g++)
-        if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
+        if (!isfinite(load->pressure) || !isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
             return stick(m, fail(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0], load->node[1]));
     if (!grow((void **)&m->line_load, m->line_loads, sizeof *load))
         return stick(m, out_of_memory(m));
@@ -875,7 +877,8 @@ static bbm_status sort_edges(bbm_model *m, const side s[])
         if (same == 1)
             m->edge[m->edges++] = (bbm_edge){ i->element, i->a, i->b, i->block };
         else if (same > 2 || m->vertex[i->a].node == m->vertex[j->a].node)
-            return fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d", i->element,
+            return m->culprit = j->element,
+                   fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d", i->element,
                         s[v + same - 1].element, i->low, i->high);
         else
             m->bond[m->bonds++] = (bbm_bond){ i->element, j->element, { i->a, i->b }, { j->b, j->a } };
@@ -901,23 +904,58 @@ static bbm_status connect_elements(bbm_model *m)
     return status;
 }
 
+/* The first boundary edge from node p to node q, or -1; leaving[v] is the one that starts in vertex v, or -1. */
+static int find_edge(const bbm_model *m, const int leaving[], int p, int q)
+{
+    int found = -1;
+
+    for (int a = m->meet_first[p]; a < m->meet_first[p + 1]; a++) {
+        const int e = leaving[m->meet[a]];
+        if (e >= 0 && m->vertex[m->edge[e].b].node == q && (found < 0 || e < found))
+            found = e;
+    }
+    return found;
+}
+
 /* Finds the vertices of each line load: the boundary edge between its nodes. */
 static bbm_status place_line_loads(bbm_model *m)
 {
-    for (int l = 0; l < m->line_loads; l++) {
+    int *leaving = malloc((size_t)m->vertices * sizeof *leaving);
+    bbm_status status = leaving ? BBM_OK : out_of_memory(m);
+
+    for (int v = 0; v < m->vertices && !status; v++)
+        leaving[v] = -1;
+    for (int e = 0; e < m->edges && !status; e++)
+        leaving[m->edge[e].a] = e;
+    for (int l = 0; l < m->line_loads && !status; l++) {
         bbm_line_load *load = &m->line_load[l];
-        load->a = -1;
-        for (int i = 0; i < m->edges && load->a < 0; i++) {
-            const bbm_edge *e = &m->edge[i];
-            if (m->vertex[e->a].node == load->node[0] && m->vertex[e->b].node == load->node[1])
-                load->a = e->a, load->b = e->b;
-            else if (m->vertex[e->b].node == load->node[0] && m->vertex[e->a].node == load->node[1])
-                load->a = e->b, load->b = e->a;
-        }
-        if (load->a < 0)
-            return fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", load->node[0], load->node[1]);
+        const int p = load->node[0], q = load->node[1];
+        const int there = find_edge(m, leaving, p, q), back = find_edge(m, leaving, q, p);
+        if (there < 0 && back < 0)
+            status = fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", p, q);
+        else if (back < 0 || (there >= 0 && there < back))
+            load->a = m->edge[there].a, load->b = m->edge[there].b;
+        else
+            load->a = m->edge[back].b, load->b = m->edge[back].a;
     }
-    return BBM_OK;
+    free(leaving);
+    return status;
+}
+
+/* Adds a load [N/m] on a boundary edge of the prepared model: a force and a pressure that turns with the edge. */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure)
+{
+    bbm_line_load load = { .constant = 1, .f = { { fx, fy } }, .pressure = pressure };
+
+    if (m->status)
+        return m->status;
+    if (!m->K || edge < 0 || edge >= m->edges)
+        return stick(m, fail(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges));
+    load.a = m->edge[edge].a;
+    load.b = m->edge[edge].b;
+    load.node[0] = m->vertex[load.a].node;
+    load.node[1] = m->vertex[load.b].node;
+    return add_line_load(m, &load);
 }
 
 /* ------------------------------------------------------------- preparing: what holds a body in statics */
@@ -1004,9 +1042,11 @@ static bbm_status check_held(bbm_model *m)
         join_bodies(m, up);
         sum_holds(m, up, h);
         for (int i = 0; i < m->elements && !status; i++)
-            if (root_of(up, i) == i && !regular(h[i].G))
+            if (root_of(up, i) == i && !regular(h[i].G)) {
+                m->culprit = i;
                 status = fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)", m->element[i].block,
                               i, m->element[i].x, m->element[i].y);
+            }
     }
     free(up);
     free(h);
@@ -1118,9 +1158,10 @@ bbm_status bbm_prepare(bbm_model *m)
     if (!status) {
         m->F = calloc(6 * (size_t)m->elements, sizeof *m->F);
         m->D = calloc(6 * (size_t)m->elements, sizeof *m->D);
+        m->load = calloc(6 * (size_t)m->elements, sizeof *m->load);
         m->force = calloc(4 * (size_t)(m->bonds + m->vertices), sizeof *m->force);
         m->force_before = calloc(4 * (size_t)(m->bonds + m->vertices), sizeof *m->force);
-        status = m->F && m->D && m->force && m->force_before ? lay_out_matrix(m) : out_of_memory(m);
+        status = m->F && m->D && m->load && m->force && m->force_before ? lay_out_matrix(m) : out_of_memory(m);
     }
     if (!status)
         status = bbm_contact_new(m) ? out_of_memory(m) : BBM_OK;
@@ -1142,6 +1183,9 @@ static bbm_status check_parameters(bbm_model *m)
         { "alpha", p->alpha, p->alpha > 0 && isfinite(p->alpha), "more than 0" },
         { "gravity[0]", p->gravity[0], isfinite(p->gravity[0]), "a finite number" },
         { "gravity[1]", p->gravity[1], isfinite(p->gravity[1]), "a finite number" },
+        { "shake[0]", p->shake[0], isfinite(p->shake[0]), "a finite number" },
+        { "shake[1]", p->shake[1], isfinite(p->shake[1]), "a finite number" },
+        { "omega", p->omega, isfinite(p->omega), "a finite number" },
         { "p_n", p->p_n, p->p_n > 0 && isfinite(p->p_n), "more than 0" },
         { "p_s", p->p_s, p->p_s > 0 && isfinite(p->p_s), "more than 0" },
         { "friction", p->friction, p->friction >= 0 && p->friction < 90, "0 to less than 90 degrees" },
@@ -1283,7 +1327,7 @@ static void hold_element(const bbm_model *m, const bbm_element *e, bbm_submatrix
 /* What a multiplier f makes meet: the mean of P[0], P[1] and that of Q[0], Q[1], or the wall (Q NULL). */
 typedef struct { int P[2], Q[2], wall, directions; double k, *f; } condition;
 
-static int bond_conditions(bbm_model *m, int number, condition c[2])
+static int bond_conditions(const bbm_model *m, int number, condition c[2])
 {
     const bbm_bond *b = &m->bond[number];
     const double k = bbm_bonding_stiffness(m->par.alpha, &m->element[b->i], &m->element[b->j]);
@@ -1298,7 +1342,7 @@ static int bond_conditions(bbm_model *m, int number, condition c[2])
     return 2;
 }
 
-static int vertex_conditions(bbm_model *m, int v, condition c[2])
+static int vertex_conditions(const bbm_model *m, int v, condition c[2])
 {
     const bbm_element *e = &m->element[m->vertex[v].element];
     const double k = bbm_fixed_stiffness(m->par.alpha, e);
@@ -1371,21 +1415,28 @@ static void visit_multipliers(bbm_model *m, int take_over)
     }
 }
 
-/* The sources of energy inside one element: strain, inertia, gravity. */
+/* Gravity and the concentrated loads of one element. */
+static void load_element(bbm_model *m, int i)
+{
+    const bbm_element *e = &m->element[i];
+    const double M = mass_per_area(e), weight[2] = { M * m->gravity[0], M * m->gravity[1] };
+
+    bbm_volume_submatrix(e, weight, &m->load[6 * i]);
+    for (int v = e->first; v < e->first + e->n; v++) {
+        const int n = m->vertex[v].node, meeting = m->meet_first[n + 1] - m->meet_first[n];
+        const double share[2] = { m->node[n].load[0] / meeting, m->node[n].load[1] / meeting };
+        bbm_point_load(e, &m->vertex[v], share, &m->load[6 * i]);
+    }
+}
+
+/* The sources of energy inside one element: strain, inertia, fixed points. */
 static bbm_status assemble_element(bbm_model *m, int i)
 {
     const bbm_element *e = &m->element[i];
-    const double M = mass_per_area(e), weight[2] = { M * m->par.gravity[0], M * m->par.gravity[1] };
     bbm_submatrix s = { { { 0 } }, { 0 } };
 
     bbm_elastic_submatrix(e, &s);
     bbm_inertia_submatrix(e, m->h, &s);
-    bbm_volume_submatrix(e, weight, s.F);
-    for (int v = e->first; v < e->first + e->n; v++) {
-        const int n = m->vertex[v].node, meeting = m->meet_first[n + 1] - m->meet_first[n];
-        const double share[2] = { m->node[n].load[0] / meeting, m->node[n].load[1] / meeting };
-        bbm_point_load(e, &m->vertex[v], share, s.F);
-    }
     hold_element(m, e, &s);
     for (int a = 0; a < 6; a++)
         m->F[6 * i + a] += s.F[a];
@@ -1447,15 +1498,34 @@ static bbm_status assemble_bond(bbm_model *m, const bbm_bond *b)
     return bbm_add_submatrices(m, b->i, b->j, &s);
 }
 
-static void assemble_line_load(bbm_model *m, const bbm_line_load *l)
+/* The block lies on the left of a pressed edge, from a to b: the pressure pushes that way. */
+static void load_line(bbm_model *m, const bbm_line_load *l)
 {
     const int i = m->vertex[l->a].element;
     const bbm_vertex *a = &m->vertex[l->a], *b = &m->vertex[l->b];
+    const double p = l->pressure / hypot(b->x - a->x, b->y - a->y);
 
-    if (l->constant)
-        bbm_constant_load_submatrix(&m->element[i], a, b, l->f[0], &m->F[6 * i]);
-    else
-        bbm_varying_load_submatrix(&m->element[i], a, b, l->f, &m->F[6 * i]);
+    if (l->constant) {
+        const double f[2] = { l->f[0][0] - p * (b->y - a->y), l->f[0][1] + p * (b->x - a->x) };
+        bbm_constant_load_submatrix(&m->element[i], a, b, f, &m->load[6 * i]);
+    } else {
+        bbm_varying_load_submatrix(&m->element[i], a, b, l->f, &m->load[6 * i]);
+    }
+}
+
+/* Gravity, less the acceleration of the base at the end of the step, in which the model is at rest; 3.5, 3.6. */
+static void gather_loads(bbm_model *m)
+{
+    const bbm_parameters *p = &m->par;
+    const double swing = isinf(m->h) ? 0 : sin(p->omega * (m->info.t + m->h));
+
+    for (int a = 0; a < 2; a++)
+        m->gravity[a] = p->gravity[a] - p->shake[a] * swing;
+    memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
+    for (int i = 0; i < m->elements; i++)
+        load_element(m, i);
+    for (int l = 0; l < m->line_loads; l++)
+        load_line(m, &m->line_load[l]);
 }
 
 /* K, unless it is kept, and F of the present geometry, section 3. */
@@ -1465,15 +1535,13 @@ static bbm_status assemble(bbm_model *m)
 
     if (!m->keep_K)
         bbm_matrix_clear(m->K);
-    memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
+    memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     if (!m->keep_K && m->par.pcg.form == BBM_TWO_LEVEL && long_step(m))
         interpolate_elements(m);
     for (int i = 0; i < m->elements && !status; i++)
         status = assemble_element(m, i);
     for (int b = 0; b < m->bonds && !status; b++)
         status = assemble_bond(m, &m->bond[b]);
-    for (int l = 0; l < m->line_loads; l++)
-        assemble_line_load(m, &m->line_load[l]);
     if (m->par.augment > 0)
         visit_multipliers(m, 0);
     return status ? status : bbm_assemble_contacts(m);
@@ -1487,7 +1555,12 @@ static bbm_status solve(bbm_model *m)
 
     if (pcg.form == BBM_TWO_LEVEL && !long_step(m))
         pcg.form = BBM_EISENSTAT;
+    if (m->watch)
+        m->watch(m, m->watch_context);
     const bbm_status status = bbm_solve(m->K, m->F, m->D, &pcg, &m->info.pcg);
+    m->info.iterations += i->iterations;
+    m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
+    m->info.seconds[BBM_ITERATE] += i->seconds[1];
     if (status)
         return fail(m, status, "step %d, %d iterations, residual %.2g, element %d", m->info.step + 1, i->iterations,
                     i->residual, i->element);
@@ -1545,6 +1618,7 @@ static void update_element(bbm_model *m, bbm_element *e)
     bbm_newmark_velocity(e, m->h, m->par.keep);
     e->sum[0] += e->D[0];
     e->sum[1] += e->D[1];
+    e->sum[2] += e->D[2];
 }
 
 /* Moves all elements; how small the step was against all so far, Eq. (71), is left in info.change. */
@@ -1555,6 +1629,8 @@ static void update(bbm_model *m)
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
         memcpy(e->D, &m->D[6 * i], sizeof e->D);
+        for (int a = 0; a < 6; a++)
+            m->info.work += m->load[6 * i + a] * e->D[a];
         update_element(m, e);
         step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
@@ -1564,10 +1640,17 @@ static void update(bbm_model *m)
     m->info.t += isinf(m->h) ? 0 : m->h;
 }
 
+/* Counts the CPU time since `since` for a phase. */
+static void count_time(bbm_model *m, int phase, clock_t since)
+{
+    m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
+}
+
 /* Assembles and solves until the contacts have settled, and then once more for each round of multipliers, which change
  * F alone: K and all that the solver made of it are kept. */
 static bbm_status settle_contacts(bbm_model *m)
 {
+    clock_t start = clock();
     bbm_pass pass = BBM_PASS_AGAIN;
     bbm_status status = lay_out_matrix(m);
 
@@ -1575,6 +1658,7 @@ static bbm_status settle_contacts(bbm_model *m)
     m->keep_K = 0;
     for (int rounds = 0; !status && pass == BBM_PASS_AGAIN;) {
         status = assemble(m);
+        count_time(m, BBM_ASSEMBLE, start);
         m->keep_K = 0;
         if (!status)
             status = solve(m);
@@ -1585,6 +1669,7 @@ static bbm_status settle_contacts(bbm_model *m)
             m->keep_K = 1;
             pass = BBM_PASS_AGAIN;
         }
+        start = clock();
     }
     if (!status && pass == BBM_PASS_GIVE_UP)
         return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1,
@@ -1600,9 +1685,15 @@ static bbm_status try_step(bbm_model *m)
 
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
+    gather_loads(m);
     bbm_guess_step(m);
     for (int k = 0; k < DETECTIONS && !status; k++) {
+        const clock_t start = clock();
+        const int alone = k > 0 && bbm_contact_count(m) == 0;
         status = bbm_detect_contacts(m);
+        count_time(m, BBM_DETECT, start);
+        if (!status && alone && bbm_contact_count(m) == 0)
+            break;                              /* nothing was in reach, nothing is: the solution holds */
         if (!status && isinf(m->h))
             status = check_held(m);
         if (!status)
@@ -1616,6 +1707,19 @@ static bbm_status try_step(bbm_model *m)
     return bbm_keep_contacts(m);
 }
 
+/* Whether every body is held, by itself or through contacts: what a static step finds out before it solves. */
+bbm_status bbm_check_held(bbm_model *m)
+{
+    bbm_status status = check_step(m);
+
+    m->h = INFINITY;
+    if (!status) {
+        bbm_guess_step(m);
+        status = bbm_detect_contacts(m);
+    }
+    return status == BBM_OK ? check_held(m) : status == BBM_NO_MEMORY ? out_of_memory(m) : status;
+}
+
 /* One time step. If the contacts do not settle, dt is halved and the step done again, down to dt/1024; the nominal step
  * is completed in parts, which grow again. When it fails, the model is that of the last part that went well. */
 bbm_status bbm_step(bbm_model *m)
@@ -1624,7 +1728,7 @@ bbm_status bbm_step(bbm_model *m)
     int left = PARTS, part = PARTS;
     bbm_status status = check_step(m);
 
-    m->info.passes = m->info.cuts = 0;
+    m->info.passes = m->info.cuts = m->info.iterations = 0;
     while (!status && left > 0) {
         m->h = isinf(m->par.dt) ? m->par.dt : m->par.dt * part / PARTS;
         status = try_step(m);
@@ -1697,4 +1801,99 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
         r->stress[k] /= count;
     r->mises = bbm_mises(r->stress);
     return BBM_OK;
+}
+
+/* ------------------------------------------------------------------------------------------------ energies */
+
+/* 1/2 int V.M V dA, Eq. (11) with the velocity in place of the acceleration. A step hands on a share `keep` of V. */
+static double kinetic_energy(const bbm_model *m, const bbm_element *e)
+{
+    const double keep = m->info.step > 0 ? m->par.keep : 1;
+    double TT[6][6], V[6], sum = 0;
+
+    bbm_mode_integral(e, TT);
+    for (int a = 0; a < 6; a++)
+        V[a] = keep > 0 ? e->V[a] / keep : 2 / m->h * e->D[a];
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            sum += V[a] * TT[a][b] * V[b];
+    return mass_per_area(e) * sum / 2;
+}
+
+/* 1/2 int stress.strain dA, with Hooke's law (7) the other way round. */
+static double elastic_energy(const bbm_element *e)
+{
+    const double *s = e->stress, E = e->material.E, nu = e->material.nu;
+    const double work = (s[0] * s[0] + s[1] * s[1] - 2 * nu * s[0] * s[1] + 2 * (1 + nu) * s[2] * s[2]) / E;
+
+    return e->material.thickness * e->A0 * work / 2;
+}
+
+/* k/2 d.d of what a multiplier would make meet. */
+static double condition_energy(const bbm_model *m, const condition *c)
+{
+    double d[2] = { 0, 0 };
+
+    for (int end = 0; end < 2; end++) {
+        const bbm_vertex *P = &m->vertex[c->P[end]], *Q = &m->vertex[c->Q[end]];
+        const double *W = m->node[Q->node].wall;
+        d[0] += (P->u - (c->wall ? W[0] : Q->u)) / 2;
+        d[1] += (P->v - (c->wall ? W[1] : Q->v)) / 2;
+    }
+    return c->k / 2 * ((c->directions & BBM_X ? d[0] * d[0] : 0) + (c->directions & BBM_Y ? d[1] * d[1] : 0));
+}
+
+/* 1/2 dd.M dd of a bond of a whole edge, dd = (d1 - d2)/2. */
+static double moment_energy(const bbm_model *m, const bbm_bond *b)
+{
+    const bbm_vertex *P = &m->vertex[b->p[0]], *R = &m->vertex[b->p[1]];
+    const bbm_vertex *Q = &m->vertex[b->q[0]], *S = &m->vertex[b->q[1]];
+    const double d[2] = { (P->u - Q->u - R->u + S->u) / 2, (P->v - Q->v - R->v + S->v) / 2 };
+    double M[2][2] = { { 0 } };
+
+    add_moment(m, &m->element[b->i], b->p[0], 0.5, M);
+    add_moment(m, &m->element[b->j], b->q[1], 0.5, M);
+    return (d[0] * (M[0][0] * d[0] + M[0][1] * d[1]) + d[1] * (M[1][0] * d[0] + M[1][1] * d[1])) / 2;
+}
+
+/* The same for an edge that is held: twice the element's own M, in the directions in which it is held. */
+static double held_moment_energy(const bbm_model *m, const bbm_element *e, int v)
+{
+    const int held = held_edge(m, e, v);
+    const bbm_vertex *P = &m->vertex[v], *R = &m->vertex[next_vertex(e, v)];
+    const double *Q = m->node[P->node].wall, *S = m->node[R->node].wall;
+    const double d[2] = { held & BBM_X ? (P->u - Q[0] - R->u + S[0]) / 2 : 0,
+                          held & BBM_Y ? (P->v - Q[1] - R->v + S[1]) / 2 : 0 };
+    double M[2][2] = { { 0 } };
+
+    if (!held)
+        return 0;
+    add_moment(m, e, v, 2, M);
+    return (d[0] * (M[0][0] * d[0] + M[0][1] * d[1]) + d[1] * (M[1][0] * d[0] + M[1][1] * d[1])) / 2;
+}
+
+/* The energies after the last step; `springs` are bonds, fixed points and closed contacts. */
+void bbm_energies(const bbm_model *m, bbm_energy *energy)
+{
+    condition c[2];
+
+    *energy = (bbm_energy){ 0, 0, 0 };
+    for (int i = 0; i < m->elements; i++) {
+        energy->kinetic += kinetic_energy(m, &m->element[i]);
+        energy->elastic += elastic_energy(&m->element[i]);
+    }
+    for (int b = 0; b < m->bonds; b++) {
+        for (int n = bond_conditions(m, b, c); n > 0; n--)
+            energy->springs += condition_energy(m, &c[n - 1]);
+        energy->springs += is_hinge(m, &m->bond[b]) ? moment_energy(m, &m->bond[b]) : 0;
+    }
+    for (int v = 0; v < m->vertices; v++) {
+        for (int n = vertex_conditions(m, v, c); n > 0; n--)
+            energy->springs += condition_energy(m, &c[n - 1]);
+        energy->springs += held_moment_energy(m, &m->element[m->vertex[v].element], v);
+    }
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            energy->springs += m->contact[k].N * m->contact[k].N / (2 * m->par.p_n)
+                               + m->contact[k].T * m->contact[k].T / (2 * m->par.p_s);
 }

@@ -80,7 +80,7 @@ typedef struct {                /* an element: triangle, quadrilateral, any simp
     double A0;                  /* m^2      starting area: mass = density * thickness * A0                      */
     double V[6];                /* D/s      velocity of D                    */
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step                              */
-    double sum[2];              /* m        displacement of the barycentre, summed over the steps               */
+    double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps                            */
     /* --- solution of the last step --- */
     double D[6];                /* u0, v0 [m], r0 [rad], ex, ey, gxy [-]                                        */
 } bbm_element;
@@ -108,6 +108,7 @@ typedef struct {                /* a load along a boundary edge                 
     int    node[2];             /* its ends                                  */
     int    constant;            /* then f[0] is all of it, Eq. (43)          */
     double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to node[1], Eq. (42)               */
+    double pressure;            /* N/m      against the outward normal, turning with the edge; on top of f[0]   */
     int    a, b;                /* the vertices at its ends, by bbm_prepare  */
 } bbm_line_load;
 
@@ -134,7 +135,10 @@ typedef struct {                /* what a solve did                             
     int    iterations;
     double residual;            /* -        |F - K D| / |F|, computed afresh at the end                         */
     int    element;             /* block row where K is not positive definite, else -1                          */
+    double seconds[2];          /* s        CPU time of the preconditioner and of the iteration                 */
 } bbm_pcg_info;
+
+enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };   /* what CPU time is counted for  */
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X, or the paper's x + T D           */
 
@@ -178,6 +182,7 @@ typedef struct {
     int    augment;             /* further solutions of a step that take the give out of the springs; 0: paper  */
     bbm_bonding bonding;        /* of quadrilaterals; BBM_VERTICES: paper                                       */
     double gravity[2];          /* m/s^2    */
+    double shake[2], omega;     /* m/s^2, 1/s   acceleration of the base, shake sin(omega t)                    */
     double p_n, p_s;            /* N/m      stiffness of the normal and of the shear spring of a contact        */
     double friction;            /* degree   friction angle                                                      */
     double cohesion, tension;   /* Pa       shear and tensile strength of unbroken joints, see bbm_contact      */
@@ -196,12 +201,17 @@ typedef struct {                /* what the last step did                       
     int    cuts;                /* how often dt was halved                                                      */
     int    contacts;            /* closed                                                                       */
     double penetration;         /* m        the deepest                                                         */
+    int    iterations;          /* of SSOR-PCG, in all solutions of the step                                    */
+    double work;                /* J        of loads and gravity, in all steps                                  */
+    double seconds[BBM_PHASES]; /* s        CPU time, in all steps                                              */
 } bbm_info;
+
+typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 
 typedef struct bbm_matrix bbm_matrix;           /* K, in solver.c                                               */
 typedef struct bbm_contact_work bbm_contact_work;       /* scratch of contact.c                                 */
 
-typedef struct {
+typedef struct bbm_model {
     /* --- input --- */
     bbm_parameters par;
     int nodes, elements, vertices, line_loads, materials;
@@ -218,6 +228,8 @@ typedef struct {
     /* --- state and scratch --- */
     bbm_matrix *K;
     double *F, *D;              /* [6 elements]                              */
+    double *load;               /* [6 elements] the part of F that comes from outside: loads, gravity           */
+    double gravity[2];          /* m/s^2    of the step in hand: gravity less the acceleration of the base      */
     double *force, *force_before;   /* N    [4 (bonds + vertices)] multipliers of bonds and fixed points: forces
                                    from i on j, from element on wall; and those of the start of the step       */
     double h;                   /* s        the step in hand: dt, or a part of it                               */
@@ -229,6 +241,10 @@ typedef struct {
     bbm_info info;
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
+    int  culprit;               /* the element of BBM_OVERLAP or BBM_FREE_TO_MOVE                               */
+    /* --- for whoever wants to see K and F: called before each solution --- */
+    void (*watch)(const struct bbm_model *m, void *context);
+    void *watch_context;
 } bbm_model;
 
 typedef struct {                /* at a grid point                                                              */
@@ -244,6 +260,7 @@ bbm_status  bbm_step(bbm_model *m);                     /* one step             
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);  /* block -1: all of them */
 void        bbm_displacement(const bbm_element *e, double x, double y, double u[2]);   /* (1), of the last step */
 double      bbm_mises(const double stress[3]);
+void        bbm_energies(const bbm_model *m, bbm_energy *e);    /* kinetic: before the velocity is damped        */
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);            /* the last error in a sentence, with names and numbers */
 
@@ -261,6 +278,9 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);          
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy);/* N/m, constant         */
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f, const void *context);
 bbm_status bbm_prepare(bbm_model *m);                   /* checks, sorts the edges (2.2), lays out K            */
+/* After bbm_prepare: on a boundary edge; whether all is held against rigid motion, as statics needs.            */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);           /* N/m       */
+bbm_status bbm_check_held(bbm_model *m);
 
 /* ----------------------------------------------------------------------------- 3. single formulas, each alone
  * A submatrix function adds to what it is given.                                                               */

@@ -760,7 +760,7 @@ void bbm_guess_step(bbm_model *m)
 {
     for (int i = 0; i < m->elements; i++)
         for (int a = 0; a < 6; a++) {
-            const double fall = a < 2 ? m->par.gravity[a] * m->h * m->h / 2 : 0;
+            const double fall = a < 2 ? m->gravity[a] * m->h * m->h / 2 : 0;
             m->work->guess[6 * i + a] = isinf(m->h) ? 0 : m->element[i].V[a] * m->h + fall;
         }
 }

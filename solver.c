@@ -64,6 +64,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define NEGLIGIBLE 1e-100                       /* -  against the largest entry of F                            */
 
@@ -1246,10 +1247,13 @@ static double true_residual(bbm_matrix *K)
     return sqrt(dot(K->n, K->r, K->r) / dot(K->n, K->f, K->f));
 }
 
+static double seconds_since(clock_t start) { return (double)(clock() - start) / CLOCKS_PER_SEC; }
+
 /* If the iteration ends early, D is its last iterate; if it did not begin, D is 0, iterations 0 and residual 1. */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    const bbm_pcg_info none = { 0, 1.0, -1 };
+    const bbm_pcg_info none = { 0, 1.0, -1, { 0, 0 } };
+    clock_t start = clock();
     const bbm_pcg_form form = pcg->form == BBM_TWO_LEVEL && !K->coarse ? BBM_EISENSTAT : pcg->form;
     bbm_status status = check(F, K->n, pcg);
     double scale;
@@ -1259,6 +1263,8 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
     set_zero(K->n, D);
     if (status == BBM_OK)
         status = make_ready(K, form, form == BBM_TWO_LEVEL ? 1.0 : pcg->omega, info);
+    info->seconds[0] = seconds_since(start);
+    start = clock();
     if (status != BBM_OK)
         return status;
     scale = largest(K->n, F);
@@ -1272,6 +1278,7 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
     else
         status = form == BBM_TEXTBOOK ? textbook(K, pcg, info) : eisenstat(K, pcg, info);
     info->residual = true_residual(K);
+    info->seconds[1] = seconds_since(start);
     for (i = 0; i < K->n; i++)
         for (a = 0; a < 6; a++)
             D[6 * i + a] = scale * K->x[6 * K->place[i] + a];

@@ -34,6 +34,7 @@ Suite *bbm_suite(void);
 Suite *beyond_suite(void);
 Suite *contact_suite(void);
 Suite *cases_suite(void);
+Suite *model_suite(void);
 
 /* test_alloc.c: malloc, calloc and realloc as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

@@ -946,6 +946,30 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_upper_one_touch)
 }
 END_TEST
 
+/* Two equal squares, the upper one shifted by half a millionth of their side, as the rounding of a model file may: the
+ * corners are at one place all the same, and hold it at both ends. Of 10 m, of 0.1 m, to the right, to the left. */
+START_TEST(rounding_in_a_model_file_does_not_undo_a_contact)
+{
+    const double size = _i / 2 ? 0.1 : 10, shift = (_i % 2 ? -5e-7 : 5e-7) * size, W = DENSITY * GRAVITY * size * size;
+
+    for (int k = 0; k < COUNT(ANGLES); k++) {
+        bbm_model *m = new_model();
+        add_rectangle(m, 0, BASE, (rectangle){ 0, -size, size, size, ANGLES[k], .fixed = 1 });
+        add_rectangle(m, 1, ROCK, (rectangle){ shift, 0, size, size, ANGLES[k], .fixed = 0 });
+        m->par.gravity[0] = GRAVITY * sin(radians(ANGLES[k]));
+        m->par.gravity[1] = -GRAVITY * cos(radians(ANGLES[k]));
+        m->par.friction = 30;
+        m->par.p_n = 1e12;
+        m->par.p_s = 4e11;
+        ck_ok(bbm_prepare(m), m);
+        settle(m, 20);
+        ck_assert_int_eq(m->info.contacts, 2);
+        ck_relative(normal_force(m, 0, 1), W, 1e-5);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
 /* --------------------------------------------------------------------------------------------- corners on corners */
 
 /* A unit square at rest below and to the left of (5, 3), and one that comes from the upper right, corner against
@@ -1313,7 +1337,7 @@ START_TEST(a_block_that_slides_off_a_table_is_let_go)
 }
 END_TEST
 
-/* 5 mm beside the table's end, at 5 m/s: it crosses the lines of the table's top and of its bottom, and touches nothing. */
+/* 5 mm beside the table's end, at 5 m/s: it crosses the lines of the table's top and bottom and touches nothing. */
 START_TEST(a_block_that_falls_past_the_end_of_a_table_does_not_notice_it)
 {
     const double v0 = 5, t = 0.3;
@@ -1471,7 +1495,7 @@ START_TEST(statics_balances_a_block_on_its_contacts)
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 5);
     ck_relative(normal_force(m, 0, 1), W, 1e-8);
-    ck_near(m->element[e].sum[1], -W / 2 / m->par.p_n, 1e-4, 0.03);          /* its own shortening: W h/(2 E) = 1e-6 */
+    ck_near(m->element[e].sum[1], -W / 2 / m->par.p_n, 1e-4, 0.03);      /* shortened by W h/(2 E) = 1e-6 */
     const bbm_contact *a = contact_of(m, e, 0), *b = contact_of(m, e, 1);
     ck_assert(a && b);
     ck_near(fabs(a->T + b->T), push, W, 1e-8);
@@ -2319,6 +2343,7 @@ static void add_formulas(Suite *s)
         { random_blocks_in_reversed_order_have_the_same_contacts, 1 },
         { a_block_far_away_changes_nothing, 1 },
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
+        { rounding_in_a_model_file_does_not_undo_a_contact, 4 },
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
     };
 

@@ -1,0 +1,230 @@
+/* bbm.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results (write.c).
+ *
+ * Exit status: 0, all is done; 1, the run failed, with what was computed until then in the files; 2, the input is
+ * wrong, and nothing was written. Errors and progress go to stderr, what was run and what came out to stdout. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "write.h"
+
+typedef struct { const char *model, *matrix; char folder[1024]; int quiet, exit; } arguments;  /* exit: -1, go on    */
+
+static const char *usage(void)
+{
+    return "usage: bbm [-q] [-o FOLDER] [-m FILE] MODEL\n"
+           "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
+           "  -m FILE     the matrix of the first solution (Matrix Market), and its right-hand side as FILE.rhs\n"
+           "  -q          quiet: errors alone\n"
+           "  -h, --version\n";
+}
+
+static int complain(arguments *a, const char *what)
+{
+    fprintf(stderr, "bbm: %s\n%s", what, usage());
+    return a->exit = 2;
+}
+
+/* By default: the model's name without folder and ending. */
+static int name_folder(arguments *a, const char *given)
+{
+    const char *base = strrchr(a->model, '/'), *dot;
+
+    base = given ? given : base ? base + 1 : a->model;
+    dot = given ? NULL : strrchr(base, '.');
+    const size_t n = dot && dot > base ? (size_t)(dot - base) : strlen(base);
+    if (n == 0 || n >= sizeof a->folder)
+        return complain(a, "no folder of that name; expected -o FOLDER");
+    memcpy(a->folder, base, n);
+    a->folder[n] = '\0';
+    return 0;
+}
+
+/* The options may stand before and after the model; behind `--` a name may begin with a dash. */
+static int read_arguments(arguments *a, int argc, char *argv[])
+{
+    const char *folder = NULL;
+    int options = 1;
+
+    *a = (arguments){ .exit = -1 };
+    for (int k = 1; k < argc; k++) {
+        const char *word = argv[k], **value = strncmp(word, "-o", 2) == 0 ? &folder : &a->matrix;
+        if (!options || word[0] != '-' || word[1] == '\0') {
+            if (a->model)
+                return complain(a, "expected one model file");
+            a->model = word;
+        } else if (strcmp(word, "--") == 0) {
+            options = 0;
+        } else if (strcmp(word, "-q") == 0) {
+            a->quiet = 1;
+        } else if (strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0) {
+            return printf("%s", usage()), a->exit = 0;
+        } else if (strcmp(word, "--version") == 0) {
+            return printf("bbm %s\n", BBM_VERSION), a->exit = 0;
+        } else if (word[1] == 'o' || word[1] == 'm') {
+            *value = word[2] ? word + 2 : argv[++k];
+            if (k == argc || **value == '\0')
+                return complain(a, "-o and -m need a name");
+        } else {
+            return complain(a, "unknown option");
+        }
+    }
+    return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
+}
+
+/* --------------------------------------------------------------------------------------------------- progress */
+
+typedef struct { int shown, steps; clock_t start, last; } progress;
+
+static void show_progress(progress *s, const bbm_model *m, int step)
+{
+    const double each = (double)(clock() - s->start) / CLOCKS_PER_SEC / (step > 0 ? step : 1);
+
+    if (!s->shown || (clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps))
+        return;
+    s->last = clock();
+    fprintf(stderr, "\rstep %d of %d, t = %.6g s, %d open-close passes, %d contacts, %.0f s left   ", step, s->steps,
+            m->info.t, m->info.passes, m->info.contacts, each * (s->steps - step));
+    if (step == s->steps)
+        fputc('\n', stderr);
+    fflush(stderr);
+}
+
+static void describe(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+
+    printf("%s%s%s\n", path, p->title ? ": " : "", p->title ? p->title : "");
+    printf("%d elements in %d blocks, %d nodes, %d bonds; ", m->elements,
+           p->blocks, m->nodes, m->bonds);
+    if (p->dynamic)
+        printf("dynamic, %d steps of %g s%s\n", m->par.steps, m->par.dt, p->settle ? ", settled before" : "");
+    else
+        printf("static, %d step%s%s\n", m->par.steps, m->par.steps == 1 ? "" : "s",
+               m->par.tolerance > 0 ? " at most" : "");
+    fflush(stdout);
+}
+
+static void summarise(const model *p, const char *folder)
+{
+    const bbm_model *m = p->m;
+    double far = 0, most = 0;
+    int v_far = 0, e_most = 0;
+
+    for (int v = 0; v < m->vertices; v++)
+        if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
+            far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
+    for (int e = 0; e < m->elements; e++)
+        if (bbm_mises(m->element[e].stress) > most)
+            most = bbm_mises(m->element[e].stress), e_most = e;
+    printf("%d step%s, t = %g s, %d contacts closed, residual %.1e\n", m->info.step, m->info.step == 1 ? "" : "s",
+           m->info.t, m->info.contacts, m->info.pcg.residual);
+    printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element %s\nresults in %s\n", far,
+           p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
+}
+
+/* --------------------------------------------------------------------------------------------------- the run */
+
+/* Quasi-static steps without shaking, then t = 0. */
+static bbm_status settle(model *p)
+{
+    bbm_model *m = p->m;
+    const bbm_parameters par = m->par;
+    bbm_status status = BBM_OK;
+
+    m->par.keep = m->par.shake[0] = m->par.shake[1] = 0;
+    for (int k = 0; k < p->settle && !status; k++)
+        status = bbm_step(m);
+    m->par = par;
+    m->info.t = 0;
+    m->info.step = 0;
+    return status;
+}
+
+/* All steps, or until (71) is met; what went wrong is in the library's message or in w. */
+static bbm_status run_steps(write_results *w, progress *s)
+{
+    bbm_model *m = w->p->m;
+    const bbm_parameters *par = &m->par;
+    bbm_status status = settle(w->p);
+    int met = 0;
+
+    if (!status && !model_start(w->p))
+        status = BBM_NO_MEMORY;
+    if (!status)
+        write_step(w, 0);
+    for (int step = 1; step <= par->steps && !status && !w->status && !met; step++) {
+        status = bbm_step(m);
+        if (!status)
+            write_step(w, step);
+        met = par->tolerance > 0 && m->info.change <= par->tolerance;
+        show_progress(s, m, met ? s->steps : step);
+    }
+    return !status && !w->status && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED : status;
+}
+
+/* The message of a run that failed. */
+static void report(const write_results *w, bbm_status status, const char *path)
+{
+    const bbm_model *m = w->p->m;
+
+    if (status == BBM_STEPS_EXHAUSTED)
+        fprintf(stderr, "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n", path,
+                m->info.step, m->info.change, m->par.tolerance);
+    else if (status)
+        fprintf(stderr, "%s: step %d: %s\n", path, m->info.step + 1,
+                *m->message ? m->message : bbm_status_text(status));
+    if (w->status)
+        fprintf(stderr, "%s: step %d: %s\n", path, m->info.step, w->message);
+}
+
+static int run(model *p, const arguments *a, clock_t start)
+{
+    write_results w = { .p = p, .folder = a->folder, .matrix = a->matrix, .start = start, .reading = clock() - start };
+    progress s = { !a->quiet && isatty(2), p->m->par.steps, clock(), 0 };
+    bbm_status status = BBM_OK;
+
+    if (a->matrix) {
+        p->m->watch = write_matrix;
+        p->m->watch_context = &w;
+    }
+    if (!a->quiet)
+        describe(p, a->model);
+    if (write_open(&w)) {
+        status = run_steps(&w, &s);
+        write_close(&w);
+    }
+    report(&w, status, a->model);
+    if (!a->quiet && !status && !w.status)
+        summarise(p, a->folder);
+    return status || w.status ? 1 : 0;
+}
+
+int main(int argc, char *argv[])
+{
+    const clock_t start = clock();
+    arguments a;
+    model p;
+
+    signal(SIGPIPE, SIG_IGN);                   /* a pipe or a disk that takes no more is an error like another */
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN);
+#endif
+    if (read_arguments(&a, argc, argv), a.exit >= 0)
+        return a.exit;
+    int status = model_read(a.model, &p);
+    if (status)
+        fprintf(stderr, "%s\n", p.message);
+    else
+        status = run(&p, &a, start);
+    model_free(&p);
+    if (fflush(stdout) || ferror(stdout)) {
+        fprintf(stderr, "bbm: stdout cannot be written\n");
+        return status ? status : 1;
+    }
+    return status;
+}

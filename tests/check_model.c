@@ -1,0 +1,645 @@
+/* check_model.c - the program for model files, from outside: what it says to wrong input, letter by letter, and that it
+ * then writes nothing; what it computes, against theory, against other ways to say the same, and against a dense
+ * solver; what it does when files cannot be written. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "check.h"
+
+#ifndef BUILD
+#define BUILD "out/build"
+#endif
+
+enum { LONG = 1500 };
+
+/* --------------------------------------------------------------------------------------------- running, reading */
+
+/* Runs a shell command made as by printf; the exit status. */
+static int shell(const char *format, ...)
+{
+    char command[LONG];
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(command, sizeof command, format, args);
+    va_end(args);
+    const int status = system(command);
+    ck_assert(status != -1 && WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+/* The beginning of a file; "" if it is not there. */
+static const char *slurp(const char *path, char text[LONG])
+{
+    FILE *f = fopen(path, "rb");
+    const size_t got = f ? fread(text, 1, LONG - 1, f) : 0;
+
+    text[got] = '\0';
+    if (f)
+        fclose(f);
+    return text;
+}
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *f = fopen(path, "w");
+
+    ck_assert_ptr_nonnull(f);
+    fputs(text, f);
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+/* Runs a model of out/model/NAME.model that is written first: the text. Results in out/model/NAME. */
+static int run_text(const char *name, const char *text)
+{
+    char path[100];
+
+    snprintf(path, sizeof path, "out/model/%s.model", name);
+    write_text(path, text);
+    return shell("rm -rf out/model/%s; %s/bbm -q out/model/%s.model -o out/model/%s 2> out/model/%s.err", name, BUILD,
+                 name, name, name);
+}
+
+/* A cell of a table: out/model/NAME/FILE, in the last row that begins with `row` ("" for the last one). */
+static double cell(const char *name, const char *file, const char *row, const char *column)
+{
+    char path[100], line[LONG], found[LONG] = "";
+    int k = 0;
+
+    snprintf(path, sizeof path, "out/model/%s/%s", name, file);
+    FILE *f = fopen(path, "r");
+    ck_assert_msg(f && fgets(line, sizeof line, f), "%s cannot be read", path);
+    line[strcspn(line, "\n")] = '\0';
+    char *rest = NULL, *head = strtok_r(line, ",", &rest);
+    for (; head && strcmp(head, column) != 0; head = strtok_r(NULL, ",", &rest))
+        k++;
+    ck_assert_msg(head != NULL, "%s has no column %s", path, column);
+    while (fgets(line, sizeof line, f))
+        if (strncmp(line, row, strlen(row)) == 0)
+            strcpy(found, line);
+    fclose(f);
+    ck_assert_msg(*found, "%s has no row %s", path, row);
+    char *p = found;
+    while (k-- > 0)
+        p = strchr(p, ',') + 1;
+    return strtod(p, NULL);
+}
+
+/* --------------------------------------------------------------------------------------------------- wrong input */
+
+/* tests/bad/NAME.model, and what is said after tests/bad/NAME. */
+typedef struct { const char *name, *message; } wrong;
+
+static const wrong wrongs[] = {
+    { "unknown-statement", ".model:9: unknown statement 'elephant', expected one like node, element, material, "
+      "static" },
+    { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
+      "[thickness VALUE]" },
+    { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x] [y]" },
+    { "missing-word", ".model:3: a word is missing, expected: node ID X Y" },
+    { "missing-value", ".model:5: not a number: 'nu', expected: material NAME E VALUE nu VALUE density VALUE "
+      "[thickness VALUE]" },
+    { "missing-option", ".model:5: density is missing, expected: material NAME E VALUE nu VALUE density VALUE "
+      "[thickness VALUE]" },
+    { "missing-word-set", ".model:9: a word is missing, expected: set NAME nodes ID ID ..." },
+    { "missing-word-where", ".model:9: a word is missing, expected: load WHERE FX FY" },
+    { "missing-word-element", ".model:6: element 1 has 2 nodes, expected 3 or more" },
+    { "surplus-word", ".model:3: surplus word '0', expected: node ID X Y" },
+    { "surplus-word-static", ".model:8: unknown option '3', expected: static [steps N] [tolerance VALUE]" },
+    { "not-a-number", ".model:3: not a number: 'one', expected: node ID X Y" },
+    { "not-a-number-hexadecimal", ".model:3: not a number: '0x1', expected: node ID X Y" },
+    { "nan", ".model:3: not a finite number: 'nan', expected: node ID X Y" },
+    { "infinite", ".model:3: not a finite number: '1e999', expected: node ID X Y" },
+    { "not-whole", ".model:8: not a whole number: '1.5', expected: static [steps N] [tolerance VALUE]" },
+    { "count-below-one", ".model:8: steps is 0, expected a whole number, 1 or more" },
+    { "count-below-one-every", ".model:9: every is -1, expected a whole number, 1 or more" },
+    { "count-below-one-iterations", ".model:9: iterations is 0, expected a whole number, 1 or more" },
+    { "count-below-one-settle", ".model:8: settle is 0, expected a whole number, 1 or more" },
+    { "count-too-large", ".model:8: too large: '99999999999', expected: static [steps N] [tolerance VALUE]" },
+    { "id-not-whole", ".model:3: an id is a whole number, not '3.5', expected: node ID X Y" },
+    { "node-twice", ".model:9: node '1' for the second time, expected a new one" },
+    { "node-twice-zeros", ".model:9: node '1' for the second time, expected a new one" },
+    { "element-twice", ".model:9: element '1' for the second time, expected a new one" },
+    { "material-twice", ".model:9: material 'steel' for the second time, expected a new one" },
+    { "set-twice", ".model:10: set 'a' for the second time, expected a new one" },
+    { "monitor-twice", ".model:10: monitor 'a' for the second time, expected a new one" },
+    { "gravity-twice", ".model:10: gravity for the second time, after line 9, expected it once" },
+    { "static-twice", ".model:9: static for the second time, after line 8, expected it once" },
+    { "option-twice", ".model:8: steps for the second time, expected: static [steps N] [tolerance VALUE]" },
+    { "velocity-twice", ".model:10: a velocity of 'b' for the second time, expected one" },
+    { "stress-twice", ".model:10: a stress of 'b' for the second time, expected one" },
+    { "fixblock-twice", ".model:10: block 'b' is fixed for the second time, expected once" },
+    { "unknown-node", ".model:6: unknown node '5', expected one that the model has" },
+    { "unknown-node-where", ".model:9: unknown node '7', expected one that the model has" },
+    { "unknown-material", ".model:6: unknown material 'iron', expected one that the model has" },
+    { "unknown-block", ".model:9: unknown block 'c', expected one that the model has" },
+    { "unknown-block-velocity", ".model:9: unknown block 'c', expected one that the model has" },
+    { "unknown-set", ".model:9: unknown set 'c', expected one that the model has" },
+    { "unknown-place", ".model:9: unknown place 'right', expected: load WHERE FX FY" },
+    { "unknown-choice", ".model:9: 'both', expected one of exact|linear" },
+    { "unknown-choice-bond", ".model:9: 'corners', expected one of vertices|midpoints|moment|auto" },
+    { "bad-name", ".model:6: not a name (letters, digits, _ - .): 'b,c', expected: element ID BLOCK MATERIAL N1 N2 "
+      "N3 [N4 ...]" },
+    { "unused-node", ".model:9: no element has node 5, expected one" },
+    { "zero-area", ".model:5: element 1 has no area, or one too large, expected a polygon" },
+    { "zero-area-node-twice", ".model:4: element 1 has no area, or one too large, expected a polygon" },
+    { "self-crossing", ".model:6: the boundary of element 1 meets itself, expected a simple polygon" },
+    { "too-large", ".model:6: element 1 has no area, or one too large, expected a polygon" },
+    { "overlap", ".model:9: element 2 lies on another one of its block, expected elements side by side" },
+    { "e-zero", ".model:5: E is 0, expected more than 0" },
+    { "e-negative", ".model:5: E is -1, expected more than 0" },
+    { "nu-half", ".model:5: nu is 0.5, expected more than -1 and less than 0.5" },
+    { "nu-minus-one", ".model:5: nu is -1, expected more than -1 and less than 0.5" },
+    { "density-zero", ".model:5: density is 0, expected more than 0" },
+    { "thickness-zero", ".model:5: thickness is 0, expected more than 0" },
+    { "alpha-zero", ".model:9: alpha is 0, expected more than 0" },
+    { "kn-negative", ".model:9: kn is -1, expected 0 or more" },
+    { "ks-negative", ".model:9: ks is -1, expected 0 or more" },
+    { "friction-ninety", ".model:9: friction is 90, expected 0 to less than 90 degrees" },
+    { "friction-negative", ".model:9: friction is -1, expected 0 to less than 90 degrees" },
+    { "cohesion-negative", ".model:9: cohesion is -1, expected 0 or more" },
+    { "dt-zero", ".model:8: dt is 0, expected more than 0" },
+    { "dt-missing", ".model:8: dt is missing, expected: dynamic dt VALUE steps N [damping VALUE] [settle N]" },
+    { "damping", ".model:8: damping is 1.5, expected 0 to 1" },
+    { "omega-zero", ".model:9: omega is 0, expected more than 0 and less than 2" },
+    { "omega-two", ".model:9: omega is 2, expected more than 0 and less than 2" },
+    { "tolerance", ".model:9: tolerance is 1, expected more than 0 and less than 1" },
+    { "tolerance-static", ".model:8: tolerance is 0, expected more than 0" },
+    { "where-names-no-node", ".model:9: no node there, expected a place that names one" },
+    { "where-box-empty", ".model:9: no node there, expected a place that names one" },
+    { "where-box-reversed", ".model:9: a box from 1, 1 to 0, 0, expected: box XMIN YMIN XMAX YMAX" },
+    { "traction-inside", ".model:9: no boundary edge has both ends there, expected one" },
+    { "pressure-inside", ".model:10: no boundary edge has both ends there, expected one" },
+    { "use-without-mesh", ".model:9: block 'b' has its material by `element`, expected a block of a mesh" },
+    { "no-element", ".model: the model has no element, expected: element ..., or mesh FILE" },
+    { "empty", ".model: neither static nor dynamic, expected one of them" },
+    { "static-and-dynamic", ".model:9: static and dynamic, expected one of them" },
+    { "neither", ".model: neither static nor dynamic, expected one of them" },
+    { "free", ".model: block 'b' is free to move, expected fix, fixblock or a contact that holds it in statics" },
+    { "free-to-turn", ".model: block 'b' is free to move, expected fix, fixblock or a contact that holds it in "
+      "statics" },
+    { "free-second-block", ".model: block 'loose' is free to move, expected fix, fixblock or a contact that holds "
+      "it in statics" },
+    { "mesh-missing", ".model:9: tests/bad/nowhere.msh cannot be read: No such file or directory" },
+    { "mesh-is-a-folder", ".model:9: tests/bad/. cannot be read: Is a directory" },
+    { "binary", ".model:2: a zero byte: the file is binary, expected text" },
+    { "msh-version", ".msh:2: '2.1' in $MeshFormat, expected version 2.2 or 4.1" },
+    { "msh-version-4", ".msh:2: '4' in $MeshFormat, expected version 2.2 or 4.1" },
+    { "msh-binary", ".msh:2: the mesh is binary, expected ASCII" },
+    { "msh-empty", ".msh:1: the file ends without $Nodes, expected one" },
+    { "msh-no-mesh", ".msh:1: 'This', expected a section like $Nodes" },
+    { "msh-no-format", ".msh:1: '$PhysicalNames' in $PhysicalNames, expected $MeshFormat as the first section" },
+    { "msh-cut-short", ".msh:19: the file ends inside $Elements, expected $EndElements" },
+    { "msh-cut-short-41", ".msh:10: the file ends inside $Entities, expected $EndEntities" },
+    { "msh-without-elements", ".msh:16: the file ends without $Elements, expected one" },
+    { "msh-count", ".msh:14: '4' in $Nodes, expected the end of the section" },
+    { "msh-count-high", ".msh:15: '$EndNodes' in $Nodes, expected a whole number" },
+    { "msh-order-two", ".msh:18: element 1 is of type 8, expected 15, 1, 2 or 3: a point, or a line, triangle or "
+      "quadrilateral of first order" },
+    { "msh-order-two-41", ".msh:31: element 2 is of type 9, expected 15, 1, 2 or 3: a point, or a line, triangle or "
+      "quadrilateral of first order" },
+    { "msh-volume", ".msh:19: element 2 is of type 4, expected 15, 1, 2 or 3: a point, or a line, triangle or "
+      "quadrilateral of first order" },
+    { "msh-unknown-node", ".msh:19: '9' in $Elements, expected a node of the mesh" },
+    { "msh-node-twice", ".msh:14: node '3' for the second time, expected a new one" },
+    { "msh-nan", ".msh:14: 'nan' in $Nodes, expected a finite number" },
+    { "msh-no-surface", ".msh:19: element 2 lies in no physical surface, expected one, which is its block" },
+    { "msh-no-surface-41", ".msh:31: element 2 lies in no physical surface, expected one, which is its block" },
+    { "msh-name", ".msh:6: '\"the' in $PhysicalNames, expected a name in quotes, without blanks" },
+    { "msh-zero-area", ".msh:19: element 2 has no area, or one too large, expected a polygon" },
+    { "msh-id-of-the-model", ".model:6: node '1' for the second time, expected a new one" },
+    { "msh-no-material", ".model:1: block 'plate' has no material, expected: use MATERIAL on plate" },
+    { "msh-use-twice", ".model:6: a material for '*' for the second time, expected one" },
+    { "msh-use-unknown", ".model:6: unknown block 'disc', expected one that the model has" },
+    { "msh-set-twice", ".model:6: set 'left' for the second time, expected a new one" },
+    { "msh-set-of-two-kinds", ".model:4: the mesh has several groups of that name, one of surfaces and one of "
+      "curves or points, expected one" },
+};
+
+START_TEST(wrong_input_is_named_with_its_line_and_nothing_is_written)
+{
+    const wrong *w = &wrongs[_i];
+    char expected[LONG], said[LONG];
+
+    ck_assert_int_eq(shell("rm -rf out/model/bad; %s/bbm tests/bad/%s.model -o out/model/bad -m out/model/bad.mtx "
+                           "> out/model/bad.out 2> out/model/bad.err", BUILD, w->name), 2);
+    snprintf(expected, sizeof expected, "tests/bad/%s%s\n", w->name, w->message);
+    ck_assert_str_eq(slurp("out/model/bad.err", said), expected);
+    ck_assert_str_eq(slurp("out/model/bad.out", said), "");
+    ck_assert_int_ne(access("out/model/bad", F_OK), 0);
+    ck_assert_int_ne(access("out/model/bad.mtx", F_OK), 0);
+}
+END_TEST
+
+START_TEST(every_file_of_wrong_input_has_its_message_in_the_table)
+{
+    char text[LONG];
+
+    ck_assert_int_eq(shell("ls tests/bad/*.model | wc -l > out/model/count"), 0);
+    ck_assert_int_eq(atoi(slurp("out/model/count", text)), (int)(sizeof wrongs / sizeof *wrongs));
+}
+END_TEST
+
+START_TEST(a_missing_file_is_status_2)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("%s/bbm nowhere.model 2> out/model/bad.err", BUILD), 2);
+    ck_assert_str_eq(slurp("out/model/bad.err", said),
+                     "nowhere.model: nowhere.model cannot be read: No such file or directory\n");
+}
+END_TEST
+
+START_TEST(wrong_arguments_are_status_2_and_help_is_status_0)
+{
+    char said[LONG];
+    static const struct { const char *arguments; int status; } call[] = {
+        { "", 2 }, { "-x a.model", 2 }, { "a.model b.model", 2 }, { "a.model -o", 2 }, { "-h", 0 }, { "--version", 0 },
+    };
+
+    for (size_t k = 0; k < sizeof call / sizeof *call; k++)
+        ck_assert_int_eq(shell("%s/bbm %s > out/model/said 2> out/model/bad.err", BUILD, call[k].arguments),
+                         call[k].status);
+    ck_assert_str_eq(slurp("out/model/said", said), "bbm " BBM_VERSION "\n");
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------------------ what it computes */
+
+/* A result of cases/models against theory. `most` is absolute. */
+typedef struct { const char *model, *file, *row, *column; double expected, most; } target;
+
+static const target targets[] = {
+    /* A converged finite element; 12 cells in the length of a beam that bends are good for 0.5 %. */
+    { "exp1", "history.csv", "1,", "middle_v", -2.8449e-3, 1.5e-5 },
+    { "exp1", "history.csv", "1,", "late_v", -5.6758e-3, 3e-5 },
+    { "exp1", "history.csv", "1,", "tip_u", 0, 1e-12 },
+    /* The finite plate is some 10 % above the infinite one: bounds that a wrong factor breaks. */
+    { "exp2", "history.csv", "1,", "side_u", 1.15e-6, 0.02e-6 },
+    { "exp2", "nodes.csv", "177,plate", "sxx", 3.1e6, 0.1e6 },
+    /* u = F t^2/(2 m), v = 0; the plate gives way by some 1e-6 m. Settling has moved it by 50 F dt^2/(2 m) before. */
+    { "exp3", "history.csv", "0,", "P_u", 0.0025, 1e-5 },
+    { "exp3", "history.csv", "200,", "P_u", 2.0025, 1e-4 },
+    { "exp3", "history.csv", "200,", "P_v", 0, 1e-5 },
+    { "exp3", "summary.csv", "200,", "kinetic", 20000, 2 },
+    /* s = g (sin a - cos a tan phi) t^2/2 */
+    { "incline", "history.csv", "100,", "corner_u", -0.78497, 3e-5 },
+    { "incline", "history.csv", "100,", "corner_v", -0.45320, 3e-5 },
+    /* The weight above the middle of the lowest block: 9.5 W; at rest. */
+    { "column", "elements.csv", "2,b1,", "syy", -9.5 * 24525, 3 },
+    { "column", "summary.csv", "100,", "kinetic", 0, 1e-9 },
+    { "overhang", "history.csv", "200,", "end_u", 0, 1e-3 },
+    { "arch", "history.csv", "100,", "crown_v", 0, 2e-3 },
+    /* P/(pi R t) and -3 P/(pi R t); the mesh has eight rings. */
+    { "disc", "nodes.csv", "1,disc", "sxx", 0.3183e6, 0.02e6 },
+    { "disc", "nodes.csv", "1,disc", "syy", -0.9549e6, 0.02e6 },
+    /* The dam leans down the stream and stands. */
+    { "dam", "history.csv", "", "crest_u", 5e-4, 1e-4 },
+};
+
+static void run_models(void)
+{
+    static const char *const name[] = { "exp1", "exp2", "exp3", "incline", "column", "overhang", "arch", "disc",
+                                        "dam" };
+
+    shell("rm -rf out/model; mkdir -p out/model");
+    for (size_t k = 0; k < sizeof name / sizeof *name; k++)
+        ck_assert_int_eq(shell("%s/bbm cases/models/%s.model -o out/model/%s > out/model/%s.log", BUILD, name[k],
+                               name[k], name[k]), 0);
+}
+
+START_TEST(a_model_meets_theory)
+{
+    const target *t = &targets[_i];
+    const double got = cell(t->model, t->file, t->row, t->column);
+
+    ck_assert_msg(fabs(got - t->expected) <= t->most, "%s: %s is %.9g, expected %g within %g", t->model, t->column, got,
+                  t->expected, t->most);
+}
+END_TEST
+
+START_TEST(two_runs_write_the_same_digits)
+{
+    ck_assert_int_eq(shell("%s/bbm -q cases/models/arch.model -o out/model/again", BUILD), 0);
+    for (const char *const *f = (const char *const[]){ "nodes.csv", "elements.csv", "history.csv", "summary.csv",
+                                                       "movie.svg", NULL }; *f; f++)
+        ck_assert_int_eq(shell("cmp out/model/arch/%s out/model/again/%s", *f, *f), 0);
+}
+END_TEST
+
+START_TEST(pictures_and_tables_are_complete)
+{
+    ck_assert_int_eq(shell("tail -n 1 out/model/exp3/movie.svg | grep -q '</svg>'"), 0);
+    ck_assert_int_eq(shell("tail -n 1 out/model/exp1/mises.svg | grep -q '</svg>'"), 0);
+    ck_assert_int_eq(shell("tail -n 1 out/model/dam/contacts.svg | grep -q '</svg>'"), 0);
+    ck_assert_int_eq(shell("test $(wc -l < out/model/exp1/nodes.csv) = 176 && test "
+                           "$(wc -l < out/model/exp1/elements.csv) = 145 && test "
+                           "$(wc -l < out/model/exp3/history.csv) = 202"), 0);
+    ck_assert_int_eq(shell("! ls out/model/*/*.tmp 2> out/model/said && ! grep -il nan out/model/*/*.csv"), 0);
+    ck_assert_int_eq(shell("grep -q '^CELLS 144 720$' out/model/exp1/step_000001.vtk"), 0);
+}
+END_TEST
+
+#define STEEL "material steel E 2e11 nu 0.3 density 7800 thickness 0.5\n"
+
+/* Nodes 1 to 6, two squares side by side from (0,0) to (2,1), one block; held on the left, the lower corner in y. */
+#define STRIP STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 2 0\nnode 6 2 1\n" \
+    "element 1 b steel 1 2 3 4\nelement 2 b steel 2 5 6 3\nfix box 0 0 0 1 x\nfix at 0 0 y\nmonitor end node 6\n"
+
+START_TEST(load_traction_and_pressure_agree)
+{
+    static const char *const end[] = {
+        "load box 2 0 2 1 5e5 0\nstatic\n", "traction box 2 0 2 1 1e6 0\nstatic\n",
+        "set right nodes 5 6\npressure set right -1e6\nstatic\n", "load node 5 2.5e5 0\nload at 2 1 2.5e5 0\nstatic\n",
+    };
+    char text[LONG];
+
+    for (size_t k = 0; k < sizeof end / sizeof *end; k++) {
+        snprintf(text, sizeof text, "%s%s", STRIP, end[k]);
+        ck_assert_int_eq(run_text("pull", text), 0);
+        /* u = s L/E = 1e6 * 2/2e11; the springs give nothing away after two augmentations, to 1e-9 of it. */
+        ck_relative(cell("pull", "history.csv", "1,", "end_u"), 1e-5, 1e-9);
+        ck_relative(cell("pull", "history.csv", "1,", "end_v"), -1.5e-6, 1e-9);
+        /* An even stress: energy = force * u/2, and the work of the full load twice that. */
+        ck_relative(cell("pull", "summary.csv", "1,", "elastic"), 2.5, 1e-8);
+        ck_relative(cell("pull", "summary.csv", "1,", "external"), 5, 1e-8);
+    }
+}
+END_TEST
+
+START_TEST(the_order_of_statements_does_not_matter)
+{
+    ck_assert_int_eq(run_text("there", STRIP "traction box 2 0 2 1 1e6 0\nstatic\n"), 0);
+    ck_assert_int_eq(shell("{ grep -v '^node\\|^element' out/model/there.model; grep '^node' out/model/there.model; } "
+                           "| tac > out/model/back.model; grep '^element' out/model/there.model >> out/model/back.model; "
+                           "%s/bbm -q out/model/back.model -o out/model/back", BUILD), 0);
+    ck_relative(cell("back", "history.csv", "1,", "end_u"), cell("there", "history.csv", "1,", "end_u"), 1e-9);
+}
+END_TEST
+
+START_TEST(a_pressure_turns_with_its_edge_and_a_traction_does_not)
+{
+    /* A square that spins freely with 1 rad/s, pushed on its trailing side: after dt it has turned by as much. */
+    static const char text[] = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nelement 1 b steel 1 2 3 4\n"
+        "velocity b 0 0 1.5707963267948966\nset left nodes 1 4\n%s set left %s\ndynamic dt 0.01 steps 100\n";
+    char model[LONG];
+
+    /* m = 3900 kg, f = 3900 N: a(t) = (cos wt, sin wt), w = pi/2, for t = 1: x = 4/pi^2, y = (1 - 2/pi) 2/pi */
+    snprintf(model, sizeof model, text, "pressure", "7800");
+    ck_assert_int_eq(run_text("turn", model), 0);
+    const double pi = acos(-1);
+    ck_near(cell("turn", "elements.csv", "1,b", "u"), 4 / (pi * pi), 0.5, 0.02);     /* dt/2 of lag: 1 % of 1 s */
+    ck_near(cell("turn", "elements.csv", "1,b", "v"), (1 - 2 / pi) * 2 / pi, 0.5, 0.02);
+    ck_relative(cell("turn", "elements.csv", "1,b", "rotation"), pi / 2, 1e-3);
+    snprintf(model, sizeof model, text, "traction", "7800 0");
+    ck_assert_int_eq(run_text("turn", model), 0);
+    ck_near(cell("turn", "elements.csv", "1,b", "u"), 0.5, 0.5, 0.02);
+    ck_near(cell("turn", "elements.csv", "1,b", "v"), 0, 0.5, 0.02);
+}
+END_TEST
+
+START_TEST(free_fall_keeps_its_energy)
+{
+    ck_assert_int_eq(run_text("fall", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
+                              "gravity 0 -10\nvelocity b 3 0\ndynamic dt 0.01 steps 100\nmonitor p node 2\n"), 0);
+    ck_relative(cell("fall", "history.csv", "100,", "p_u"), 3, 1e-9);
+    ck_relative(cell("fall", "history.csv", "100,", "p_v"), -5, 1e-9);
+    /* m/2 (v0^2 + (g t)^2) = m/2 v0^2 + m g h, m = 1950 kg */
+    ck_relative(cell("fall", "summary.csv", "100,", "kinetic"), 975 * 109, 1e-9);
+    ck_relative(cell("fall", "summary.csv", "100,", "external"), 1950 * 50, 1e-9);
+}
+END_TEST
+
+START_TEST(a_shaken_block_follows_the_closed_form)
+{
+    double error[2];
+
+    for (int k = 0; k < 2; k++) {
+        char text[LONG];
+        snprintf(text, sizeof text, STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
+                 "shake 2 0 3.141592653589793\ndynamic dt %g steps %d\nmonitor p node 2\n", 0.01 / (k + 1),
+                 100 * (k + 1));
+        ck_assert_int_eq(run_text("shake", text), 0);
+        /* u'' = -A sin wt   ->   u = A (sin wt - wt)/w^2, -A/w at t = 1 */
+        error[k] = cell("shake", "history.csv", "", "p_u") + 2 / acos(-1);
+    }
+    ck_assert_double_lt(fabs(error[0]), 0.02);
+    ck_relative(error[1], error[0] / 2, 0.02);           /* the paper's Newmark is of first order for forces in time */
+}
+END_TEST
+
+START_TEST(a_step_with_damping_0_reports_the_kinetic_energy_that_it_had)
+{
+    ck_assert_int_eq(run_text("damped", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
+                              "gravity 0 -10\ndynamic dt 0.1 steps 3 damping 0\n"), 0);
+    ck_relative(cell("damped", "summary.csv", "3,", "kinetic"), 975.0, 1e-9);           /* v = g dt = 1 in each step */
+}
+END_TEST
+
+START_TEST(settling_ends_in_equilibrium_at_time_zero)
+{
+    ck_assert_double_eq(cell("column", "history.csv", "0,", "t"), 0);
+    /* The column of ten blocks has sunk in by the sum of (11 - k) W/(2 kn), and been squeezed a little. */
+    ck_near(cell("column", "history.csv", "0,", "top_v"), -55 * 24525 / 2e9, 7e-4, 0.2);
+    ck_relative(cell("column", "history.csv", "100,", "top_v"), cell("column", "history.csv", "0,", "top_v"), 1e-6);
+}
+END_TEST
+
+START_TEST(an_initial_stress_pushes_the_wall)
+{
+    ck_assert_int_eq(run_text("stress", STRIP "stress b 1e6 0 0\nstatic\n"), 0);
+    ck_relative(cell("stress", "history.csv", "1,", "end_u"), -1e-5, 1e-9);  /* free at the right: back to 0 */
+    ck_near(cell("stress", "elements.csv", "1,", "sxx"), 0, 1e6, 1e-8);
+}
+END_TEST
+
+START_TEST(statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 1 tolerance 1e-12\n"), 1);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/few.err", said), "few.model: step 1: no equilibrium"));
+    ck_assert_double_lt(cell("few", "history.csv", "1,", "end_v"), 0);
+    ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 30 tolerance 1e-8\n"), 0);
+    ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic\npcg iterations 1 coarse off\n"), 1);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/few.err", said), "step 1, 1 iterations"));
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------------------------- meshes */
+
+START_TEST(both_versions_of_a_mesh_and_the_same_by_hand_agree)
+{
+    static const char *const version[] = { "22", "41" };
+
+    ck_assert_int_eq(run_text("hand", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\n"
+                              "element 1 plate steel 1 2 3\nelement 2 plate steel 1 3 4\nset left nodes 1 4\n"
+                              "fix set left\nload node 3 0 -1e6\nstatic\n"), 0);
+    for (int k = 0; k < 2; k++) {
+        char text[LONG];
+        snprintf(text, sizeof text, STEEL "mesh ../../tests/mesh/square%s.msh\nuse steel on plate\nfix set left\n"
+                 "load node 3 0 -1e6\nstatic\n", version[k]);
+        ck_assert_int_eq(run_text("mesh", text), 0);
+        ck_assert_double_eq(cell("mesh", "nodes.csv", "3,plate", "v"), cell("hand", "nodes.csv", "3,plate", "v"));
+    }
+}
+END_TEST
+
+START_TEST(a_node_that_blocks_share_has_a_row_for_each)
+{
+    char text[LONG];
+
+    ck_assert_int_eq(shell("grep -c '^5,' out/model/dam/nodes.csv > out/model/count"), 0);
+    ck_assert_int_eq(atoi(slurp("out/model/count", text)), 2);
+    ck_assert_int_eq(shell("grep -q '^5,rock,0,0,' out/model/dam/nodes.csv && "
+                           "grep -q '^5,dam,0,0,' out/model/dam/nodes.csv"), 0);
+}
+END_TEST
+
+START_TEST(a_fixed_block_does_not_hold_the_nodes_of_its_neighbour)
+{
+    /* Two squares that share nodes 2 and 3, drawn apart: the right one is free and falls. */
+    ck_assert_int_eq(run_text("apart", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 2 0\nnode 6 2 1\n"
+                              "element 1 a steel 1 2 3 4\nelement 2 b steel 2 5 6 3\nfixblock a\ngravity 0 -10\n"
+                              "dynamic dt 0.01 steps 10\n"), 0);
+    ck_near(cell("apart", "nodes.csv", "2,a", "v"), 0, 1, 1e-9);
+    ck_relative(cell("apart", "nodes.csv", "2,b", "v"), -0.05, 1e-3);
+}
+END_TEST
+
+/* -------------------------------------------------------------------------------------------------- Matrix Market */
+
+enum { N = 12 };
+
+/* Solves A x = b by elimination; A is positive definite. */
+static void solve_dense(double A[N][N], double b[N])
+{
+    for (int p = 0; p < N; p++)
+        for (int i = p + 1; i < N; i++) {
+            const double f = A[i][p] / A[p][p];
+            for (int j = p; j < N; j++)
+                A[i][j] -= f * A[p][j];
+            b[i] -= f * b[p];
+        }
+    for (int p = N - 1; p >= 0; p--) {
+        for (int j = p + 1; j < N; j++)
+            b[p] -= A[p][j] * b[j];
+        b[p] /= A[p][p];
+    }
+}
+
+START_TEST(matrix_and_right_hand_side_lead_to_the_solution)
+{
+    double A[N][N] = { { 0 } }, b[N], value;
+    int n, columns, entries, i, j;
+
+    ck_assert_int_eq(run_text("matrix", STRIP "load node 6 0 -1e6\nbond augment 0\nstatic\npcg tolerance 1e-13\n"), 0);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/matrix.model -o out/model/matrix -m out/model/K.mtx", BUILD), 0);
+    FILE *f = fopen("out/model/K.mtx", "r");
+    ck_assert_int_eq(fscanf(f, "%%%%MatrixMarket matrix coordinate real symmetric %d %d %d", &n, &columns,
+                            &entries), 3);
+    ck_assert(n == N && columns == N && entries == 21 + 21 + 36);
+    for (int k = 0; k < entries; k++) {
+        ck_assert_int_eq(fscanf(f, "%d %d %lf", &i, &j, &value), 3);
+        ck_assert(i >= j && j >= 1 && i <= N);
+        A[i - 1][j - 1] = A[j - 1][i - 1] = value;
+    }
+    fclose(f);
+    f = fopen("out/model/K.mtx.rhs", "r");
+    ck_assert_int_eq(fscanf(f, "%%%%MatrixMarket matrix array real general %d %d", &n, &columns), 2);
+    for (int k = 0; k < N; k++)
+        ck_assert_int_eq(fscanf(f, "%lf", &b[k]), 1);
+    fclose(f);
+    solve_dense(A, b);
+    /* Two solvers at a condition of 1e6 or so. */
+    ck_relative(cell("matrix", "elements.csv", "1,", "v"), b[1], 1e-8);
+    ck_relative(cell("matrix", "elements.csv", "2,", "v"), b[7], 1e-8);
+    ck_relative(cell("matrix", "elements.csv", "2,", "rotation"), b[8], 1e-8);
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------- what cannot be written */
+
+START_TEST(what_cannot_be_written_is_status_1_with_a_message)
+{
+    static const struct { const char *command, *said; } call[] = {
+        { "bbm -q cases/models/incline.model -o out/model/none/below", "none/below cannot be written: No such file" },
+        { "bbm -q cases/models/incline.model -o Makefile", "it is there and no folder" },
+        { "bbm -q cases/models/incline.model -o out/model/full -m /dev/full", "/dev/full cannot be written: No space" },
+        { "bbm cases/models/incline.model -o out/model/full > /dev/full", "stdout cannot be written" },
+    };
+    char said[LONG];
+
+    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
+        ck_assert_int_eq(shell("%s/%s 2> out/model/bad.err", BUILD, call[k].command), 1);
+        ck_assert_msg(strstr(slurp("out/model/bad.err", said), call[k].said), "%s", said);
+    }
+    ck_assert_int_eq(shell("test -c /dev/full"), 0);
+}
+END_TEST
+
+START_TEST(a_closed_pipe_is_status_1)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("{ sleep 0.2; %s/bbm cases/models/incline.model -o out/model/pipe 2> out/model/bad.err; "
+                           "echo $? > out/model/said; } | true", BUILD), 0);
+    ck_assert_str_eq(slurp("out/model/said", said), "1\n");
+    ck_assert_int_eq(access("out/model/pipe/nodes.csv", F_OK), 0);
+}
+END_TEST
+
+START_TEST(a_file_that_is_cut_off_never_stands_under_its_name)
+{
+    char said[LONG];
+
+    /* No file may grow beyond 512 bytes or 1 kB: nodes.csv of the beam would. */
+    ck_assert_int_eq(shell("rm -rf out/model/cut; ulimit -f 1; %s/bbm -q cases/models/exp1.model -o out/model/cut "
+                           "2> out/model/bad.err", BUILD), 1);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/bad.err", said), "nodes.csv cannot be written: File too large"));
+    ck_assert_int_ne(access("out/model/cut/nodes.csv", F_OK), 0);
+    ck_assert_int_ne(access("out/model/cut/nodes.csv.tmp", F_OK), 0);
+    ck_assert_int_eq(access("out/model/cut/history.csv", F_OK), 0);
+}
+END_TEST
+
+Suite *model_suite(void)
+{
+    Suite *s = suite_create("model");
+    TCase *t = tcase_create("wrong input");
+
+    tcase_set_timeout(t, 60);
+    tcase_add_unchecked_fixture(t, run_models, NULL);
+    tcase_add_loop_test(t, wrong_input_is_named_with_its_line_and_nothing_is_written, 0,
+                        sizeof wrongs / sizeof *wrongs);
+    tcase_add_test(t, every_file_of_wrong_input_has_its_message_in_the_table);
+    tcase_add_test(t, a_missing_file_is_status_2);
+    tcase_add_test(t, wrong_arguments_are_status_2_and_help_is_status_0);
+    tcase_add_loop_test(t, a_model_meets_theory, 0, sizeof targets / sizeof *targets);
+    tcase_add_test(t, two_runs_write_the_same_digits);
+    tcase_add_test(t, pictures_and_tables_are_complete);
+    tcase_add_test(t, load_traction_and_pressure_agree);
+    tcase_add_test(t, the_order_of_statements_does_not_matter);
+    tcase_add_test(t, a_pressure_turns_with_its_edge_and_a_traction_does_not);
+    tcase_add_test(t, free_fall_keeps_its_energy);
+    tcase_add_test(t, a_shaken_block_follows_the_closed_form);
+    tcase_add_test(t, a_step_with_damping_0_reports_the_kinetic_energy_that_it_had);
+    tcase_add_test(t, settling_ends_in_equilibrium_at_time_zero);
+    tcase_add_test(t, an_initial_stress_pushes_the_wall);
+    tcase_add_test(t, statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps);
+    tcase_add_test(t, both_versions_of_a_mesh_and_the_same_by_hand_agree);
+    tcase_add_test(t, a_node_that_blocks_share_has_a_row_for_each);
+    tcase_add_test(t, a_fixed_block_does_not_hold_the_nodes_of_its_neighbour);
+    tcase_add_test(t, matrix_and_right_hand_side_lead_to_the_solution);
+    tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
+    tcase_add_test(t, a_closed_pipe_is_status_1);
+    tcase_add_test(t, a_file_that_is_cut_off_never_stands_under_its_name);
+    suite_add_tcase(s, t);
+    return s;
+}
