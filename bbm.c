@@ -241,9 +241,8 @@ static void condense(double W[6][6], double S[2][2])
         for (int a = 0; a < p; a++)
             for (int b = 0; b < p; b++)
                 W[a][b] -= W[a][p] * W[p][b] / W[p][p];
-    for (int a = 0; a < 2; a++)
-        for (int b = 0; b < 2; b++)
-            S[a][b] = W[a][b];
+    memcpy(S[0], W[0], sizeof S[0]);
+    memcpy(S[1], W[1], sizeof S[1]);
 }
 
 /* The stiffness of a quadrilateral x = c + xi p + eta q, -1/2 <= xi, eta <= 1/2, against the bending that D lacks,
@@ -674,7 +673,7 @@ static int segments_meet(const bbm_node *a, const bbm_node *b, const bbm_node *c
 {
     const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
 
-    if ((abc > 0) != (abd > 0) && (cda > 0) != (cdb > 0))
+    if (!signbit(abc) != !signbit(abd) && !signbit(cda) != !signbit(cdb))
         return 1;
     return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
            (cdb == 0 && between(c, d, b));
