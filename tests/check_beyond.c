@@ -387,6 +387,106 @@ START_TEST(a_turning_body_feels_no_moment_in_its_bonds)
 }
 END_TEST
 
+/* ------------------------------------------------------------------------------------------------ energies */
+
+START_TEST(the_work_of_the_loads_is_twice_the_energy_of_elements_and_springs)
+{
+    const grid g = { 4, 2, _i == 3, 1.5, 1, 0.2 };
+    bbm_model *m = make(&g, 20, 0, _i == 3 ? BBM_VERTICES : (bbm_bonding)_i);
+    bbm_energy energy;
+
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 5, BBM_X, 0, 0);
+    bbm_fix_node(m, 10, BBM_X, 0, 0);
+    bbm_fix_node(m, 14, BBM_Y, 0, 0);
+    bbm_fix_node(m, 13, BBM_Y, 0, 0);
+    bbm_add_load(m, 4, 0.3, -0.7);
+    bbm_add_load(m, 12, -0.2, 0.5);
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+    bbm_energies(m, &energy);
+    ck_assert_double_gt(energy.elastic, 0);
+    ck_assert_double_gt(energy.springs, 0);
+    ck_near(energy.kinetic, 0, energy.elastic, 1e-12);
+    /* Clapeyron; one step of statics is linear, but the moments are those of the moved shape: strains of 1e-8. */
+    ck_relative(energy.elastic + energy.springs, m->info.work / 2, 1e-7);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(fixed_points_away_from_their_walls_hold_the_energy_of_their_springs)
+{
+    const grid g = { 1, 1, 0, 1, 1, 0 };
+    bbm_model *m = make(&g, 20, 0, BBM_VERTICES);
+    bbm_energy energy;
+
+    bbm_fix_node(m, 0, BBM_XY, 0.1, -0.2);
+    bbm_fix_node(m, 1, BBM_X, 0.3, 9);
+    bbm_fix_node(m, 3, BBM_Y, 9, 0.4);
+    ck_ok(bbm_prepare(m), m);
+    bbm_energies(m, &energy);
+    const double k = 20 * E / (2 * (1 + NU));
+    ck_relative(energy.springs, k / 2 * (0.01 + 0.04 + 0.09 + 0.16), 1e-12);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(the_kinetic_energy_is_that_of_the_motion)
+{
+    const grid g = { 1, 1, 0, 2, 1, 0 };
+    bbm_model *m = make(&g, 20, 0, BBM_VERTICES);
+    const double mass = 1000 * 2, inertia = mass * (4 + 1) / 12.0;
+    bbm_energy energy;
+
+    m->par.dt = 0.01;
+    m->par.keep = 0.5;
+    ck_ok(bbm_prepare(m), m);
+    m->element[0].V[0] = 3;
+    m->element[0].V[1] = -4;
+    m->element[0].V[2] = 0.5;
+    bbm_energies(m, &energy);
+    ck_relative(energy.kinetic, mass * 25 / 2 + inertia * 0.25 / 2, 1e-12);
+    ck_ok(bbm_step(m), m);                      /* free flight; the energy is that before half of V is taken away */
+    bbm_energies(m, &energy);
+    ck_relative(energy.kinetic, mass * 25 / 2 + inertia * 0.25 / 2, 1e-9);
+    m->par.keep = 0;                            /* quasi-static: from rest, g dt at the end of the step */
+    m->par.gravity[1] = -10;
+    ck_ok(bbm_step(m), m);
+    ck_ok(bbm_step(m), m);
+    bbm_energies(m, &energy);
+    ck_relative(energy.kinetic, mass * 0.1 * 0.1 / 2, 1e-9);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(closed_contacts_hold_the_energy_of_their_springs)
+{
+    bbm_model *m;
+    bbm_energy energy;
+
+    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    bbm_add_material(m, &(bbm_material){ 1e12, 0, 2500, 1 }, NULL);
+    const double xy[8][2] = { { -1, -1 }, { 2, -1 }, { 2, 0 }, { -1, 0 }, { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+    for (int n = 0; n < 8; n++)
+        bbm_add_node(m, xy[n][0], xy[n][1], NULL);
+    bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL);
+    bbm_add_element(m, 1, 0, 4, (int[]){ 4, 5, 6, 7 }, NULL);
+    for (int n = 0; n < 4; n++)
+        bbm_fix_node(m, n, BBM_XY, 0, 0);
+    m->par.gravity[1] = -10;
+    m->par.alpha = 1e4;
+    m->par.p_n = 1e8;
+    m->par.friction = 30;
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+    bbm_energies(m, &energy);
+    /* 25 kN on two springs: 2 (W/2)^2/(2 p_n) = 1.5625 J; the base and the block, E = 1e12, have less than 1e-4 of it. */
+    ck_relative(energy.springs + energy.elastic, 25e3 * 25e3 / (4 * 1e8), 2e-3);
+    ck_relative(energy.springs + energy.elastic, m->info.work / 2, 1e-6);
+    bbm_model_free(m);
+}
+END_TEST
+
 Suite *beyond_suite(void)
 {
     Suite *s = suite_create("beyond");
@@ -402,6 +502,12 @@ Suite *beyond_suite(void)
     tcase_add_test(t, the_hinge_submatrices_are_derivatives_of_the_hinge_energy);
     tcase_add_test(t, the_moment_of_a_rectangle_is_that_of_a_beam);
     tcase_add_loop_test(t, a_turning_body_feels_no_moment_in_its_bonds, 0, 2);
+    suite_add_tcase(s, t);
+    t = tcase_create("energies");
+    tcase_add_loop_test(t, the_work_of_the_loads_is_twice_the_energy_of_elements_and_springs, 0, 4);
+    tcase_add_test(t, fixed_points_away_from_their_walls_hold_the_energy_of_their_springs);
+    tcase_add_test(t, the_kinetic_energy_is_that_of_the_motion);
+    tcase_add_test(t, closed_contacts_hold_the_energy_of_their_springs);
     suite_add_tcase(s, t);
     return s;
 }
