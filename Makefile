@@ -93,7 +93,7 @@ fuzz:
 	@mkdir -p out/corpus
 	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz tests/fuzz_model.c \
 	cases/model.c cases/msh.c $(LIBRARY:%=%.c) -lm
-	out/fuzz -max_len=4096 -timeout=20 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
+	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
 clean:
 	rm -rf out bbm

@@ -252,7 +252,7 @@ static int draw_pictures(write_results *w)
     case_record(&end, m);
     int done = scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now);
     scene_free(&end);
-    if (done && w->p->dynamic)
+    if (done && w->p->dynamic && w->film.frames > 0)     /* none, if the first step failed */
         done = scene_write_movie(&w->film, m, path_of(w, "movie.svg", path));
     return done ? draw_mises(w) : fail(w, path, strerror(errno));
 }
