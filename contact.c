@@ -37,11 +37,11 @@
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N. For given states that map is
  * affine: its fixed point is found by conjugate residuals (agree), in few more solutions than there are contacts
- * that slide, however badly the plain iteration N -> friction -> N converges. Only then are the states judged, on forces that
- * belong to them. When a set of states comes back that has been there before, the iteration would cycle: from then on
- * only the first contact that wants to change does so in each pass (Murty's rule of the least index), and a contact
- * that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a step that does
- * not settle is done again with half the time step, without a trace of the first trial.
+ * that slide, however badly the plain iteration N -> friction -> N converges. Only then are the states judged, on
+ * forces that belong to them. When a set of states comes back that has been there before, the iteration would cycle:
+ * from then on only the first contact that wants to change does so in each pass (Murty's rule of the least index),
+ * and a contact that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a
+ * step that does not settle is done again with half the time step, without a trace of the first trial.
  *
  * Deviations from the paper: the second-order terms that (54) and (60) drop are put back (put_back); grid points inside
  * the shorter of two straight sides touch, too (carries), so that a deformable block rests on its whole side.
@@ -57,19 +57,21 @@
  * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side: rounding of a model file
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies on it: what
  *                 penetration and elastic bending turn
- * END      [-]    feet closer to the end of an edge, in its lengths, are at the end: rounding, elastic strain
- * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start: rounding of a model file
+ * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and feet closer to the end of an
+ *                 edge are at the end: rounding of a model file, elastic strain
  * AGREE    [-]    forces that differ by less, against the largest force of the model, agree: what the solver can tell
  * SECOND   [-]    forces of second-order terms that are wrong by less, against the same, are left to the next step   */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
-#define END 1e-6
 #define TOUCH 1e-6
 #define AGREE 1e-9
 #define SECOND 1e-4
 
-/* Directions that `agree` remembers; passes that change states, and that change forces between two of them. */
-enum { DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
+#define FAR 1e15        /* cells of the grid */
+
+/* Places of the grid for each edge; directions that `agree` remembers; passes that change states, and that change
+ * forces between two of them. */
+enum { PLACES = 4, DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
 
 typedef struct { double x, y, length; } direction;              /* unit vector along an edge                     */
 typedef struct { int corner, edge; } pair;
@@ -81,15 +83,14 @@ struct bbm_contact_work {
     int *side, *last;           /* first and last edge of the straight side that the edge belongs to            */
     double *span;               /* m        length of that side at the start                                    */
     direction *along;           /* of the present positions                                                     */
-    double mean;                /* m        mean length at the start                                            */
+    double touch;               /* m        TOUCH times their mean length at the start                          */
     /* --- what the step may do --- */
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
     double deepest;             /* m        |d_n| of the closed contacts, at most, at the end of the last step  */
     double search;              /* m        vertices further from an edge do not reach it                       */
     /* --- the grid --- */
-    double x0, y0, cell;        /* m        origin and width                                                    */
-    size_t columns, cells;      /* from left to right; places for cells (a larger grid is wrapped round)        */
-    int *head;                  /* [cells]  the last entry of each place, or -1                                 */
+    double cell;                /* m        width of its cells                                                  */
+    int *head;                  /* [PLACES edges] the last entry of each place, or -1                           */
     entry *entries;
     int entered, entry_room;
     /* --- the list in the making, sorted by corner and edge --- */
@@ -246,12 +247,12 @@ static void find_directions(bbm_model *m)
 }
 
 /* The boundary edge that ends where e starts; ends[v] is that which ends in vertex v, or -1. Where the boundary of a
- * block touches itself there are several: the right one leaves the smallest angle inside. */
+ * block touches itself there are several: the right one leaves the smallest angle inside, it turns the most. */
 static int find_before(const bbm_model *m, const int ends[], int e)
 {
     const int node = start_of(m, e)->node;
     const direction q = m->work->along[e];
-    double least = INFINITY;
+    double most = -INFINITY;
     int found = e;
 
     for (int a = m->meet_first[node]; a < m->meet_first[node + 1]; a++) {
@@ -259,11 +260,9 @@ static int find_before(const bbm_model *m, const int ends[], int e)
         if (f < 0 || m->edge[f].block != m->edge[e].block)
             continue;
         const direction p = m->work->along[f];
-        double angle = atan2(-cross(q, p), -q.x * p.x - q.y * p.y);
-        if (angle < 0)
-            angle += 2 * acos(-1);
-        if (angle < least) {
-            least = angle;
+        const double turn = atan2(cross(p, q), p.x * q.x + p.y * q.y);
+        if (turn > most) {
+            most = turn;
             found = f;
         }
     }
@@ -290,7 +289,7 @@ static void link_edges(bbm_model *m, int ends[])
     for (int e = 0; e < m->edges; e++) {
         w->before[e] = find_before(m, ends, e);
         w->after[w->before[e]] = e;
-        w->mean += w->along[e].length / m->edges;
+        w->touch += TOUCH * w->along[e].length / m->edges;
     }
     for (int e = 0; e < m->edges; e++)
         w->side[e] = w->last[e] = e;
@@ -332,7 +331,7 @@ void bbm_contact_free(bbm_contact_work *w)
 
 bbm_status bbm_contact_new(bbm_model *m)
 {
-    const size_t n = (size_t)m->edges + 1;
+    const size_t n = (size_t)m->edges;
     int *ends = calloc((size_t)m->vertices, sizeof *ends);
     bbm_contact_work *w = m->work = calloc(1, sizeof *w);
 
@@ -343,9 +342,9 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->last = calloc(n, sizeof *w->last);
         w->span = calloc(n, sizeof *w->span);
         w->along = calloc(n, sizeof *w->along);
-        w->first = calloc(n, sizeof *w->first);
-        w->old = calloc(n, sizeof *w->old);
-        w->head = calloc(4 * n, sizeof *w->head);
+        w->first = calloc(n + 1, sizeof *w->first);
+        w->old = calloc(n + 1, sizeof *w->old);
+        w->head = calloc(PLACES * n, sizeof *w->head);
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
     }
     const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
@@ -371,46 +370,45 @@ static int grow(void **array, int count, int *room, size_t size)
     return 1;
 }
 
-/* Origin and cells. A cell is as wide as a mean edge's box; the table has at most four places an edge, and a
- * larger grid is wrapped round into it: cells that share a place only cost a comparison. */
+/* A cell is as wide as a mean edge's box. */
 static void lay_out_grid(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
-    double x1 = -INFINITY, y1 = -INFINITY, mean = 0;
+    double mean = 0;
 
-    w->x0 = w->y0 = INFINITY;
-    for (int e = 0; e < m->edges; e++) {
-        const bbm_vertex *a = start_of(m, e);
-        w->x0 = fmin(w->x0, a->x);
-        w->y0 = fmin(w->y0, a->y);
-        x1 = fmax(x1, a->x);
-        y1 = fmax(y1, a->y);
+    for (int e = 0; e < m->edges; e++)
         mean += w->along[e].length / m->edges;
-    }
     w->cell = 1.01 * mean + 2 * w->search;
-    w->x0 -= w->cell;
-    w->y0 -= w->cell;
-    w->columns = (size_t)((x1 - w->x0) / w->cell) + 2;
-    w->cells = (size_t)fmin(((y1 - w->y0) / w->cell + 2) * (double)w->columns, 4.0 * (m->edges + 1));
     w->entered = 0;
-    for (size_t i = 0; i < w->cells; i++)
+    for (int i = 0; i < PLACES * m->edges; i++)
         w->head[i] = -1;
 }
 
-static size_t column_of(const bbm_contact_work *w, double x) { return (size_t)((x - w->x0) / w->cell); }
-static size_t row_of(const bbm_contact_work *w, double y) { return (size_t)((y - w->y0) / w->cell); }
+/* The column of x, or the row of y; FAR cells away, where only a model that has blown up gets, all are one. */
+static int64_t cell_of(const bbm_contact_work *w, double x)
+{
+    return (int64_t)fmax(-FAR, fmin(FAR, floor(x / w->cell)));
+}
+
+/* The place of a cell in the table: two odd 64-bit numbers and the high half of the sum spread rows and columns alike.
+ * Cells that share a place only cost a comparison. */
+static int *place_of(const bbm_model *m, int64_t column, int64_t row)
+{
+    const uint64_t sum = (uint64_t)row * 0x9E3779B97F4A7C15u + (uint64_t)column * 0xC2B2AE3D27D4EB4Fu;
+
+    return &m->work->head[(sum >> 32) % (PLACES * (uint64_t)m->edges)];
+}
 
 /* Enters the box of the piece of edge e from (xa, ya) to (xb, yb), widened by the search distance. */
-static int enter_piece(bbm_contact_work *w, int e, const double xa[2], const double xb[2])
+static int enter_piece(bbm_model *m, int e, const double xa[2], const double xb[2])
 {
-    const size_t left = column_of(w, fmin(xa[0], xb[0]) - w->search);
-    const size_t right = column_of(w, fmax(xa[0], xb[0]) + w->search);
-    const size_t low = row_of(w, fmin(xa[1], xb[1]) - w->search);
-    const size_t high = row_of(w, fmax(xa[1], xb[1]) + w->search);
+    bbm_contact_work *w = m->work;
+    const int64_t left = cell_of(w, fmin(xa[0], xb[0]) - w->search), right = cell_of(w, fmax(xa[0], xb[0]) + w->search);
+    const int64_t low = cell_of(w, fmin(xa[1], xb[1]) - w->search), high = cell_of(w, fmax(xa[1], xb[1]) + w->search);
 
-    for (size_t row = low; row <= high; row++)
-        for (size_t column = left; column <= right; column++) {
-            int *head = &w->head[(row * w->columns + column) % w->cells];
+    for (int64_t row = low; row <= high; row++)
+        for (int64_t column = left; column <= right; column++) {
+            int *head = place_of(m, column, row);
             if (*head >= 0 && w->entries[*head].edge == e)
                 continue;
             if (!grow((void **)&w->entries, w->entered, &w->entry_room, sizeof *w->entries))
@@ -420,6 +418,8 @@ static int enter_piece(bbm_contact_work *w, int e, const double xa[2], const dou
         }
     return 1;
 }
+
+static double between(double a, double b, double s) { return a + s * (b - a); }
 
 /* Enters all edges, the last first so that the lists ascend; long ones in pieces of a mean length. */
 static bbm_status fill_grid(bbm_model *m)
@@ -432,9 +432,9 @@ static bbm_status fill_grid(bbm_model *m)
         const int pieces = (int)(w->along[e].length / w->cell) + 1;
         for (int p = 0; p < pieces; p++) {
             const double s = (double)p / pieces, t = (p + 1.0) / pieces;
-            const double xa[2] = { a->x + s * (b->x - a->x), a->y + s * (b->y - a->y) };
-            const double xb[2] = { a->x + t * (b->x - a->x), a->y + t * (b->y - a->y) };
-            if (!enter_piece(w, e, xa, xb))
+            const double xa[2] = { between(a->x, b->x, s), between(a->y, b->y, s) };
+            const double xb[2] = { between(a->x, b->x, t), between(a->y, b->y, t) };
+            if (!enter_piece(m, e, xa, xb))
                 return BBM_NO_MEMORY;
         }
     }
@@ -513,9 +513,9 @@ static bbm_status list_pairs(bbm_model *m)
 
     w->pairs = 0;
     for (int c = 0; c < m->edges; c++) {
-        const size_t i = (row_of(w, start_of(m, c)->y) * w->columns + column_of(w, start_of(m, c)->x)) % w->cells;
+        const bbm_vertex *P = start_of(m, c);
         w->first[c] = w->pairs;
-        for (int k = w->head[i]; k >= 0; k = w->entries[k].next) {
+        for (int k = *place_of(m, cell_of(w, P->x), cell_of(w, P->y)); k >= 0; k = w->entries[k].next) {
             const int e = w->entries[k].edge;
             if (m->edge[e].block == m->edge[c].block || !(is_corner(w, c) || carries(m, c, e)) || !may_touch(m, c, e))
                 continue;
@@ -536,6 +536,8 @@ static int find_pair(const bbm_contact_work *w, int corner, int edge)
             return k;
     return -1;
 }
+
+static int is_listed(const bbm_contact_work *w, int corner, int edge) { return find_pair(w, corner, edge) >= 0; }
 
 /* The closed contact of the last step between `corner` and the edge - or, if `all`, another one of its straight side -
  * or NULL. */
@@ -561,9 +563,9 @@ static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
     const bbm_contact_work *w = m->work;
     const int f = w->after[e], d = w->before[e];
 
-    if (!is_corner(w, f) && find_pair(w, corner, f) >= 0 && find_foot(m, corner, e).s >= w->along[e].length)
+    if (!is_corner(w, f) && is_listed(w, corner, f) && find_foot(m, corner, e).s >= w->along[e].length)
         return 1;
-    return !is_corner(w, e) && find_pair(w, corner, d) >= 0 && find_foot(m, corner, d).s < w->along[d].length;
+    return !is_corner(w, e) && is_listed(w, corner, d) && find_foot(m, corner, d).s < w->along[d].length;
 }
 
 /* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the edges
@@ -573,11 +575,10 @@ static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
 {
     const bbm_contact_work *w = m->work;
 
-    if (!coincide(w, mine.edge, other.edge) || find_pair(w, other.corner, other.edge) < 0)
+    if (!coincide(w, mine.edge, other.edge) || !is_listed(w, other.corner, other.edge))
         return 0;
-    const double P = find_foot(m, mine.corner, mine.edge).off / w->along[mine.edge].length;
-    const double Q = find_foot(m, other.corner, other.edge).off / w->along[other.edge].length;
-    if (fabs(P) > END || fabs(Q) > END)
+    const double P = find_foot(m, mine.corner, mine.edge).off, Q = find_foot(m, other.corner, other.edge).off;
+    if (fmax(fabs(P), fabs(Q)) > w->touch)
         return aligned && P > 0 && Q <= P;
     if (find_closed(m, other.corner, other.edge, 0))
         return 1;
@@ -671,7 +672,7 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 
     for (int k = 0; k < 4 && !old; k++) {
         const pair q = reversed_pair(w, p, k);
-        if (coincide(w, p.edge, q.edge) && find_pair(w, q.corner, q.edge) < 0)
+        if (coincide(w, p.edge, q.edge) && !is_listed(w, q.corner, q.edge))
             old = find_closed(m, q.corner, q.edge, 0);
     }
     return old;
@@ -693,7 +694,7 @@ static double joint_area(const bbm_model *m, pair p)
         int b = k ? (j ? p.edge : w->side[p.edge]) : w->after[j ? p.edge : w->last[p.edge]];
         if (!coincide(w, mine, p.edge))
             continue;
-        if (!is_corner(w, b) && fabs(find_foot(m, b, p.edge).s - s) <= END * w->along[p.edge].length)
+        if (!is_corner(w, b) && fabs(find_foot(m, b, p.edge).s - s) <= w->touch)
             b = k ? w->before[b] : w->after[b];
         length += fmin(fabs(find_foot(m, a, p.edge).s - s), fabs(find_foot(m, b, p.edge).s - s)) / 2;
     }
@@ -707,8 +708,10 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     const bbm_contact_work *w = m->work;
 
     for (int k = 0; k < 2; k++) {
-        const pair r = w->pairs_of[c->rival[k] < 0 ? 0 : c->rival[k]];
-        if (c->rival[k] >= 0 && find_foot(m, r.corner, r.edge).d > 0 && can_enter(w, r.corner, r.edge, 0, PARALLEL))
+        if (c->rival[k] < 0)
+            continue;
+        const pair r = w->pairs_of[c->rival[k]];
+        if (find_foot(m, r.corner, r.edge).d > 0 && can_enter(w, r.corner, r.edge, 0, PARALLEL))
             return 1;
     }
     return c->off && c->rival[0] < 0 && c->rival[1] < 0;
@@ -724,7 +727,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const foot f = find_foot(m, p.corner, p.edge);
     const int strong = m->par.cohesion > 0 || m->par.tension > 0;
 
-    *c = old ? *old : (bbm_contact){ .whole = m->info.step == 0 && fabs(f.d) <= TOUCH * w->mean && f.off <= 0 };
+    *c = old ? *old : (bbm_contact){ .whole = m->info.step == 0 && fmax(fabs(f.d), f.off) <= w->touch };
     if (!old && c->whole && (strong || isinf(m->h)))
         c->state = BBM_LOCK;
     c->corner = p.corner;
@@ -732,7 +735,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[0] = find_rival(m, p, p.edge, w->before[p.edge]);
     c->rival[1] = find_rival(m, p, w->after[p.edge], w->after[p.edge]);
     c->gap = f.d;
-    c->off = f.off > END * w->along[p.edge].length && is_convex(w, f.s < 0 ? p.edge : w->after[p.edge]);
+    c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : w->after[p.edge]);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
     c->used = c->N;
     c->more[0] = c->more[1] = 0;
@@ -778,6 +781,17 @@ int bbm_moved_too_far(bbm_model *m)
     return too_far;
 }
 
+/* Room for the pairs as contacts. */
+static int list_fits(bbm_contact_work *w)
+{
+    if (w->pairs <= w->list_room)
+        return 1;
+    free(w->list);
+    w->list = calloc((size_t)w->pairs, sizeof *w->list);
+    w->list_room = w->list ? w->pairs : 0;
+    return w->list_room > 0;
+}
+
 /* Lists the contacts that may be closed in this step, from the present positions and the contacts of the last step,
  * which stay as they are. The search distance: two vertices approach each other by twice the largest displacement of
  * the guess at most; and a closed contact must stay in the list, however deep. */
@@ -786,15 +800,14 @@ bbm_status bbm_detect_contacts(bbm_model *m)
     bbm_contact_work *w = m->work;
 
     find_directions(m);
-    w->search = 2.2 * largest_displacement(m, w->guess) + 2 * w->deepest + TOUCH * w->mean;
+    w->search = 2.2 * largest_displacement(m, w->guess) + 2 * w->deepest + w->touch;
     bbm_status status = fill_grid(m);
     if (!status)
         status = list_pairs(m);
     if (!status)
         status = drop_duplicates(m);
-    while (!status && w->list_room < w->pairs)
-        if (!grow((void **)&w->list, w->pairs, &w->list_room, sizeof *w->list))
-            status = BBM_NO_MEMORY;
+    if (!status && !list_fits(w))
+        status = BBM_NO_MEMORY;
     for (int k = 0; k < w->pairs && !status; k++)
         make_contact(m, w->pairs_of[k], &w->list[k]);
     w->passes = w->forces = w->single = w->directions = 0;
@@ -947,16 +960,16 @@ static double largest_force(const bbm_model *m)
 /* Room for the vectors of `agree`. */
 static int vectors_fit(bbm_contact_work *w)
 {
-    const size_t n = (size_t)w->pairs + 1;
+    const size_t n = (size_t)w->pairs;
 
-    if (w->pairs < w->vector_room)
+    if (w->pairs <= w->vector_room)
         return 1;
     free(w->x), free(w->r), free(w->dx), free(w->dr);
     w->x = calloc(n, sizeof *w->x);
     w->r = calloc(n, sizeof *w->r);
     w->dx = calloc(n * (DIRECTIONS + 1), sizeof *w->dx);
     w->dr = calloc(n * (DIRECTIONS + 1), sizeof *w->dr);
-    w->vector_room = w->x && w->r && w->dx && w->dr ? w->pairs + 1 : 0;
+    w->vector_room = w->x && w->r && w->dx && w->dr ? w->pairs : 0;
     return w->vector_room > 0;
 }
 
@@ -988,11 +1001,13 @@ static void learn_direction(bbm_contact_work *w)
     remove_directions(w, w->directions, dr, dx);
     for (int k = 0; k < w->pairs; k++)
         size += dr[k] * dr[k];
-    for (int k = 0; k < w->pairs && size > 0; k++) {
+    if (size == 0)
+        return;
+    for (int k = 0; k < w->pairs; k++) {
         dx[k] /= sqrt(size);
         dr[k] /= sqrt(size);
     }
-    w->directions += size > 0;
+    w->directions++;
 }
 
 /* The next N for the friction of the sliding contacts, by conjugate residuals. With x the N that friction used and
@@ -1054,9 +1069,9 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
     if (!foot_on_edge(m, c) || !enters_at_end(m, c))
         return 1;
     for (int k = 0; k < 2; k++) {
-        const bbm_contact *r = &w->list[c->rival[k] < 0 ? 0 : c->rival[k]];
         if (c->rival[k] < 0)
             continue;
+        const bbm_contact *r = &w->list[c->rival[k]];
         if (r->state != BBM_OPEN)
             return 1;
         if (!enters_at_end(m, r))
@@ -1069,15 +1084,15 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
 }
 
 /* A contact closes where P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Returns
- * the slip since then, towards P3. */
+ * the way of P1 along the edge in the step, towards P3. */
 static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
 {
-    const double when = c->gap > 0 ? c->gap / (c->gap - c->d_n) : 0;
+    const double gap = fmax(0, c->gap), when = gap / (gap - c->d_n);
     const double s = find_foot(m, c->corner, c->edge).s, way = -c->d_s - s;
 
     c->anchor = (s + when * way) / m->work->along[c->edge].length;
     put_back(m, c);
-    return -(1 - when) * way;
+    return -way;
 }
 
 /* A contact that closes for a second time in a step was opened by the shear spring of its first trial, which need not
