@@ -15,6 +15,8 @@
  *
  * Statics is dynamics without mass: with dt = INFINITY every term of 3.2 vanishes, and one step is one iteration of
  * Newton-Raphson on the moved geometry.
+ *
+ * What goes beyond the paper stands under headings that say so; doc/limits.md tells why.
  */
 #include <math.h>
 #include <stdarg.h>

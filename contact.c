@@ -144,7 +144,7 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2   ->   Eq. (58a-f), (59). `more` is added to d_n: the second-order term that (54) drops, or 0. */
+/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). `more` is added to d_n: the second-order term that (54) drops. */
 void bbm_normal_submatrices(const bbm_touch *c, double more, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;

@@ -144,7 +144,7 @@ static double distance_from_finite_element(double alpha, int augment)
 
 START_TEST(with_two_more_solutions_bonded_triangles_are_the_finite_element)
 {
-    /* Each solution leaves about (3/alpha)^2 or less of the gap: 1e-6 is the promise at alpha = 100. */
+    /* Each round leaves at most about 3/alpha of the gaps before it: 1e-6 is the promise at alpha = 100. */
     ck_assert_double_lt(distance_from_finite_element(100, 2), 1e-6);
     ck_assert_double_lt(distance_from_finite_element(1000, 2), 1e-8);
     ck_assert_double_lt(distance_from_finite_element(10, 8), 1e-6);
