@@ -71,7 +71,7 @@
 
 /* Places of the grid for each edge; directions that `agree` remembers; passes that change states, and that change
  * forces between two of them. */
-enum { PLACES = 4, DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
+enum { PLACES = 16, DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
 
 typedef struct { double x, y, length; } direction;              /* unit vector along an edge                     */
 typedef struct { int corner, edge; } pair;
@@ -390,13 +390,15 @@ static int64_t cell_of(const bbm_contact_work *w, double x)
     return (int64_t)fmax(-FAR, fmin(FAR, floor(x / w->cell)));
 }
 
-/* The place of a cell in the table: two odd 64-bit numbers and the high half of the sum spread rows and columns alike.
- * Cells that share a place only cost a comparison. */
+/* The place of a cell in the table. A square of 4 x 4 cells lies together in memory, since neighbours are looked up one
+ * after the other; two odd 64-bit numbers and the high half spread the squares, one for each edge. Cells that share a
+ * place only cost a comparison. */
 static int *place_of(const bbm_model *m, int64_t column, int64_t row)
 {
-    const uint64_t sum = (uint64_t)row * 0x9E3779B97F4A7C15u + (uint64_t)column * 0xC2B2AE3D27D4EB4Fu;
+    const uint64_t i = (uint64_t)column, j = (uint64_t)row;
+    const uint64_t square = ((i >> 2) * 0xC2B2AE3D27D4EB4Fu ^ (j >> 2) * 0x9E3779B97F4A7C15u) >> 32;
 
-    return &m->work->head[(sum >> 32) % (PLACES * (uint64_t)m->edges)];
+    return &m->work->head[square % (uint64_t)m->edges << 4 | (j & 3) << 2 | (i & 3)];
 }
 
 /* Enters the box of the piece of edge e from (xa, ya) to (xb, yb), widened by the search distance. */
