@@ -55,7 +55,7 @@
  *
  * Denormals. When a single element is loaded, a sweep carries the load from element to element and weakens it each
  * time, down to numbers below 1e-308, on which many processors take ten or a hundred times longer; rounding can keep
- * them alive through all the rest of the body. Therefore F is scaled to a largest entry of 1, and its zeros become
+ * them alive through all the rest of the body. Therefore F is scaled to a largest entry near 1, and its zeros become
  * NEGLIGIBLE: no number fades below that, squares of such numbers are still far from 1e-308, and nothing that matters
  * changes. It costs nothing in an iteration.
  */
@@ -1175,18 +1175,19 @@ static int all_finite(size_t count, const double *x)
     return 1;
 }
 
-/* The largest entry of x without its sign */
-static double largest(int n, const double *x)
+/* The power of two below the largest entry: to divide by it rounds nothing. */
+static double magnitude(int n, const double *x)
 {
     double m = 0.0;
-    int i;
+    int i, exponent;
 
     for (i = 0; i < 6 * n; i++)
         m = fmax(m, fabs(x[i]));
-    return m;
+    (void)frexp(m, &exponent);
+    return m == 0.0 ? 0.0 : ldexp(1.0, exponent - 1);
 }
 
-/* f = F / scale, so that its largest entry is 1. NEGLIGIBLE in place of 0 keeps denormals away. */
+/* f = F / scale, so that its largest entry is in [1, 2). NEGLIGIBLE in place of 0 keeps denormals away. */
 static void scale_load(bbm_matrix *K, const double *F, double scale)
 {
     int i, a;
@@ -1267,7 +1268,7 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
     start = clock();
     if (status != BBM_OK)
         return status;
-    scale = largest(K->n, F);
+    scale = magnitude(K->n, F);
     if (scale == 0.0) {
         info->residual = 0.0;
         return BBM_OK;
