@@ -17,7 +17,7 @@ PROGRAM  = bbm model msh write
 SUITES   = check_bbm check_contact check_solver check_beyond
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
-FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc
+FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
 
 all: $(CASES:%=$O/%) $O/bench bbm
@@ -83,11 +83,13 @@ quick: $O/quick
 check: $O/check $(CASES:%=$O/%) $O/bbm
 	$O/check
 
-memcheck: $O/quick
-	CK_FORK=no valgrind -q --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible $O/quick
+memcheck:
+	$(MAKE) O=out/memcheck CPPFLAGS=-DGUARD=0 out/memcheck/quick
+	CK_FORK=no valgrind -q --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible \
+	out/memcheck/quick
 
 sanitize:
-	$(MAKE) O=out/sanitize CFLAGS="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all" quick
+	$(MAKE) O=out/sanitize CPPFLAGS=-DGUARD=0 CFLAGS="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all" quick
 
 fuzz:
 	@mkdir -p out/corpus

@@ -36,11 +36,12 @@ Suite *contact_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
 
-/* test_alloc.c: malloc, calloc and realloc as the library sees them in the tests. */
+/* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX
 extern int test_allocations_left;       /* k >= 0: k calls succeed, then none; -k < 0: only call k fails */
 void *test_malloc(size_t size);
 void *test_calloc(size_t count, size_t size);
 void *test_realloc(void *old, size_t size);
+void test_free(void *piece);
 
 #endif
