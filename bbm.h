@@ -199,6 +199,7 @@ typedef struct {                /* what the last step did                       
     bbm_pcg_info pcg;
     int    passes;              /* solutions of the open-close iteration                                        */
     int    cuts;                /* how often dt was halved                                                      */
+    int candidates;             /* corners and edges that the detection compared                                */
     int    contacts;            /* closed                                                                       */
     double penetration;         /* m        the deepest                                                         */
     int    iterations;          /* of SSOR-PCG, in all solutions of the step                                    */

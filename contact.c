@@ -83,7 +83,8 @@ struct bbm_contact_work {
     int *side, *last;           /* first and last edge of the straight side that the edge belongs to            */
     double *span;               /* m        length of that side at the start                                    */
     direction *along;           /* of the present positions                                                     */
-    double touch;               /* m        TOUCH times their mean length at the start                          */
+    double mean;                /* m        their mean length at the start                                      */
+    double touch;               /* m        TOUCH times that                                                    */
     /* --- what the step may do --- */
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
     double deepest;             /* m        |d_n| of the closed contacts, at most, at the end of the last step  */
@@ -274,7 +275,7 @@ static int goes_on(const bbm_contact_work *w, int e)
 {
     const direction p = w->along[w->before[e]], q = w->along[e];
 
-    return fabs(cross(p, q)) < STRAIGHT && p.x * q.x + p.y * q.y > 0;
+    return hypot(q.x - p.x, q.y - p.y) < STRAIGHT;
 }
 
 static void link_edges(bbm_model *m, int ends[])
@@ -289,8 +290,9 @@ static void link_edges(bbm_model *m, int ends[])
     for (int e = 0; e < m->edges; e++) {
         w->before[e] = find_before(m, ends, e);
         w->after[w->before[e]] = e;
-        w->touch += TOUCH * w->along[e].length / m->edges;
+        w->mean += w->along[e].length / m->edges;
     }
+    w->touch = TOUCH * w->mean;
     for (int e = 0; e < m->edges; e++)
         w->side[e] = w->last[e] = e;
     for (int e = 0; e < m->edges; e++) {
@@ -374,11 +376,8 @@ static int grow(void **array, int count, int *room, size_t size)
 static void lay_out_grid(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
-    double mean = 0;
 
-    for (int e = 0; e < m->edges; e++)
-        mean += w->along[e].length / m->edges;
-    w->cell = 1.01 * mean + 2 * w->search;
+    w->cell = 1.01 * w->mean + 2 * w->search;
     w->entered = 0;
     for (int i = 0; i < PLACES * m->edges; i++)
         w->head[i] = -1;
@@ -401,12 +400,12 @@ static int *place_of(const bbm_model *m, int64_t column, int64_t row)
     return &m->work->head[square % (uint64_t)m->edges << 4 | (j & 3) << 2 | (i & 3)];
 }
 
-/* Enters the box of the piece of edge e from (xa, ya) to (xb, yb), widened by the search distance. */
-static int enter_piece(bbm_model *m, int e, const double xa[2], const double xb[2])
+/* Enters the box of the piece (x, y) to (x + dx, y + dy) of edge e, widened by the search distance. */
+static int enter_piece(bbm_model *m, int e, double x, double y, double dx, double dy)
 {
     bbm_contact_work *w = m->work;
-    const int64_t left = cell_of(w, fmin(xa[0], xb[0]) - w->search), right = cell_of(w, fmax(xa[0], xb[0]) + w->search);
-    const int64_t low = cell_of(w, fmin(xa[1], xb[1]) - w->search), high = cell_of(w, fmax(xa[1], xb[1]) + w->search);
+    const int64_t left = cell_of(w, fmin(x, x + dx) - w->search), right = cell_of(w, fmax(x, x + dx) + w->search);
+    const int64_t low = cell_of(w, fmin(y, y + dy) - w->search), high = cell_of(w, fmax(y, y + dy) + w->search);
 
     for (int64_t row = low; row <= high; row++)
         for (int64_t column = left; column <= right; column++) {
@@ -421,9 +420,7 @@ static int enter_piece(bbm_model *m, int e, const double xa[2], const double xb[
     return 1;
 }
 
-static double between(double a, double b, double s) { return a + s * (b - a); }
-
-/* Enters all edges, the last first so that the lists ascend; long ones in pieces of a mean length. */
+/* Enters all edges, the last first so that the lists ascend; long ones in pieces no longer than a cell. */
 static bbm_status fill_grid(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
@@ -431,14 +428,11 @@ static bbm_status fill_grid(bbm_model *m)
     lay_out_grid(m);
     for (int e = m->edges - 1; e >= 0; e--) {
         const bbm_vertex *a = start_of(m, e), *b = end_of(m, e);
-        const int pieces = (int)(w->along[e].length / w->cell) + 1;
-        for (int p = 0; p < pieces; p++) {
-            const double s = (double)p / pieces, t = (p + 1.0) / pieces;
-            const double xa[2] = { between(a->x, b->x, s), between(a->y, b->y, s) };
-            const double xb[2] = { between(a->x, b->x, t), between(a->y, b->y, t) };
-            if (!enter_piece(m, e, xa, xb))
+        const double pieces = floor(w->along[e].length / w->cell) + 1;
+        const double dx = (b->x - a->x) / pieces, dy = (b->y - a->y) / pieces;
+        for (int p = 0; p < pieces; p++)
+            if (!enter_piece(m, e, a->x + p * dx, a->y + p * dy, dx, dy))
                 return BBM_NO_MEMORY;
-        }
     }
     return BBM_OK;
 }
@@ -469,7 +463,7 @@ static int can_enter(const bbm_contact_work *w, int corner, int e, double r, dou
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
 
-    return cross(q, s) >= -slack && -cross(p, s) >= -slack && is_convex(w, corner);
+    return fmin(cross(q, s), -cross(p, s)) >= -slack && is_convex(w, corner);
 }
 
 static int coincide(const bbm_contact_work *w, int e, int f)
@@ -480,7 +474,7 @@ static int coincide(const bbm_contact_work *w, int e, int f)
 /* Whether the outward normal (t.y, -t.x) of an edge along t points up rather than down, or else to the right. */
 static int faces_up(direction t)
 {
-    return fabs(t.x) > PARALLEL ? t.x < 0 : t.y > 0;
+    return signbit(fabs(t.x) > PARALLEL ? t.x : -t.y);
 }
 
 /* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side
@@ -491,8 +485,10 @@ static int carries(const bbm_model *m, int c, int e)
     const bbm_contact_work *w = m->work;
     const direction p = w->along[c], q = w->along[e];
 
-    if (!m->par.faces || fabs(w->span[c] - w->span[e]) > STRAIGHT * w->span[e])
-        return m->par.faces && w->span[c] < w->span[e];
+    if (!m->par.faces)
+        return 0;
+    if (fabs(w->span[c] - w->span[e]) > STRAIGHT * w->span[e])
+        return signbit(w->span[c] - w->span[e]);
     return faces_up((direction){ q.x - p.x, q.y - p.y, 0 });
 }
 
@@ -513,12 +509,13 @@ static bbm_status list_pairs(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
 
-    w->pairs = 0;
+    w->pairs = m->info.candidates = 0;
     for (int c = 0; c < m->edges; c++) {
         const bbm_vertex *P = start_of(m, c);
         w->first[c] = w->pairs;
         for (int k = *place_of(m, cell_of(w, P->x), cell_of(w, P->y)); k >= 0; k = w->entries[k].next) {
             const int e = w->entries[k].edge;
+            m->info.candidates++;
             if (m->edge[e].block == m->edge[c].block || !(is_corner(w, c) || carries(m, c, e)) || !may_touch(m, c, e))
                 continue;
             if (!grow((void **)&w->pairs_of, w->pairs, &w->pair_room, sizeof *w->pairs_of))
@@ -581,7 +578,7 @@ static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
         return 0;
     const double P = find_foot(m, mine.corner, mine.edge).off, Q = find_foot(m, other.corner, other.edge).off;
     if (fmax(fabs(P), fabs(Q)) > w->touch)
-        return aligned && P > 0 && Q <= P;
+        return aligned && P > Q;
     if (find_closed(m, other.corner, other.edge, 0))
         return 1;
     return !find_closed(m, mine.corner, mine.edge, 0) && !faces_up(w->along[mine.edge]);
@@ -597,7 +594,7 @@ static int is_duplicate(const bbm_model *m, pair p)
 {
     const bbm_contact_work *w = m->work;
 
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k != 4; k++) {
         const pair q = reversed_pair(w, p, k);
         if (loses_to(m, p, q, k % 3 == 0 && is_corner(w, p.corner) && is_corner(w, q.corner)))
             return 1;
@@ -627,8 +624,8 @@ static bbm_status drop_duplicates(bbm_model *m)
     return BBM_OK;
 }
 
-/* The other line along which P and Q, two convex corners that may meet in this step, can enter each other, or -1;
- * rather one along which they can as they stand now. In a notch Q both edges hold P at once. */
+/* The other line along which P and Q, two convex corners that may meet in this step, can enter each other, or -1. In a
+ * notch Q both edges hold P at once. */
 static int find_rival(const bbm_model *m, pair p, int Q, int other_edge)
 {
     const bbm_contact_work *w = m->work;
@@ -642,9 +639,7 @@ static int find_rival(const bbm_model *m, pair p, int Q, int other_edge)
         return -1;
     for (int k = 2; k >= 0; k--) {
         const int found = find_pair(w, line[k].corner, line[k].edge);
-        if (found < 0 || coincide(w, p.edge, line[k].edge))
-            continue;
-        if (rival < 0 || can_enter(w, line[k].corner, line[k].edge, 0, PARALLEL))
+        if (found >= 0 && !coincide(w, p.edge, line[k].edge) && can_enter(w, line[k].corner, line[k].edge, 0, PARALLEL))
             rival = found;
     }
     return rival;
@@ -672,7 +667,7 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     const bbm_contact_work *w = m->work;
     const bbm_contact *old = find_closed(m, p.corner, p.edge, 1);
 
-    for (int k = 0; k < 4 && !old; k++) {
+    for (int k = 0; k != 4 && !old; k++) {
         const pair q = reversed_pair(w, p, k);
         if (coincide(w, p.edge, q.edge) && !is_listed(w, q.corner, q.edge))
             old = find_closed(m, q.corner, q.edge, 0);
@@ -709,13 +704,12 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
 
-    for (int k = 0; k < 2; k++) {
-        if (c->rival[k] < 0)
-            continue;
-        const pair r = w->pairs_of[c->rival[k]];
-        if (find_foot(m, r.corner, r.edge).d > 0 && can_enter(w, r.corner, r.edge, 0, PARALLEL))
-            return 1;
-    }
+    for (int k = 0; k < 2; k++)
+        if (c->rival[k] >= 0) {
+            const pair r = w->pairs_of[c->rival[k]];
+            if (find_foot(m, r.corner, r.edge).d > 0)
+                return 1;
+        }
     return c->off && c->rival[0] < 0 && c->rival[1] < 0;
 }
 
@@ -737,7 +731,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[0] = find_rival(m, p, p.edge, w->before[p.edge]);
     c->rival[1] = find_rival(m, p, w->after[p.edge], w->after[p.edge]);
     c->gap = f.d;
-    c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : w->after[p.edge]);
+    c->off = f.off > w->touch && is_convex(w, f.off == -f.s ? p.edge : w->after[p.edge]);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
     c->used = c->N;
     c->more[0] = c->more[1] = 0;
@@ -903,15 +897,18 @@ static void measure(const bbm_model *m, bbm_contact *c)
     double d[2];
 
     if (c->state == BBM_OPEN) {
-        c->anchor = c->more[0] = c->more[1] = 0;
+        c->anchor = 0;
         exact_distances(m, c, d);
+        c->d_n = d[0];
+        c->d_s = d[1];
+        c->N = c->T = 0;
     } else {
         linear_distances(m, c, d);
+        c->d_n = d[0] + c->more[0];
+        c->d_s = d[1] + c->more[1];
+        c->N = -m->par.p_n * c->d_n;
+        c->T = m->par.p_s * c->d_s;
     }
-    c->d_n = d[0] + c->more[0];
-    c->d_s = d[1] + c->more[1];
-    c->N = c->state == BBM_OPEN ? 0 : -m->par.p_n * c->d_n;
-    c->T = c->state == BBM_OPEN ? 0 : m->par.p_s * c->d_s;
 }
 
 /* What (54) and (60) leave out, of second order in the turning. Deviation: it is put back. Without it a corner that
@@ -951,7 +948,7 @@ static double largest_force(const bbm_model *m)
     double F = 0;
 
     for (int i = 0; i < m->elements; i++)
-        F = fmax(F, fmax(fabs(m->F[6 * i]), fabs(m->F[6 * i + 1])));
+        F = fmax(F, hypot(m->F[6 * i], m->F[6 * i + 1]));
     for (int k = 0; k < w->pairs; k++)
         F = fmax(F, fabs(w->list[k].N));
     return F;
@@ -1138,7 +1135,7 @@ static void watch_for_cycles(bbm_contact_work *w)
     uint64_t hash = 14695981039346656037u;
 
     for (int k = 0; k < w->pairs; k++)
-        hash = (hash ^ ((uint64_t)w->list[k].state + (w->list[k].sign > 0 ? 4u : 0u))) * 1099511628211u;
+        hash = (hash ^ ((uint64_t)(int64_t)copysign(w->list[k].state, w->list[k].sign))) * 1099511628211u;
     for (int p = 0; p < w->passes; p++)
         if (w->seen[p] == hash)
             w->single = 1;

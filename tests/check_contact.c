@@ -645,15 +645,15 @@ static const outline SLAB[SLABS] = {
     { 4, { { -1.6, 4.1 }, { 9.3, -3.6 }, { 9.4, -3.1 }, { -1.2, 4.3 } } },
 };
 
-/* Blocks of all kinds at random, near each other and in places over each other, without gravity. */
-static bbm_model *random_blocks(outline o[BLOCKS], unsigned seed, int reversed)
+/* Blocks of all kinds at random, near each other and in places over each other, without gravity. Here or there. */
+static bbm_model *random_blocks(outline o[BLOCKS], unsigned seed, int reversed, const double at[2])
 {
     bbm_model *m = new_model();
 
     m->par.gravity[1] = 0;
     for (int b = 0; b < BLOCKS; b++) {
-        const double x = 1.3 * (b % COLUMNS) + 0.1 * random_number(&seed), y = 1.3 * (b / COLUMNS) - 3;
-        o[b] = b < BLOCKS - SLABS ? random_outline(b % 3, x, y, &seed) : SLAB[BLOCKS - 1 - b];
+        const double x = at[0] + 1.3 * (b % COLUMNS) + 0.1 * random_number(&seed), y = at[1] + 1.3 * (b / COLUMNS) - 3;
+        o[b] = b < BLOCKS - SLABS ? random_outline(b % 3, x, y, &seed) : put(&SLAB[BLOCKS - 1 - b], 0, at[0], at[1]);
     }
     for (int k = 0; k < BLOCKS; k++) {
         const int b = reversed ? BLOCKS - 1 - k : k;
@@ -774,12 +774,14 @@ static void check_list(const bbm_model *m, const outline o[BLOCKS], double reach
     free(list);
 }
 
+static const double PLACES[3][2] = { { 0, 0 }, { 70, -40 }, { -30, 60 } };
+
 START_TEST(the_grid_finds_the_pairs_that_comparing_all_with_all_finds)
 {
     const double disp = _i % 2 ? 0.15 : 0.01;
     unsigned seed = (unsigned)_i + 1;
     outline o[BLOCKS];
-    bbm_model *m = random_blocks(o, seed, 0);
+    bbm_model *m = random_blocks(o, seed, 0, PLACES[_i / 2]);
 
     for (int e = 0; e < m->elements; e++) {
         const double angle = PI * random_number(&seed), share = e == 17 ? 1 : fabs(random_number(&seed));
@@ -789,6 +791,35 @@ START_TEST(the_grid_finds_the_pairs_that_comparing_all_with_all_finds)
     detect(m);
     check_list(m, o, 2 * disp);
     bbm_model_free(m);
+}
+END_TEST
+
+/* Bricks in n rows, or a block on a plate of n and 2 n pieces; the edges for each that the detection compares. In a
+ * wall some eight edges come to a corner of the bricks, whatever the number and the size of the bricks. */
+static double compared(int bricks, int n, double size)
+{
+    bbm_model *m = new_model();
+
+    for (int k = 0; bricks && k < n * n; k++)
+        add_rectangle(m, k, ROCK, (rectangle){ (k % n + k / n % 2 / 2.0) * size, k / n * size, size, size, .angle = 0 });
+    if (!bricks) {
+        add_rectangle(m, 0, ROCK, (rectangle){ -0.5 * size, -size, 2 * n * size, size, .nx = 2 * n });
+        add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, n * size, size, .nx = n });
+    }
+    ck_ok(bbm_prepare(m), m);
+    detect(m);
+    const double each = (double)m->info.candidates / m->edges;
+    bbm_model_free(m);
+    return each;
+}
+
+START_TEST(the_detection_compares_a_corner_with_the_few_edges_around_it)
+{
+    const double size = _i % 2 ? 0.02 : 50;
+    const int bricks = _i / 2;
+
+    ck_assert(compared(bricks, bricks ? 4 : 10, size) < 8);
+    ck_assert(compared(bricks, bricks ? 30 : 600, size) < 9);
 }
 END_TEST
 
@@ -881,7 +912,7 @@ START_TEST(random_blocks_in_reversed_order_have_the_same_contacts)
     bbm_model *m[2];
 
     for (int k = 0; k < 2; k++) {
-        m[k] = random_blocks(o, 9, k);
+        m[k] = random_blocks(o, 9, k, PLACES[0]);
         for (int e = 0; e < m[k]->elements; e++)
             set_velocity(m[k], e, 10 - m[k]->element[e].x, -3 * m[k]->element[e].y);
         detect(m[k]);
@@ -972,8 +1003,8 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_upper_one_touch)
     const int pieces = _i % 2;                              /* which square has them */
     bbm_model *m = new_model();
 
-    add_rectangle(m, 0, ROCK, (rectangle){ 0, -1, 1, 1, angle, .nx = pieces == 0 ? 4 : 1 });
-    add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, 1, angle, .nx = pieces == 1 ? 4 : 1 });
+    add_rectangle(m, 0, ROCK, (rectangle){ 3, -6, 1, 1, angle, .nx = pieces == 0 ? 4 : 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ 3, -5, 1, 1, angle, .nx = pieces == 1 ? 4 : 1 });
     ck_ok(bbm_prepare(m), m);
     detect(m);
     ck_assert_int_eq(m->contacts, pieces == second ? 5 : 2);
@@ -1002,6 +1033,75 @@ START_TEST(rounding_in_a_model_file_does_not_undo_a_contact)
         settle(m, 20);
         ck_assert_int_eq(m->info.contacts, 2);
         ck_relative(normal_force(m, 0, 1), W, 1e-5);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* A block at rest in the air: gravity will move it by g dt^2/2, and the detection looks 2.2 times as far, since two
+ * vertices may approach each other by twice that. */
+START_TEST(the_detection_looks_as_far_as_a_block_falls_in_the_step)
+{
+    const double fall = GRAVITY * 0.2 * 0.2 / 2, gap = (_i ? 2.25 : 2.15) * fall;
+    bbm_model *m = new_model();
+
+    m->par.dt = 0.2;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = gap, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    m->gravity[1] = -GRAVITY;
+    detect(m);
+    ck_assert_int_eq(m->contacts, _i ? 0 : 2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A fast block beside the end of the table, level with its top: on the line, but not on the edge. Or above it. Both
+ * are in reach of the step, and neither is part of a joint. */
+START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
+{
+    bbm_model *m = new_model();
+
+    m->par.cohesion = 1e4;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? 0 : 5.125, .y = _i ? 0.125 : 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, 10, 0);
+    detect(m);
+    ck_assert_int_ge(m->contacts, 1);
+    for (int k = 0; k < m->contacts; k++)
+        ck_assert(!m->contact[k].whole && m->contact[k].area == 0 && m->contact[k].state == BBM_OPEN);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A side of elements that have a vertex, but no edge, on the boundary: a fan of three triangles round the middle of
+ * each of its sides, the apex of the fan first or last. A square that lies on it with its shorter side touches with two
+ * corners; the nodes within the long side are none, and push nothing. */
+START_TEST(a_node_where_triangles_meet_on_a_straight_side_is_no_corner)
+{
+    for (int i = 0; i < 2 * COUNT(ANGLES); i++) {
+        const double angle = ANGLES[i / 2], c = cos(radians(angle)), s = sin(radians(angle));
+        const double x[7][2] = { { -2, -1 }, { 0, -1 }, { 2, -1 }, { 2, 0 }, { 0, 0 }, { -2, 0 }, { 0, -0.5 } };
+        const int fan[8][3] = { { 0, 1, 6 }, { 1, 2, 6 }, { 2, 3, 6 }, { 3, 4, 6 }, { 4, 5, 6 }, { 5, 0, 6 } };
+        bbm_model *m = new_model();
+        if (i % 2)
+            add_rectangle(m, 1, ROCK, (rectangle){ -0.5, 0, 1, 1, .angle = angle });
+        const int first = m->nodes;
+        for (int k = 0; k < 7; k++)
+            ck_ok(bbm_add_node(m, c * x[k][0] - s * x[k][1], s * x[k][0] + c * x[k][1], NULL), m);
+        for (int k = 0; k < 6; k++) {
+            const int *f = fan[_i ? 5 - k : k];
+            const int node[3] = { first + f[k % 3], first + f[(k + 1) % 3], first + f[(k + 2) % 3] };
+            ck_ok(bbm_add_element(m, 0, ROCK, 3, node, NULL), m);
+        }
+        if (i % 2 == 0)
+            add_rectangle(m, 1, ROCK, (rectangle){ -0.5, 0, 1, 1, .angle = angle });
+        ck_ok(bbm_prepare(m), m);
+        detect(m);
+        ck_assert_int_eq(m->contacts, 2);
+        for (int k = 0; k < 2; k++)
+            ck_assert_int_eq(corner_block(m, &m->contact[k]), 1);
         bbm_model_free(m);
     }
 }
@@ -1119,6 +1219,104 @@ START_TEST(a_corner_beside_a_corner_meets_the_side_that_lies_there)
     const double *V = m->element[e].V;
     ck_assert(V[1] > -4 + 1e-3);
     ck_near(V[0], _i ? V[1] + 4 : 0, 8, 0.01);                  /* as the side turns in the impact, 1 % */
+    bbm_model_free(m);
+}
+END_TEST
+
+/* The number of contacts whose rival, at the end of their edge where the corner is, lies on a line across it. */
+static int crossed_by_rivals(const bbm_model *m)
+{
+    int crossed = 0;
+
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const bbm_vertex *P = corner_vertex(m, c), *a = start_of(m, c->edge), *b = end_of(m, c->edge);
+        const int near = hypot(P->x - a->x, P->y - a->y) < hypot(P->x - b->x, P->y - b->y) ? 0 : 1;
+        if (c->rival[near] < 0 || c->rival[1 - near] >= 0)
+            continue;
+        const int e = m->contact[c->rival[near]].edge;
+        const double across = (b->x - a->x) * (end_of(m, e)->x - start_of(m, e)->x)
+                              + (b->y - a->y) * (end_of(m, e)->y - start_of(m, e)->y);
+        crossed += fabs(across) < ROUNDING;
+    }
+    return crossed;
+}
+
+/* Two unit squares corner against corner, block 1 above and to the right of block 0 or to the left, 1 cm away: each
+ * corner may meet two edges of the other block, along two lines, which are rivals. */
+START_TEST(the_two_lines_between_two_corners_are_rivals)
+{
+    for (int k = 0; k < 2 * COUNT(ANGLES); k++) {
+        const double angle = ANGLES[k / 2];
+        bbm_model *m = new_model();
+        add_rectangle(m, 0, ROCK, (rectangle){ 4, 2, 1, 1, angle, .fixed = 0 });
+        const int e = add_rectangle(m, 1, ROCK, (rectangle){ k % 2 ? 5.01 : 2.99, 3.01, 1, 1, angle, .fixed = 0 });
+        ck_ok(bbm_prepare(m), m);
+        set_velocity(m, e, _i ? 2 : -2, 0);
+        detect(m);
+        ck_assert_int_eq(m->contacts, 4);
+        ck_assert_int_eq(crossed_by_rivals(m), 4);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* A square's corner Q and the lowest corner P of a diamond, with P beyond the end of the square's top by x and below it
+ * by y; the contact of P with the top has been closed. P has left it when Q is outside the diamond's lower side. As Q
+ * is still inside, or just on it, it has not. On the right end, and mirrored on the left one; either block first. */
+static const struct { double x, y; bbm_contact_state then; } PASSED[] = {
+    { 0.015625, 0.03125, BBM_LOCK }, { 0.015625, 0.015625, BBM_LOCK }, { 0.03125, 0.015625, BBM_OPEN },
+};
+
+START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
+{
+    const double side = _i % 2 ? 1 : -1, x = side * (1 + PASSED[_i / 4].x), y = -PASSED[_i / 4].y;
+    const double diamond[4][2] = { { x, y }, { x + 1, y + 1 }, { x, y + 2 }, { x - 1, y + 1 } };
+    const int square_first = _i / 2 % 2;
+    bbm_model *m = new_model();
+    int found = 0;
+
+    m->par.gravity[1] = 0;
+    if (square_first)
+        add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -2, .w = 2, .h = 2 });
+    const int e = add_polygon(m, 1, 4, diamond);
+    if (!square_first)
+        add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -2, .w = 2, .h = 2 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, e, 0, -4);
+    for (int again = 0; again < 2; again++) {
+        detect(m);
+        for (int k = 0; k < m->contacts; k++)
+            if (corner_vertex(m, &m->contact[k]) == vertex_of(m, e, 0)) {
+                ck_assert_int_eq(m->contact[k].state, again ? PASSED[_i / 4].then : BBM_OPEN);
+                m->contact[k].state = BBM_LOCK;
+                found++;
+            }
+    }
+    ck_assert_int_eq(found, 2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block that overhangs the end of a table: its corner P is on the table, the table's corner Q on its underside. The
+ * one is closed, the other open, and stays so. */
+START_TEST(the_ends_of_a_joint_open_and_close_by_themselves)
+{
+    bbm_model *m = new_model();
+
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 4, .y = 0, .w = 2, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    detect(m);
+    ck_assert_int_eq(m->contacts, 2);
+    for (int closed = 0; closed < 2; closed++) {
+        for (int k = 0; k < 2; k++)
+            m->contact[k].state = corner_block(m, &m->contact[k]) == closed ? BBM_LOCK : BBM_OPEN;
+        detect(m);
+        ck_assert_int_eq(m->contacts, 2);
+        for (int k = 0; k < 2; k++)
+            ck_assert_int_eq(m->contact[k].state, corner_block(m, &m->contact[k]) == closed ? BBM_LOCK : BBM_OPEN);
+    }
     bbm_model_free(m);
 }
 END_TEST
@@ -1703,6 +1901,28 @@ START_TEST(an_overhang_stands_short_of_the_harmonic_limit_and_falls_beyond)
 }
 END_TEST
 
+/* A block in four pieces whose middle is 2 cm short of the end of its table, or 2 cm beyond: only what lies on the
+ * table is held, so that it stays, or falls. */
+START_TEST(grid_points_beyond_the_end_of_a_table_are_not_held)
+{
+    for (int k = 0; k < 2 * COUNT(ANGLES); k++) {
+        const double beyond = k % 2 ? 0.02 : -0.02, angle = radians(ANGLES[k / 2]);
+        bbm_model *m = new_model();
+        m->par.friction = 30;
+        m->par.gravity[0] = GRAVITY * sin(angle);
+        m->par.gravity[1] = -GRAVITY * cos(angle);
+        add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, ANGLES[k / 2], .fixed = 1 });
+        const double x = _i ? 5 + beyond - 0.5 : -5 - beyond - 0.5;
+        const int e = add_rectangle(m, 1, ROCK, (rectangle){ x, 0, 1, 0.25, ANGLES[k / 2], .nx = 4 });
+        ck_ok(bbm_prepare(m), m);
+        run_steps(m, 30);
+        const double drop = -sin(angle) * m->element[e + (_i ? 3 : 0)].sum[0] + cos(angle) * m->element[e + (_i ? 3 : 0)].sum[1];
+        ck_assert_msg(k % 2 ? drop < -1e-3 : fabs(drop) < 1e-4, "%g", drop);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
 /* A block 2 m x 1 m on a table, a joint since the start, without gravity: friction 30 degrees, 5 kPa of cohesion, 3
  * kPa of tensile strength. `fx` and `fy` on its upper corners together. */
 static bbm_model *joined(double fx, double fy)
@@ -2264,15 +2484,16 @@ static int feed(bbm_model *m, double u, double v, double w, bbm_pass *pass)
     return n;
 }
 
-/* In and out of the table; and sliding with a normal force that is never the one before. */
+/* In and out of the table, without friction: 60 passes may change states. With friction: the contacts close, slide, and
+ * find a normal force that is never the one before: 100 passes may look for it. */
 START_TEST(solutions_that_never_agree_make_the_iteration_give_up)
 {
     bbm_model *m = block_on_table();
     bbm_pass pass;
-    const int n = _i ? feed(m, 1e-3, -1e-4, -2e-4, &pass) : feed(m, 0, -1e-4, 1e-4, &pass);
 
+    m->par.friction = _i ? 30 : 0;
+    ck_assert_int_eq(_i ? feed(m, 1e-3, -1e-4, -2e-4, &pass) : feed(m, 0, -1e-4, 1e-4, &pass), _i ? 2 + 101 : 61);
     ck_assert_int_eq(pass, BBM_PASS_GIVE_UP);
-    ck_assert(n > 10 && n < 1000);
     bbm_model_free(m);
 }
 END_TEST
@@ -2295,6 +2516,43 @@ START_TEST(a_solution_that_agrees_ends_the_iteration)
             ck_relative(m->contact[k].N, 1e-4 * m->par.p_n, ROUNDING);
             ck_near(m->contact[k].T, _i == 0 ? 0 : copysign(1e-4 * m->par.p_n * tan(PI / 6), u), 1e5, ROUNDING);
         }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A wedge whose sides rise at 70 and 110 degrees above a slope of 30 degrees. The solution turns it by more than a
+ * radian and puts its tip 1 mm into the slope: the tip hits only if both sides still point upwards at the end, by a
+ * degree, and not if one of them points into the slope by two. */
+START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
+{
+    const double clear = _i % 2 ? 1 : -2, turned = radians(_i / 2 ? 70 - clear : clear - 70), slope = radians(30);
+    const double up[2] = { -sin(slope), cos(slope) }, tip[2] = { 0.125 * up[0], 0.125 * up[1] };
+    double wedge[3][2] = { { tip[0], tip[1] } };
+    bbm_model *m = new_model();
+    bbm_pass pass;
+    double u[2];
+
+    add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, 30, .fixed = 1 });
+    for (int k = 0; k < 2; k++) {
+        wedge[1 + k][0] = tip[0] + cos(slope + radians(k ? 110 : 70));
+        wedge[1 + k][1] = tip[1] + sin(slope + radians(k ? 110 : 70));
+    }
+    const int e = add_polygon(m, 1, 3, (const double (*)[2])wedge);
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, e, 0, -10);
+    m->h = m->par.dt;
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m), m);
+    m->D[6 * e + 2] = turned;
+    bbm_move(m, &m->element[e], &m->D[6 * e], tip[0], tip[1], u);
+    for (int a = 0; a < 2; a++)
+        m->D[6 * e + a] = -1e-3 * up[a] - tip[a] - u[a];
+    ck_ok(bbm_open_close(m, &pass), m);
+    ck_ok(bbm_keep_contacts(m), m);
+    int hit = 0;
+    for (int k = 0; k < m->contacts; k++)
+        hit += m->contact[k].state != BBM_OPEN && corner_vertex(m, &m->contact[k]) == vertex_of(m, e, 0);
+    ck_assert_int_eq(hit, clear > 0);
     bbm_model_free(m);
 }
 END_TEST
@@ -2590,6 +2848,7 @@ static void add_formulas(Suite *s)
     };
     const entry detection[] = {
         { the_grid_finds_the_pairs_that_comparing_all_with_all_finds, 6 },
+        { the_detection_compares_a_corner_with_the_few_edges_around_it, 4 },
         { an_inner_corner_is_no_corner, 1 },
         { each_of_two_tips_in_a_node_is_a_corner, COUNT(TIPS) },
         { the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks, COUNT(ANGLES) },
@@ -2597,6 +2856,9 @@ static void add_formulas(Suite *s)
         { a_block_far_away_changes_nothing, 1 },
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
         { rounding_in_a_model_file_does_not_undo_a_contact, 4 },
+        { the_detection_looks_as_far_as_a_block_falls_in_the_step, 2 },
+        { a_joint_is_where_a_corner_lies_on_an_edge, 2 },
+        { a_node_where_triangles_meet_on_a_straight_side_is_no_corner, 2 },
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
     };
 
@@ -2604,6 +2866,9 @@ static void add_formulas(Suite *s)
         { two_corners_that_meet_leave_by_the_shortest_way, 2 },
         { corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whichever_block_comes_first, 1 },
         { a_corner_beside_a_corner_meets_the_side_that_lies_there, 2 },
+        { the_two_lines_between_two_corners_are_rivals, 2 },
+        { a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one, 4 * COUNT(PASSED) },
+        { the_ends_of_a_joint_open_and_close_by_themselves, 1 },
     };
     const entry sliding[] = {
         { a_block_slides_down_an_incline_as_the_closed_form_says, 2 * COUNT(SLIDING) },
@@ -2630,6 +2895,7 @@ static void add_formulas(Suite *s)
         { squares_of_a_block_that_meet_in_a_node_have_corners_of_their_own, 1 },
         { a_bonded_block_at_rest_has_the_stress_of_its_own_weight, 1 },
         { an_overhang_stands_short_of_the_harmonic_limit_and_falls_beyond, 2 },
+        { grid_points_beyond_the_end_of_a_table_are_not_held, 2 },
         { a_joint_breaks_at_its_tensile_strength, 2 },
         { a_joint_without_shear_strength_has_its_tensile_strength, 2 },
         { a_joint_slips_at_its_cohesion_and_friction, 4 },
@@ -2654,6 +2920,7 @@ static void add_formulas(Suite *s)
         { contacts_that_never_settle_end_with_a_status_and_the_numbers, 1 },
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
+        { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_pile_falls_the_same_way_twice_to_the_last_bit, 1 },
