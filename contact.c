@@ -69,7 +69,7 @@
 
 #define FAR 1e15        /* cells of the grid */
 
-/* Places of the grid for each edge; directions that `agree` remembers; passes that change states, and that change
+/* Places of the grid for each edge, 4 x 4; directions that `agree` remembers; passes that change states, and that change
  * forces between two of them. */
 enum { PLACES = 16, DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
 
@@ -83,8 +83,8 @@ struct bbm_contact_work {
     int *side, *last;           /* first and last edge of the straight side that the edge belongs to            */
     double *span;               /* m        length of that side at the start                                    */
     direction *along;           /* of the present positions                                                     */
-    double mean;                /* m        their mean length at the start                                      */
-    double touch;               /* m        TOUCH times that                                                    */
+    double mean;                /* m        their mean length                                                   */
+    double touch;               /* m        TOUCH times that of the start                                       */
     /* --- what the step may do --- */
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
     double deepest;             /* m        |d_n| of the closed contacts, at most, at the end of the last step  */
@@ -239,11 +239,16 @@ static int is_convex(const bbm_contact_work *w, int c)
     return cross(w->along[w->before[c]], w->along[c]) > -PARALLEL;
 }
 
+/* Directions and mean length of the present edges. */
 static void find_directions(bbm_model *m)
 {
+    bbm_contact_work *w = m->work;
+
+    w->mean = 0;
     for (int e = 0; e < m->edges; e++) {
         const double x = end_of(m, e)->x - start_of(m, e)->x, y = end_of(m, e)->y - start_of(m, e)->y, l = hypot(x, y);
-        m->work->along[e] = (direction){ x / l, y / l, l };
+        w->along[e] = (direction){ x / l, y / l, l };
+        w->mean += l / m->edges;
     }
 }
 
@@ -290,7 +295,6 @@ static void link_edges(bbm_model *m, int ends[])
     for (int e = 0; e < m->edges; e++) {
         w->before[e] = find_before(m, ends, e);
         w->after[w->before[e]] = e;
-        w->mean += w->along[e].length / m->edges;
     }
     w->touch = TOUCH * w->mean;
     for (int e = 0; e < m->edges; e++)
