@@ -2836,7 +2836,7 @@ static void add_case(Suite *s, const char *name, const entry e[], int count)
 
 static void add_formulas(Suite *s)
 {
-    const entry formulas[] = {
+    const entry e[] = {
         { the_normal_submatrices_are_derivatives_of_the_normal_springs_energy, 4 },
         { the_shear_submatrices_are_derivatives_of_the_shear_springs_energy, 4 },
         { the_friction_submatrices_are_derivatives_of_the_work_against_friction, 4 },
@@ -2846,7 +2846,13 @@ static void add_formulas(Suite *s)
         { the_shear_strength_is_that_of_mohr_and_coulomb, 4 },
         { each_cell_of_the_table_of_states_is_as_written, COUNT(CELLS) },
     };
-    const entry detection[] = {
+
+    add_case(s, "contact formulas", e, COUNT(e));
+}
+
+static void add_detection(Suite *s)
+{
+    const entry e[] = {
         { the_grid_finds_the_pairs_that_comparing_all_with_all_finds, 6 },
         { the_detection_compares_a_corner_with_the_few_edges_around_it, 4 },
         { an_inner_corner_is_no_corner, 1 },
@@ -2862,7 +2868,12 @@ static void add_formulas(Suite *s)
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
     };
 
-    const entry corners[] = {
+    add_case(s, "detection", e, COUNT(e));
+}
+
+static void add_corners(Suite *s)
+{
+    const entry e[] = {
         { two_corners_that_meet_leave_by_the_shortest_way, 2 },
         { corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whichever_block_comes_first, 1 },
         { a_corner_beside_a_corner_meets_the_side_that_lies_there, 2 },
@@ -2870,7 +2881,13 @@ static void add_formulas(Suite *s)
         { a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one, 4 * COUNT(PASSED) },
         { the_ends_of_a_joint_open_and_close_by_themselves, 1 },
     };
-    const entry sliding[] = {
+
+    add_case(s, "corners", e, COUNT(e));
+}
+
+static void add_sliding(Suite *s)
+{
+    const entry e[] = {
         { a_block_slides_down_an_incline_as_the_closed_form_says, 2 * COUNT(SLIDING) },
         { a_block_that_slides_from_the_start_keeps_the_initial_velocity, 1 },
         { a_block_thrown_uphill_stops_where_it_should_and_stays_there, 1 },
@@ -2888,7 +2905,12 @@ static void add_formulas(Suite *s)
         { friction_forces_are_found_in_one_pass_for_each_sliding_contact, 2 },
     };
 
-    const entry rest[] = {
+    add_case(s, "sliding", e, COUNT(e));
+}
+
+static void add_rest(Suite *s)
+{
+    const entry e[] = {
         { blocks_of_a_column_carry_the_weight_above_and_do_not_drift, 1 },
         { statics_balances_a_block_on_its_contacts, 2 },
         { a_block_in_a_notch_leans_on_its_floor_and_its_wall, 1 },
@@ -2903,7 +2925,13 @@ static void add_formulas(Suite *s)
         { the_areas_of_a_joints_contacts_add_up_to_its_own, COUNT(PIECES) * COUNT(SEATS) },
         { blocks_that_come_to_touch_have_no_tensile_strength, 1 },
     };
-    const entry motion[] = {
+
+    add_case(s, "at rest", e, COUNT(e));
+}
+
+static void add_motion(Suite *s)
+{
+    const entry e[] = {
         { a_block_on_a_slope_slides_or_topples_as_the_chart_says, COUNT(CHART) },
         { a_dropped_block_never_rebounds_faster_than_it_came, 2 * COUNT(DROP_STEPS) },
         { a_contact_is_anchored_where_it_hit, 2 },
@@ -2913,7 +2941,12 @@ static void add_formulas(Suite *s)
         { the_papers_linear_update_lets_a_turning_block_grow, 1 },
     };
 
-    const entry redone[] = {
+    add_case(s, "in motion", e, COUNT(e));
+}
+
+static void add_redone(Suite *s)
+{
+    const entry e[] = {
         { what_hits_an_edge_is_a_corner_with_its_foot_on_it, 4 },
         { a_step_done_again_in_halves_is_the_two_half_steps_to_the_last_bit, 1 },
         { a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were, 1 },
@@ -2931,13 +2964,7 @@ static void add_formulas(Suite *s)
         { preparing_again_forgets_the_contacts, 1 },
     };
 
-    add_case(s, "contact formulas", formulas, COUNT(formulas));
-    add_case(s, "detection", detection, COUNT(detection));
-    add_case(s, "corners", corners, COUNT(corners));
-    add_case(s, "sliding", sliding, COUNT(sliding));
-    add_case(s, "at rest", rest, COUNT(rest));
-    add_case(s, "in motion", motion, COUNT(motion));
-    add_case(s, "redone", redone, COUNT(redone));
+    add_case(s, "redone", e, COUNT(e));
 }
 
 Suite *contact_suite(void)
@@ -2945,5 +2972,11 @@ Suite *contact_suite(void)
     Suite *s = suite_create("contact");
 
     add_formulas(s);
+    add_detection(s);
+    add_corners(s);
+    add_sliding(s);
+    add_rest(s);
+    add_motion(s);
+    add_redone(s);
     return s;
 }
