@@ -503,7 +503,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const bbm_contact_work *w = m->work;
     const foot f = find_foot(m, corner, e);
 
-    if (fabs(f.d) > w->search || f.off > w->search)
+    if (fmax(fabs(f.d), f.off) > w->search)
         return 0;
     return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * fabs(turning(m, w->guess, corner, e)) : PARALLEL);
 }
@@ -617,13 +617,13 @@ static bbm_status drop_duplicates(bbm_model *m)
         return BBM_NO_MEMORY;
     for (int k = 0; k < w->pairs; k++)
         drop[k] = (char)is_duplicate(m, w->pairs_of[k]);
-    for (int c = 0, k = 0; c < m->edges; c++) {
+    for (int c = 0, k = 0; c <= m->edges; c++) {
         w->first[c] = kept;
         for (; k < w->pairs && w->pairs_of[k].corner == c; k++)
             if (!drop[k])
                 w->pairs_of[kept++] = w->pairs_of[k];
     }
-    w->first[m->edges] = w->pairs = kept;
+    w->pairs = kept;
     free(drop);
     return BBM_OK;
 }

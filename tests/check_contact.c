@@ -1014,6 +1014,27 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_upper_one_touch)
 }
 END_TEST
 
+/* The side of one square in pieces, and in the middle of it the shorter side of another one in pieces: the grid points
+ * of the shorter side touch, wherever the two are, whichever is the upper one. */
+START_TEST(of_two_sides_the_grid_points_of_the_shorter_one_touch)
+{
+    const double x[4] = { 0, 4, -5, 2 }, y[4] = { 0, 7, -3, -4 };
+
+    for (int k = 0; k < 4 * COUNT(ANGLES); k++) {
+        const double below = _i % 2 ? 0.5 : 1, above = _i % 2 ? 1 : 0.5, angle = ANGLES[k / 4];
+        bbm_model *m = new_model();
+        add_rectangle(m, 0, ROCK, (rectangle){ x[k % 4] - below / 2, y[k % 4] - 1, below, 1, angle, .nx = 4 });
+        add_rectangle(m, 1, ROCK, (rectangle){ x[k % 4] - above / 2, y[k % 4], above, 1, angle, .nx = 3 });
+        ck_ok(bbm_prepare(m), m);
+        detect(m);
+        ck_assert_int_eq(m->contacts, _i % 2 ? 5 : 4);
+        for (int c = 0; c < m->contacts; c++)
+            ck_assert_int_eq(corner_block(m, &m->contact[c]), _i % 2 ? 0 : 1);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
 /* Two equal squares, the upper one shifted by half a millionth of their side, as the rounding of a model file may: the
  * corners are at one place all the same, and hold it at both ends. Of 10 m, of 0.1 m, to the right, to the left. */
 START_TEST(rounding_in_a_model_file_does_not_undo_a_contact)
@@ -1223,41 +1244,58 @@ START_TEST(a_corner_beside_a_corner_meets_the_side_that_lies_there)
 }
 END_TEST
 
-/* The number of contacts whose rival, at the end of their edge where the corner is, lies on a line across it. */
-static int crossed_by_rivals(const bbm_model *m)
+/* Fails unless the rivals of each contact are what they are: for a corner P on an edge that ends in Q, a contact of P
+ * with the other edge of Q, or of Q with an edge of P, on a line that crosses the first. Their number. */
+static int check_rivals(const bbm_model *m)
 {
-    int crossed = 0;
+    int rivals = 0;
 
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k];
-        const bbm_vertex *P = corner_vertex(m, c), *a = start_of(m, c->edge), *b = end_of(m, c->edge);
-        const int near = hypot(P->x - a->x, P->y - a->y) < hypot(P->x - b->x, P->y - b->y) ? 0 : 1;
-        if (c->rival[near] < 0 || c->rival[1 - near] >= 0)
-            continue;
-        const int e = m->contact[c->rival[near]].edge;
-        const double across = (b->x - a->x) * (end_of(m, e)->x - start_of(m, e)->x)
-                              + (b->y - a->y) * (end_of(m, e)->y - start_of(m, e)->y);
-        crossed += fabs(across) < ROUNDING;
-    }
-    return crossed;
+    for (int k = 0; k < m->contacts; k++)
+        for (int end = 0; end < 2; end++) {
+            const bbm_contact *c = &m->contact[k], *r = &m->contact[c->rival[end] < 0 ? k : c->rival[end]];
+            const bbm_vertex *P = corner_vertex(m, c), *Q = end ? end_of(m, c->edge) : start_of(m, c->edge);
+            const bbm_vertex *p = corner_vertex(m, r), *a = start_of(m, r->edge), *b = end_of(m, r->edge);
+            const double x = end_of(m, c->edge)->x - start_of(m, c->edge)->x, y = end_of(m, c->edge)->y - start_of(m, c->edge)->y;
+            if (r == c)
+                continue;
+            ck_assert((p == P && (a->node == Q->node || b->node == Q->node))
+                      || (p->node == Q->node && (a->node == P->node || b->node == P->node)));
+            ck_assert(fabs(x * (b->y - a->y) - y * (b->x - a->x)) > 0.005 * hypot(x, y) * hypot(b->x - a->x, b->y - a->y));
+            rivals++;
+        }
+    return rivals;
 }
 
 /* Two unit squares corner against corner, block 1 above and to the right of block 0 or to the left, 1 cm away: each
- * corner may meet two edges of the other block, along two lines, which are rivals. */
+ * corner may meet two edges of the other block, along two lines, which are rivals. In a heap of all kinds of blocks
+ * rivals are between two corners, too. */
 START_TEST(the_two_lines_between_two_corners_are_rivals)
 {
     for (int k = 0; k < 2 * COUNT(ANGLES); k++) {
-        const double angle = ANGLES[k / 2];
         bbm_model *m = new_model();
-        add_rectangle(m, 0, ROCK, (rectangle){ 4, 2, 1, 1, angle, .fixed = 0 });
-        const int e = add_rectangle(m, 1, ROCK, (rectangle){ k % 2 ? 5.01 : 2.99, 3.01, 1, 1, angle, .fixed = 0 });
+        add_rectangle(m, 0, ROCK, (rectangle){ 4, 2, 1, 1, ANGLES[k / 2], .fixed = 0 });
+        const int e = add_rectangle(m, 1, ROCK, (rectangle){ k % 2 ? 5.01 : 2.99, 3.01, 1, 1, ANGLES[k / 2], .fixed = 0 });
         ck_ok(bbm_prepare(m), m);
         set_velocity(m, e, _i ? 2 : -2, 0);
         detect(m);
         ck_assert_int_eq(m->contacts, 4);
-        ck_assert_int_eq(crossed_by_rivals(m), 4);
+        ck_assert_int_eq(check_rivals(m), 4);
         bbm_model_free(m);
     }
+}
+END_TEST
+
+START_TEST(rivals_in_a_heap_are_between_the_same_two_corners)
+{
+    outline o[BLOCKS];
+    unsigned seed = (unsigned)_i;
+    bbm_model *m = random_blocks(o, seed, 0, PLACES[0]);
+
+    for (int e = 0; e < m->elements; e++)
+        set_velocity(m, e, 20 * random_number(&seed), 20 * random_number(&seed));
+    detect(m);
+    ck_assert_int_gt(check_rivals(m), 20);
+    bbm_model_free(m);
 }
 END_TEST
 
@@ -1317,6 +1355,42 @@ START_TEST(the_ends_of_a_joint_open_and_close_by_themselves)
         for (int k = 0; k < 2; k++)
             ck_assert_int_eq(m->contact[k].state, corner_block(m, &m->contact[k]) == closed ? BBM_LOCK : BBM_OPEN);
     }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Both lower corners of a block are closed on a table, near its end. Then the block stands 0.5 m further, with one of
+ * them 0.25 m beyond the end: the table's corner, on the block's underside, takes its forces over. */
+START_TEST(the_other_corner_takes_over_the_force_when_one_has_left)
+{
+    const double side = _i % 2 ? 1 : -1;
+    bbm_model *m = new_model();
+    int found = 0;
+
+    add_table(m, 0);
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = side * 4.25 - 0.5, .y = 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    detect(m);
+    ck_assert_int_eq(m->contacts, 2);
+    for (int k = 0; k < 2; k++) {
+        const int outer = side * corner_vertex(m, &m->contact[k])->x > 4.5;
+        m->contact[k].state = BBM_LOCK;
+        m->contact[k].N = outer ? 100 : 50;
+        m->contact[k].T = outer ? -10 : -5;
+    }
+    for (int v = 0; v < 4; v++)
+        m->vertex[m->element[e].first + v].x += side * 0.5;
+    detect(m);
+    ck_assert_int_eq(m->contacts, 2);
+    for (int k = 0; k < 2; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const int Q = corner_block(m, c) == 0;
+        ck_assert_int_eq(c->state, BBM_LOCK);
+        ck_near(c->N, Q ? 100 : 50, 1, 0);
+        ck_near(c->T, Q ? -10 : -5, 1, 0);
+        found += Q;
+    }
+    ck_assert_int_eq(found, 1);
     bbm_model_free(m);
 }
 END_TEST
@@ -2520,6 +2594,30 @@ START_TEST(a_solution_that_agrees_ends_the_iteration)
 }
 END_TEST
 
+/* The block moves at 1 m/s and turns at 1 rad/s, steps of 10 ms: 2.2 times the way of a vertex is foreseen for two that
+ * approach each other, twice the turn and half a tolerance of 0.01 rad more. */
+START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
+{
+    const double way = 0.01, more[4][2] = { { 1.05, 1 }, { 1.15, 1 }, { 0.1, 2.45 }, { 0.1, 2.55 } };
+    bbm_model *m = block_on_table();
+
+    set_velocity(m, 1, 1, 0);
+    m->gravity[1] = 0;
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m), m);
+    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+    ck_assert(!bbm_moved_too_far(m));
+    m->D[6] = way * more[_i][0];
+    m->D[6 + 2] = _i < 2 ? 0 : 0.005 * more[_i][1] / 2.5;
+    ck_assert_int_eq(bbm_moved_too_far(m), _i % 2);
+    if (_i == 1) {
+        ck_ok(bbm_detect_contacts(m), m);
+        ck_assert(!bbm_moved_too_far(m));           /* it has become the guess */
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
 /* A wedge whose sides rise at 70 and 110 degrees above a slope of 30 degrees. The solution turns it by more than a
  * radian and puts its tip 1 mm into the slope: the tip hits only if both sides still point upwards at the end, by a
  * degree, and not if one of them points into the slope by two. */
@@ -2861,6 +2959,7 @@ static void add_detection(Suite *s)
         { random_blocks_in_reversed_order_have_the_same_contacts, 1 },
         { a_block_far_away_changes_nothing, 1 },
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
+        { of_two_sides_the_grid_points_of_the_shorter_one_touch, 2 },
         { rounding_in_a_model_file_does_not_undo_a_contact, 4 },
         { the_detection_looks_as_far_as_a_block_falls_in_the_step, 2 },
         { a_joint_is_where_a_corner_lies_on_an_edge, 2 },
@@ -2878,8 +2977,10 @@ static void add_corners(Suite *s)
         { corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whichever_block_comes_first, 1 },
         { a_corner_beside_a_corner_meets_the_side_that_lies_there, 2 },
         { the_two_lines_between_two_corners_are_rivals, 2 },
+        { rivals_in_a_heap_are_between_the_same_two_corners, 3 },
         { a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one, 4 * COUNT(PASSED) },
         { the_ends_of_a_joint_open_and_close_by_themselves, 1 },
+        { the_other_corner_takes_over_the_force_when_one_has_left, 2 },
     };
 
     add_case(s, "corners", e, COUNT(e));
@@ -2953,6 +3054,7 @@ static void add_redone(Suite *s)
         { contacts_that_never_settle_end_with_a_status_and_the_numbers, 1 },
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
+        { a_solution_that_moves_further_than_foreseen_is_noticed, 4 },
         { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
