@@ -1096,33 +1096,36 @@ START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
 }
 END_TEST
 
-/* A side of elements that have a vertex, but no edge, on the boundary: a fan of three triangles round the middle of
- * each of its sides, the apex of the fan first or last. A square that lies on it with its shorter side touches with two
- * corners; the nodes within the long side are none, and push nothing. */
+/* A slab of triangles, at whose grid points meet some that have a vertex, but no edge, on the boundary; its triangles
+ * in either order, before or after the squares that lie above and below it. Each square touches with two corners; the
+ * nodes within the slab's sides are none. */
 START_TEST(a_node_where_triangles_meet_on_a_straight_side_is_no_corner)
 {
     for (int i = 0; i < 2 * COUNT(ANGLES); i++) {
         const double angle = ANGLES[i / 2], c = cos(radians(angle)), s = sin(radians(angle));
         const double x[7][2] = { { -2, -1 }, { 0, -1 }, { 2, -1 }, { 2, 0 }, { 0, 0 }, { -2, 0 }, { 0, -0.5 } };
-        const int fan[8][3] = { { 0, 1, 6 }, { 1, 2, 6 }, { 2, 3, 6 }, { 3, 4, 6 }, { 4, 5, 6 }, { 5, 0, 6 } };
+        const int ring[6][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 5 }, { 5, 0 } };
         bbm_model *m = new_model();
-        if (i % 2)
-            add_rectangle(m, 1, ROCK, (rectangle){ -0.5, 0, 1, 1, .angle = angle });
-        const int first = m->nodes;
-        for (int k = 0; k < 7; k++)
-            ck_ok(bbm_add_node(m, c * x[k][0] - s * x[k][1], s * x[k][0] + c * x[k][1], NULL), m);
-        for (int k = 0; k < 6; k++) {
-            const int *f = fan[_i ? 5 - k : k];
-            const int node[3] = { first + f[k % 3], first + f[(k + 1) % 3], first + f[(k + 2) % 3] };
-            ck_ok(bbm_add_element(m, 0, ROCK, 3, node, NULL), m);
+        int first = 0;
+        for (int part = 0; part < 2; part++) {
+            if (part == i % 2) {
+                add_rectangle(m, 1, ROCK, (rectangle){ -0.5, 0, 1, 1, .angle = angle });
+                add_rectangle(m, 2, ROCK, (rectangle){ -0.5, -2, 1, 1, .angle = angle });
+                first = m->nodes;
+                continue;
+            }
+            for (int k = 0; k < 7; k++)
+                ck_ok(bbm_add_node(m, c * x[k][0] - s * x[k][1], s * x[k][0] + c * x[k][1], NULL), m);
+            for (int k = 0; k < 6; k++) {
+                const int *f = ring[_i ? 5 - k : k], node[3] = { first + f[0], first + f[1], first + 6 };
+                ck_ok(bbm_add_element(m, 0, ROCK, 3, node, NULL), m);
+            }
         }
-        if (i % 2 == 0)
-            add_rectangle(m, 1, ROCK, (rectangle){ -0.5, 0, 1, 1, .angle = angle });
         ck_ok(bbm_prepare(m), m);
         detect(m);
-        ck_assert_int_eq(m->contacts, 2);
-        for (int k = 0; k < 2; k++)
-            ck_assert_int_eq(corner_block(m, &m->contact[k]), 1);
+        ck_assert_int_eq(m->contacts, 4);
+        for (int k = 0; k < 4; k++)
+            ck_assert_int_ne(corner_block(m, &m->contact[k]), 0);
         bbm_model_free(m);
     }
 }
