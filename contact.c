@@ -366,13 +366,15 @@ bbm_status bbm_contact_new(bbm_model *m)
 /* Makes room for one more entry in an array: twice the room when it is full. */
 static int grow(void **array, int count, int *room, size_t size)
 {
+    const int more = 2 * count + 64;
+
     if (count < *room)
         return 1;
-    void *larger = realloc(*array, (2 * (size_t)count + 64) * size);
+    void *larger = realloc(*array, (size_t)more * size);
     if (!larger)
         return 0;
     *array = larger;
-    *room = 2 * count + 64;
+    *room = more;
     return 1;
 }
 

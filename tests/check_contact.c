@@ -1096,6 +1096,31 @@ START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
 }
 END_TEST
 
+/* Unit squares one above the other, or the upper one shifted so that just its corner is past the end of the lower
+ * side: a millionth of the mean edge is still closed, and still on the edge, and more is not. */
+START_TEST(a_joint_may_gape_by_a_millionth_of_an_edge)
+{
+    for (int k = 0; k < 2; k++) {
+        const double small = _i ? (k ? 1.001e-6 : 0.999e-6) : k ? nextafter(1e-6, 1) : 1e-6;
+        bbm_model *m = new_model();
+        m->par.tension = 1;
+        add_rectangle(m, 0, ROCK, (rectangle){ .x = _i ? -1 : 0, .y = -1, .w = 1, .h = 1 });
+        add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? small : 0, .y = _i ? 0 : small, .w = 1, .h = 1 });
+        ck_ok(bbm_prepare(m), m);
+        set_velocity(m, 1, 1, 0);
+        detect(m);
+        ck_assert_int_ge(m->contacts, 1);
+        int off = 0;
+        for (int c = 0; c < m->contacts; c++) {
+            ck_assert(_i || m->contact[c].whole == (k == 0));
+            off |= m->contact[c].off;
+        }
+        ck_assert_int_eq(off, _i && k);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
 /* A slab of triangles, at whose grid points meet some that have a vertex, but no edge, on the boundary; its triangles
  * in either order, before or after the squares that lie above and below it. Each square touches with two corners; the
  * nodes within the slab's sides are none. */
@@ -2621,6 +2646,36 @@ START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
 }
 END_TEST
 
+/* A grid point of a block's lower side, between two elements, starts 0.25 m beyond the end of a table; the solution
+ * puts it exactly over the end and 0.125 m into the table, or beyond the end by next to nothing. */
+START_TEST(the_end_of_an_edge_belongs_to_it)
+{
+    const double side = _i % 2 ? 1 : -1, beyond = _i / 2 ? 0.25 - 1e-12 : 0.25;
+    bbm_model *m = new_model();
+    bbm_pass pass;
+    int closed = 0;
+
+    add_table(m, 0);
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = side * 5.25 - 1, .y = 0.125, .w = 2, .h = 1, .nx = 2 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, e, 0, -25);
+    set_velocity(m, e + 1, 0, -25);
+    m->h = m->par.dt;
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m), m);
+    for (int i = e; i < e + 2; i++) {
+        m->D[6 * i] = -side * beyond;
+        m->D[6 * i + 1] = -0.25;
+    }
+    ck_ok(bbm_open_close(m, &pass), m);
+    ck_ok(bbm_keep_contacts(m), m);
+    for (int k = 0; k < m->contacts; k++)
+        closed += m->contact[k].state != BBM_OPEN && fabs(corner_vertex(m, &m->contact[k])->x) == 5.25;
+    ck_assert_int_eq(closed, _i / 2 ? 0 : 1);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* A wedge whose sides rise at 70 and 110 degrees above a slope of 30 degrees. The solution turns it by more than a
  * radian and puts its tip 1 mm into the slope: the tip hits only if both sides still point upwards at the end, by a
  * degree, and not if one of them points into the slope by two. */
@@ -2966,6 +3021,7 @@ static void add_detection(Suite *s)
         { rounding_in_a_model_file_does_not_undo_a_contact, 4 },
         { the_detection_looks_as_far_as_a_block_falls_in_the_step, 2 },
         { a_joint_is_where_a_corner_lies_on_an_edge, 2 },
+        { a_joint_may_gape_by_a_millionth_of_an_edge, 2 },
         { a_node_where_triangles_meet_on_a_straight_side_is_no_corner, 2 },
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
     };
@@ -3058,6 +3114,7 @@ static void add_redone(Suite *s)
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
         { a_solution_that_moves_further_than_foreseen_is_noticed, 4 },
+        { the_end_of_an_edge_belongs_to_it, 4 },
         { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
