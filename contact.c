@@ -1109,7 +1109,7 @@ static void change_state(const bbm_model *m, bbm_contact *c)
     if (c->state == BBM_OPEN && ++c->closings > 1)
         c->next = BBM_SLIDE;
     if (c->next == BBM_SLIDE) {
-        c->sign = slip < 0 ? -1 : 1;
+        c->sign = copysign(1, slip);
         c->used = c->N;
     }
     c->state = c->next;
