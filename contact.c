@@ -763,11 +763,11 @@ static double largest_displacement(const bbm_model *m, const double D[])
 /* What the velocities and gravity foretell of the step. */
 void bbm_guess_step(bbm_model *m)
 {
+    const double fall[6] = { m->gravity[0] * m->h * m->h / 2, m->gravity[1] * m->h * m->h / 2 };
+
     for (int i = 0; i < m->elements; i++)
-        for (int a = 0; a < 6; a++) {
-            const double fall = a < 2 ? m->gravity[a] * m->h * m->h / 2 : 0;
-            m->work->guess[6 * i + a] = isinf(m->h) ? 0 : m->element[i].V[a] * m->h + fall;
-        }
+        for (int a = 0; a < 6; a++)
+            m->work->guess[6 * i + a] = isinf(m->h) ? 0 : m->element[i].V[a] * m->h + fall[a];
 }
 
 /* Whether the solution moves further than the detection has foreseen; it then is the next guess. */
