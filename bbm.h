@@ -148,7 +148,6 @@ typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
 typedef struct {                /* vertex P1 of one block against an edge P2 P3 of another                      */
     /* --- identity: boundary edges; P1 starts `corner`, P2 ends `edge`, P3 starts it --- */
     int    corner, edge;
-    int    rival[2];            /* where two corners meet, other lines of entrance (in the list), or -1         */
     /* --- state, carried from step to step --- */
     bbm_contact_state state;
     double sign;                /* of the slip while it slides: 1 towards P3                                    */
@@ -156,6 +155,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
     int    whole;               /* closed since the start and not broken: has cohesion and tensile strength     */
     /* --- of the step --- */
+    int    rival[4];            /* other lines of entrance, in the list, or -1: two at P3, two at P2            */
     double gap;                 /* m        d_n at the start                                                    */
     double area;                /* m^2      of the joint that P1 stands for; 0 if it is not whole               */
     int    off;                 /* the foot is not on the edge at the start                                     */

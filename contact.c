@@ -33,7 +33,7 @@
  *             |                  |   B                  are one contact: of P on Q's edge and Q on P's edge that one
  *        B    |                  |                      stays whose foot lies on its edge; at a tie, the one that it
  *                                                       was before; at first, the edge that faces up.
- * Corner exactly on corner, each takes the first of its own two lines: fixed, and the same in any order of the blocks.
+ * Corner exactly on corner, the flatter line counts: the same in any order of the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N. For given states that map is
  * affine: its fixed point is found by conjugate residuals (agree), in few more solutions than there are contacts
@@ -200,11 +200,13 @@ void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_
     }
 }
 
+static double tan_friction(const bbm_parameters *p) { return tan(p->friction * acos(-1) / 180); }
+
 /* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65) with cohesion on the joint's area.
  * A joint under tension has what is left of its cohesion. */
 double bbm_shear_strength(const bbm_parameters *p, double N, double area)
 {
-    return fmax(0, N * tan(p->friction * acos(-1) / 180) + p->cohesion * area);
+    return fmax(0, N * tan_friction(p) + p->cohesion * area);
 }
 
 /* The transfer table of the figure above: the state that follows from d_n, N and T. Forces within `slack` agree. An
@@ -456,12 +458,6 @@ static foot find_foot(const bbm_model *m, int corner, int e)
     return (foot){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
 }
 
-/* By how much the block of `corner` turns against that of `edge`. */
-static double turning(const bbm_model *m, const double D[], int corner, int e)
-{
-    return D[6 * m->edge[corner].element + 2] - D[6 * m->edge[e].element + 2];
-}
-
 /* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's:
  * so the block is convex there and lies on the outside. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
@@ -477,10 +473,11 @@ static int coincide(const bbm_contact_work *w, int e, int f)
     return fabs(cross(w->along[e], w->along[f])) <= PARALLEL;
 }
 
-/* Whether the outward normal (t.y, -t.x) of an edge along t points up rather than down, or else to the right. */
-static int faces_up(direction t)
+/* Of two edges along p and q that face each other, whether the outward normal of the first, (p.y, -p.x), is the one that
+ * points up, or if both are upright, to the right. */
+static int faces_up(direction p, direction q)
 {
-    return signbit(fabs(t.x) > PARALLEL ? t.x : -t.y);
+    return signbit(fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y);
 }
 
 /* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side
@@ -491,11 +488,11 @@ static int carries(const bbm_model *m, int c, int e)
     const bbm_contact_work *w = m->work;
     const direction p = w->along[c], q = w->along[e];
 
-    if (!m->par.faces)
+    if (!m->par.faces || p.x * q.x + p.y * q.y > 0)
         return 0;
     if (fabs(w->span[c] - w->span[e]) > STRAIGHT * w->span[e])
         return signbit(w->span[c] - w->span[e]);
-    return faces_up((direction){ q.x - p.x, q.y - p.y, 0 });
+    return faces_up(q, p);
 }
 
 /* Whether the corner may come to touch the edge in this step. If it is still outside it may also turn there first, as
@@ -503,11 +500,12 @@ static int carries(const bbm_model *m, int c, int e)
 static int may_touch(const bbm_model *m, int corner, int e)
 {
     const bbm_contact_work *w = m->work;
+    const double turns = fabs(w->guess[6 * m->edge[corner].element + 2]) + fabs(w->guess[6 * m->edge[e].element + 2]);
     const foot f = find_foot(m, corner, e);
 
     if (fmax(fabs(f.d), f.off) > w->search)
         return 0;
-    return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * fabs(turning(m, w->guess, corner, e)) : PARALLEL);
+    return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * turns : PARALLEL);
 }
 
 /* All pairs that may touch. */
@@ -585,9 +583,9 @@ static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
     const double P = find_foot(m, mine.corner, mine.edge).off, Q = find_foot(m, other.corner, other.edge).off;
     if (fmax(fabs(P), fabs(Q)) > w->touch)
         return aligned && P > Q;
-    if (find_closed(m, other.corner, other.edge, 0))
-        return 1;
-    return !find_closed(m, mine.corner, mine.edge, 0) && !faces_up(w->along[mine.edge]);
+    const int here = find_closed(m, mine.corner, mine.edge, 0) != NULL;
+    const int there = find_closed(m, other.corner, other.edge, 0) != NULL;
+    return here != there ? there : !faces_up(w->along[mine.edge], w->along[other.edge]);
 }
 
 /* The four pairs of an end Q of P's edge with an edge that ends in P: 0 and 3 have aligned sides. */
@@ -630,25 +628,16 @@ static bbm_status drop_duplicates(bbm_model *m)
     return BBM_OK;
 }
 
-/* The other line along which P and Q, two convex corners that may meet in this step, can enter each other, or -1. In a
- * notch Q both edges hold P at once. */
-static int find_rival(const bbm_model *m, pair p, int Q, int other_edge)
+/* The contact `other`, on another line along which P and an end Q of its edge can enter each other, if both are convex
+ * corners that may meet in this step and it is in the list; else -1. In a notch Q both edges hold P at once. */
+static int find_rival(const bbm_model *m, pair p, int Q, pair other)
 {
     const bbm_contact_work *w = m->work;
-    int rival = -1;
-    const pair line[3] = { { p.corner, other_edge }, { Q, p.corner }, { Q, w->before[p.corner] } };
     const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
 
-    if (!is_corner(w, Q) || !is_convex(w, Q) || !is_corner(w, p.corner))
+    if (!is_corner(w, Q) || !is_convex(w, Q) || !is_corner(w, p.corner) || coincide(w, p.edge, other.edge))
         return -1;
-    if (hypot(a->x - b->x, a->y - b->y) > 2 * w->search)
-        return -1;
-    for (int k = 2; k >= 0; k--) {
-        const int found = find_pair(w, line[k].corner, line[k].edge);
-        if (found >= 0 && !coincide(w, p.edge, line[k].edge) && can_enter(w, line[k].corner, line[k].edge, 0, PARALLEL))
-            rival = found;
-    }
-    return rival;
+    return hypot(a->x - b->x, a->y - b->y) > 2 * w->search ? -1 : find_pair(w, other.corner, other.edge);
 }
 
 /* ------------------------------------------------------------- detection: what carries over from step to step */
@@ -705,18 +694,22 @@ static double joint_area(const bbm_model *m, pair p)
                          m->element[m->edge[p.edge].element].material.thickness);
 }
 
-/* A closed contact is free when P has left past a corner Q: its rival line is open, or its foot is off the edge. */
+/* A closed contact is free when P has left past a corner Q: a rival line on which they can enter each other is open, or
+ * there is none and the foot is off the edge. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
+    int rivals = 0;
 
-    for (int k = 0; k < 2; k++)
-        if (c->rival[k] >= 0) {
-            const pair r = w->pairs_of[c->rival[k]];
-            if (find_foot(m, r.corner, r.edge).d > 0)
-                return 1;
-        }
-    return c->off && c->rival[0] < 0 && c->rival[1] < 0;
+    for (int k = 0; k < 4; k++) {
+        if (c->rival[k] < 0)
+            continue;
+        const pair r = w->pairs_of[c->rival[k]];
+        if (find_foot(m, r.corner, r.edge).d > 0 && can_enter(w, r.corner, r.edge, 0, PARALLEL))
+            return 1;
+        rivals++;
+    }
+    return c->off && rivals == 0;
 }
 
 /* Makes a pair a contact, with the state of the one that it continues. A foot beyond the end of the edge is off it,
@@ -727,15 +720,18 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const bbm_contact_work *w = m->work;
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
     const foot f = find_foot(m, p.corner, p.edge);
-    const int strong = m->par.cohesion > 0 || m->par.tension > 0;
+    const int strong = m->par.cohesion > 0 || m->par.tension > 0, end = w->after[p.edge];
+    const int start = m->info.step == 0 && m->info.t == 0;
 
-    *c = old ? *old : (bbm_contact){ .whole = m->info.step == 0 && fmax(fabs(f.d), f.off) <= w->touch };
+    *c = old ? *old : (bbm_contact){ .whole = start && fmax(fabs(f.d), f.off) <= w->touch };
     if (!old && c->whole && (strong || isinf(m->h)))
         c->state = BBM_LOCK;
     c->corner = p.corner;
     c->edge = p.edge;
-    c->rival[0] = find_rival(m, p, p.edge, w->before[p.edge]);
-    c->rival[1] = find_rival(m, p, w->after[p.edge], w->after[p.edge]);
+    c->rival[0] = find_rival(m, p, p.edge, (pair){ p.corner, w->before[p.edge] });
+    c->rival[1] = find_rival(m, p, p.edge, (pair){ p.edge, w->before[p.corner] });
+    c->rival[2] = find_rival(m, p, end, (pair){ p.corner, end });
+    c->rival[3] = find_rival(m, p, end, (pair){ end, p.corner });
     c->gap = f.d;
     c->off = f.off > w->touch && is_convex(w, f.off == -f.s ? p.edge : w->after[p.edge]);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
@@ -830,6 +826,13 @@ void bbm_contact_pair(const bbm_model *m, int k, int elements[2])
     elements[1] = m->edge[m->work->pairs_of[k].edge].element;
 }
 
+/* The friction of a sliding contact under the N of the last solution. Without cohesion it goes on below N = 0, where the
+ * strength ends: such a contact opens when it is judged, and until then N depends on N without a kink (agree). */
+static double friction_force(const bbm_parameters *p, const bbm_contact *c)
+{
+    return c->sign * (c->area > 0 ? bbm_shear_strength(p, c->used, c->area) : c->used * tan_friction(p));
+}
+
 static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
 {
     const bbm_touch t = touch_of(m, c);
@@ -840,7 +843,7 @@ static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
     if (c->state == BBM_LOCK)
         bbm_shear_submatrices(&t, c->anchor, c->more[1], m->par.p_s, &s);
     else
-        bbm_friction_submatrices(&t, c->anchor, c->sign * bbm_shear_strength(&m->par, c->used, c->area), &s);
+        bbm_friction_submatrices(&t, c->anchor, friction_force(&m->par, c), &s);
     return bbm_add_submatrices(m, i, j, &s);
 }
 
@@ -929,7 +932,8 @@ static void put_back(const bbm_model *m, bbm_contact *c)
     c->more[1] -= d[1];
 }
 
-/* Puts the terms back that belong to the solution; whether those it was made with were off by more than the slack. */
+/* Puts the terms back that belong to the solution; whether the forces of those it was made with were off by more than
+ * the slack. */
 static int correct_distances(bbm_model *m, double slack)
 {
     int off = 0;
@@ -940,7 +944,8 @@ static int correct_distances(bbm_model *m, double slack)
         if (c->state == BBM_OPEN)
             continue;
         put_back(m, c);
-        if (fabs(more[0] - c->more[0]) > slack || (c->state == BBM_LOCK && fabs(more[1] - c->more[1]) > slack))
+        if (m->par.p_n * fabs(more[0] - c->more[0]) > slack
+            || (c->state == BBM_LOCK && m->par.p_s * fabs(more[1] - c->more[1]) > slack))
             off = 1;
     }
     return off;
@@ -1061,7 +1066,18 @@ static int foot_on_edge(const bbm_model *m, const bbm_contact *c)
 
 static int enters_at_end(const bbm_model *m, const bbm_contact *c)
 {
-    return can_enter(m->work, c->corner, c->edge, turning(m, m->D, c->corner, c->edge), PARALLEL);
+    const double r = m->D[6 * m->edge[c->corner].element + 2] - m->D[6 * m->edge[c->edge].element + 2];
+
+    return can_enter(m->work, c->corner, c->edge, r, PARALLEL);
+}
+
+/* Of two lines across each other that are crossed as deep, the flatter one counts; of two as steep, that which rises to
+ * the right. */
+static int goes_first(direction p, direction q)
+{
+    const double flatter = fabs(q.y) - fabs(p.y);
+
+    return fabs(flatter) > PARALLEL ? flatter > 0 : p.x * p.y > 0;
 }
 
 /* Whether an open contact, though crossed, may not close: not on the edge, or not a corner's point at the end of the
@@ -1073,7 +1089,7 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
 
     if (!foot_on_edge(m, c) || !enters_at_end(m, c))
         return 1;
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 4; k++) {
         if (c->rival[k] < 0)
             continue;
         const bbm_contact *r = &w->list[c->rival[k]];
@@ -1082,7 +1098,7 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
         if (!enters_at_end(m, r))
             continue;
         const double mine = fmin(c->gap, c->d_n), other = fmin(r->gap, r->d_n);
-        if (r->d_n >= 0 || (foot_on_edge(m, r) && (other > mine || (other == mine && r < c))))
+        if (r->d_n >= 0 || (foot_on_edge(m, r) && (other > mine || (other == mine && goes_first(w->along[r->edge], w->along[c->edge])))))
             return 1;
     }
     return 0;
@@ -1135,7 +1151,8 @@ static int change_states(bbm_model *m, double slack)
     return changes;
 }
 
-/* Notes the states of this pass as one number (FNV-1a); if they have been there before, the iteration cycles. */
+/* Notes the states of this pass as one number (FNV-1a); if they have been there before, the iteration cycles - but not
+ * if they are those of the last pass, after which only distances were corrected. */
 static void watch_for_cycles(bbm_contact_work *w)
 {
     uint64_t hash = 14695981039346656037u;
@@ -1143,7 +1160,7 @@ static void watch_for_cycles(bbm_contact_work *w)
     for (int k = 0; k < w->pairs; k++)
         hash = (hash ^ ((uint64_t)(int64_t)copysign(w->list[k].state, w->list[k].sign))) * 1099511628211u;
     for (int p = 0; p < w->passes; p++)
-        if (w->seen[p] == hash)
+        if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)
             w->single = 1;
     w->seen[w->passes] = hash;
 }
@@ -1164,7 +1181,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     }
     w->forces = w->directions = 0;
     watch_for_cycles(w);
-    if (!change_states(m, AGREE * scale) && !correct_distances(m, SECOND * scale / m->par.p_n))
+    if (!change_states(m, AGREE * scale) && !correct_distances(m, SECOND * scale))
         *pass = BBM_PASS_DONE;
     else
         *pass = ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
