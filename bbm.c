@@ -1647,6 +1647,12 @@ static void count_time(bbm_model *m, int phase, clock_t since)
     m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
 }
 
+static bbm_status unsettled(bbm_model *m)
+{
+    return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1, m->info.t,
+                m->h, m->info.passes, bbm_contact_count(m));
+}
+
 /* Assembles and solves until the contacts have settled, and then once more for each round of multipliers, which change
  * F alone: K and all that the solver made of it are kept. */
 static bbm_status settle_contacts(bbm_model *m)
@@ -1672,38 +1678,37 @@ static bbm_status settle_contacts(bbm_model *m)
         }
         start = clock();
     }
-    if (!status && pass == BBM_PASS_GIVE_UP)
-        return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1,
-                    m->info.t, m->h, m->info.passes, bbm_contact_count(m));
-    return status;
+    return !status && pass == BBM_PASS_GIVE_UP ? unsettled(m) : status;
 }
 
-/* Fig. 8 once with the step m->h. Nothing moves before all has gone well. */
+/* Fig. 8 once with the step m->h. Nothing moves before all has gone well: a solution that moves further than its
+ * contacts were looked for is the next guess, and if they outrun it again and again the step has not settled. */
 static bbm_status try_step(bbm_model *m)
 {
     enum { DETECTIONS = 8 };
     bbm_status status = BBM_OK;
+    int foreseen = 0;
 
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     gather_loads(m);
     bbm_guess_step(m);
-    for (int k = 0; k < DETECTIONS && !status; k++) {
+    for (int k = 0; k < DETECTIONS && !status && !foreseen; k++) {
         const clock_t start = clock();
         const int alone = k > 0 && bbm_contact_count(m) == 0;
         status = bbm_detect_contacts(m);
         count_time(m, BBM_DETECT, start);
-        if (!status && alone && bbm_contact_count(m) == 0)
-            break;                              /* nothing was in reach, nothing is: the solution holds */
-        if (!status && isinf(m->h))
+        foreseen = alone && bbm_contact_count(m) == 0;      /* nothing was in reach, nothing is: the solution holds */
+        if (status || foreseen)
+            break;
+        if (isinf(m->h))
             status = check_held(m);
         if (!status)
             status = settle_contacts(m);
-        if (!status && !bbm_moved_too_far(m))
-            break;
+        foreseen = !status && !bbm_moved_too_far(m);
     }
-    if (status)
-        return status;
+    if (status || !foreseen)
+        return status ? status : unsettled(m);
     update(m);
     return bbm_keep_contacts(m);
 }
