@@ -1504,6 +1504,75 @@ START_TEST(the_other_corner_takes_over_the_force_when_one_has_left)
 }
 END_TEST
 
+/* A block overhangs the end of a table: its corner is closed on the table, and the table's corner on its underside. Then
+ * it lies on the table by a ten-millionth only, corner on corner: of the two that have become one contact one stays. */
+START_TEST(of_two_closed_contacts_that_meet_corner_on_corner_one_stays)
+{
+    for (int k = 0; k < 2 * COUNT(ANGLES); k++) {
+        const double side = k % 2 ? 1 : -1, c = cos(radians(ANGLES[k / 2])), s = sin(radians(ANGLES[k / 2]));
+        bbm_model *m = new_model();
+        int closed = 0;
+        add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, ANGLES[k / 2], .fixed = 1 });
+        const int e = add_rectangle(m, 1, ROCK, (rectangle){ side * 5 - 0.5, 0, 1, 1, ANGLES[k / 2], .fixed = 0 });
+        ck_ok(bbm_prepare(m), m);
+        detect(m);
+        ck_assert_int_eq(m->contacts, 2);
+        m->contact[0].state = m->contact[1].state = BBM_LOCK;
+        for (int v = 0; v < 4; v++) {
+            m->vertex[m->element[e].first + v].x += side * c * (0.5 - 1e-7);
+            m->vertex[m->element[e].first + v].y += side * s * (0.5 - 1e-7);
+        }
+        detect(m);
+        for (int i = 0; i < m->contacts; i++)
+            closed += m->contact[i].state == BBM_LOCK;
+        ck_assert_int_eq(closed, 1);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* A square's corner Q, and a corner P of another one, tilted by 0.05 rad the one way, that turns by 0.1 rad to the other
+ * way while it comes: which of the four pairs are contacts has changed by the end, where P is 2 cm left of Q's right
+ * side and 3 cm or 1 cm below its top. One contact closes, on the line along which they are less deep. */
+START_TEST(corners_that_turn_past_each_other_close_one_contact)
+{
+    const double turn = _i % 2 ? 0.1 : -0.1, deep = _i / 2 ? 0.01 : 0.03, start[2] = { 5.02, 3.02 };
+    double square[4][2], u[2];
+    bbm_model *m = new_model();
+    bbm_pass pass;
+    int closed = 0;
+
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = 4, .y = 2, .w = 1, .h = 1 });
+    for (int k = 0; k < 4; k++) {
+        const double X = k == 1 || k == 2 ? 1 : 0, Y = k < 2 ? 0 : 1;
+        square[k][0] = start[0] + X * cos(turn / 2) + Y * sin(turn / 2);
+        square[k][1] = start[1] - X * sin(turn / 2) + Y * cos(turn / 2);
+    }
+    const int e = add_polygon(m, 1, 4, (const double (*)[2])square);
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, e, -10, -10);
+    m->element[e].V[2] = turn / m->par.dt;
+    m->h = m->par.dt;
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m), m);
+    m->D[6 * e + 2] = turn;
+    bbm_move(m, &m->element[e], &m->D[6 * e], start[0], start[1], u);
+    m->D[6 * e] = 4.98 - start[0] - u[0];
+    m->D[6 * e + 1] = 3 - deep - start[1] - u[1];
+    ck_ok(bbm_open_close(m, &pass), m);
+    ck_ok(bbm_keep_contacts(m), m);
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_vertex *a = start_of(m, m->contact[k].edge), *b = end_of(m, m->contact[k].edge);
+        if (m->contact[k].state == BBM_OPEN)
+            continue;
+        ck_assert_int_eq(fabs(b->x - a->x) > fabs(b->y - a->y), _i / 2);
+        closed++;
+    }
+    ck_assert_int_eq(closed, 1);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* -------------------------------------------------------------------------------- sliding: where contacts go along */
 
 /* A block of 1 m x 0.5 m on a fixed incline of `pieces` elements at 30 degrees; it is element pieces. */
@@ -2126,6 +2195,62 @@ static bbm_model *joined(double fx, double fy)
     ck_ok(bbm_prepare(m), m);
     return m;
 }
+
+/* A plate of 1 cm in four pieces comes down on a table, through which its upper side is in reach, too: what touches are
+ * the grid points of its lower side. */
+START_TEST(points_that_face_away_from_an_edge_do_not_touch_it)
+{
+    for (int k = 0; k < COUNT(ANGLES); k++) {
+        const double c = cos(radians(ANGLES[k])), s = sin(radians(ANGLES[k]));
+        bbm_model *m = new_model();
+        add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, ANGLES[k], .fixed = 1 });
+        const int e = add_rectangle(m, 1, ROCK, (rectangle){ -1, 0.03, 2, 0.01, ANGLES[k], .nx = 4 });
+        ck_ok(bbm_prepare(m), m);
+        for (int i = e; i < e + 4; i++)
+            set_velocity(m, i, 5 * s, -5 * c);
+        detect(m);
+        ck_assert_int_eq(m->contacts, 5);
+        for (int i = 0; i < m->contacts; i++)
+            ck_near(c * corner_vertex(m, &m->contact[i])->y - s * corner_vertex(m, &m->contact[i])->x, 0.03, 1, ROUNDING);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* Two blocks turn the same way, so that neither turns against the other; but one may be stopped, and so a corner whose
+ * side points into the other's edge by less than twice the turn of both may come to touch. */
+START_TEST(blocks_that_turn_alike_may_come_to_turn_against_each_other)
+{
+    const double tilt = 0.15, c = cos(tilt), s = sin(tilt);
+    const double square[4][2] = { { 0, 0.01 }, { c, 0.01 - s }, { c + s, 0.01 + c - s }, { s, 0.01 + c } };
+    bbm_model *m = new_model();
+    int found = 0;
+
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -2, .y = -1, .w = 2.01, .h = 1 });
+    const int e = add_polygon(m, 1, 4, square);
+    ck_ok(bbm_prepare(m), m);
+    m->element[0].V[2] = m->element[e].V[2] = (_i ? 0.1 : 0.02) / m->par.dt;
+    detect(m);
+    for (int k = 0; k < m->contacts; k++)
+        found += corner_vertex(m, &m->contact[k]) == vertex_of(m, e, 0) && end_of(m, m->contact[k].edge)->x == -2;
+    ck_assert_int_eq(found, _i);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Blocks that touch when some time has gone have no joint, though the first step is still under way. */
+START_TEST(a_joint_is_there_at_the_start_or_never)
+{
+    bbm_model *m = joined(0, 0);
+
+    m->info.t = _i ? 1e-3 : 0;
+    detect(m);
+    ck_assert_int_eq(m->contacts, 2);
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(m->contact[k].whole, !_i);
+    bbm_model_free(m);
+}
+END_TEST
 
 START_TEST(a_joint_breaks_at_its_tensile_strength)
 {
@@ -2778,6 +2903,48 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
 }
 END_TEST
 
+/* Three looks at a block: it comes down on the table; turns there by 0.01 rad, so that distances are corrected and no
+ * state changes; and is lifted off. That is no cycle, so both contacts open at once. */
+START_TEST(a_pass_that_corrects_distances_is_no_cycle)
+{
+    bbm_model *m = block_on_table();
+    bbm_pass pass;
+
+    for (int k = 0; k < 3; k++) {
+        m->D[7] = k < 2 ? -0.01 : 0.01;
+        m->D[8] = k == 1 ? 0.01 : 0;
+        ck_ok(bbm_open_close(m, &pass), m);
+        ck_assert_int_eq(pass, BBM_PASS_AGAIN);
+    }
+    ck_ok(bbm_keep_contacts(m), m);
+    ck_assert_int_eq(m->info.contacts, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Twenty piles of polygons that are thrown about and come to rest, three seconds of each: no step fails, few are cut,
+ * and most settle in some passes. With a kink in the friction at N = 0 the mean is 12 and a few end in NaN. */
+START_TEST(piles_settle_in_few_passes)
+{
+    int passes = 0, cuts = 0;
+
+    for (unsigned seed = 1; seed <= 20; seed++) {
+        bbm_model *m = pile(seed, 0);
+        for (int b = 0; b < PILE; b++) {
+            set_velocity(m, b + 1, seed % 2 ? 3.0 * (b % 3 - 1) : 0, seed % 2 ? -4 : 0);
+            m->element[b + 1].V[2] = seed % 2 ? 6 - 12 * (b % 2) : 0;
+        }
+        for (int i = 0; i < 60; i++) {
+            run_steps(m, 1);
+            passes += m->info.passes;
+            cuts += m->info.cuts;
+        }
+        bbm_model_free(m);
+    }
+    ck_assert_msg(passes < 10 * 20 * 60 && cuts < 20, "%d passes, %d cuts", passes, cuts);
+}
+END_TEST
+
 #define PARAMETER(name, value) { offsetof(bbm_parameters, name), value, #name }
 
 static const struct { size_t offset; double value; const char *name; } PARAMETERS[] = {
@@ -3106,6 +3273,8 @@ static void add_corners(Suite *s)
         { a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one, 4 * COUNT(PASSED) },
         { the_ends_of_a_joint_open_and_close_by_themselves, 1 },
         { the_other_corner_takes_over_the_force_when_one_has_left, 2 },
+        { of_two_closed_contacts_that_meet_corner_on_corner_one_stays, 1 },
+        { corners_that_turn_past_each_other_close_one_contact, 4 },
     };
 
     add_case(s, "corners", e, COUNT(e));
@@ -3144,6 +3313,9 @@ static void add_rest(Suite *s)
         { a_bonded_block_at_rest_has_the_stress_of_its_own_weight, 1 },
         { an_overhang_stands_short_of_the_harmonic_limit_and_falls_beyond, 2 },
         { grid_points_beyond_the_end_of_a_table_are_not_held, 2 },
+        { points_that_face_away_from_an_edge_do_not_touch_it, 1 },
+        { blocks_that_turn_alike_may_come_to_turn_against_each_other, 2 },
+        { a_joint_is_there_at_the_start_or_never, 2 },
         { a_joint_breaks_at_its_tensile_strength, 2 },
         { a_joint_without_shear_strength_has_its_tensile_strength, 2 },
         { a_joint_slips_at_its_cohesion_and_friction, 4 },
@@ -3182,6 +3354,8 @@ static void add_redone(Suite *s)
         { a_solution_that_moves_further_than_foreseen_is_noticed, 4 },
         { the_end_of_an_edge_belongs_to_it, 4 },
         { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
+        { a_pass_that_corrects_distances_is_no_cycle, 1 },
+        { piles_settle_in_few_passes, 1 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_pile_falls_the_same_way_twice_to_the_last_bit, 1 },
