@@ -2922,8 +2922,9 @@ START_TEST(a_pass_that_corrects_distances_is_no_cycle)
 }
 END_TEST
 
-/* Twenty piles of polygons that are thrown about and come to rest, three seconds of each: no step fails, few are cut,
- * and most settle in some passes. With a kink in the friction at N = 0 the mean is 12 and a few end in NaN. */
+/* Twenty piles of polygons that fall or are thrown about, 60 steps each: none fails, hardly any is cut, and most settle
+ * in some passes, 6.4 in the mean. With a kink in the friction at N = 0 it is 8.7, a dozen are cut, and in longer runs
+ * some end in NaN. */
 START_TEST(piles_settle_in_few_passes)
 {
     int passes = 0, cuts = 0;
@@ -2941,7 +2942,7 @@ START_TEST(piles_settle_in_few_passes)
         }
         bbm_model_free(m);
     }
-    ck_assert_msg(passes < 10 * 20 * 60 && cuts < 20, "%d passes, %d cuts", passes, cuts);
+    ck_assert_msg(passes < 8 * 20 * 60 && cuts < 6, "%d passes, %d cuts", passes, cuts);
 }
 END_TEST
 
