@@ -160,7 +160,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     double area;                /* m^2      of the joint that P1 stands for; 0 if it is not whole               */
     int    off;                 /* the foot is not on the edge at the start                                     */
     double d_n, d_s;            /* m        normal distance and slip at the end                                 */
-    double more[2];             /* m        second-order terms of d_n and d_s that (54) and (60) drop           */
+    double more[2];             /* m        second-order terms of d_n and d_s that (55) and (61) drop           */
     double used;                /* N        the N that the friction of the last solution used                   */
     bbm_contact_state next;
     int    closings;            /* in this step                                                                 */
@@ -199,7 +199,7 @@ typedef struct {                /* what the last step did                       
     bbm_pcg_info pcg;
     int    passes;              /* solutions of the open-close iteration                                        */
     int    cuts;                /* how often dt was halved                                                      */
-    int candidates;             /* corners and edges that the detection compared                                */
+    int candidates;             /* pairs of a boundary vertex and a boundary edge that the detection compared   */
     int    contacts;            /* closed                                                                       */
     double penetration;         /* m        the deepest                                                         */
     int    iterations;          /* of SSOR-PCG, in all solutions of the step                                    */

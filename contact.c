@@ -32,18 +32,18 @@
  *      _______Q                  |                      penetration, the shortest way out. Two lines that coincide
  *             |                  |   B                  are one contact: of P on Q's edge and Q on P's edge that one
  *        B    |                  |                      stays whose foot lies on its edge; at a tie, the one that it
- *                                                       was before; at first, the edge that faces up.
+ *                                                       was before, or else the edge that faces up.
  * Corner exactly on corner, the flatter line counts: the same in any order of the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N. For given states that map is
- * affine: its fixed point is found by conjugate residuals (agree), in few more solutions than there are contacts
- * that slide, however badly the plain iteration N -> friction -> N converges. Only then are the states judged, on
- * forces that belong to them. When a set of states comes back that has been there before, the iteration would cycle:
- * from then on only the first contact that wants to change does so in each pass (Murty's rule of the least index),
- * and a contact that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a
- * step that does not settle is done again with half the time step, without a trace of the first trial.
+ * affine (while no cohesion is used up): its fixed point is found by conjugate residuals (agree), in few more solutions
+ * than contacts slide, however badly the plain iteration N -> friction -> N converges. Only then are the states judged,
+ * on forces that belong to them. When a set of states comes back that has been there before, the iteration would cycle:
+ * from then on only the first contact that wants to change does so in each pass (Murty's rule of the least index), and
+ * a contact that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a step
+ * that does not settle is done again with half the time step, without a trace of the first trial.
  *
- * Deviations from the paper: the second-order terms that (54) and (60) drop are put back (put_back); grid points inside
+ * Deviations from the paper: the second-order terms that (55) and (61) drop are put back (put_back); grid points inside
  * the shorter of two straight sides touch, too (carries), so that a deformable block rests on its whole side.
  */
 #include "bbm.h"
@@ -54,7 +54,8 @@
 #include <string.h>
 
 /* --- tolerances; none depends on the size of the domain ---
- * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side: rounding of a model file
+ * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and sides that differ less
+ *                 in length, relatively, are as long: rounding of a model file
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies on it: what
  *                 penetration and elastic bending turn
  * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and feet closer to the end of an
@@ -69,8 +70,8 @@
 
 #define FAR 1e15        /* cells of the grid */
 
-/* Places of the grid for each edge, 4 x 4; directions that `agree` remembers; passes that change states, and that change
- * forces between two of them. */
+/* Places of the grid for each edge, 4 x 4; directions that `agree` remembers; passes that change states or correct
+ * distances, and that change forces between two of them. */
 enum { PLACES = 16, DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
 
 typedef struct { double x, y, length; } direction;              /* unit vector along an edge                     */
@@ -145,7 +146,7 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). `more` is added to d_n: the second-order term that (54) drops. */
+/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). `more` is added to d_n: the second-order term that (55) drops. */
 void bbm_normal_submatrices(const bbm_touch *c, double more, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;
@@ -458,8 +459,8 @@ static foot find_foot(const bbm_model *m, int corner, int e)
     return (foot){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
 }
 
-/* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's:
- * so the block is convex there and lies on the outside. */
+/* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
+ * and the block is convex there: it lies on the outside. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
 {
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
@@ -473,8 +474,8 @@ static int coincide(const bbm_contact_work *w, int e, int f)
     return fabs(cross(w->along[e], w->along[f])) <= PARALLEL;
 }
 
-/* Of two edges along p and q that face each other, whether the outward normal of the first, (p.y, -p.x), is the one that
- * points up, or if both are upright, to the right. */
+/* Of two edges along p and q that face each other, whether the outward normal of the first, (p.y, -p.x), is the one
+ * that points up, or if both are upright, to the right. */
 static int faces_up(direction p, direction q)
 {
     return signbit(fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y);
@@ -571,9 +572,9 @@ static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
     return !is_corner(w, e) && is_listed(w, corner, d) && find_foot(m, corner, d).s < w->along[d].length;
 }
 
-/* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the edges
- * coincide. When the sides that end in P and Q are aligned, starting there and running the same way, just one of P and
- * Q has its foot on the other's edge. Whether P on f has to go. */
+/* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the
+ * edges coincide. When the sides are aligned, when both start in P and Q or both end there, just one of P and Q has
+ * its foot on the other's edge. Whether P on f has to go. */
 static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
 {
     const bbm_contact_work *w = m->work;
@@ -588,7 +589,7 @@ static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
     return here != there ? there : !faces_up(w->along[mine.edge], w->along[other.edge]);
 }
 
-/* The four pairs of an end Q of P's edge with an edge that ends in P: 0 and 3 have aligned sides. */
+/* The four pairs of an end Q of P's edge with an edge of which P is an end: 0 and 3 have aligned sides. */
 static pair reversed_pair(const bbm_contact_work *w, pair p, int k)
 {
     return (pair){ k < 2 ? p.edge : w->after[p.edge], k % 2 ? p.corner : w->before[p.corner] };
@@ -826,8 +827,8 @@ void bbm_contact_pair(const bbm_model *m, int k, int elements[2])
     elements[1] = m->edge[m->work->pairs_of[k].edge].element;
 }
 
-/* The friction of a sliding contact under the N of the last solution. Without cohesion it goes on below N = 0, where the
- * strength ends: such a contact opens when it is judged, and until then N depends on N without a kink (agree). */
+/* The friction of a sliding contact under the N of the last solution. Without cohesion it goes on below N = 0, where
+ * the strength ends: such a contact opens when it is judged, and until then N depends on N without a kink (agree). */
 static double friction_force(const bbm_parameters *p, const bbm_contact *c)
 {
     return c->sign * (c->area > 0 ? bbm_shear_strength(p, c->used, c->area) : c->used * tan_friction(p));
@@ -888,7 +889,7 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
     return d;
 }
 
-/* The linear d_n and d_s of the solution, Eq. (54) and (60). */
+/* The linear d_n and d_s of the solution, Eq. (57) and (61). */
 static void linear_distances(const bbm_model *m, const bbm_contact *c, double d[2])
 {
     const bbm_touch t = touch_of(m, c);
@@ -920,7 +921,7 @@ static void measure(const bbm_model *m, bbm_contact *c)
     }
 }
 
-/* What (54) and (60) leave out, of second order in the turning. Deviation: it is put back. Without it a corner that
+/* What (55) and (61) leave out, of second order in the turning. Deviation: it is put back. Without it a corner that
  * turns by r ends the step r^2/2 times its lever away from where the spring held it: for a stiff spring, a blow. */
 static void put_back(const bbm_model *m, bbm_contact *c)
 {
@@ -1080,8 +1081,8 @@ static int goes_first(direction p, direction q)
     return fabs(flatter) > PARALLEL ? flatter > 0 : p.x * p.y > 0;
 }
 
-/* Whether an open contact, though crossed, may not close: not on the edge, or not a corner's point at the end of the
- * step; or a rival line is closed, is not crossed, or is the shorter way out (at a tie, the first). A line counts by
+/* Whether an open contact, though crossed, may not close: off the edge from the start of the step to its end, or a side
+ * points into the edge by then; or a rival line is closed, is not crossed, or is the shorter way out. A line counts by
  * its deepest in the step: P does not come in through one that it has been behind from the start, beyond the corner. */
 static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
@@ -1098,7 +1099,8 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
         if (!enters_at_end(m, r))
             continue;
         const double mine = fmin(c->gap, c->d_n), other = fmin(r->gap, r->d_n);
-        if (r->d_n >= 0 || (foot_on_edge(m, r) && (other > mine || (other == mine && goes_first(w->along[r->edge], w->along[c->edge])))))
+        const int first = other == mine ? goes_first(w->along[r->edge], w->along[c->edge]) : other > mine;
+        if (r->d_n >= 0 || (first && foot_on_edge(m, r)))
             return 1;
     }
     return 0;

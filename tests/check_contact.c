@@ -1,17 +1,11 @@
-/* check_contact.c - tests of contact.c; the name of each test is what it shows.
- *
- * The oracles are not the code:
- *   - the potential energies of sections 3.7 and 3.8, written with the determinant of the moved points, and their
- *     central differences, which are exact for a quadratic;
- *   - the transfer table of the states, written out cell by cell;
- *   - detection by comparing every vertex with every edge, from the outlines of the blocks alone;
- *   - closed forms: sliding, toppling, columns, overhangs, impact, the stress of a block under its own weight;
- *   - invariants: momentum, forces in balance, the same result in another order, in another frame, in smaller steps.
- *
- * Tolerances. 1e-12: a few operations on numbers near 1. 1e-9: after a solve, rounding times a condition number of
- * about p_n dt^2/m = 1e3 and the slack of the open-close iteration, 1e-9 of the largest force. What is larger has its
- * reason beside it.
- */
+/* check_contact.c - tests of contact.c; the name of each test is what it shows.  The oracles are not the code: - the
+ * potential energies of sections 3.7 and 3.8, written with the determinant of the moved points, and their central
+ * differences, which are exact for a quadratic; - the transfer table of the states, written out cell by cell; -
+ * detection by comparing every vertex with every edge, from the outlines of the blocks alone; - closed forms: sliding,
+ * toppling, columns, overhangs, impact, the stress of a block under its own weight; - invariants: momentum, forces in
+ * balance, the same result in another order, in another frame, in smaller steps.  Tolerances. 1e-12: a few operations
+ * on numbers near 1. 1e-9: after a solve, rounding times a condition number of about p_n dt^2/m = 40 to 1e3 and the
+ * slack of the open-close iteration, 1e-9 of the largest force. What is larger has its reason beside it. */
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -158,7 +152,7 @@ static const bbm_contact *contact_of(const bbm_model *m, int element, int corner
     return NULL;
 }
 
-/* All that a step may change, in one piece of memory; the number of doubles. */
+/* What a step may change and the next one starts from, in one piece of memory; the number of doubles. */
 enum { STATE = 4000 };
 
 static size_t state_of(const bbm_model *m, double state[STATE])
@@ -261,7 +255,7 @@ static double edge_length(const encounter *c)
     return sqrt(pow(c->touch.P3->x - c->touch.P2->x, 2) + pow(c->touch.P3->y - c->touch.P2->y, 2));
 }
 
-/* d_n of (54): S is of second order in D, so that half the difference of S(D) and S(-D) is its first-order part. */
+/* d_n of (57): S is of second order in D, so that half the difference of S(D) and S(-D) is its first-order part. */
 static double normal_distance(const encounter *c, const double D[UNKNOWNS])
 {
     const double first = (moved_determinant(c, D, 1) - moved_determinant(c, D, -1)) / 2;
@@ -269,7 +263,7 @@ static double normal_distance(const encounter *c, const double D[UNKNOWNS])
     return (moved_determinant(c, D, 0) + first) / edge_length(c);
 }
 
-/* d_s of (60): the way of P1 from P0 along the edge as it was. */
+/* d_s of (61): the way of P1 from P0 along the edge as it was. */
 static double slip(const encounter *c, const double D[UNKNOWNS])
 {
     const bbm_vertex *P1 = c->touch.P1, *P2 = c->touch.P2, *P3 = c->touch.P3;
@@ -801,7 +795,7 @@ static double compared(int bricks, int n, double size)
     bbm_model *m = new_model();
 
     for (int k = 0; bricks && k < n * n; k++)
-        add_rectangle(m, k, ROCK, (rectangle){ (k % n + k / n % 2 / 2.0) * size, k / n * size, size, size, .angle = 0 });
+        add_rectangle(m, k, ROCK, (rectangle){ (k % n + k / n % 2 / 2.0) * size, k / n * size, size, size, 0, .nx = 1 });
     if (!bricks) {
         add_rectangle(m, 0, ROCK, (rectangle){ -0.5 * size, -size, 2 * n * size, size, .nx = 2 * n });
         add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, n * size, size, .nx = n });
@@ -1014,8 +1008,8 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_upper_one_touch)
 }
 END_TEST
 
-/* The side of one block in pieces, and in the middle of it the shorter side of another one in pieces: the grid points of
- * the shorter side touch, wherever the two are, of whatever size, whichever is the upper one. */
+/* The side of one block in pieces, and in the middle of it the shorter side of another one in pieces: the grid points
+ * of the shorter side touch, wherever the two are, of whatever size, whichever is the upper one. */
 START_TEST(of_two_sides_the_grid_points_of_the_shorter_one_touch)
 {
     const double x[4] = { 0, 4, -5, 2 }, y[4] = { 0, 7, -3, -4 }, size[3] = { 1, 1e-3, 1e3 };
@@ -1340,7 +1334,8 @@ static void stand(const bbm_model *m, const bbm_contact *c, double *beyond, doub
 static int is_other_line(const bbm_model *m, const bbm_contact *c, const bbm_vertex *Q, const bbm_contact *r)
 {
     const bbm_vertex *P = corner_vertex(m, c), *a = start_of(m, r->edge), *b = end_of(m, r->edge);
-    const double x = end_of(m, c->edge)->x - start_of(m, c->edge)->x, y = end_of(m, c->edge)->y - start_of(m, c->edge)->y;
+    const double x = end_of(m, c->edge)->x - start_of(m, c->edge)->x;
+    const double y = end_of(m, c->edge)->y - start_of(m, c->edge)->y;
     const int p = corner_vertex(m, r)->node, q = p == P->node ? Q->node : P->node;
     double beyond, clear;
 
@@ -1379,7 +1374,8 @@ START_TEST(the_two_lines_between_two_corners_are_rivals)
     for (int k = 0; k < 2 * COUNT(ANGLES); k++) {
         bbm_model *m = new_model();
         add_rectangle(m, 0, ROCK, (rectangle){ 4, 2, 1, 1, ANGLES[k / 2], .fixed = 0 });
-        const int e = add_rectangle(m, 1, ROCK, (rectangle){ k % 2 ? 5.01 : 2.99, 3.01, 1, 1, ANGLES[k / 2], .fixed = 0 });
+        const double x = k % 2 ? 5.01 : 2.99;
+        const int e = add_rectangle(m, 1, ROCK, (rectangle){ x, 3.01, 1, 1, ANGLES[k / 2], .fixed = 0 });
         ck_ok(bbm_prepare(m), m);
         set_velocity(m, e, _i ? 2 : -2, 0);
         detect(m);
@@ -1504,8 +1500,9 @@ START_TEST(the_other_corner_takes_over_the_force_when_one_has_left)
 }
 END_TEST
 
-/* A block overhangs the end of a table: its corner is closed on the table, and the table's corner on its underside. Then
- * it lies on the table by a ten-millionth only, corner on corner: of the two that have become one contact one stays. */
+/* A block overhangs the end of a table: its corner is closed on the table, and the table's corner on its underside.
+ * Then it lies on the table by a ten-millionth only, corner on corner: of the two that have become one contact one
+ * stays. */
 START_TEST(of_two_closed_contacts_that_meet_corner_on_corner_one_stays)
 {
     for (int k = 0; k < 2 * COUNT(ANGLES); k++) {
@@ -1531,9 +1528,9 @@ START_TEST(of_two_closed_contacts_that_meet_corner_on_corner_one_stays)
 }
 END_TEST
 
-/* A square's corner Q, and a corner P of another one, tilted by 0.05 rad the one way, that turns by 0.1 rad to the other
- * way while it comes: which of the four pairs are contacts has changed by the end, where P is 2 cm left of Q's right
- * side and 3 cm or 1 cm below its top. One contact closes, on the line along which they are less deep. */
+/* A square's corner Q, and a corner P of another one, tilted by 0.05 rad the one way, that turns by 0.1 rad to the
+ * other way while it comes: which of the four pairs are contacts has changed by the end, where P is 2 cm left of Q's
+ * right side and 3 cm or 1 cm below its top. One contact closes, on the line along which they are less deep. */
 START_TEST(corners_that_turn_past_each_other_close_one_contact)
 {
     const double turn = _i % 2 ? 0.1 : -0.1, deep = _i / 2 ? 0.01 : 0.03, start[2] = { 5.02, 3.02 };
@@ -1598,8 +1595,9 @@ static const struct { double phi, tolerance; } SLIDING[] = {
     { 0, 1e-9 }, { 10, 1e-5 }, { 20, 1e-5 }, { 25, 1e-5 }, { 29, 1e-4 },
 };
 
-/* s = g (sin a - cos a tan phi) t^2/2. Gravity comes suddenly: the springs give way by W/(2 p_s) before the block
- * slides, which the tolerance of 1e-5 has to let pass; with 29 degrees it slides a tenth of the way. */
+/* s = g (sin a - cos a tan phi) t^2/2. Gravity comes suddenly: while the block sinks into its springs it feels less
+ * friction, and is ahead by tan(phi) times the penetration, 5.3e-6 m: 5e-6 of the way at 25 degrees. At 29 degrees the
+ * way is a tenth of that, and the block sticks at first. */
 START_TEST(a_block_slides_down_an_incline_as_the_closed_form_says)
 {
     const double phi = SLIDING[_i / 2].phi, g = GRAVITY * (sin(PI / 6) - cos(PI / 6) * tan(radians(phi)));
@@ -1651,7 +1649,10 @@ START_TEST(a_block_thrown_uphill_stops_where_it_should_and_stays_there)
 }
 END_TEST
 
-/* Steeper than the incline, friction holds: nothing moves but the springs, by W sin a/(2 p_s). */
+/* Steeper than the incline, friction holds: the shear springs give way by W sin a/(2 p_s), and the block, 1 m x 0.5 m,
+ * tilts by what the normal springs give, which moves its middle by W sin a h^2/(2 b^2 p_n) more; its own shear strain,
+ * under a millionth of a metre, is left. With 31 degrees on 30 it first slides by some of that, as gravity comes
+ * suddenly. */
 START_TEST(a_block_whose_friction_angle_is_above_the_slope_stays)
 {
     const double W = 0.5 * DENSITY * GRAVITY;
@@ -1659,7 +1660,8 @@ START_TEST(a_block_whose_friction_angle_is_above_the_slope_stays)
     bbm_model *m = incline(_i / 2 ? 40 : 31, 1e9, pieces);
 
     run_steps(m, 100);
-    ck_near(slid(m, pieces), W * sin(PI / 6) / (2 * m->par.p_s), 1, 1e-5);
+    const double give = W * sin(PI / 6) * (1 / (2 * m->par.p_s) + 0.25 / (2 * m->par.p_n));
+    ck_near(slid(m, pieces), give, 1, _i / 2 ? 1e-6 : 1e-5);
     bbm_model_free(m);
 }
 END_TEST
@@ -1951,11 +1953,10 @@ START_TEST(a_block_that_moves_further_than_foreseen_does_not_pass_through_a_wall
 }
 END_TEST
 
-/* A block twice as high as broad on 45 degrees slides without turning when tan(phi) < 1/2. Just below, the
- * iteration N -> friction -> N contracts by tan(phi) h/b = 0.89 a pass; under a block in six pieces seven forces
- * depend on each other. The right ones are found in one pass for each sliding contact, one to see that they are,
- * and one more to put the terms of second order right. Not in the first steps, while the block bounces on its
- * springs and states change. */
+/* A block twice as high as broad on 45 degrees slides without turning when tan(phi) < 1/2. Just below, an error of 1 in
+ * N changes the next N by tan(phi) h/(2 b) = 0.45; under a block in six pieces seven forces depend on each other. The
+ * right ones are found in one pass for each sliding contact, one to see that they are, and one more to put the terms
+ * of second order right. Not in the first steps, while the block bounces on its springs and states change. */
 START_TEST(friction_forces_are_found_in_one_pass_for_each_sliding_contact)
 {
     const double slope = _i ? 30 : 45;
@@ -2168,7 +2169,7 @@ START_TEST(grid_points_beyond_the_end_of_a_table_are_not_held)
         const int e = add_rectangle(m, 1, ROCK, (rectangle){ x, 0, 1, 0.25, ANGLES[k / 2], .nx = 4 });
         ck_ok(bbm_prepare(m), m);
         run_steps(m, 30);
-        const double drop = -sin(angle) * m->element[e + (_i ? 3 : 0)].sum[0] + cos(angle) * m->element[e + (_i ? 3 : 0)].sum[1];
+        const double *way = m->element[e + (_i ? 3 : 0)].sum, drop = -sin(angle) * way[0] + cos(angle) * way[1];
         ck_assert_msg(k % 2 ? drop < -1e-3 : fabs(drop) < 1e-4, "%g", drop);
         bbm_model_free(m);
     }
@@ -2176,7 +2177,7 @@ START_TEST(grid_points_beyond_the_end_of_a_table_are_not_held)
 END_TEST
 
 /* A block 2 m x 1 m on a table, a joint since the start, without gravity: friction 30 degrees, 5 kPa of cohesion, 3
- * kPa of tensile strength. `fx` and `fy` on its upper corners together. */
+ * kPa of tensile strength. `fx` on its lower corners together, `fy` on the upper ones. */
 static bbm_model *joined(double fx, double fy)
 {
     bbm_model *m = new_model();
@@ -2210,8 +2211,10 @@ START_TEST(points_that_face_away_from_an_edge_do_not_touch_it)
             set_velocity(m, i, 5 * s, -5 * c);
         detect(m);
         ck_assert_int_eq(m->contacts, 5);
-        for (int i = 0; i < m->contacts; i++)
-            ck_near(c * corner_vertex(m, &m->contact[i])->y - s * corner_vertex(m, &m->contact[i])->x, 0.03, 1, ROUNDING);
+        for (int i = 0; i < m->contacts; i++) {
+            const bbm_vertex *P = corner_vertex(m, &m->contact[i]);
+            ck_near(c * P->y - s * P->x, 0.03, 1, ROUNDING);
+        }
         bbm_model_free(m);
     }
 }
@@ -2726,8 +2729,8 @@ START_TEST(a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were)
 END_TEST
 
 /* Springs so stiff that the last bit of a coordinate is worth more than the weight, so that friction and normal
- * force cannot agree in a step of any size: it is halved ten times, to dt/1024, and that is all. In statics there
- * is nothing to halve. */
+ * force cannot agree in a step of any size: it is halved ten times, to dt/1024, and that is all. The solver is let
+ * off early, at 1e-6; its exactness would make no difference. The model stays as one that has not been touched. */
 START_TEST(contacts_that_never_settle_end_with_a_status_and_the_numbers)
 {
     bbm_model *m = incline(20, 1e18, 1), *n = incline(20, 1e18, 1);
@@ -2812,23 +2815,24 @@ START_TEST(a_solution_that_agrees_ends_the_iteration)
 }
 END_TEST
 
-/* The block moves at 1 m/s and turns at 1 rad/s, steps of 10 ms: 2.2 times the way of a vertex is foreseen for two that
- * approach each other, twice the turn and half a tolerance of 0.01 rad more. */
+/* The block moves at 1 m/s or turns at 1 rad/s, in steps of 10 ms: foreseen are 1.1 times the way, 2.2 for two vertices
+ * that approach each other, and twice the turn with half a tolerance of 0.01 rad more. */
 START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
 {
-    const double way = 0.01, more[4][2] = { { 1.05, 1 }, { 1.15, 1 }, { 0.1, 2.45 }, { 0.1, 2.55 } };
+    const double way = 0.01, turn = 0.01, by[4][2] = { { 1.05, 0 }, { 1.15, 0 }, { 0, 2.45 }, { 0, 2.55 } };
     bbm_model *m = block_on_table();
 
-    set_velocity(m, 1, 1, 0);
+    set_velocity(m, 1, _i < 2 ? 1 : 10, 0);
+    m->element[1].V[2] = _i < 2 ? 0 : 1;
     m->gravity[1] = 0;
     bbm_guess_step(m);
     ck_ok(bbm_detect_contacts(m), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     ck_assert(!bbm_moved_too_far(m));
-    m->D[6] = way * more[_i][0];
-    m->D[6 + 2] = _i < 2 ? 0 : 0.005 * more[_i][1] / 2.5;
+    m->D[6] = way * by[_i][0];
+    m->D[6 + 2] = turn * by[_i][1];
     ck_assert_int_eq(bbm_moved_too_far(m), _i % 2);
-    if (_i == 1) {
+    if (_i % 2) {
         ck_ok(bbm_detect_contacts(m), m);
         ck_assert(!bbm_moved_too_far(m));           /* it has become the guess */
     }
@@ -3184,7 +3188,7 @@ START_TEST(the_result_does_not_depend_on_the_units_to_the_last_bit)
         m->element[e].V[2] = still ? 0 : 6;
         n->element[e].V[2] = m->element[e].V[2] / T;
     }
-    for (int i = 0; i < (_i % 2 ? 15 : 60); i++) {
+    for (int i = 0; i < (_i % 2 ? 5 : 60); i++) {
         run_steps(m, 1);
         run_steps(n, 1);
         check_units(m, n, L, M, T);
