@@ -794,8 +794,10 @@ static double compared(int bricks, int n, double size)
 {
     bbm_model *m = new_model();
 
-    for (int k = 0; bricks && k < n * n; k++)
-        add_rectangle(m, k, ROCK, (rectangle){ (k % n + k / n % 2 / 2.0) * size, k / n * size, size, size, 0, .nx = 1 });
+    for (int k = 0; bricks && k < n * n; k++) {
+        const double shift = k / n % 2 / 2.0;
+        add_rectangle(m, k, ROCK, (rectangle){ (k % n + shift) * size, k / n * size, size, size, 0, .nx = 1 });
+    }
     if (!bricks) {
         add_rectangle(m, 0, ROCK, (rectangle){ -0.5 * size, -size, 2 * n * size, size, .nx = 2 * n });
         add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, n * size, size, .nx = n });
