@@ -636,7 +636,7 @@ static int find_rival(const bbm_model *m, pair p, int Q, pair other)
     const bbm_contact_work *w = m->work;
     const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
 
-    if (!is_corner(w, Q) || !is_convex(w, Q) || !is_corner(w, p.corner) || coincide(w, p.edge, other.edge))
+    if (!is_convex(w, Q) || coincide(w, p.edge, other.edge))
         return -1;
     return hypot(a->x - b->x, a->y - b->y) > 2 * w->search ? -1 : find_pair(w, other.corner, other.edge);
 }
@@ -1078,7 +1078,7 @@ static int goes_first(direction p, direction q)
 {
     const double flatter = fabs(q.y) - fabs(p.y);
 
-    return fabs(flatter) > PARALLEL ? flatter > 0 : p.x * p.y > 0;
+    return fabs(flatter) > PARALLEL ? flatter > 0 : (p.x > 0) == (p.y > 0);
 }
 
 /* Whether an open contact, though crossed, may not close: off the edge from the start of the step to its end, or a side
