@@ -58,8 +58,8 @@
  *                 in length, relatively, are as long: rounding of a model file
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies on it: what
  *                 penetration and elastic bending turn
- * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and feet closer to the end of an
- *                 edge are at the end: rounding of a model file, elastic strain
+ * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, feet closer to the end of an edge
+ *                 are at the end, and depths that differ less are a tie: rounding of a model file, elastic strain
  * AGREE    [-]    forces that differ by less, against the largest force of the model, agree: what the solver can tell
  * SECOND   [-]    forces of second-order terms that are wrong by less, against the same, are left to the next step   */
 #define STRAIGHT 1e-4
@@ -1099,7 +1099,8 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
         if (!enters_at_end(m, r))
             continue;
         const double mine = fmin(c->gap, c->d_n), other = fmin(r->gap, r->d_n);
-        const int first = other == mine ? goes_first(w->along[r->edge], w->along[c->edge]) : other > mine;
+        const int tie = fabs(other - mine) <= w->touch;
+        const int first = tie ? goes_first(w->along[r->edge], w->along[c->edge]) : other > mine;
         if (r->d_n >= 0 || (first && foot_on_edge(m, r)))
             return 1;
     }
