@@ -489,7 +489,7 @@ static int carries(const bbm_model *m, int c, int e)
     const bbm_contact_work *w = m->work;
     const direction p = w->along[c], q = w->along[e];
 
-    if (!m->par.faces || p.x * q.x + p.y * q.y > 0)
+    if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)           /* they do not face each other */
         return 0;
     if (fabs(w->span[c] - w->span[e]) > STRAIGHT * w->span[e])
         return signbit(w->span[c] - w->span[e]);
@@ -1078,7 +1078,7 @@ static int goes_first(direction p, direction q)
 {
     const double flatter = fabs(q.y) - fabs(p.y);
 
-    return fabs(flatter) > PARALLEL ? flatter > 0 : (p.x > 0) == (p.y > 0);
+    return fabs(flatter) > PARALLEL ? !signbit(flatter) : (p.x > 0) == (p.y > 0);
 }
 
 /* Whether an open contact, though crossed, may not close: off the edge from the start of the step to its end, or a side

@@ -2958,6 +2958,24 @@ START_TEST(a_pass_that_corrects_distances_is_no_cycle)
 }
 END_TEST
 
+/* In and out of the table and in again: when both are open for a second time the iteration cycles, and of the two
+ * contacts, both of which want to close, one does, and slides. */
+START_TEST(a_set_of_states_that_comes_back_is_a_cycle)
+{
+    bbm_model *m = block_on_table();
+    bbm_pass pass;
+
+    for (int k = 0; k < 3; k++) {
+        m->D[7] = k % 2 ? 0.01 : -0.01;
+        ck_ok(bbm_open_close(m, &pass), m);
+    }
+    ck_ok(bbm_keep_contacts(m), m);
+    ck_assert_int_eq(m->info.contacts, 1);
+    ck_assert(m->contact[0].state == BBM_SLIDE || m->contact[1].state == BBM_SLIDE);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* The block comes down, and then turns by a thousandth about the middle of its lower side: its corners end the step
  * r^2/4 = 2.5e-7 m beside where the formulas see them, which is much for the shear springs of 1e12 N/m, and
  * nothing for the normal springs of 1e6. Locked contacts have to be solved again; sliding ones have no shear spring. */
@@ -3415,6 +3433,7 @@ static void add_redone(Suite *s)
         { the_end_of_an_edge_belongs_to_it, 4 },
         { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
         { a_pass_that_corrects_distances_is_no_cycle, 1 },
+        { a_set_of_states_that_comes_back_is_a_cycle, 1 },
         { second_order_terms_count_by_the_force_that_they_make, 2 },
         { piles_settle_in_few_passes, 1 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
