@@ -724,21 +724,20 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const int strong = m->par.cohesion > 0 || m->par.tension > 0, end = w->after[p.edge];
     const int start = m->info.step == 0 && m->info.t == 0;
 
-    *c = old ? *old : (bbm_contact){ .whole = start && fmax(fabs(f.d), f.off) <= w->touch };
-    if (!old && c->whole && (strong || isinf(m->h)))
-        c->state = BBM_LOCK;
-    c->corner = p.corner;
-    c->edge = p.edge;
+    *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d };
+    if (old) {
+        c->state = old->state, c->sign = old->sign, c->anchor = old->anchor, c->whole = old->whole;
+        c->N = c->used = old->N, c->T = old->T;
+    } else if (start && fmax(fabs(f.d), f.off) <= w->touch) {
+        c->whole = 1;
+        c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
+    }
     c->rival[0] = find_rival(m, p, p.edge, (pair){ p.corner, w->before[p.edge] });
     c->rival[1] = find_rival(m, p, p.edge, (pair){ p.edge, w->before[p.corner] });
     c->rival[2] = find_rival(m, p, end, (pair){ p.corner, end });
     c->rival[3] = find_rival(m, p, end, (pair){ end, p.corner });
-    c->gap = f.d;
-    c->off = f.off > w->touch && is_convex(w, f.off == -f.s ? p.edge : w->after[p.edge]);
+    c->off = f.off > w->touch && is_convex(w, f.off == -f.s ? p.edge : end);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
-    c->used = c->N;
-    c->more[0] = c->more[1] = 0;
-    c->closings = 0;
     if (!old || old->corner != p.corner || old->edge != p.edge)
         place_anchor(m, c, c->T);
     if (c->state != BBM_OPEN && has_left(m, c))
