@@ -1698,6 +1698,29 @@ START_TEST(a_block_whose_friction_angle_is_above_the_slope_stays)
 }
 END_TEST
 
+/* On an incline of 20 pieces, after it has come to rest: the anchors stay in their places to the last bit, so that nothing
+ * creeps, and the block is in the same place after 200 more steps. */
+START_TEST(a_locked_contact_keeps_its_anchor)
+{
+    bbm_model *m = incline(40, 1e9, 20);
+    double anchor[2], here;
+
+    settle(m, 50);
+    here = slid(m, 20);
+    for (int c = 0; c < 2; c++)
+        anchor[c] = contact_of(m, 20, c)->anchor;
+    for (int i = 0; i < 200; i++) {
+        run_steps(m, 1);
+        for (int c = 0; c < 2; c++) {
+            ck_assert_int_eq(contact_of(m, 20, c)->state, BBM_LOCK);
+            ck_assert(contact_of(m, 20, c)->anchor == anchor[c]);
+        }
+    }
+    ck_near(slid(m, 20), here, 1, 1e-12);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* While it slides: the friction force of every contact is N tan(phi), and the anchor lies where its spring would carry
  * that force, T = p_s (P1 - P0).m. */
 START_TEST(a_sliding_contact_takes_its_anchor_along)
@@ -3365,6 +3388,7 @@ static void add_sliding(Suite *s)
         { a_block_that_slides_from_the_start_keeps_the_initial_velocity, 1 },
         { a_block_thrown_uphill_stops_where_it_should_and_stays_there, 1 },
         { a_block_whose_friction_angle_is_above_the_slope_stays, 4 },
+        { a_locked_contact_keeps_its_anchor, 1 },
         { a_sliding_contact_takes_its_anchor_along, 1 },
         { a_vertex_that_passes_from_edge_to_edge_keeps_its_forces, 1 },
         { a_locked_contact_passes_from_edge_to_edge_with_its_shear_force, 2 },
