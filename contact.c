@@ -1059,6 +1059,7 @@ static int forces_agree(const bbm_model *m, double slack)
 
 /* --------------------------------------------------------------------- the open-close iteration: states */
 
+/* Whether the foot of an open contact is on the edge, at the start of the step or at its end. */
 static int foot_on_edge(const bbm_model *m, const bbm_contact *c)
 {
     return !c->off || (c->d_s <= 0 && -c->d_s <= m->work->along[c->edge].length);
