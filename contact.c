@@ -36,7 +36,7 @@
  * Corner exactly on corner, the flatter line counts: the same in any order of the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N. For given states that map is
- * affine (while no cohesion is used up): its fixed point is found by conjugate residuals (agree), in few more solutions
+ * affine (but see friction_force): its fixed point is found by conjugate residuals (agree), in few more solutions
  * than contacts slide, however badly the plain iteration N -> friction -> N converges. Only then are the states judged,
  * on forces that belong to them. When a set of states comes back that has been there before, the iteration would cycle:
  * from then on only the first contact that wants to change does so in each pass (Murty's rule of the least index), and
@@ -478,7 +478,7 @@ static int coincide(const bbm_contact_work *w, int e, int f)
  * that points up, or if both are upright, to the right. */
 static int faces_up(direction p, direction q)
 {
-    return signbit(fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y);
+    return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
 }
 
 /* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side
@@ -492,7 +492,7 @@ static int carries(const bbm_model *m, int c, int e)
     if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)           /* they do not face each other */
         return 0;
     if (fabs(w->span[c] - w->span[e]) > STRAIGHT * w->span[e])
-        return signbit(w->span[c] - w->span[e]);
+        return w->span[c] < w->span[e];
     return faces_up(q, p);
 }
 
@@ -599,7 +599,7 @@ static int is_duplicate(const bbm_model *m, pair p)
 {
     const bbm_contact_work *w = m->work;
 
-    for (int k = 0; k != 4; k++) {
+    for (int k = 0; k < 4; k++) {
         const pair q = reversed_pair(w, p, k);
         if (loses_to(m, p, q, k % 3 == 0 && is_corner(w, p.corner) && is_corner(w, q.corner)))
             return 1;
@@ -663,7 +663,7 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     const bbm_contact_work *w = m->work;
     const bbm_contact *old = find_closed(m, p.corner, p.edge, 1);
 
-    for (int k = 0; k != 4 && !old; k++) {
+    for (int k = 0; k < 4 && !old; k++) {
         const pair q = reversed_pair(w, p, k);
         if (coincide(w, p.edge, q.edge) && !is_listed(w, q.corner, q.edge))
             old = find_closed(m, q.corner, q.edge, 0);
@@ -736,7 +736,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[1] = find_rival(m, p, p.edge, (pair){ p.edge, w->before[p.corner] });
     c->rival[2] = find_rival(m, p, end, (pair){ p.corner, end });
     c->rival[3] = find_rival(m, p, end, (pair){ end, p.corner });
-    c->off = f.off > w->touch && is_convex(w, f.off == -f.s ? p.edge : end);
+    c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : end);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
     if (!old || old->corner != p.corner || old->edge != p.edge)
         place_anchor(m, c, c->T);
@@ -826,8 +826,9 @@ void bbm_contact_pair(const bbm_model *m, int k, int elements[2])
     elements[1] = m->edge[m->work->pairs_of[k].edge].element;
 }
 
-/* The friction of a sliding contact under the N of the last solution. Without cohesion it goes on below N = 0, where
- * the strength ends: such a contact opens when it is judged, and until then N depends on N without a kink (agree). */
+/* The friction of a sliding contact under the N of the last solution. It goes on below N = 0, where the strength ends,
+ * unless the joint is whole and may be in tension: such a contact opens when it is judged, and until then N depends on
+ * N without a kink (agree). */
 static double friction_force(const bbm_parameters *p, const bbm_contact *c)
 {
     return c->sign * (c->area > 0 ? bbm_shear_strength(p, c->used, c->area) : c->used * tan_friction(p));
@@ -1078,7 +1079,7 @@ static int goes_first(direction p, direction q)
 {
     const double flatter = fabs(q.y) - fabs(p.y);
 
-    return fabs(flatter) > PARALLEL ? !signbit(flatter) : (p.x > 0) == (p.y > 0);
+    return fabs(flatter) > PARALLEL ? flatter > 0 : (p.x > 0) == (p.y > 0);
 }
 
 /* Whether an open contact, though crossed, may not close: off the edge from the start of the step to its end, or a side

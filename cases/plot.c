@@ -656,12 +656,22 @@ static double map_bottom(const plot_map *m)
     return MAP_BOTTOM + (m->value ? MAP_BAR : 0);
 }
 
+/* The title, and by how much the displacements are magnified. */
+static void map_title(const plot_map *m, double magnify, char *text, size_t size)
+{
+    const char *title = m->title ? m->title : "";
+    if (m->u || m->v)
+        snprintf(text, size, "%s%sdisplacements × %g", title, m->title ? ", " : "", magnify);
+    else
+        snprintf(text, size, "%s", title);
+}
+
 void plot_draw_map(plot *p, plot_box box, const plot_map *m)
 {
     int    moved = m->u || m->v;
     double magnify = moved ? map_magnify(m) : 0;
     extent e = map_extent(m, magnify);
-    char   note[200];
+    char   title[200];
     plot_box b = map_axes(p, (plot_box){ box.x + MAP_LEFT, box.y + MAP_TOP, box.w - MAP_LEFT - MAP_RIGHT,
                                          box.h - MAP_TOP - map_bottom(m) }, &e);
     plot_axis bar = make_axis(&m->quantity, e.value0, e.value1, LEVELS);
@@ -674,18 +684,23 @@ void plot_draw_map(plot *p, plot_box box, const plot_map *m)
         draw_cells(p, m, magnify, "fill=\"none\" stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"");
     if (moved) draw_outline(p, m, 0, "stroke=\"#666666\" stroke-width=\"1.4\"");
     draw_outline(p, m, magnify, "stroke=\"#000000\" stroke-width=\"1\"");
-    snprintf(note, sizeof note, "%s%sdisplacements × %g", m->title ? m->title : "", m->title ? ", " : "", magnify);
-    draw_axes(p, b, moved ? note : m->title, 0);
+    map_title(m, magnify, title, sizeof title);
+    draw_axes(p, b, title, 0);
     if (m->value) draw_bar(p, (plot_box){ b.x, b.y + b.h + MAP_BOTTOM + 4, b.w, 16 }, &bar, &e);
 }
 
-/* The frame is 752 pixels wide, or 560 high if that is less. */
+/* The frame is 752 pixels wide, or 560 high if that is less; the page is as wide as the title at least, which stands over
+ * the middle of the frame. */
 int plot_write_map(const char *path, const plot_map *m)
 {
     plot p;
-    extent e = map_extent(m, m->u || m->v ? map_magnify(m) : 0);
+    char title[200];
+    double magnify = m->u || m->v ? map_magnify(m) : 0;
+    extent e = map_extent(m, magnify);
     plot_box b = map_axes(&p, (plot_box){ 0, 0, 752, 560 }, &e);
-    plot_box all = { 0, 0, b.w + MAP_LEFT + MAP_RIGHT, b.h + MAP_TOP + map_bottom(m) };
+    map_title(m, magnify, title, sizeof title);
+    double width = fmax(b.w + MAP_LEFT + MAP_RIGHT, 1.4 * text_width(title) + MAP_LEFT - MAP_RIGHT);
+    plot_box all = { 0, 0, width, b.h + MAP_TOP + map_bottom(m) };
     if (!plot_open(&p, path, all.w, all.h)) return 0;
     plot_draw_map(&p, all, m);
     return plot_close(&p);
