@@ -1219,19 +1219,36 @@ static int is_hinge(const bbm_model *m, const bbm_bond *b)
     return m->par.bonding != BBM_VERTICES && m->element[b->i].n == 4 && m->element[b->j].n == 4;
 }
 
-/* Adds `share` of the moment that a quadrilateral asks for on its edge from vertex v on. */
-static void add_moment(const bbm_model *m, const bbm_element *e, int v, double share, double M[2][2])
+/* The moment M that a quadrilateral asks for on its edge from vertex v on. */
+static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
 {
     double own[2][2][2];
 
+    memset(M, 0, 4 * sizeof M[0][0]);
     if (m->par.bonding != BBM_MOMENT)
         return;
     bbm_hinge_moments(e, &m->vertex[e->first], own);
-    for (int a = 0; a < 4; a++)
-        M[a / 2][a % 2] += share * own[(v - e->first) % 2][a / 2][a % 2];
+    memcpy(M, own[(v - e->first) % 2], 4 * sizeof M[0][0]);
 }
 
-/* The bonding submatrices of one bond: at both vertices, or of the edge as a whole with the mean of both moments. */
+/* The moment M of a bond. The halves of its two elements bend one after the other, so their moments act in series: with
+ * n the normal of the edge and mi = n.Mi n, M = (Mi + Mj)/2 4 mi mj/(mi + mj)^2, whose n.M n is the harmonic mean. */
+static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
+{
+    const bbm_vertex *P = &m->vertex[b->p[0]], *R = &m->vertex[b->p[1]];
+    const double nx = R->y - P->y, ny = P->x - R->x;
+    double Mi[2][2], Mj[2][2];
+
+    own_moment(m, &m->element[b->i], b->p[0], Mi);
+    own_moment(m, &m->element[b->j], b->q[1], Mj);              /* the edge runs the other way in j */
+    const double mi = nx * nx * Mi[0][0] + nx * ny * (Mi[0][1] + Mi[1][0]) + ny * ny * Mi[1][1];
+    const double mj = nx * nx * Mj[0][0] + nx * ny * (Mj[0][1] + Mj[1][0]) + ny * ny * Mj[1][1];
+    const double sum = mi + mj, series = sum > 0 ? 4 * (mi / sum) * (mj / sum) : 0;
+    for (int a = 0; a < 4; a++)
+        M[a / 2][a % 2] = series * (Mi[a / 2][a % 2] + Mj[a / 2][a % 2]) / 2;
+}
+
+/* The bonding submatrices of one bond: at both vertices, or of the edge as a whole. */
 static void add_bond(const bbm_model *m, const bbm_bond *b, bbm_submatrices *s)
 {
     const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
@@ -1241,8 +1258,7 @@ static void add_bond(const bbm_model *m, const bbm_bond *b, bbm_submatrices *s)
     bbm_hinge h = { { { 2 * k, 0 }, { 0, 2 * k } }, { { 0 } } };
 
     if (is_hinge(m, b)) {
-        add_moment(m, i, b->p[0], 0.5, h.M);
-        add_moment(m, j, b->q[1], 0.5, h.M);                    /* the edge runs the other way in j */
+        bond_moment(m, b, h.M);
         bbm_hinge_submatrices(i, P, j, Q, &h, s);
     } else {
         for (int end = 0; end < 2; end++)
@@ -1293,10 +1309,12 @@ static void hold_edge(const bbm_model *m, const bbm_element *e, int v, int direc
     bbm_hinge h = { { { 2 * k, 0 }, { 0, 2 * k } }, { { 0 } } };
     bbm_submatrices both = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
 
-    add_moment(m, e, v, 2, h.M);
-    for (int a = 0; a < 4; a++)
+    own_moment(m, e, v, h.M);
+    for (int a = 0; a < 4; a++) {
+        h.M[a / 2][a % 2] *= 2;
         if (!in[a / 2] || !in[a % 2])
             h.K[a / 2][a % 2] = h.M[a / 2][a % 2] = 0;
+    }
     bbm_hinge_submatrices(e, P, e, Q, &h, &both);
     for (int a = 0; a < 6; a++) {
         for (int b = 0; b < 6; b++)
@@ -1855,10 +1873,9 @@ static double moment_energy(const bbm_model *m, const bbm_bond *b)
     const bbm_vertex *P = &m->vertex[b->p[0]], *R = &m->vertex[b->p[1]];
     const bbm_vertex *Q = &m->vertex[b->q[0]], *S = &m->vertex[b->q[1]];
     const double d[2] = { (P->u - Q->u - R->u + S->u) / 2, (P->v - Q->v - R->v + S->v) / 2 };
-    double M[2][2] = { { 0 } };
+    double M[2][2];
 
-    add_moment(m, &m->element[b->i], b->p[0], 0.5, M);
-    add_moment(m, &m->element[b->j], b->q[1], 0.5, M);
+    bond_moment(m, b, M);
     return (d[0] * (M[0][0] * d[0] + M[0][1] * d[1]) + d[1] * (M[1][0] * d[0] + M[1][1] * d[1])) / 2;
 }
 
@@ -1870,12 +1887,12 @@ static double held_moment_energy(const bbm_model *m, const bbm_element *e, int v
     const double *Q = m->node[P->node].wall, *S = m->node[R->node].wall;
     const double d[2] = { held & BBM_X ? (P->u - Q[0] - R->u + S[0]) / 2 : 0,
                           held & BBM_Y ? (P->v - Q[1] - R->v + S[1]) / 2 : 0 };
-    double M[2][2] = { { 0 } };
+    double M[2][2];
 
     if (!held)
         return 0;
-    add_moment(m, e, v, 2, M);
-    return (d[0] * (M[0][0] * d[0] + M[0][1] * d[1]) + d[1] * (M[1][0] * d[0] + M[1][1] * d[1])) / 2;
+    own_moment(m, e, v, M);
+    return d[0] * (M[0][0] * d[0] + M[0][1] * d[1]) + d[1] * (M[1][0] * d[0] + M[1][1] * d[1]);
 }
 
 /* The energies after the last step; `springs` are bonds, fixed points and closed contacts. */
