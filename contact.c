@@ -90,6 +90,7 @@ struct bbm_contact_work {
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
     int *body;                  /* [edges]  the first boundary edge of the same block                           */
     double *depth;              /* [edges]  m, of a body: |d_n| of its closed contacts, at most, before the step */
+    double *now;                /* [edges]  m, the same of the solution, or of the start if that is deeper      */
     double *travel;             /* [edges]  m, of a body: how far its vertices may move in the step             */
     double *moved;              /* [edges]  m, the same of the solution                                         */
     double search;              /* m        vertices further from an edge do not reach it, in any block         */
@@ -361,6 +362,7 @@ void bbm_contact_free(bbm_contact_work *w)
     free(w->guess);
     free(w->body);
     free(w->depth);
+    free(w->now);
     free(w->travel);
     free(w->moved);
     free(w->head);
@@ -395,11 +397,12 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
         w->body = calloc(n, sizeof *w->body);
         w->depth = calloc(n, sizeof *w->depth);
+        w->now = calloc(n, sizeof *w->now);
         w->travel = calloc(n, sizeof *w->travel);
         w->moved = calloc(n, sizeof *w->moved);
     }
     const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
-                   && w->head && w->guess && w->body && w->depth && w->travel && w->moved
+                   && w->head && w->guess && w->body && w->depth && w->now && w->travel && w->moved
                    && number_bodies(m);
     if (ok)
         link_edges(m, ends);
@@ -503,13 +506,14 @@ static foot find_foot(const bbm_model *m, int corner, int e)
 }
 
 /* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
- * and the block is convex there: it lies on the outside. */
+ * and the block is convex there: it lies on the outside. The far end of a side may be as deep as closed contacts are. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
 {
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
+    const double deep = fmin(w->now[w->body[corner]], w->now[w->body[e]]);
 
-    return fmin(cross(q, s), -cross(p, s)) >= -slack && is_convex(w, corner);
+    return cross(q, s) >= -slack - deep / q.length && cross(s, p) >= -slack - deep / p.length && is_convex(w, corner);
 }
 
 static int coincide(const bbm_contact_work *w, int e, int f)
@@ -857,6 +861,7 @@ static void foresee(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
 
+    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
     find_travel(m, w->guess, w->travel);
     w->search = 0;
     for (int e = 0; e < m->edges; e++) {
@@ -1257,14 +1262,26 @@ static void watch_for_cycles(bbm_contact_work *w)
     w->seen[w->passes] = hash;
 }
 
+/* The depth of a closed contact counts for both its bodies. */
+static void note_depth(const bbm_contact_work *w, const bbm_contact *c, double depth[])
+{
+    const double deep = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
+
+    depth[w->body[c->corner]] = fmax(depth[w->body[c->corner]], deep);
+    depth[w->body[c->edge]] = fmax(depth[w->body[c->edge]], deep);
+}
+
 /* One look at the solution: whether the friction forces belong to their N, then the states to the forces. */
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
 {
     bbm_contact_work *w = m->work;
 
     m->info.passes++;
-    for (int k = 0; k < w->pairs; k++)
+    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
+    for (int k = 0; k < w->pairs; k++) {
         measure(m, &w->list[k]);
+        note_depth(w, &w->list[k], w->now);
+    }
     const double scale = largest_force(m);
     if (!forces_agree(m, AGREE * scale)) {
         *pass = w->forces < FORCES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
@@ -1304,9 +1321,7 @@ bbm_status bbm_keep_contacts(bbm_model *m)
         if (c->state != BBM_OPEN) {
             m->info.contacts++;
             m->info.penetration = fmax(m->info.penetration, -c->d_n);
-            double *i = &w->depth[w->body[c->corner]], *j = &w->depth[w->body[c->edge]];
-            *i = fmax(*i, fabs(c->d_n));
-            *j = fmax(*j, fabs(c->d_n));
+            note_depth(w, c, w->depth);
         }
     }
     m->contact = w->list;
