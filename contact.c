@@ -153,12 +153,13 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). */
+/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). Deviation: the spring counts from `rest`, see bbm_contact. */
 void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;
 
     bbm_normal_vectors(c, &n);
+    n.d -= c->rest;
     add_spring(p_n, &n, s);
 }
 
@@ -226,7 +227,7 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
     const double strength = bbm_shear_strength(p, c->N, c->area);
 
     if (c->state == BBM_OPEN)
-        return -p->p_n * c->d_n > slack ? BBM_LOCK : BBM_OPEN;
+        return -p->p_n * (c->d_n - c->rest) > slack ? BBM_LOCK : BBM_OPEN;
     if (c->N < (c->whole ? -p->tension * c->area : 0))
         return BBM_OPEN;
     if (p->friction == 0 && p->cohesion == 0)
@@ -712,7 +713,7 @@ static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P1 = start_of(m, c->corner), *P2 = end_of(m, c->edge), *P3 = start_of(m, c->edge);
 
-    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3, bbm_is_exact(m) };
+    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3, bbm_is_exact(m), c->rest };
 }
 
 /* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s, m from P2 to P3. */
@@ -789,10 +790,10 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const int strong = m->par.cohesion > 0 || m->par.tension > 0, end = w->after[p.edge];
     const int start = m->info.step == 0 && m->info.t == 0;
 
-    *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d };
+    *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d, .share = 1 };
     if (old) {
         c->state = old->state, c->sign = old->sign, c->anchor = old->anchor, c->whole = old->whole;
-        c->N = c->used = old->N, c->T = old->T;
+        c->N = c->used = old->N, c->T = old->T, c->rest = old->rest;
     } else if (start && fmax(fabs(f.d), f.off) <= w->touch) {
         c->whole = 1;
         c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
@@ -803,10 +804,12 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[3] = find_rival(m, p, end, (pair){ end, p.corner });
     c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : end);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
-    if (!old || old->corner != p.corner || old->edge != p.edge)
-        place_anchor(m, c, c->T);
     if (c->state != BBM_OPEN && has_left(m, c))
-        c->state = BBM_OPEN;
+        c->state = BBM_OPEN, c->N = c->T = 0;
+    if (!old || c->state == BBM_OPEN || old->corner != p.corner || old->edge != p.edge) {
+        place_anchor(m, c, c->T);
+        c->rest = bbm_is_exact(m) ? fmin(0, c->gap + c->N / m->par.p_n) : 0;
+    }
 }
 
 /* How far the boundary of each body moves by D; of a body, at its first edge. */
@@ -956,7 +959,7 @@ static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
 
     bbm_normal_submatrices(&t, m->par.p_n, &s);
     if (c->state == BBM_LOCK)
-        bbm_shear_submatrices(&t, c->anchor, m->par.p_s, &s);
+        bbm_shear_submatrices(&t, c->anchor, c->share * m->par.p_s, &s);
     else
         bbm_friction_submatrices(&t, c->anchor, friction_force(&m->par, c), &s);
     return bbm_add_submatrices(m, i, j, &s);
@@ -1012,12 +1015,12 @@ static void measure(const bbm_model *m, bbm_contact *c)
     bbm_spring n, s;
 
     if (c->state == BBM_OPEN)
-        c->anchor = 0;
+        c->anchor = 0, c->share = 1;
     bbm_normal_vectors(&t, &n);
     bbm_shear_vectors(&t, c->anchor, &s);
     c->d_n = spring_length(m, c, &n);
-    c->d_s = spring_length(m, c, &s);
-    c->N = c->state == BBM_OPEN ? 0 : -m->par.p_n * c->d_n;
+    c->d_s = c->share * spring_length(m, c, &s);
+    c->N = c->state == BBM_OPEN ? 0 : -m->par.p_n * (c->d_n - c->rest);
     c->T = c->state == BBM_OPEN ? 0 : m->par.p_s * c->d_s;
 }
 
@@ -1045,7 +1048,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
         const bbm_contact *c = &m->work->list[k];
         double d[2];
         exact_distances(m, c, d);
-        const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(d[1] - c->d_s);
+        const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(c->share * d[1] - c->d_s);
         if (c->state == BBM_OPEN ? n > slack && (d[0] < 0) != (c->d_n < 0) : n > slack || (c->state == BBM_LOCK && s > slack))
             return 1;
     }
@@ -1202,15 +1205,16 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
     return 0;
 }
 
-/* A contact closes where P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Returns
- * the way of P1 along the edge in the step, towards P3. */
+/* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Its shear
+ * spring feels the share of the slip that is left, so that it never pushes along. Returns the way of P1 along the edge in
+ * the step, towards P3. */
 static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
 {
-    const double gap = fmax(0, c->gap), when = gap / (gap - c->d_n);
-    const double s = find_foot(m, c->corner, c->edge).s, way = -c->d_s - s;
+    const double gap = fmax(0, c->gap), s = find_foot(m, c->corner, c->edge).s;
 
-    c->anchor = (s + when * way) / m->work->along[c->edge].length;
-    return -way;
+    c->share = 1 - gap / (gap - c->d_n);
+    c->anchor = s / m->work->along[c->edge].length;
+    return c->d_s + s;
 }
 
 /* A contact that closes for a second time in a step was opened by the shear spring of its first trial, which need not
@@ -1314,10 +1318,10 @@ bbm_status bbm_keep_contacts(bbm_model *m)
         bbm_contact *c = &w->list[k];
         const double strength = bbm_shear_strength(&m->par, c->N, c->area);
         c->whole = c->whole && (c->state == BBM_LOCK || (c->state == BBM_SLIDE && strength == 0));
-        if (c->state == BBM_SLIDE) {
+        if (c->state == BBM_SLIDE)
             c->T = c->sign * strength;
+        if (c->state == BBM_SLIDE || c->share < 1)
             place_anchor(m, c, c->T);
-        }
         if (c->state != BBM_OPEN) {
             m->info.contacts++;
             m->info.penetration = fmax(m->info.penetration, -c->d_n);
