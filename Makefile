@@ -10,7 +10,7 @@ CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 LIBRARY  = bbm contact solver
 RUN      = exp1 exp2 exp3
-GALLERY  = incline shaken topple column overhang drop impact turning arch resting
+GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene
 PROGRAM  = bbm model msh write
