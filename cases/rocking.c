@@ -1,26 +1,29 @@
 /* rocking.c - a block that rocks from corner to corner.
  *
- *        .-.              Housner: The behavior of inverted pendulum structures during earthquakes. Bulletin of the
- *       /   `-. height    Seismological Society of America 53 (1963), pp. 403-417. R half the diagonal, a its slope,
- *      /      /           tan(a) = width/height; it is let go at rest, turned by th0 < a about one lower corner:
- *     /      /
- *    `-.    /                   th'' = -p^2 sin(a - th),        p^2 = 3 g/(4 R)
- *  _____`-./_____
- *        th0              With sin((a - th)/2) = s cosh(u), s = sin((a - th0)/2), the time to the first impact is
+ *        .-.              R half the diagonal, a its slope, tan(a) = width/height; let go at rest,
+ *       /   `-. height    turned by th0 < a about a lower corner, it swings back to upright:
+ *      /      /
+ *     /      /                  th'' = -p^2 sin(a - th),        p^2 = 3 g/(4 R)
+ *    `-.    /
+ *  _____`-./_____         With sin((a - th)/2) = s cosh(u), s = sin((a - th0)/2), the time to the
+ *        th0              first impact is
  *
  *        t1 = (1/p) integral du / sqrt(1 - s^2 cosh^2 u),       from 0 to acosh(sin(a/2)/s).
  *
  * For slender blocks the root is 1, a - th takes the place of its sine, and the period is Housner's
  *
- *        T = 4 t1 = (4/p) acosh(1/(1 - th0/a)).
+ *        T = 4 t1 = (4/p) acosh(1/(1 - th0/a))
  *
- * If the block does not bounce and the impact is one on the other corner, angular momentum about that one is kept: the
- * block goes on with th' (1 - 3/2 sin^2 a), and rises to th1 with cos(a - th1) - cos(a) = (1 - 3/2 sin^2 a)^2 times
- * cos(a - th0) - cos(a).
+ * (Housner: The behavior of inverted pendulum structures during earthquakes. Bulletin of the
+ * Seismological Society of America 53 (1963), pp. 403-417.) If the block does not bounce and hits
+ * with the other corner alone, angular momentum about that one is kept: the block goes on with
+ * th' (1 - 3/2 sin^2 a), and rises to th1,
  *
- * Computed with dt = 1 ms: t1 with an error of first order in dt, below 5e-4; Housner's T is a fourth of a per cent
- * short for a block five times as high as wide. The impact takes its share only nearly: the springs of both corners
- * are loaded for a few steps, and give back what the time step leaves them. */
+ *        cos(a - th1) - cos(a) = (1 - 3/2 sin^2 a)^2 (cos(a - th0) - cos(a)).
+ *
+ * Computed with dt = 1 ms: t1 is late by less than a step; Housner's T is a fourth of a per cent
+ * short for a block five times as high as wide. The impact takes its share only nearly: the springs
+ * of both corners are loaded for a few steps, and give back what the time step leaves them. */
 #include <math.h>
 
 #include "case.h"
@@ -40,7 +43,8 @@ static double housner(const rocker *k) { return acosh(1 / (1 - k->share)) / freq
 /* t1 by Simpson's rule. */
 static double first_impact(const rocker *k)
 {
-    const double s = sin(slope(k) * (1 - k->share) / 2), end = acosh(sin(slope(k) / 2) / s), du = end / INTERVALS;
+    const double s = sin(slope(k) * (1 - k->share) / 2);
+    const double du = acosh(sin(slope(k) / 2) / s) / INTERVALS;
     double sum = 0;
 
     for (int i = 0; i <= INTERVALS; i++) {
@@ -66,8 +70,8 @@ static bbm_model *build_block(const rocker *k)
     bbm_add_material(m, &(bbm_material){ 1e12, 0, 2500, 1 }, NULL);
     case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -2, .y = -0.5, .w = 5, .h = 0.5 });
     case_fix_block(m, 0);
-    case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = width, .h = k->height,
-                                 .turn = k->share * slope(k) });
+    case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = width,
+                                 .h = k->height, .turn = k->share * slope(k) });
     m->par.dt = dt;
     m->par.keep = 1;
     m->par.gravity[1] = -g;
@@ -79,7 +83,7 @@ static bbm_model *build_block(const rocker *k)
     return m;
 }
 
-/* th/a after each step until a corner is up the `peaks`-th time, or MOST steps; returns their number. */
+/* th/a after each step, until it has had so many peaks, or MOST steps; returns their number. */
 static int rock(const rocker *k, int peaks, double share[MOST], const case_results *movie)
 {
     bbm_model *m = build_block(k);
@@ -91,7 +95,8 @@ static int rock(const rocker *k, int peaks, double share[MOST], const case_resul
     for (; n < MOST && peaks > 0; n++) {
         case_step(m, NULL, movie && n % 50 == 49 ? &film : NULL);
         share[n] = k->share + m->element[1].sum[2] / slope(k);
-        peaks -= n > 1 && fabs(share[n]) < fabs(share[n - 1]) && fabs(share[n - 2]) <= fabs(share[n - 1]);
+        peaks -= n > 1 && fabs(share[n]) < fabs(share[n - 1])
+                 && fabs(share[n - 2]) <= fabs(share[n - 1]);
     }
     if (movie) {
         case_draw_movie(movie, "rocks.svg", m, &film);
@@ -130,7 +135,7 @@ static void print_table(case_results *r)
     }
 }
 
-/* The rocking over time, with the peaks of the theory: th_n after t1(th_0) + 2 t1(th_1) + .. + t1(th_n). */
+/* The rocking over time, and the peaks of the theory, th_n after t1(th_0) + 2 t1(th_1) + .. */
 static void draw(const case_results *r)
 {
     rocker k = { 5, 0.8 };
@@ -145,11 +150,14 @@ static void draw(const case_results *r)
         when[i] += first_impact(&k);
         peak[i] = i % 2 ? -k.share : k.share;
     }
+    const plot_series s[] = {
+        { .name = "BBM", .n = n, .x = t, .y = share, .look = 1 },
+        { .name = "peaks of the theory", .n = PEAKS + 1, .x = when, .y = peak,
+          .style = PLOT_MARKS, .look = 2 },
+    };
     case_draw_chart(r, "rocking.svg", &(plot_chart){
-        .title = "A block of 1 m x 5 m rocks", .x = { .name = "t", .unit = "s" }, .y = { .name = "th/a" }, .count = 2,
-        .series = (plot_series[]){ { .name = "BBM", .n = n, .x = t, .y = share, .look = 1 },
-                                   { .name = "peaks of the theory", .n = PEAKS + 1, .x = when, .y = peak,
-                                     .style = PLOT_MARKS, .look = 2 } } });
+        .title = "A block of 1 m x 5 m rocks", .x = { .name = "t", .unit = "s" },
+        .y = { .name = "th/a" }, .count = 2, .series = s });
 }
 
 int main(void)
@@ -161,6 +169,7 @@ int main(void)
     print_table(&r);
     draw(&r);
     case_close(&r);
-    printf("\nNumbers and pictures: %s/results.csv, rocking.svg, states.svg, rocks.svg (it moves)\n", r.folder);
+    printf("\nNumbers and pictures: %s/results.csv, rocking.svg, states.svg, rocks.svg (it "
+           "moves)\n", r.folder);
     return r.worst > 4e-3;
 }

@@ -1,20 +1,23 @@
 /* tilt.c - a wall that is tilted until it falls.
  *
- *     .---.-------.---.         2 bricks 2 m x 1 m in each of six courses, or a whole and two halves; friction 55
- *     |---'---.---'---|         degrees. Tilting the wall by a is a gravity that turns: (sin a, -cos a) g.
- *     |---.---'---.---|
- *     |---'---.---'---|         It does not turn in one piece: some bricks on the left stay behind, along steps. In
- *     |---.---'---.---|         the course k = 0 .. 5 what lies right of a joint x_k turns about the corner (4, 0), with
- *     '-------'-------'         x_k <= x_(k-1), for a brick stays only if all below it does. Between the two no joint
- *     ////////////////          presses. The part topples as soon as its weight passes the corner:
+ *     .---.-------.---.     Two bricks of 2 m x 1 m in each of six courses, or a whole one and two
+ *     |---'---.---'---|     halves; friction 55 degrees. Tilting the wall by a is a gravity that
+ *     |---.---'---.---|     turns: (sin a, -cos a) g.
+ *     |---'---.---'---|
+ *     |---.---'---.---|     The wall does not turn in one piece: some bricks on the left stay
+ *     '-------'-------'     behind, along steps. In the courses k = 0 .. 5 what lies right of a
+ *     /////////////////     joint x_k turns about the corner (4, 0), with x_k <= x_(k-1), for a
+ *                           brick stays only if all below it does. Between the two no joint
+ * presses. The part topples as soon as its weight passes the corner:
  *
- *         tan(a) = sum (4 - x_k)^2/2 / sum (4 - x_k) (k + 1/2),       at least 77/139, 28.98 degrees;
+ *     tan(a) = sum (4 - x_k)^2/2 / sum (4 - x_k) (k + 1/2),       at least 77/139, 28.98 degrees;
  *
- * in one piece it would be 33.7 degrees. (So it is if joints do not slip. Statics of the bed joints alone, a linear
- * program, finds the same for friction of 50 to 55 degrees.)
+ * in one piece it would be 33.7 degrees. (So it is if joints do not slip. Statics of the bed joints
+ * alone, a linear program, finds the same for friction of 50 to 55 degrees.)
  *
- * Computed: a wall stands if no brick has moved by 0.1 m in 4 s. All bricks carry each other in many ways, and the
- * friction in the upright joints may go either way; longer steps than 1 ms need thousands of passes to settle. */
+ * Computed: a wall stands if no brick has moved by 0.1 m in 4 s. The bricks carry each other in
+ * many ways, and the friction in the upright joints may go either way; longer steps than 1 ms need
+ * thousands of passes to settle. */
 #include <math.h>
 
 #include "case.h"
@@ -22,9 +25,9 @@
 enum { COURSES = 6, SETTLE = 200, STEPS = 4000 };
 
 static const double DEGREE = 3.14159265358979323846 / 180, WIDTH = 4, FRICTION = 55;
-static const double joint[2][4] = { { 0, 2, 4 }, { 0, 1, 3, 4 } };      /* of the courses 0, 2, 4 and 1, 3, 5 */
+static const double joint[2][4] = { { 0, 2, 4 }, { 0, 1, 3, 4 } };  /* of even and odd courses */
 
-/* The least tan(a) of all parts that turn, from course k up, given x_(k-1) and the two sums below. */
+/* The least tan(a) of all parts that turn, from course k up, given x_(k-1) and both sums below. */
 static double least_slope(int k, double below, double lever, double height)
 {
     double least = INFINITY;
@@ -49,8 +52,8 @@ static bbm_model *build_wall(double tilt)
     case_fix_block(m, 0);
     for (int k = 0; k < COURSES; k++)
         for (const double *x = joint[k % 2]; *x < WIDTH; x++)
-            case_add_box(m, &(case_box){ .block = ++block, .material = 1, .nx = 1, .ny = 1, .x = x[0], .y = k,
-                                         .w = x[1] - x[0], .h = 1 });
+            case_add_box(m, &(case_box){ .block = ++block, .material = 1, .nx = 1, .ny = 1,
+                                         .x = x[0], .y = k, .w = x[1] - x[0], .h = 1 });
     m->par.dt = 0.001;
     m->par.gravity[0] = 9.81 * sin(tilt * DEGREE);
     m->par.gravity[1] = -9.81 * cos(tilt * DEGREE);
@@ -71,7 +74,7 @@ static double moved(const bbm_model *m)
     return d;
 }
 
-/* Lets a wall go until a brick has moved by `far`; returns whether it stood. r, if not NULL: draws it as NAME.svg. */
+/* Lets a wall go until a brick has moved by `far`; returns whether it stood. Draws it for r. */
 static int stands(double tilt, double far, const case_results *r, const char *title)
 {
     bbm_model *m = build_wall(tilt);
@@ -101,14 +104,18 @@ int main(void)
     double low = 28.6, high = 29.4;
     case_results r;
 
-    printf("\n# Tilted wall of %d courses\n\n| | computed | theory | error |\n|---|---|---|---|\n", COURSES);
+    printf("\n# Tilted wall of %d courses\n\n| | computed | theory | error |\n"
+           "|---|---|---|---|\n", COURSES);
     case_open(&r, "tilt");
     while (high - low > 0.02)
         *(stands((low + high) / 2, 0.1, NULL, NULL) ? &low : &high) = (low + high) / 2;
     case_compare(&r, "largest tilt [degree]", (low + high) / 2, limit);
-    case_compare(&r, "stands 0.1 degrees below (1 yes, 0 no)", stands(limit - 0.1, 0.1, &r, "0.1 degrees below"), 1);
-    case_compare(&r, "stands 0.1 degrees above", stands(limit + 0.1, 3, &r, "0.1 degrees above the limit"), 0);
+    case_compare(&r, "stands 0.1 degrees below (1 yes, 0 no)",
+                 stands(limit - 0.1, 0.1, &r, "0.1 degrees below the limit"), 1);
+    case_compare(&r, "stands 0.1 degrees above",
+                 stands(limit + 0.1, 3, &r, "0.1 degrees above the limit"), 0);
     case_close(&r);
-    printf("\nNumbers and pictures: %s/results.csv, stands.svg, states.svg, falls.svg (it moves)\n", r.folder);
+    printf("\nNumbers and pictures: %s/results.csv, stands.svg, states.svg, falls.svg (it moves)\n",
+           r.folder);
     return r.worst > 1e-3;
 }

@@ -1,8 +1,9 @@
-/* check_limits.c - what a contact must still do right after a long time, over many edges, and between elastic bodies.
+/* check_limits.c - what a contact must still do right after a long time, over many edges, and
+ * between elastic bodies.
  *
- * The oracles are closed forms: waves in a bar, the weight above an interface, the same slide over a base in one piece.
- * Limit loads - arches, a slope, a wall that is tilted - and the rocking block are cases of the gallery, each with an
- * oracle of its own; check_cases.c holds them to it. */
+ * The oracles are closed forms: waves in a bar, the weight above an interface, the same slide over
+ * a base in one piece. Limit loads - arches, a slope, a wall that is tilted - and the rocking block
+ * are cases of the gallery, each with an oracle of its own; check_cases.c holds them to it. */
 #include <string.h>
 
 #include "check.h"
@@ -26,7 +27,8 @@ static void add_box(bbm_model *m, const box *b, int fixed)
         }
     for (int i = 0; i < b->nx; i++) {
         const int a = first + 2 * i;
-        ck_ok(bbm_add_element(m, b->block, b->material, 4, (int[]){ a, a + 2, a + 3, a + 1 }, NULL), m);
+        const int node[4] = { a, a + 2, a + 3, a + 1 };
+        ck_ok(bbm_add_element(m, b->block, b->material, 4, node, NULL), m);
     }
 }
 
@@ -54,7 +56,7 @@ static void run(bbm_model *m, double keep, int steps)
         ck_ok(bbm_step(m), m);
 }
 
-/* ------------------------------------------------------------------------------------------- two elastic bars */
+/* ----------------------------------------------------------------------------- two elastic bars */
 
 enum { PIECES = 40 };
 
@@ -79,8 +81,8 @@ static double momentum(const bbm_model *m, int first)
     return P;
 }
 
-/* Two bars of PIECES squares, L = 10 m, c = 2000 m/s; the first comes with 1 m/s. Times in 2 L/c, the force in the
- * middle of the contact in that of the wave, rho c v/2 times the section. */
+/* Two bars of PIECES squares, L = 10 m, c = 2000 m/s; the first comes with 1 m/s. Times in 2 L/c,
+ * the force halfway through the contact in that of the wave, rho c v/2 times the section. */
 static meeting let_bars_meet(int steps)
 {
     const double L = 10, E = 1e10, c = sqrt(E / DENSITY), h = L / PIECES, T = 2 * L / c;
@@ -111,18 +113,18 @@ static meeting let_bars_meet(int steps)
     return a;
 }
 
-START_TEST(two_elastic_bars_part_when_the_wave_comes_back_and_have_exchanged_their_velocities)
+START_TEST(two_elastic_bars_exchange_velocities_and_part_when_the_wave_comes_back)
 {
     const meeting coarse = let_bars_meet(500), fine = let_bars_meet(1000);
 
-    /* An element is 1/80 long in these units, and so are front and end of the wave: less than half of it. */
+    /* The wave takes 1/80 through an element, and its front and end are as long: less than half. */
     ck_relative(coarse.duration, 1, 0.005);
     ck_relative(fine.duration, 1, 0.005);
-    /* Behind the front the force is that of one-dimensional waves; bonds and contact give way by 1e-4. */
+    /* Behind the front the force is that of the bar; bonds and contact give way by 1e-4. */
     ck_relative(coarse.force, 1, 1e-3);
     ck_relative(fine.force, 1, 1e-3);
     ck_relative(coarse.first + coarse.second, 1, 1e-9);
-    /* What a finite time step damps away stays behind as momentum of the first bar: the less, the smaller the step. */
+    /* What the time step damps away stays with the first bar: the less, the smaller the step. */
     ck_relative(coarse.second, 1, 0.03);
     ck_relative(fine.second, 1, 0.02);
     ck_assert_double_lt(fine.first, 0.8 * coarse.first);
@@ -130,7 +132,7 @@ START_TEST(two_elastic_bars_part_when_the_wave_comes_back_and_have_exchanged_the
 }
 END_TEST
 
-/* ------------------------------------------------------------------------------------------------- many edges */
+/* ----------------------------------------------------------------------------------- many edges */
 
 /* How far a block slides in two seconds down 30 degrees, over a base of so many pieces. */
 static double slide(int pieces, double phi)
@@ -153,13 +155,13 @@ START_TEST(a_slide_over_a_hundred_edges_is_a_slide_over_one)
     static const double phi[] = { 0, 10, 20 };
     const double one = slide(1, phi[_i]), hundred = slide(100, phi[_i]);
 
-    ck_assert_double_gt(one, 3);                /* m: each of two corners passes an edge every 18 cm */
-    /* All of the base is fixed: what differs is the solver, 1e-14 times its condition number in each step. */
+    ck_assert_double_gt(one, 3);                /* m: two corners pass an edge every 18 cm */
+    /* All of the base is fixed: what differs is the solver, 1e-14 times its condition number. */
     ck_relative(hundred, one, 1e-9);
 }
 END_TEST
 
-/* ---------------------------------------------------------------------------------------------- a long time */
+/* ---------------------------------------------------------------------------------- a long time */
 
 enum { BLOCKS = 5 };
 
@@ -170,7 +172,8 @@ static double force_under(const bbm_model *m, int k)
 
     for (int i = 0; i < m->contacts; i++) {
         const bbm_contact *c = &m->contact[i];
-        const int a = m->element[m->edge[c->corner].element].block, b = m->element[m->edge[c->edge].element].block;
+        const int a = m->element[m->edge[c->corner].element].block;
+        const int b = m->element[m->edge[c->edge].element].block;
         if (c->state != BBM_OPEN && (a > b ? a : b) == k)
             N += c->N;
     }
@@ -194,7 +197,8 @@ START_TEST(a_column_stands_ten_thousand_steps_where_it_stood)
     run(m, 1, 10000);
     for (int k = 1; k <= BLOCKS; k++) {
         const bbm_element *e = &m->element[k];
-        ck_relative(force_under(m, k), (BLOCKS + 1 - k) * W, 1e-9);     /* the solver, times its condition number */
+        /* The solver's tolerance times its condition number. */
+        ck_relative(force_under(m, k), (BLOCKS + 1 - k) * W, 1e-9);
         /* Rounding, 1e-16 of 5 m a step, for 10,000 steps if all were of one sign. */
         for (int q = 0; q < 3; q++)
             ck_near(e->sum[q], place[k][q], 1, 5e-12);
@@ -210,7 +214,7 @@ Suite *limits_suite(void)
     TCase *t = tcase_create("limits");
 
     tcase_set_timeout(t, 60);
-    tcase_add_test(t, two_elastic_bars_part_when_the_wave_comes_back_and_have_exchanged_their_velocities);
+    tcase_add_test(t, two_elastic_bars_exchange_velocities_and_part_when_the_wave_comes_back);
     tcase_add_loop_test(t, a_slide_over_a_hundred_edges_is_a_slide_over_one, 0, 3);
     tcase_add_test(t, a_column_stands_ten_thousand_steps_where_it_stood);
     suite_add_tcase(s, t);
