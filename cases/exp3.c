@@ -64,7 +64,7 @@ static bbm_model *make_model(const variant *v, int *first)
     pull(m, *first, v->line);
     m->par.dt = DT;
     m->par.gravity[1] = -v->gravity;
-    m->par.alpha = 100;
+    m->par.alpha = 1000;
     m->par.bonding = BBM_VERTICES;                          /* the paper's bonds and solver */
     m->par.pcg.form = BBM_EISENSTAT;
     m->par.augment = v->augment;                            /* beyond the paper: fixed points that do not give */
