@@ -513,6 +513,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
         [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
+        [BBM_STOPPED] = "stopped from outside",
     };
 
     return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
@@ -1574,8 +1575,8 @@ static bbm_status solve(bbm_model *m)
 
     if (pcg.form == BBM_TWO_LEVEL && !long_step(m))
         pcg.form = BBM_EISENSTAT;
-    if (m->watch)
-        m->watch(m, m->watch_context);
+    if (m->watch && m->watch(m, m->watch_context))
+        return fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
     const bbm_status status = bbm_solve(m->K, m->F, m->D, &pcg, &m->info.pcg);
     m->info.iterations += i->iterations;
     m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
@@ -1895,12 +1896,14 @@ static double held_moment_energy(const bbm_model *m, const bbm_element *e, int v
     return d[0] * (M[0][0] * d[0] + M[0][1] * d[1]) + d[1] * (M[1][0] * d[0] + M[1][1] * d[1]);
 }
 
-/* The energies after the last step; `springs` are bonds, fixed points and closed contacts. */
+/* The energies after the last step; `springs` are bonds, fixed points and closed contacts. None before bbm_prepare. */
 void bbm_energies(const bbm_model *m, bbm_energy *energy)
 {
     condition c[2];
 
     *energy = (bbm_energy){ 0, 0, 0 };
+    if (!m->K)
+        return;
     for (int i = 0; i < m->elements; i++) {
         energy->kinetic += kinetic_energy(m, &m->element[i]);
         energy->elastic += elastic_energy(&m->element[i]);

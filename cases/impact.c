@@ -154,8 +154,7 @@ int main(void)
         case_compare(&r, name, e, theory(1e9, dt));
         swing(&r, dt, e, dt < 5e-5 ? &s : NULL);
     }
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, states.svg, cradle.svg\n", r.folder);
     scene_free(&s);
-    return 0;
+    return case_close(&r);
 }

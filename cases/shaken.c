@@ -72,7 +72,7 @@ static double theory(const shaking *k, double t)
 }
 
 /* The way down the base after each step; returns their number. */
-static int run(const shaking *k, double t[MOST], double s[MOST], const case_results *movie)
+static int run(const shaking *k, double t[MOST], double s[MOST], case_results *movie)
 {
     bbm_model *m = case_block_on_slope(&(case_slope){ k->angle, 1, 0.5, k->phi, k->p_n, k->dt, 5 });
     scene film = { .title = "A block on a shaken incline, seen from the incline", .window = { -1.4, 1.4, -0.6, 1 } };
@@ -126,7 +126,7 @@ static void print_table(case_results *r)
 }
 
 /* The slip over time, and under it what shakes the base. */
-static void draw(const case_results *r, const shaking *k)
+static void draw(case_results *r, const shaking *k)
 {
     enum { ROOM = 600 };
     double t[MOST], s[MOST], at[ROOM], some[ROOM], exact[ROOM], base[ROOM], a_y[ROOM], table[ROOM][4];
@@ -166,7 +166,6 @@ int main(void)
     case_open(&r, "shaken");
     print_table(&r);
     draw(&r, &(shaking){ 10, 20, 4, 6, 5, 0.01, 1e9 });
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, slip.csv, slip.svg, shaken.svg (it moves)\n", r.folder);
-    return 0;
+    return case_close(&r);
 }
