@@ -93,7 +93,7 @@ quick: $O/quick
 
 check: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
 	$O/check
-	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) $(SANITIZE) smoke
+	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
 
 memcheck:
 	$(MAKE) O=out/memcheck CPPFLAGS=-DGUARD=0 out/memcheck/quick

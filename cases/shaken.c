@@ -114,7 +114,7 @@ static void print_table(case_results *r)
         for (int slips = 1; slips <= 5; slips += 4) {
             const int at = n * slips / 5 - 1;
             const double exact = theory(&k[i], t[at]), nowhere[2] = { NAN, NAN };
-            char name[64];
+            char name[80];
             snprintf(name, sizeof name, "slip%d.a%g.phi%g.dt%g.p_n%.0e", slips, k[i].angle, k[i].phi, k[i].dt,
                      k[i].p_n);
             printf(" %.8f | %.8f | %+.1e |", s[at], exact, case_row(r, name, nowhere, s[at], exact, "theory"));

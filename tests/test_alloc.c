@@ -78,7 +78,7 @@ void test_free(void *piece)
 
     if (!piece)
         return;
-    for (size_t i = 0; i < GUARD; i++)
+    for (size_t i = 0; i != GUARD; i++)
         if (((unsigned char *)piece)[h[-1].size + i] != 0x7f) {
             fprintf(stderr, "written beyond the end of %zu bytes\n", h[-1].size);
             abort();
