@@ -201,8 +201,8 @@ static void report(const model *p, bbm_status status, const char *when, const ar
     const char *message = *m->message ? m->message : bbm_status_text(status);
 
     if (stopped)
-        fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in %s\n", a->model,
-                when, m->info.step, *when ? p->settle : m->par.steps, m->info.t, a->folder);
+        fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in %s\n",
+                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t, a->folder);
     else if (status == BBM_STEPS_EXHAUSTED)
         fprintf(stderr, "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n", a->model,
                 m->info.step, m->info.change, m->par.tolerance);

@@ -293,8 +293,8 @@ static size_t is_ours(const char *name, long *process)
     return 0;
 }
 
-/* Looks through the folder: whether another run writes there; then removes what an earlier one left, so that all that
- * stands there is of one run. */
+/* Looks through the folder: whether another run writes there (some systems do not let its files be removed, others can
+ * tell); then removes what an earlier one left, so that all that stands there is of one run. */
 static int empty_folder(write_results *w)
 {
     char path[LONGEST], why[100];
@@ -310,10 +310,10 @@ static int empty_folder(write_results *w)
                 || !S_ISREG(what.st_mode))
                 continue;
             snprintf(why, sizeof why, "process %ld writes there; another folder may be given with -o", process);
-            if (process > 0 && output_is_alive(process))
+            if (process > 0 && (output_is_alive(process) || remove(path)))
                 fail(w, path, why);
-            else if (pass == 1 && remove(path))
-                fail(w, path, process > 0 ? why : strerror(errno));
+            else if (process == 0 && pass == 1 && remove(path))
+                fail(w, path, strerror(errno));
         }
         closedir(folder);
     }

@@ -8,7 +8,6 @@
 
 #include "programs.h"
 
-/* Runs a shell command made as by printf; the exit status. */
 int shell(const char *format, ...)
 {
     char command[LONG];
@@ -22,7 +21,6 @@ int shell(const char *format, ...)
     return WEXITSTATUS(status);
 }
 
-/* The beginning of a file; "" if it is not there. */
 const char *slurp(const char *path, char text[LONG])
 {
     FILE *f = fopen(path, "rb");
@@ -43,18 +41,17 @@ void write_text(const char *path, const char *text)
     ck_assert_int_eq(fclose(f), 0);
 }
 
-/* Runs a model of out/model/NAME.model that is written first: the text. Results in out/model/NAME. */
 int run_text(const char *name, const char *text)
 {
     char path[100];
 
     snprintf(path, sizeof path, "out/model/%s.model", name);
     write_text(path, text);
-    return shell("rm -rf out/model/%s; %s/bbm -q out/model/%s.model -o out/model/%s 2> out/model/%s.err", name, BUILD,
+    return shell("rm -rf out/model/%s; %s/bbm -q out/model/%s.model -o out/model/%s 2> "
+                 "out/model/%s.err", name, BUILD,
                  name, name, name);
 }
 
-/* A cell of a table: out/model/NAME/FILE, in the last row that begins with `row` ("" for the last one). */
 double cell(const char *name, const char *file, const char *row, const char *column)
 {
     char path[100], line[LONG], found[LONG] = "";
