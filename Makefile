@@ -2,6 +2,7 @@
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make bench     time ratios of the solver     make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files
+# make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
 # make windows   ./bbm for Windows (mingw-w64)
@@ -9,14 +10,14 @@
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm contact solver
+LIBRARY  = bbm contact solver beyond/middle beyond/balance
 RUN      = exp1 exp2 exp3
-GALLERY  = incline shaken topple column overhang drop impact turning arch resting
+GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case output plot scene
 PROGRAM  = bbm model msh write
 PROGRAMS = check_cases check_model check_files programs
-SUITES   = check_bbm check_contact check_solver check_beyond
+SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_limits
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
@@ -49,6 +50,12 @@ $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 
 $O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+$O/torture: $O/tests/torture.o $O/tests/scenes.o $O/tests/ledger.o $(LIBRARY:%=$O/%.o)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+torture: $O/torture
+	$O/torture $(or $(SEED),1) $(or $(SCENES),0) $(or $(TIME),60) $(KIND)
 
 $O/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
@@ -135,5 +142,5 @@ fuzz:
 clean:
 	rm -rf out bbm
 
-.PHONY: all run gallery converge bench quick check memcheck sanitize smoke windows fuzz libcheck clean
+.PHONY: all run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean
 .DELETE_ON_ERROR:

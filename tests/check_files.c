@@ -351,7 +351,7 @@ START_TEST(without_memory_an_experiment_says_so)
 {
     static const char *const name[] = {
         "exp1", "exp2", "exp3", "incline", "shaken", "topple", "column", "overhang", "drop", "impact",
-        "turning", "arch", "resting",
+        "turning", "arch", "resting", "slope", "tilt", "rocking",
     };
     char said[LONG];
 
