@@ -8,13 +8,13 @@
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm contact solver
+LIBRARY  = bbm contact solver beyond/overlap
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene
 PROGRAM  = bbm model msh write
-SUITES   = check_bbm check_contact check_solver check_beyond
+SUITES   = check_bbm check_contact check_solver check_beyond check_refused
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free

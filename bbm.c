@@ -506,6 +506,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_ZERO_AREA] = "an element has no area",
         [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
         [BBM_OVERLAP] = "elements of one block overlap",
+        [BBM_BLOCKS_OVERLAP] = "blocks overlap at the start",
         [BBM_UNUSED_NODE] = "a node belongs to no element",
         [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
         [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
@@ -878,7 +879,7 @@ static bbm_status sort_edges(bbm_model *m, const side s[])
         if (same == 1)
             m->edge[m->edges++] = (bbm_edge){ i->element, i->a, i->b, i->block };
         else if (same > 2 || m->vertex[i->a].node == m->vertex[j->a].node)
-            return m->culprit = j->element,
+            return m->culprit = j->element, m->other = i->element,
                    fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d", i->element,
                         s[v + same - 1].element, i->low, i->high);
         else
@@ -1140,6 +1141,22 @@ static bbm_status lay_out_matrix(bbm_model *m)
     return BBM_OK;
 }
 
+/* Refuses elements that lie in each other. */
+static bbm_status check_overlap(bbm_model *m)
+{
+    bbm_overlap o;
+
+    if (bbm_find_overlap(m, &o))
+        return out_of_memory(m);
+    if (o.i < 0)
+        return BBM_OK;
+    const int p = m->element[o.i].block, q = m->element[o.j].block;
+    m->culprit = o.j;
+    m->other = o.i;
+    return fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d with element %d, block %d "
+                "with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
+}
+
 /* Checks the model and makes all that the steps need: the vertices at each node, boundary and internal edges, K. */
 bbm_status bbm_prepare(bbm_model *m)
 {
@@ -1154,6 +1171,8 @@ bbm_status bbm_prepare(bbm_model *m)
         status = list_meeting_vertices(m);
     if (!status)
         status = connect_elements(m);
+    if (!status)
+        status = check_overlap(m);
     if (!status)
         status = place_line_loads(m);
     if (!status) {

@@ -34,6 +34,7 @@ typedef enum {
     BBM_ZERO_AREA,              /* an element without area                                                */
     BBM_SELF_CROSSING,          /* an element whose boundary meets itself                                 */
     BBM_OVERLAP,                /* elements of one block that lie on the same side of an edge             */
+    BBM_BLOCKS_OVERLAP,         /* blocks that overlap at the start                                       */
     BBM_UNUSED_NODE,            /* a node that no element has                                             */
     BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                                */
     BBM_FREE_TO_MOVE,           /* statics, and the fixed points do not hold a body against rigid motion  */
@@ -209,6 +210,12 @@ typedef struct {                /* what the last step did                       
 
 typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 
+typedef struct {                /* elements i < j that overlap                                                  */
+    int    i, j;
+    double depth;               /* m        the shortest way that parts them                                    */
+    double x, y;                /* m        the middle of what they share                                       */
+} bbm_overlap;
+
 typedef struct bbm_matrix bbm_matrix;           /* K, in solver.c                                               */
 typedef struct bbm_contact_work bbm_contact_work;       /* scratch of contact.c                                 */
 
@@ -242,7 +249,7 @@ typedef struct bbm_model {
     bbm_info info;
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
-    int  culprit;               /* the element of BBM_OVERLAP or BBM_FREE_TO_MOVE                               */
+    int  culprit, other;        /* the element of BBM_OVERLAP or BBM_FREE_TO_MOVE; two of BBM_BLOCKS_OVERLAP    */
     /* --- for whoever wants to see K and F: called before each solution --- */
     void (*watch)(const struct bbm_model *m, void *context);
     void *watch_context;
@@ -279,6 +286,7 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);          
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy);/* N/m, constant         */
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f, const void *context);
 bbm_status bbm_prepare(bbm_model *m);                   /* checks, sorts the edges (2.2), lays out K            */
+bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest at the start; i = -1: none   */
 /* After bbm_prepare: on a boundary edge; whether all is held against rigid motion, as statics needs.            */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);           /* N/m       */
 bbm_status bbm_check_held(bbm_model *m);

@@ -730,6 +730,19 @@ static void measure_box(model_reader *r)
     r->margin = NEAR * hypot(r->high[0] - r->low[0], r->high[1] - r->low[1]);
 }
 
+/* Names the blocks and the elements that lie in each other. */
+static int overlap(model_reader *r)
+{
+    const model *p = r->p;
+    bbm_overlap o;
+
+    if (bbm_find_overlap(p->m, &o))
+        return out_of_memory(r);
+    return model_fail(r, r->element[o.j].at, "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
+                      "%g %g, expected blocks that touch at most", p->element[o.j], r->block[r->element[o.j].block].name,
+                      o.depth, p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
+}
+
 static int build(model_reader *r)
 {
     model *p = r->p;
@@ -755,7 +768,7 @@ static int build(model_reader *r)
         return model_fail(r, e->at, "element %s lies on another one of its block, expected elements side by side",
                           e->id);
     if (status)
-        return out_of_memory(r);
+        return status == BBM_BLOCKS_OVERLAP ? overlap(r) : out_of_memory(r);
     p->velocity = make_room(r, r->blocks, sizeof *p->velocity);
     r->chosen_node = make_room(r, r->nodes, sizeof *r->chosen_node);
     return !p->status;

@@ -99,6 +99,8 @@ typedef struct { const char *name, *message; } wrong;
 static const wrong wrongs[] = {
     { "unknown-statement", ".model:9: unknown statement 'elephant', expected one like node, element, material, "
       "static" },
+    { "blocks-overlap", ".model:11: element 9 of block 'stone' lies 0.005 m deep in element 1 of block 'base' at 0.5 "
+      "0.9975, expected blocks that touch at most" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
     { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x] [y]" },
