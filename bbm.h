@@ -286,6 +286,7 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);          
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy);/* N/m, constant         */
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f, const void *context);
 bbm_status bbm_prepare(bbm_model *m);                   /* checks, sorts the edges (2.2), lays out K            */
+int        bbm_find_pieces(const bbm_model *m, int piece[]);       /* what bonds join, by its first element    */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest at the start; i = -1: none   */
 /* After bbm_prepare: on a boundary edge; whether all is held against rigid motion, as statics needs.            */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);           /* N/m       */

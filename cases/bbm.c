@@ -12,6 +12,8 @@
 
 #include "write.h"
 
+enum { NAMED = 10 };                            /* pieces of a block that a warning names at most */
+
 typedef struct { const char *model, *matrix; char folder[1024]; int quiet, exit; } arguments;  /* exit: -1, go on    */
 
 static const char *usage(void)
@@ -19,7 +21,7 @@ static const char *usage(void)
     return "usage: bbm [-q] [-o FOLDER] [-m FILE] MODEL\n"
            "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
            "  -m FILE     the matrix of the first solution (Matrix Market), and its right-hand side as FILE.rhs\n"
-           "  -q          quiet: errors alone\n"
+           "  -q          quiet: errors and warnings alone\n"
            "  -h, --version\n";
 }
 
@@ -127,6 +129,33 @@ static void summarise(const model *p, const char *folder)
            p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
 }
 
+/* A block whose elements nothing bonds together may be meant, but is said: with an element of each piece. */
+static void warn_of_pieces(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece), *count = piece + m->elements;
+
+    if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
+        free(piece);
+        return;
+    }
+    for (int e = 0; e < m->elements; e++)
+        count[m->element[e].block] += piece[e] == e;
+    for (int b = 0; b < p->blocks; b++) {
+        int left = count[b] > 1 ? NAMED : 0;
+        if (count[b] > 1)
+            fprintf(stderr, "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements", path,
+                    p->block[b], count[b]);
+        for (int e = 0; e < m->elements && left > 0; e++)
+            if (piece[e] == e && m->element[e].block == b)
+                fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
+        if (count[b] > 1)
+            fprintf(stderr, "%s; elements are bonded along sides whose two nodes they share\n",
+                    count[b] > NAMED ? " ..." : "");
+    }
+    free(piece);
+}
+
 /* --------------------------------------------------------------------------------------------------- the run */
 
 /* Quasi-static steps without shaking, then t = 0. */
@@ -188,6 +217,7 @@ static int run(model *p, const arguments *a, clock_t start)
     progress s = { !a->quiet && isatty(2), p->m->par.steps, clock(), 0 };
     bbm_status status = BBM_OK;
 
+    warn_of_pieces(p, a->model);
     if (a->matrix) {
         p->m->watch = write_matrix;
         p->m->watch_context = &w;

@@ -586,6 +586,21 @@ START_TEST(what_cannot_be_written_is_status_1_with_a_message)
 }
 END_TEST
 
+/* An element with a hanging node, and two beside it that share it. */
+START_TEST(a_block_in_pieces_is_said)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(run_text("pieces", "node 1 0 0\nnode 2 2 0\nnode 3 2 1\nnode 4 1 1\nnode 5 0 1\nnode 6 2 2\n"
+                              "node 7 1 2\nnode 8 0 2\nmaterial rock E 1e10 nu 0.25 density 2500\n"
+                              "element 10 beam rock 1 2 3 5\nelement 20 beam rock 5 4 7 8\n"
+                              "element 30 beam rock 4 3 6 7\nfixblock beam\ndynamic dt 0.01 steps 1\n"), 0);
+    ck_assert_str_eq(slurp("out/model/pieces.err", said), "out/model/pieces.model: warning: block 'beam' is in 2 pieces "
+                     "that no bond joins, with the elements 10, 20; elements are bonded along sides whose two nodes they "
+                     "share\n");
+}
+END_TEST
+
 START_TEST(a_closed_pipe_is_status_1)
 {
     char said[LONG];
@@ -640,6 +655,7 @@ Suite *model_suite(void)
     tcase_add_test(t, a_fixed_block_does_not_hold_the_nodes_of_its_neighbour);
     tcase_add_test(t, matrix_and_right_hand_side_lead_to_the_solution);
     tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
+    tcase_add_test(t, a_block_in_pieces_is_said);
     tcase_add_test(t, a_closed_pipe_is_status_1);
     tcase_add_test(t, a_file_that_is_cut_off_never_stands_under_its_name);
     suite_add_tcase(s, t);

@@ -212,6 +212,48 @@ END_TEST
 
 
 
+/* ------------------------------------------------------------------------------------------------ blocks in pieces */
+
+/* 3 x 2 and 2 x 2 elements with nodes of their own along the common side, a triangle that shares one corner with them,
+ * and another block. */
+START_TEST(a_block_falls_into_the_pieces_that_bonds_join)
+{
+    bbm_model *m = new_model();
+    int piece[20];
+
+    add_grid(m, 0, 0, 0, 3, 2, 3, 2, 0);
+    const int node = add_grid(m, 0, 3, 0, 2, 2, 2, 2, 0);
+    add_grid(m, 1, 0, 2, 3, 1, 3, 1, 0);
+    ck_ok(bbm_add_node(m, 7, 2, NULL), m);
+    ck_ok(bbm_add_node(m, 7, 3, NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 3, (int[]){ node + 8, m->nodes - 2, m->nodes - 1 }, NULL), m);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_find_pieces(m, piece), 4);
+    for (int e = 0; e < m->elements; e++)
+        ck_assert_int_eq(piece[e], e < 6 ? 0 : e < 10 ? 6 : e < 13 ? 10 : 13);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A node of one element in the middle of the side of another: not one bond. */
+START_TEST(a_hanging_node_leaves_pieces)
+{
+    const double node[][2] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 0, 1 }, { 2, 2 }, { 1, 2 }, { 0, 2 } };
+    bbm_model *m = new_model();
+    int piece[3];
+
+    for (int k = 0; k < 8; k++)
+        ck_ok(bbm_add_node(m, node[k][0], node[k][1], NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 4 }, NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 4, 3, 6, 7 }, NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 3, 2, 5, 6 }, NULL), m);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_find_pieces(m, piece), 2);
+    ck_assert(piece[0] == 0 && piece[1] == 1 && piece[2] == 1);
+    bbm_model_free(m);
+}
+END_TEST
+
 Suite *refused_suite(void)
 {
     Suite *s = suite_create("refused");
@@ -223,5 +265,9 @@ Suite *refused_suite(void)
     tcase_add_test(overlap, elements_of_one_block_that_overlap_are_refused);
     tcase_add_loop_test(overlap, blocks_of_many_elements_that_overlap_are_refused_at_any_angle, 0, 9);
     suite_add_tcase(s, overlap);
+    TCase *pieces = tcase_create("pieces");
+    tcase_add_test(pieces, a_block_falls_into_the_pieces_that_bonds_join);
+    tcase_add_test(pieces, a_hanging_node_leaves_pieces);
+    suite_add_tcase(s, pieces);
     return s;
 }
