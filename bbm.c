@@ -510,6 +510,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_UNUSED_NODE] = "a node belongs to no element",
         [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
         [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
+        [BBM_MECHANISM] = "elements bonded at midpoints alone can turn against each other",
         [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
         [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
@@ -1222,12 +1223,22 @@ static bbm_status check_parameters(bbm_model *m)
     return BBM_OK;
 }
 
-/* What must hold before a step: a prepared model, parameters in their ranges. */
+static bbm_status check_bonding(bbm_model *m)
+{
+    if (bbm_find_mechanism(m, &m->culprit))
+        return out_of_memory(m);
+    if (m->culprit < 0)
+        return BBM_OK;
+    return fail(m, BBM_MECHANISM, "block %d, element %d; BBM_MOMENT holds them", m->element[m->culprit].block, m->culprit);
+}
+
+/* What must hold before a step: a prepared model, parameters in their ranges, before the first one bonds that hold. */
 static bbm_status check_step(bbm_model *m)
 {
     if (!m->K)
         return m->status ? m->status : fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    return check_parameters(m);
+    const bbm_status status = check_parameters(m);
+    return status || m->info.step > 0 || m->par.bonding != BBM_MIDPOINTS ? status : check_bonding(m);
 }
 
 /* ---------------------------------------------------------- bonds and fixed points of the model */

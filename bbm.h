@@ -38,6 +38,7 @@ typedef enum {
     BBM_UNUSED_NODE,            /* a node that no element has                                             */
     BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                                */
     BBM_FREE_TO_MOVE,           /* statics, and the fixed points do not hold a body against rigid motion  */
+    BBM_MECHANISM,              /* elements bonded at midpoints alone turn against each other at no energy  */
     /* --- the solution failed: the numbers are in bbm_info --- */
     BBM_NOT_POSITIVE_DEFINITE,  /* K is not; info.element is the row, or -1 if the iteration found out    */
     BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                                */
@@ -249,7 +250,7 @@ typedef struct bbm_model {
     bbm_info info;
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
-    int  culprit, other;        /* the element of BBM_OVERLAP or BBM_FREE_TO_MOVE; two of BBM_BLOCKS_OVERLAP    */
+    int  culprit, other;        /* the element of BBM_OVERLAP, BBM_FREE_TO_MOVE, BBM_MECHANISM; and the other one   */
     /* --- for whoever wants to see K and F: called before each solution --- */
     void (*watch)(const struct bbm_model *m, void *context);
     void *watch_context;
@@ -288,6 +289,7 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
 bbm_status bbm_prepare(bbm_model *m);                   /* checks, sorts the edges (2.2), lays out K            */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);       /* what bonds join, by its first element    */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest at the start; i = -1: none   */
+bbm_status bbm_find_mechanism(const bbm_model *m, int *element);    /* of BBM_MIDPOINTS; -1: none               */
 /* After bbm_prepare: on a boundary edge; whether all is held against rigid motion, as statics needs.            */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);           /* N/m       */
 bbm_status bbm_check_held(bbm_model *m);

@@ -1133,7 +1133,13 @@ static int finish(model_reader *r)
     p->block = make_room(r, r->blocks, sizeof *p->block);
     for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
         p->block[p->blocks] = r->block[p->blocks].name;
-    const bbm_status status = p->dynamic || p->status ? BBM_OK : bbm_check_held(p->m);
+    int loose;
+    if (p->status || bbm_find_mechanism(p->m, &loose))
+        return out_of_memory(r);
+    if (loose >= 0)
+        return model_fail(r, r->element[loose].at, "the elements of block '%s' are bonded at midpoints and can turn against "
+                          "each other, expected: bond at moment", p->block[p->m->element[loose].block]);
+    const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return model_fail(r, (model_place){ r->path, 0 }, "block '%s' is free to move, expected fix, fixblock or a "
                           "contact that holds it in statics", p->block[p->m->element[p->m->culprit].block]);
