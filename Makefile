@@ -8,7 +8,7 @@
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm contact solver beyond/overlap beyond/pieces beyond/mechanism
+LIBRARY  = bbm contact solver beyond/overlap beyond/pieces beyond/mechanism beyond/loose
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting
 CASES    = $(RUN) $(GALLERY)

@@ -34,6 +34,10 @@
 /* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured, with blocks of 2 to
  * 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
+/* What an element may strain in a step of dynamics, and turn [rad] if it is bonded: its bonds pull along directions of
+ * the start. One static step is linear elasticity for loads of any size; but strained by 1 an element has turned over. */
+#define FAR_STRAIN 0.5
+#define FAR_TURN 0.5
 
 /* ------------------------------------------------------------------------ 2.1 Displacement of an element */
 
@@ -514,6 +518,8 @@ const char *bbm_status_text(bbm_status s)
         [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
         [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
+        [BBM_NO_EQUILIBRIUM] = "statics finds no equilibrium",
+        [BBM_STEP_TOO_LONG] = "the step is too long",
         [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
     };
 
@@ -1596,7 +1602,20 @@ static bbm_status assemble(bbm_model *m)
     return status ? status : bbm_assemble_contacts(m);
 }
 
-/* Solves K D = F; what went wrong becomes a sentence with the numbers. */
+/* What went wrong in a solution becomes a sentence with the numbers. */
+static bbm_status describe_failure(bbm_model *m, bbm_status status)
+{
+    const bbm_pcg_info *i = &m->info.pcg;
+    const int step = m->info.step + 1;
+
+    if (status == BBM_NOT_FINITE)
+        return fail(m, status, "step %d, a load, velocity, stress or stiffness is too large", step);
+    if (i->element >= 0)
+        return fail(m, status, "step %d, element %d of block %d", step, i->element, m->element[i->element].block);
+    return fail(m, status, "step %d, %d iterations, residual %.2g", step, i->iterations, i->residual);
+}
+
+/* Solves K D = F. */
 static bbm_status solve(bbm_model *m)
 {
     const bbm_pcg_info *i = &m->info.pcg;
@@ -1610,10 +1629,7 @@ static bbm_status solve(bbm_model *m)
     m->info.iterations += i->iterations;
     m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
     m->info.seconds[BBM_ITERATE] += i->seconds[1];
-    if (status)
-        return fail(m, status, "step %d, %d iterations, residual %.2g, element %d", m->info.step + 1, i->iterations,
-                    i->residual, i->element);
-    return BBM_OK;
+    return status ? describe_failure(m, status) : BBM_OK;
 }
 
 /* How a point at X from the barycentre moves: translation, strain, then exact rotation by r0,
@@ -1697,6 +1713,9 @@ static void count_time(bbm_model *m, int phase, clock_t since)
 
 static bbm_status unsettled(bbm_model *m)
 {
+    if (isinf(m->h))
+        return fail(m, BBM_OPEN_CLOSE, "step %d of statics, %d passes, %d contacts; dynamic with damping 0 (keep = 0) may "
+                    "find an equilibrium", m->info.step + 1, m->info.passes, bbm_contact_count(m));
     return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1, m->info.t,
                 m->h, m->info.passes, bbm_contact_count(m));
 }
@@ -1729,6 +1748,77 @@ static bbm_status settle_contacts(bbm_model *m)
     return !status && pass == BBM_PASS_GIVE_UP ? unsettled(m) : status;
 }
 
+/* Whether the solution turns and strains no element too far; a comparison with NaN is false. */
+static bbm_status check_solution(bbm_model *m)
+{
+    const double most = isinf(m->h) ? 1 : FAR_STRAIN;
+    int far = -1;
+
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 3; a < 6; a++)
+            if (!(fabs(m->D[6 * i + a]) < most))
+                far = i;
+    for (int b = 0; b < m->bonds && !isinf(m->h); b++)
+        if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN) || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
+            far = m->bond[b].i;
+    if (far < 0)
+        return BBM_OK;
+    const double *D = &m->D[6 * far], strain = fmax(fmax(fabs(D[3]), fabs(D[4])), fabs(D[5]));
+    return fail(m, BBM_STEP_TOO_LONG, "step %d: element %d of block %d strains by %.2g and turns by %.2g rad; %s",
+                m->info.step + 1, far, m->element[far].block, strain, fabs(D[2]), isinf(m->h)
+                ? "in statics smaller loads or a larger E help" : "a smaller dt, velocity or load helps");
+}
+
+/* Whether the equations, or the states of the contacts, had no end. */
+static int is_lost(bbm_status s)
+{
+    return s == BBM_NOT_POSITIVE_DEFINITE || s == BBM_NOT_CONVERGED || s == BBM_NOT_FINITE || s == BBM_OPEN_CLOSE;
+}
+
+/* In statics all contacts of a block may begin to slide in one pass, and nothing holds it then, though not all would have
+ * to: the second attempt lets one contact change in each pass, so that the others can take over. */
+static bbm_status settle_once_more(bbm_model *m)
+{
+    bbm_status status = settle_contacts(m);
+
+    if (is_lost(status) && isinf(m->h)) {
+        status = bbm_start_again(m);
+        if (!status)
+            status = settle_contacts(m);
+    }
+    return status;
+}
+
+/* Statics that fails because a block is loose says so, and who. */
+static bbm_status explain(bbm_model *m, bbm_status status)
+{
+    const double h = bbm_long_step(m);
+    bbm_pcg pcg = m->par.pcg;
+    bbm_pcg_info info;
+    int pair[2];
+
+    if (!isinf(m->h) || (!is_lost(status) && status != BBM_STEP_TOO_LONG))
+        return status;
+    m->h = h;
+    m->keep_K = 0;
+    const bbm_status assembled = assemble(m);
+    m->h = INFINITY;
+    pcg.form = BBM_EISENSTAT;
+    if (assembled)
+        return assembled;
+    bbm_push_all(m);
+    if (bbm_solve(m->K, m->F, m->D, &pcg, &info) || !bbm_find_loose(m, h, pair))
+        return status;
+    m->culprit = pair[0];
+    m->other = pair[1];
+    const int block = m->element[pair[0]].block;
+    if (pair[1] < 0)
+        return fail(m, BBM_NO_EQUILIBRIUM, "block %d (element %d) is free to move; hold it, or use dynamics", block,
+                    pair[0]);
+    return fail(m, BBM_NO_EQUILIBRIUM, "block %d (element %d) slides, rolls, tips on or leaves block %d (element %d); raise the "
+                "friction, hold it, or use dynamics", block, pair[0], m->element[pair[1]].block, pair[1]);
+}
+
 /* Fig. 8 once with the step m->h. Nothing moves before all has gone well: a solution that moves further than its
  * contacts were looked for is the next guess, and if they outrun it again and again the step has not settled. */
 static bbm_status try_step(bbm_model *m)
@@ -1752,11 +1842,13 @@ static bbm_status try_step(bbm_model *m)
         if (isinf(m->h))
             status = check_held(m);
         if (!status)
-            status = settle_contacts(m);
+            status = settle_once_more(m);
         foreseen = !status && !bbm_moved_too_far(m);
     }
-    if (status || !foreseen)
-        return status ? status : unsettled(m);
+    if (!status)
+        status = foreseen ? check_solution(m) : unsettled(m);
+    if (status)
+        return explain(m, status);
     update(m);
     return bbm_keep_contacts(m);
 }
@@ -1774,7 +1866,7 @@ bbm_status bbm_check_held(bbm_model *m)
     return status == BBM_OK ? check_held(m) : status == BBM_NO_MEMORY ? out_of_memory(m) : status;
 }
 
-/* One time step. If the contacts do not settle, dt is halved and the step done again, down to dt/1024; the nominal step
+/* One time step. If the contacts do not settle, or elements turn or strain too far, dt is halved and the step done again, down to dt/1024; the nominal step
  * is completed in parts, which grow again. When it fails, the model is that of the last part that went well. */
 bbm_status bbm_step(bbm_model *m)
 {
@@ -1786,9 +1878,10 @@ bbm_status bbm_step(bbm_model *m)
     while (!status && left > 0) {
         m->h = isinf(m->par.dt) ? m->par.dt : m->par.dt * part / PARTS;
         status = try_step(m);
-        if (status == BBM_OPEN_CLOSE && part > 1 && !isinf(m->par.dt)) {
+        if ((status == BBM_OPEN_CLOSE || status == BBM_STEP_TOO_LONG) && part > 1 && !isinf(m->par.dt)) {
             part /= 2;
             m->info.cuts++;
+            m->message[0] = '\0';
             status = BBM_OK;
             continue;
         }

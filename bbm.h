@@ -43,6 +43,8 @@ typedef enum {
     BBM_NOT_POSITIVE_DEFINITE,  /* K is not; info.element is the row, or -1 if the iteration found out    */
     BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                                */
     BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps                       */
+    BBM_NO_EQUILIBRIUM,         /* statics, and a block slides, tips or falls: m->culprit on m->other             */
+    BBM_STEP_TOO_LONG,          /* elements turn or strain too far in a step, even in the smallest one          */
     BBM_OPEN_CLOSE,             /* the open-close iteration does not settle, even in the smallest step    */
     BBM_STATUS_COUNT
 } bbm_status;
@@ -250,7 +252,7 @@ typedef struct bbm_model {
     bbm_info info;
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
-    int  culprit, other;        /* the element of BBM_OVERLAP, BBM_FREE_TO_MOVE, BBM_MECHANISM; and the other one   */
+    int  culprit, other;        /* the element of BBM_OVERLAP, BBM_FREE_TO_MOVE, BBM_MECHANISM; another one, or -1  */
     /* --- for whoever wants to see K and F: called before each solution --- */
     void (*watch)(const struct bbm_model *m, void *context);
     void *watch_context;
@@ -346,12 +348,17 @@ void       bbm_contact_free(bbm_contact_work *w);
 void       bbm_guess_step(bbm_model *m);
 int        bbm_moved_too_far(bbm_model *m);
 bbm_status bbm_detect_contacts(bbm_model *m);
+bbm_status bbm_start_again(bbm_model *m);
 int        bbm_contact_count(const bbm_model *m);
 void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
 bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s);
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
 bbm_status bbm_keep_contacts(bbm_model *m);
+/* When statics fails: a step in which inertia is small against stiffness, a push, and who goes far in its solution.  */
+double     bbm_long_step(const bbm_model *m);
+void       bbm_push_all(bbm_model *m);
+int        bbm_find_loose(const bbm_model *m, double h, int pair[2]);
 
 /* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
  * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,

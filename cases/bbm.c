@@ -196,6 +196,21 @@ static bbm_status run_steps(write_results *w, progress *s)
     return !status && !w->status && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED : status;
 }
 
+/* Statics without equilibrium, by the names of the file. */
+static void report_loose(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    const int i = m->culprit, j = m->other;
+
+    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path, m->info.step + 1,
+            p->block[m->element[i].block], p->element[i]);
+    if (j >= 0)
+        fprintf(stderr, "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix it, or use dynamic\n",
+                p->block[m->element[j].block], p->element[j]);
+    else
+        fprintf(stderr, "is free to move; fix it, or use dynamic\n");
+}
+
 /* The message of a run that failed. */
 static void report(const write_results *w, bbm_status status, const char *path)
 {
@@ -204,6 +219,8 @@ static void report(const write_results *w, bbm_status status, const char *path)
     if (status == BBM_STEPS_EXHAUSTED)
         fprintf(stderr, "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n", path,
                 m->info.step, m->info.change, m->par.tolerance);
+    else if (status == BBM_NO_EQUILIBRIUM)
+        report_loose(w->p, path);
     else if (status)
         fprintf(stderr, "%s: step %d: %s\n", path, m->info.step + 1,
                 *m->message ? m->message : bbm_status_text(status));

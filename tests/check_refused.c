@@ -418,6 +418,215 @@ START_TEST(every_mechanism_that_a_dense_elimination_finds_is_refused)
 }
 END_TEST
 
+/* ------------------------------------------------------------------------------------------------ runs that fail */
+
+/* A block of 2 x 2 elements on a fixed base, both turned about the origin: which begins to slide at tan(angle) =
+ * tan(friction), if statics is asked. */
+static bbm_model *block_on_slope(double angle, double friction)
+{
+    bbm_model *m = new_model();
+    const int base = add_grid(m, 0, -2, -1, 4, 1, 4, 1, angle);
+
+    add_grid(m, 1, -0.5, 0, 1, 0.5, 2, 2, angle);
+    for (int n = base; n < base + 10; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    m->par.gravity[1] = -9.81;
+    m->par.friction = friction;
+    m->par.p_n = 1e12;
+    m->par.p_s = 4e11;
+    ck_ok(bbm_prepare(m), m);
+    return m;
+}
+
+START_TEST(a_block_that_slides_in_statics_is_named_with_what_it_slides_on)
+{
+    static const double friction[] = { 10, 29, 31, 45, 0 };
+    bbm_model *m = block_on_slope(_i % 2 ? 30 : -30, friction[_i / 2]);
+
+    m->par.steps = 4;
+    const bbm_status status = bbm_run(m);
+    ck_assert_msg(status == (friction[_i / 2] < 30 ? BBM_NO_EQUILIBRIUM : BBM_OK), "%s", bbm_message(m));
+    if (status) {
+        ck_assert_int_eq(m->element[m->culprit].block, 1);
+        ck_assert_int_eq(m->element[m->other].block, 0);
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "raise the friction"));
+    }
+    ck_assert_ptr_null(strstr(bbm_message(m), "inf"));
+    ck_assert_ptr_null(strstr(bbm_message(m), "element -1"));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block that lifts off, or is pushed until it tips over its edge. */
+START_TEST(a_block_that_lifts_off_or_tips_in_statics_is_named)
+{
+    bbm_model *m = block_on_slope(0, 80);
+
+    m->par.gravity[1] = _i ? -9.81 : 9.81;
+    m->par.gravity[0] = _i ? 9.81 * 3 : 0;                      /* more than 2, width over height */
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->culprit].block == 1, "%s", bbm_message(m));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A bar on two supports, whose lower side grows and slides outwards on both: as one contact may have to hold it again in
+ * the next step, or in the first one of a stone on a plate that bends. */
+START_TEST(statics_goes_on_where_all_contacts_of_a_block_slide)
+{
+    bbm_model *m = new_model();
+    const int left = add_grid(m, 0, 0.3, -1, 0.5, 1, 1, 1, 0), right = add_grid(m, 1, 9.2, -1, 0.5, 1, 1, 1, 0);
+
+    add_grid(m, 2, 0, 0, 10, 0.5, 20, 2, 0);
+    for (int k = 0; k < 4; k++) {
+        ck_ok(bbm_fix_node(m, left + k, BBM_XY, 0, 0), m);
+        ck_ok(bbm_fix_node(m, right + k, BBM_XY, 0, 0), m);
+    }
+    m->par.gravity[1] = -9.81;
+    m->par.friction = 45;
+    m->par.p_n = 1e11;
+    m->par.p_s = 4e10;
+    m->par.steps = 5;
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+    double N = 0;
+    for (int k = 0; k < m->contacts; k++)
+        N += m->contact[k].N;
+    ck_near(N, 10 * 0.5 * 2500 * 9.81, 10 * 0.5 * 2500 * 9.81, 5e-3);   /* T = N on sides that turn by 3e-3 */
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A disc of triangles, held on its axis and pressed with 1 % of E on a soft base, flattens: its contacts move further in
+ * a step than they are deep, and must be found again in the next. */
+START_TEST(contacts_of_statics_are_found_again_in_the_next_step)
+{
+    enum { RIM = 32 };
+    bbm_model *m = new_model();
+    const int base = add_grid(m, 0, -2, -1, 4, 1, 16, 4, 0), centre = m->nodes;
+
+    ck_ok(bbm_add_node(m, 0, 1, NULL), m);
+    for (int ring = 1; ring <= 4; ring++)
+        for (int k = 0; k < RIM; k++)
+            ck_ok(bbm_add_node(m, ring / 4.0 * sin(2 * PI * k / RIM), 1 - ring / 4.0 * cos(2 * PI * k / RIM), NULL), m);
+    for (int k = 0; k < 4 * RIM; k++) {
+        const int a = centre + 1 + k, b = centre + 1 + k / RIM * RIM + (k + 1) % RIM;
+        if (k < RIM)
+            ck_ok(bbm_add_element(m, 1, 0, 3, (int[]){ centre, a, b }, NULL), m);
+        else
+            ck_ok(bbm_add_element(m, 1, 0, 4, (int[]){ a - RIM, a, b, b - RIM }, NULL), m);
+    }
+    for (int n = 0; n < m->nodes; n++) {
+        if (n >= centre && fabs(m->node[n].x) < 1e-9)
+            ck_ok(bbm_fix_node(m, n, BBM_X, 0, 0), m);
+        if (n < base + 17)
+            ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    }
+    ck_ok(bbm_add_load(m, centre + 1 + 3 * RIM + RIM / 2, 0, -3e8), m);
+    m->par.friction = 45;
+    m->par.p_n = 1e13;
+    m->par.p_s = 4e12;
+    m->par.steps = 4;
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+    ck_assert_int_gt(m->info.contacts, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block of 2 x 2 elements in free flight: as fast as one likes without turning; turning by 1 rad in a step, dt is
+ * cut; so fast that dt/1024 is not enough, it is said. */
+START_TEST(a_step_in_which_elements_turn_too_far_is_cut_or_refused)
+{
+    static const struct { double v, spin; int cuts; bbm_status status; } flight[] = {
+        { 1e5, 0, 0, BBM_OK }, { 0, 40, 0, BBM_OK }, { 0, 100, 1, BBM_OK }, { 0, 1e6, 10, BBM_STEP_TOO_LONG },
+    };
+    bbm_model *m = new_model();
+
+    add_grid(m, 0, 0, 0, 1, 1, 2, 2, 0);
+    m->par.dt = 0.01;
+    m->par.keep = 1;
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < 4; e++) {
+        bbm_element *i = &m->element[e];
+        const double V[6] = { flight[_i].v - flight[_i].spin * (i->y - 0.5), flight[_i].spin * (i->x - 0.5),
+                              flight[_i].spin, 0, 0, 0 };
+        memcpy(i->V, V, sizeof V);
+    }
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == flight[_i].status, "%s", bbm_message(m));
+    ck_assert_int_ge(m->info.cuts, flight[_i].cuts);
+    if (flight[_i].cuts == 0)
+        ck_assert_int_eq(m->info.cuts, 0);
+    if (status)
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "a smaller dt"));
+    else
+        ck_assert_str_eq(bbm_message(m), "");
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A static load that turns an element over; and one past all numbers. */
+START_TEST(statics_that_turns_elements_over_is_refused)
+{
+    bbm_model *m = new_model();
+
+    add_grid(m, 0, 0, 0, 1, 1, 2, 2, 0);
+    for (int n = 0; n < 3; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    for (int n = 6; n < 9; n++)
+        ck_ok(bbm_add_load(m, n, 0, _i ? -1e308 : -1e11), m);
+    ck_ok(bbm_prepare(m), m);
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == BBM_STEP_TOO_LONG || (_i && status == BBM_NOT_FINITE), "%s", bbm_message(m));
+    ck_assert_ptr_null(strstr(bbm_message(m), "-1"));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* All that allocates here, with call k failing. */
+static bbm_status allocate_all(void)
+{
+    const double square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+    const bbm_material rock = { 1e10, 0.25, 2500, 1 };
+    bbm_model *m;
+    bbm_status status = bbm_model_new(&m);
+
+    if (status)
+        return status;
+    m->par.bonding = BBM_MIDPOINTS;
+    bbm_add_material(m, &rock, NULL);
+    for (int k = 0; k < 4; k++)
+        bbm_add_node(m, square[k][0], square[k][1], NULL);
+    bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL);
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 1, BBM_XY, 0, 0);
+    bbm_fix_node(m, 2, BBM_XY, 0, 0);
+    bbm_add_load(m, 3, 1, 1);
+    status = bbm_prepare(m);
+    if (!status)
+        status = bbm_step(m);
+    ck_assert_msg(status == BBM_OK || strstr(bbm_message(m), "out of memory"), "%d %s", status, bbm_message(m));
+    bbm_model_free(m);
+    return status;
+}
+
+START_TEST(without_memory_nothing_is_taken_for_sound)
+{
+    bbm_status status = BBM_NO_MEMORY;
+    int k = 0;
+
+    for (; status; k++) {
+        test_allocations_left = -(k + 1);
+        status = allocate_all();
+        const int reached = test_allocations_left >= 0 || status;
+        test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
+        ck_assert(!reached || status == BBM_NO_MEMORY || status == BBM_OK);
+    }
+    ck_assert_int_gt(k, 20);
+}
+END_TEST
+
 Suite *refused_suite(void)
 {
     Suite *s = suite_create("refused");
@@ -438,5 +647,14 @@ Suite *refused_suite(void)
                         2 * (int)(sizeof GRIDS / sizeof *GRIDS));
     tcase_add_loop_test(mechanism, every_mechanism_that_a_dense_elimination_finds_is_refused, 0, 300);
     suite_add_tcase(s, mechanism);
+    TCase *failing = tcase_create("failing");
+    tcase_add_loop_test(failing, a_block_that_slides_in_statics_is_named_with_what_it_slides_on, 0, 10);
+    tcase_add_loop_test(failing, a_block_that_lifts_off_or_tips_in_statics_is_named, 0, 2);
+    tcase_add_test(failing, statics_goes_on_where_all_contacts_of_a_block_slide);
+    tcase_add_test(failing, contacts_of_statics_are_found_again_in_the_next_step);
+    tcase_add_loop_test(failing, a_step_in_which_elements_turn_too_far_is_cut_or_refused, 0, 4);
+    tcase_add_loop_test(failing, statics_that_turns_elements_over_is_refused, 0, 2);
+    tcase_add_test(failing, without_memory_nothing_is_taken_for_sound);
+    suite_add_tcase(s, failing);
     return s;
 }
