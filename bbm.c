@@ -34,6 +34,8 @@
 /* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured, with blocks of 2 to
  * 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
+/* A residual |F - K D|/|F| above this is no solution, though the iteration ended: stiffnesses too far apart for doubles. */
+#define UNSOLVED 1e-3
 /* What an element may strain in a step of dynamics, and turn [rad] if it is bonded: its bonds pull along directions of
  * the start. One static step is linear elasticity for loads of any size; but strained by 1 an element has turned over. */
 #define FAR_STRAIN 0.5
@@ -516,7 +518,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
         [BBM_MECHANISM] = "elements bonded at midpoints alone can turn against each other",
         [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
-        [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
+        [BBM_NOT_CONVERGED] = "the equations were not solved",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
         [BBM_NO_EQUILIBRIUM] = "statics finds no equilibrium",
         [BBM_STEP_TOO_LONG] = "the step is too long",
@@ -1611,8 +1613,10 @@ static bbm_status describe_failure(bbm_model *m, bbm_status status)
     if (status == BBM_NOT_FINITE)
         return fail(m, status, "step %d, a load, velocity, stress or stiffness is too large", step);
     if (i->element >= 0)
-        return fail(m, status, "step %d, element %d of block %d", step, i->element, m->element[i->element].block);
-    return fail(m, status, "step %d, %d iterations, residual %.2g", step, i->iterations, i->residual);
+        return fail(m, status, "step %d, element %d of block %d: it has turned over, or the stiffnesses that meet "
+                    "there are too far apart", step, i->element, m->element[i->element].block);
+    return fail(m, status, "step %d, %d iterations, residual %.2g%s", step, i->iterations, i->residual,
+                status == BBM_NOT_CONVERGED ? "; more iterations or a smaller alpha help" : "");
 }
 
 /* Solves K D = F. */
@@ -1748,7 +1752,7 @@ static bbm_status settle_contacts(bbm_model *m)
     return !status && pass == BBM_PASS_GIVE_UP ? unsettled(m) : status;
 }
 
-/* Whether the solution turns and strains no element too far; a comparison with NaN is false. */
+/* Whether the solution solves the equations, and turns and strains no element too far; a comparison with NaN is false. */
 static bbm_status check_solution(bbm_model *m)
 {
     const double most = isinf(m->h) ? 1 : FAR_STRAIN;
@@ -1761,8 +1765,11 @@ static bbm_status check_solution(bbm_model *m)
     for (int b = 0; b < m->bonds && !isinf(m->h); b++)
         if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN) || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
             far = m->bond[b].i;
-    if (far < 0)
+    if (far < 0 && (m->par.pcg.tolerance > UNSOLVED || m->info.pcg.residual <= UNSOLVED))
         return BBM_OK;
+    if (far < 0)
+        return fail(m, BBM_NOT_CONVERGED, "step %d, residual %.2g: the stiffnesses of materials, bonds and contacts are too "
+                    "far apart", m->info.step + 1, m->info.pcg.residual);
     const double *D = &m->D[6 * far], strain = fmax(fmax(fabs(D[3]), fabs(D[4])), fabs(D[5]));
     return fail(m, BBM_STEP_TOO_LONG, "step %d: element %d of block %d strains by %.2g and turns by %.2g rad; %s",
                 m->info.step + 1, far, m->element[far].block, strain, fabs(D[2]), isinf(m->h)
