@@ -1134,7 +1134,9 @@ static int finish(model_reader *r)
     for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
         p->block[p->blocks] = r->block[p->blocks].name;
     int loose;
-    if (p->status || bbm_find_mechanism(p->m, &loose))
+    if (p->status)
+        return 0;
+    if (bbm_find_mechanism(p->m, &loose))
         return out_of_memory(r);
     if (loose >= 0)
         return model_fail(r, r->element[loose].at, "the elements of block '%s' are bonded at midpoints and can turn against "

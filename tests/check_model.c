@@ -601,6 +601,25 @@ START_TEST(a_block_in_pieces_is_said)
 }
 END_TEST
 
+/* A block that slides off a slope, and one bonded at midpoints on rollers. */
+START_TEST(statics_names_the_block_that_slides_and_refuses_a_mechanism)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(run_text("slides", STEEL "node 1 0 0\nnode 2 4 0\nnode 3 4 1\nnode 4 0 1\nnode 5 1 1\nnode 6 2 1\n"
+                              "node 7 2 2\nnode 8 1 2\nelement 1 base steel 1 2 3 4\nelement 9 stone steel 5 6 7 8\n"
+                              "fixblock base\ngravity 5 -9.81\ncontact friction 20\nstatic\n"), 1);
+    ck_assert_str_eq(slurp("out/model/slides.err", said), "out/model/slides.model: step 1: statics finds no equilibrium: "
+                     "block 'stone' (element 9) slides, rolls, tips on or leaves block 'base' (element 1); raise the "
+                     "friction, fix it, or use dynamic\n");
+    ck_assert_int_eq(run_text("gears", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 2 0\nnode 4 0 1\nnode 5 1 1\nnode 6 2 1\n"
+                              "element 7 plate steel 1 2 5 4\nelement 8 plate steel 2 3 6 5\nbond at midpoints\n"
+                              "fix box 0 0 0 1\nload node 6 0 -1\nstatic\n"), 2);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/gears.err", said), "the elements of block 'plate' are bonded at "
+                                 "midpoints and can turn against each other, expected: bond at moment\n"));
+}
+END_TEST
+
 START_TEST(a_closed_pipe_is_status_1)
 {
     char said[LONG];
@@ -656,6 +675,7 @@ Suite *model_suite(void)
     tcase_add_test(t, matrix_and_right_hand_side_lead_to_the_solution);
     tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
     tcase_add_test(t, a_block_in_pieces_is_said);
+    tcase_add_test(t, statics_names_the_block_that_slides_and_refuses_a_mechanism);
     tcase_add_test(t, a_closed_pipe_is_status_1);
     tcase_add_test(t, a_file_that_is_cut_off_never_stands_under_its_name);
     suite_add_tcase(s, t);
