@@ -34,8 +34,9 @@
 /* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured, with blocks of 2 to
  * 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
-/* Solutions of one step, cut or not, after which it has not settled: some times what the worst walls needed. */
-enum { SOLUTIONS = 5000 };
+/* The work of one step, cut or not, after which it has not settled: solutions, some times what the worst walls needed, and
+ * iterations of SSOR-PCG in all of them, against those that one may take. */
+enum { SOLUTIONS = 5000, ITERATIONS = 10 };
 /* A residual |F - K D|/|F| above this is no solution, though the iteration ended: stiffnesses too far apart for doubles. */
 #define UNSOLVED 1e-3
 /* What an element may strain in a step of dynamics, and turn [rad] if it is bonded: the vectors of the middle grow without
@@ -1819,6 +1820,12 @@ static bbm_status check_solution(bbm_model *m)
                 ? "in statics smaller loads or a larger E help" : "a smaller dt, velocity or load helps");
 }
 
+/* Whether the step has had all the work that it may take. */
+static int is_spent(const bbm_model *m)
+{
+    return m->info.passes >= SOLUTIONS || m->info.iterations / ITERATIONS >= m->par.pcg.iterations;
+}
+
 /* The contacts have not settled; in dynamics perhaps because the solution goes too far. */
 static bbm_status unsettled(bbm_model *m)
 {
@@ -1860,7 +1867,7 @@ static bbm_status settle_contacts(bbm_model *m)
             m->keep_K = 1;
             pass = BBM_PASS_AGAIN;
         }
-        if (m->info.passes >= SOLUTIONS && pass == BBM_PASS_AGAIN)
+        if (is_spent(m) && pass == BBM_PASS_AGAIN)
             pass = BBM_PASS_GIVE_UP;
         start = clock();
     }
@@ -1981,7 +1988,7 @@ bbm_status bbm_step(bbm_model *m)
         m->h = isinf(m->par.dt) ? m->par.dt : m->par.dt * part / PARTS;
         status = try_step(m);
         const int again = status == BBM_OPEN_CLOSE || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG;
-        if (again && part > 1 && !isinf(m->par.dt) && m->info.passes < SOLUTIONS) {
+        if (again && part > 1 && !isinf(m->par.dt) && !is_spent(m)) {
             part /= 2;
             m->info.cuts++;
             m->message[0] = '\0';

@@ -371,6 +371,34 @@ START_TEST(a_fast_block_does_not_pass_a_thin_plate)
 }
 END_TEST
 
+/* Sixteen blocks that spin over each other in steps of 1.5 s, in which they fall 11 m: a step is done, or is refused with a
+ * status, after 5,000 solutions and ten times the iterations that one may take; it always ends. */
+START_TEST(a_step_far_too_long_ends)
+{
+    bbm_model *m = new_model(1e9, 1.5);
+    bbm_status status = BBM_OK;
+
+    m->par.gravity[1] = -9.81;
+    m->par.friction = 30;
+    m->par.pcg.iterations = _i ? 20 : 1000;
+    add_box(m, 16, &(box){ -5, -1, 10, 1, 0, 1, 1, 0 });
+    hold_block(m, 16);
+    for (int k = 0; k < 16; k++)
+        add_box(m, k, &(box){ -2.5 + 1.2 * (k % 4), 0.3 + 1.2 * (k / 4), 0.8, 0.5, 0.3, 1, 1, 0 });
+    ck_ok(bbm_prepare(m), m);
+    for (int k = 0; k < 16; k++)
+        throw_block(m, k, k % 3 - 1, -1, 2 * (k % 2), 0, 0);
+    for (int i = 0; i < 3 && !status; i++) {
+        status = bbm_step(m);
+        ck_assert(m->info.passes <= 5000 && m->info.iterations < 11 * m->par.pcg.iterations);
+        ck_assert(m->info.gain < 1e-3);
+    }
+    ck_assert_msg(!status || status == BBM_OPEN_CLOSE || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG
+                  || status == BBM_NOT_CONVERGED, "%s", bbm_message(m));
+    bbm_model_free(m);
+}
+END_TEST
+
 Suite *motion_suite(void)
 {
     Suite *s = suite_create("motion");
@@ -385,6 +413,7 @@ Suite *motion_suite(void)
     tcase_add_loop_test(t, a_stone_far_away_changes_nothing, 0, 2);
     tcase_add_loop_test(t, a_corner_that_comes_in_over_a_corner_gains_no_energy, 0, 48);
     tcase_add_loop_test(t, a_fast_block_does_not_pass_a_thin_plate, 0, 8);
+    tcase_add_loop_test(t, a_step_far_too_long_ends, 0, 2);
     suite_add_tcase(s, t);
     return s;
 }
