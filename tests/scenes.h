@@ -14,7 +14,9 @@
 
 enum { SCENE_CORNERS = 8, SCENE_NODES = 32, SCENE_ELEMENTS = 32, SCENE_BLOCKS = 40 };
 
-typedef enum { SCENE_BOX, SCENE_KINDS } scene_kind;
+typedef enum {
+    SCENE_BOX, SCENE_STACK, SCENE_WALL, SCENE_WEDGE, SCENE_CORNERS_MEET, SCENE_CLOUD, SCENE_BONDED, SCENE_KINDS
+} scene_kind;
 
 typedef struct { int n, node[SCENE_CORNERS]; } scene_element;
 
@@ -45,6 +47,12 @@ uint64_t scene_random(uint64_t *state);                         /* splitmix64   
 const char *scene_name(scene_kind kind);
 void scene_make(uint64_t seed, int kind, test_scene *s);        /* kind -1: the seed chooses                    */
 bbm_status scene_build(const test_scene *s, bbm_model **m);     /* ready for bbm_step                           */
+
+/* The same scene otherwise. */
+void scene_in_units(test_scene *s, double L, double M, double T);       /* units that are so much smaller        */
+void scene_in_frame(test_scene *s, double angle, const double shift[2]);
+void scene_shuffle(test_scene *s, int place[]);                 /* block k becomes number place[k]              */
+void scene_add_far_stone(test_scene *s);                        /* the last block                               */
 
 void scene_balance(const bbm_model *m, scene_ledger *l);
 void scene_barycentres(const bbm_model *m, double (*x)[2]);     /* [elements]                                   */

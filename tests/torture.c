@@ -46,8 +46,9 @@ static void report(const test_scene *s, const worst *w, const char *what, double
     if (w->times == 0)
         return;
     t->findings++;
-    printf("seed %llu %s: %s %.3g at step %d, more than %.3g; %d steps\n", (unsigned long long)s->seed, scene_name(s->kind),
-           what, w->most, w->step, bound, w->times);
+    printf("seed %llu %s (p_n %g, dt %g, friction %g): %s %.3g at step %d, more than %.3g; %d steps\n",
+           (unsigned long long)s->seed, scene_name(s->kind), s->par.p_n, s->par.dt, s->par.friction, what, w->most, w->step,
+           bound, w->times);
 }
 
 /* One step, and its balance: the share of what is there that it gained. */
