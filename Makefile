@@ -49,7 +49,7 @@ $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 $O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/torture: $O/tests/torture.o $O/tests/scenes.o $O/tests/ledger.o $(LIBRARY:%=$O/%.o)
+$O/torture: $O/tests/torture.o $O/tests/scenes.o $O/tests/ledger.o $O/tests/trial.o $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 torture: $O/torture

@@ -161,6 +161,63 @@ static double contact_energy(const bbm_model *m, const bbm_contact *c)
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * m->par.p_n) + c->T * c->T / (2 * m->par.p_s);
 }
 
+/* How far P1 is inside the edge P2 P3 of another block. */
+static double contact_depth(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *a = &m->vertex[m->edge[c->edge].a], *b = &m->vertex[m->edge[c->edge].b];
+    const bbm_vertex *p = &m->vertex[m->edge[c->corner].a];
+
+    return ((b->x - a->x) * (p->y - a->y) - (b->y - a->y) * (p->x - a->x)) / hypot(b->x - a->x, b->y - a->y);
+}
+
+/* ---------------------------------------------------------------------------------------------------- overlaps */
+
+/* The least depth of the convex e behind a side of the convex f; below 0 if one of them parts the two. */
+static double depth_behind(const bbm_model *m, const bbm_element *e, const bbm_element *f)
+{
+    double least = INFINITY;
+
+    for (int k = 0; k < f->n; k++) {
+        const bbm_vertex *a = corner(m, f, k), *b = corner(m, f, k + 1);
+        const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
+        double most = -INFINITY;
+        for (int i = 0; i < e->n; i++)
+            most = fmax(most, (x * (corner(m, e, i)->y - a->y) - y * (corner(m, e, i)->x - a->x)) / l);
+        least = fmin(least, most);
+        if (least < 0)
+            break;
+    }
+    return least;
+}
+
+static double element_overlap(const bbm_model *m, const bbm_element *e, const bbm_element *f)
+{
+    const double d = depth_behind(m, e, f);
+
+    return d < 0 ? d : fmin(d, depth_behind(m, f, e));
+}
+
+/* The deepest overlap of two blocks less the depth of their deepest closed contact. */
+static double overlap(const bbm_model *m)
+{
+    double deepest[SCENE_BLOCKS][SCENE_BLOCKS] = { { 0 } }, most = 0;
+
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
+        if (c->state != BBM_OPEN)
+            deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], contact_depth(m, c));
+    }
+    for (int i = 0; i < m->elements; i++)
+        for (int j = 0; j < i; j++) {
+            const bbm_element *e = &m->element[i], *f = &m->element[j];
+            const int held = m->node[corner(m, e, 0)->node].held && m->node[corner(m, f, 0)->node].held;
+            if (e->block != f->block && !held)
+                most = fmax(most, element_overlap(m, e, f) - deepest[e->block][f->block]);
+        }
+    return most;
+}
+
 void scene_balance(const bbm_model *m, scene_ledger *l)
 {
     memset(l, 0, sizeof *l);
@@ -173,6 +230,7 @@ void scene_balance(const bbm_model *m, scene_ledger *l)
         l->springs += bond_energy(m, &m->bond[b]);
     for (int k = 0; k < m->contacts; k++)
         l->springs += contact_energy(m, &m->contact[k]);
+    l->overlap = overlap(m);
 }
 
 void scene_barycentres(const bbm_model *m, double (*x)[2])

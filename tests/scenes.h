@@ -40,8 +40,21 @@ typedef struct {                /* what there is at one moment                  
     double kinetic, elastic, springs;   /* J                                                                    */
     double P[2], L;             /* N s, N m s   momentum, and that about the origin                             */
     double P_size, L_size;      /* the same, all parts counted as positive: what a drift is small against       */
-    double overlap;             /* m        of two blocks, at most, beyond the deepest closed contact           */
+    double overlap;             /* m        of two blocks, at most, beyond their deepest closed contact         */
 } scene_ledger;
+
+enum { RULE_GAIN, RULE_MOMENTUM, RULE_TURNING, RULE_OVERLAP, RULE_BITS, RULE_UNITS, RULE_ORDER, RULE_FAR, RULE_FRAME, RULES };
+
+extern const struct scene_rule { const char *text; double bound; } scene_rule[RULES];
+
+typedef struct {                /* what a trial found                                                           */
+    bbm_status status;
+    char message[200];
+    long steps, passes, cuts;
+    int most_passes;
+    struct { double most; int step, first, steps; } peak[RULES];    /* the largest, its step; beyond the bound: */
+                                /* the first step, how many                                                     */
+} scene_trial;
 
 uint64_t scene_random(uint64_t *state);                         /* splitmix64                                   */
 const char *scene_name(scene_kind kind);
@@ -57,5 +70,8 @@ void scene_add_far_stone(test_scene *s);                        /* the last bloc
 void scene_balance(const bbm_model *m, scene_ledger *l);
 void scene_barycentres(const bbm_model *m, double (*x)[2]);     /* [elements]                                   */
 double scene_work(const bbm_model *m, double (*before)[2], double *size);       /* of gravity since then        */
+
+void scene_try(const test_scene *s, int verbose, scene_trial *t);
+void scene_try_twin(const test_scene *s, int rule, scene_trial *t);     /* RULE_BITS and on                     */
 
 #endif
