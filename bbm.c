@@ -1635,10 +1635,40 @@ static void turn_tensor(double s[3], double r)
     s[2] = half * n + t * c;
 }
 
-/* Moves one element of the step's end by its D: vertices, stress by E e, Eq. (7), velocity by Eq. (14). Deviation: the
- * strain rates turn with the element like its stress. */
+/* int u.M u dA of a field u = T V. */
+static double inertia_form(const bbm_element *e, const double V[6])
+{
+    double TT[6][6], sum = 0;
+
+    bbm_mode_integral(e, TT);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            sum += V[a] * TT[a][b] * V[b];
+    return mass_per_area(e) * sum;
+}
+
+/* Stress and strain rates turn with an element that has moved, and the change of its moments by strain, which no force of
+ * the step knows of, changes no energy: turning and straining slow down or speed up together. */
+static void turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
+{
+    double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 }, turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
+    bbm_element end = *e;
+
+    const double before = inertia_form(start, turning);
+    turn_tensor(e->stress, e->D[2]);
+    turn_tensor(rate, e->D[2]);
+    turning[3] = rate[0], turning[4] = rate[1], turning[5] = 2 * rate[2];
+    bbm_element_geometry(&end, vertex);
+    const double after = inertia_form(&end, turning), factor = after > 0 ? sqrt(before / after) : 1;
+    for (int a = 2; a < 6; a++)
+        e->V[a] = factor * turning[a];
+}
+
+/* Moves one element of the step's end by its D: vertices, stress by E e, Eq. (7), velocity by Eq. (14). Deviation: stress
+ * and strain rates turn with the element. */
 static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
 {
+    const bbm_element start = *e;
     double E[3][3], u[2];
 
     for (int k = 0; k < e->n; k++) {
@@ -1654,12 +1684,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         for (int b = 0; b < 3; b++)
             e->stress[a] += E[a][b] * e->D[3 + b];
     bbm_newmark_velocity(e, m->h, m->par.keep);
-    if (bbm_is_exact(m)) {
-        double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
-        turn_tensor(e->stress, e->D[2]);
-        turn_tensor(rate, e->D[2]);
-        e->V[3] = rate[0], e->V[4] = rate[1], e->V[5] = 2 * rate[2];
-    }
+    if (bbm_is_exact(m))
+        turn_element(&start, e, vertex);
     for (int a = 0; a < 3; a++)
         e->sum[a] += e->D[a];
 }
@@ -1902,16 +1928,12 @@ static double kinetic_energy(const bbm_model *m, const bbm_element *e)
 {
     const double keep = m->info.step > 0 ? m->par.keep : 1;
     bbm_element now = *e;
-    double TT[6][6], V[6], sum = 0;
+    double V[6];
 
     bbm_element_geometry(&now, &m->vertex[e->first]);
-    bbm_mode_integral(&now, TT);
     for (int a = 0; a < 6; a++)
         V[a] = keep > 0 ? e->V[a] / keep : 2 / m->h * e->D[a];
-    for (int a = 0; a < 6; a++)
-        for (int b = 0; b < 6; b++)
-            sum += V[a] * TT[a][b] * V[b];
-    return mass_per_area(&now) * sum / 2;
+    return inertia_form(&now, V) / 2;
 }
 
 /* 1/2 int stress.strain dA, with Hooke's law (7) the other way round. */

@@ -154,12 +154,15 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     bbm_contact_state state;
     double sign;                /* of the slip while it slides: 1 towards P3                                    */
     double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                                          */
+    double rest;                /* m        d_n at which the normal spring carries nothing: 0, or where it was  */
+                                /*          when it closed inside, so that no spring starts loaded              */
     double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
     int    whole;               /* closed since the start and not broken: has cohesion and tensile strength     */
     /* --- of the step --- */
     int    rival[4];            /* other lines of entrance, in the list, or -1: two at P3, two at P2            */
     double gap;                 /* m        d_n at the start                                                    */
     double area;                /* m^2      of the joint that P1 stands for; 0 if it is not whole               */
+    double share;               /* -        of the step after it hit, on which its shear spring acts            */
     int    off;                 /* the foot is not on the edge at the start                                     */
     double d_n, d_s;            /* m        normal distance and slip at the end                                 */
     double used;                /* N        the N that the friction of the last solution used                   */
@@ -171,6 +174,7 @@ typedef struct {                /* what the formulas of 3.7 take                
     const bbm_element *i, *j;
     const bbm_vertex *P1, *P2, *P3;
     int exact;                  /* with what (60) drops, see beyond/middle.c; 0: the paper                      */
+    double rest;                /* m        see bbm_contact; 0: the paper                                       */
 } bbm_touch;
 
 typedef struct { double d, e[6], g[6]; } bbm_spring;    /* its length is d + e.D_i + g.D_j                      */

@@ -90,6 +90,7 @@ struct bbm_contact_work {
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
     int *body;                  /* [edges]  the first boundary edge of the same block                           */
     double *depth;              /* [edges]  m, of a body: |d_n| of its closed contacts, at most, before the step */
+    double *now;                /* [edges]  m, the same of the solution, or of the start if that is deeper      */
     double *travel;             /* [edges]  m, of a body: how far its vertices may move in the step             */
     double *moved;              /* [edges]  m, the same of the solution                                         */
     double search;              /* m        vertices further from an edge do not reach it, in any block         */
@@ -152,12 +153,13 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). */
+/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). Deviation: the spring counts from `rest`, see bbm_contact. */
 void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;
 
     bbm_normal_vectors(c, &n);
+    n.d -= c->rest;
     add_spring(p_n, &n, s);
 }
 
@@ -225,7 +227,7 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
     const double strength = bbm_shear_strength(p, c->N, c->area);
 
     if (c->state == BBM_OPEN)
-        return -p->p_n * c->d_n > slack ? BBM_LOCK : BBM_OPEN;
+        return -p->p_n * (c->d_n - c->rest) > slack ? BBM_LOCK : BBM_OPEN;
     if (c->N < (c->whole ? -p->tension * c->area : 0))
         return BBM_OPEN;
     if (p->friction == 0 && p->cohesion == 0)
@@ -361,6 +363,7 @@ void bbm_contact_free(bbm_contact_work *w)
     free(w->guess);
     free(w->body);
     free(w->depth);
+    free(w->now);
     free(w->travel);
     free(w->moved);
     free(w->head);
@@ -395,11 +398,12 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
         w->body = calloc(n, sizeof *w->body);
         w->depth = calloc(n, sizeof *w->depth);
+        w->now = calloc(n, sizeof *w->now);
         w->travel = calloc(n, sizeof *w->travel);
         w->moved = calloc(n, sizeof *w->moved);
     }
     const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
-                   && w->head && w->guess && w->body && w->depth && w->travel && w->moved
+                   && w->head && w->guess && w->body && w->depth && w->now && w->travel && w->moved
                    && number_bodies(m);
     if (ok)
         link_edges(m, ends);
@@ -503,13 +507,14 @@ static foot find_foot(const bbm_model *m, int corner, int e)
 }
 
 /* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
- * and the block is convex there: it lies on the outside. */
+ * and the block is convex there: it lies on the outside. The far end of a side may be as deep as closed contacts are. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
 {
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
+    const double deep = fmin(w->now[w->body[corner]], w->now[w->body[e]]);
 
-    return fmin(cross(q, s), -cross(p, s)) >= -slack && is_convex(w, corner);
+    return cross(q, s) >= -slack - deep / q.length && cross(s, p) >= -slack - deep / p.length && is_convex(w, corner);
 }
 
 static int coincide(const bbm_contact_work *w, int e, int f)
@@ -708,7 +713,7 @@ static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P1 = start_of(m, c->corner), *P2 = end_of(m, c->edge), *P3 = start_of(m, c->edge);
 
-    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3, bbm_is_exact(m) };
+    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3, bbm_is_exact(m), c->rest };
 }
 
 /* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s, m from P2 to P3. */
@@ -785,10 +790,10 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const int strong = m->par.cohesion > 0 || m->par.tension > 0, end = w->after[p.edge];
     const int start = m->info.step == 0 && m->info.t == 0;
 
-    *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d };
+    *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d, .share = 1 };
     if (old) {
         c->state = old->state, c->sign = old->sign, c->anchor = old->anchor, c->whole = old->whole;
-        c->N = c->used = old->N, c->T = old->T;
+        c->N = c->used = old->N, c->T = old->T, c->rest = old->rest;
     } else if (start && fmax(fabs(f.d), f.off) <= w->touch) {
         c->whole = 1;
         c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
@@ -799,10 +804,12 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[3] = find_rival(m, p, end, (pair){ end, p.corner });
     c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : end);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
-    if (!old || old->corner != p.corner || old->edge != p.edge)
-        place_anchor(m, c, c->T);
     if (c->state != BBM_OPEN && has_left(m, c))
-        c->state = BBM_OPEN;
+        c->state = BBM_OPEN, c->N = c->T = 0;
+    if (!old || c->state == BBM_OPEN || old->corner != p.corner || old->edge != p.edge) {
+        place_anchor(m, c, c->T);
+        c->rest = bbm_is_exact(m) ? fmin(0, c->gap + c->N / m->par.p_n) : 0;
+    }
 }
 
 /* How far the boundary of each body moves by D; of a body, at its first edge. */
@@ -857,6 +864,7 @@ static void foresee(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
 
+    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
     find_travel(m, w->guess, w->travel);
     w->search = 0;
     for (int e = 0; e < m->edges; e++) {
@@ -951,7 +959,7 @@ static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
 
     bbm_normal_submatrices(&t, m->par.p_n, &s);
     if (c->state == BBM_LOCK)
-        bbm_shear_submatrices(&t, c->anchor, m->par.p_s, &s);
+        bbm_shear_submatrices(&t, c->anchor, c->share * m->par.p_s, &s);
     else
         bbm_friction_submatrices(&t, c->anchor, friction_force(&m->par, c), &s);
     return bbm_add_submatrices(m, i, j, &s);
@@ -1007,12 +1015,12 @@ static void measure(const bbm_model *m, bbm_contact *c)
     bbm_spring n, s;
 
     if (c->state == BBM_OPEN)
-        c->anchor = 0;
+        c->anchor = 0, c->share = 1;
     bbm_normal_vectors(&t, &n);
     bbm_shear_vectors(&t, c->anchor, &s);
     c->d_n = spring_length(m, c, &n);
-    c->d_s = spring_length(m, c, &s);
-    c->N = c->state == BBM_OPEN ? 0 : -m->par.p_n * c->d_n;
+    c->d_s = c->share * spring_length(m, c, &s);
+    c->N = c->state == BBM_OPEN ? 0 : -m->par.p_n * (c->d_n - c->rest);
     c->T = c->state == BBM_OPEN ? 0 : m->par.p_s * c->d_s;
 }
 
@@ -1040,7 +1048,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
         const bbm_contact *c = &m->work->list[k];
         double d[2];
         exact_distances(m, c, d);
-        const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(d[1] - c->d_s);
+        const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(c->share * d[1] - c->d_s);
         if (c->state == BBM_OPEN ? n > slack && (d[0] < 0) != (c->d_n < 0) : n > slack || (c->state == BBM_LOCK && s > slack))
             return 1;
     }
@@ -1197,15 +1205,16 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
     return 0;
 }
 
-/* A contact closes where P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Returns
- * the way of P1 along the edge in the step, towards P3. */
+/* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Its shear
+ * spring feels the share of the slip that is left, so that it never pushes along. Returns the way of P1 along the edge in
+ * the step, towards P3. */
 static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
 {
-    const double gap = fmax(0, c->gap), when = gap / (gap - c->d_n);
-    const double s = find_foot(m, c->corner, c->edge).s, way = -c->d_s - s;
+    const double gap = fmax(0, c->gap), s = find_foot(m, c->corner, c->edge).s;
 
-    c->anchor = (s + when * way) / m->work->along[c->edge].length;
-    return -way;
+    c->share = 1 - gap / (gap - c->d_n);
+    c->anchor = s / m->work->along[c->edge].length;
+    return c->d_s + s;
 }
 
 /* A contact that closes for a second time in a step was opened by the shear spring of its first trial, which need not
@@ -1257,14 +1266,26 @@ static void watch_for_cycles(bbm_contact_work *w)
     w->seen[w->passes] = hash;
 }
 
+/* The depth of a closed contact counts for both its bodies. */
+static void note_depth(const bbm_contact_work *w, const bbm_contact *c, double depth[])
+{
+    const double deep = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
+
+    depth[w->body[c->corner]] = fmax(depth[w->body[c->corner]], deep);
+    depth[w->body[c->edge]] = fmax(depth[w->body[c->edge]], deep);
+}
+
 /* One look at the solution: whether the friction forces belong to their N, then the states to the forces. */
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
 {
     bbm_contact_work *w = m->work;
 
     m->info.passes++;
-    for (int k = 0; k < w->pairs; k++)
+    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
+    for (int k = 0; k < w->pairs; k++) {
         measure(m, &w->list[k]);
+        note_depth(w, &w->list[k], w->now);
+    }
     const double scale = largest_force(m);
     if (!forces_agree(m, AGREE * scale)) {
         *pass = w->forces < FORCES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
@@ -1297,16 +1318,14 @@ bbm_status bbm_keep_contacts(bbm_model *m)
         bbm_contact *c = &w->list[k];
         const double strength = bbm_shear_strength(&m->par, c->N, c->area);
         c->whole = c->whole && (c->state == BBM_LOCK || (c->state == BBM_SLIDE && strength == 0));
-        if (c->state == BBM_SLIDE) {
+        if (c->state == BBM_SLIDE)
             c->T = c->sign * strength;
+        if (c->state == BBM_SLIDE || c->share < 1)
             place_anchor(m, c, c->T);
-        }
         if (c->state != BBM_OPEN) {
             m->info.contacts++;
             m->info.penetration = fmax(m->info.penetration, -c->d_n);
-            double *i = &w->depth[w->body[c->corner]], *j = &w->depth[w->body[c->edge]];
-            *i = fmax(*i, fabs(c->d_n));
-            *j = fmax(*j, fabs(c->d_n));
+            note_depth(w, c, w->depth);
         }
     }
     m->contact = w->list;

@@ -222,7 +222,7 @@ static void make_encounter(encounter *c, int which)
 {
     make_element(&c->i, c->vi, which / 2, 0.5, 0.75);
     make_element(&c->j, c->vj, which % 2, -1.5, 0.25);
-    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[which % 3], &c->vj[1], &c->vj[0], 0 };      /* P3 comes before P2 */
+    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[which % 3], &c->vj[1], &c->vj[0], 0, 0 };      /* P3 comes before P2 */
     c->anchor = 0.375;
     c->p = 3;
 }
@@ -398,7 +398,7 @@ static void place_on_plate(encounter *c, double x, double y)
         c->vj[k] = (bbm_vertex){ .x = plate[k][0], .y = plate[k][1] };
     bbm_element_geometry(&c->i, c->vi);
     bbm_element_geometry(&c->j, c->vj);
-    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[0], &c->vj[1], &c->vj[0], 0 };
+    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[0], &c->vj[1], &c->vj[0], 0, 0 };
 }
 
 START_TEST(the_normal_distance_is_negative_inside_and_the_slip_positive_towards_P3)
