@@ -407,6 +407,8 @@ bbm_status bbm_contact_new(bbm_model *m)
                    && number_bodies(m);
     if (ok)
         link_edges(m, ends);
+    for (int e = 0; e < m->edges && ok; e++)        /* prepared again in a run: contacts may be as deep as they were */
+        w->depth[e] = m->info.penetration;
     free(ends);
     return ok ? BBM_OK : BBM_NO_MEMORY;
 }
