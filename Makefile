@@ -15,6 +15,7 @@ GALLERY  = incline shaken topple column overhang drop impact turning arch restin
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene
 PROGRAM  = bbm model msh write
+TORTURE  = scenes ledger trial
 SUITES   = check_bbm check_contact check_solver check_beyond
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
@@ -49,7 +50,7 @@ $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 $O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/torture: $O/tests/torture.o $O/tests/scenes.o $O/tests/ledger.o $O/tests/trial.o $(LIBRARY:%=$O/%.o)
+$O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 torture: $O/torture
@@ -75,10 +76,11 @@ TESTED = $(SUITES:%=$O/tests/%.o) $O/tests/test_alloc.o $(LIBRARY:%=$O/failing/%
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$O/check: $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o $(TESTED)
+$O/check: $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o $O/tests/check_scenes.o $(TORTURE:%=$O/tests/%.o) $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$(SUITES:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o: | libcheck
+$(SUITES:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o \
+$O/tests/check_scenes.o: | libcheck
 
 libcheck:
 	@echo '#include <check.h>' | $(CC) $(CPPFLAGS) -E - >/dev/null 2>&1 || \

@@ -35,6 +35,7 @@ Suite *beyond_suite(void);
 Suite *contact_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
+Suite *scenes_suite(void);
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

@@ -18,6 +18,7 @@ int main(void)
 #ifdef CASES
     srunner_add_suite(runner, cases_suite());
     srunner_add_suite(runner, model_suite());
+    srunner_add_suite(runner, scenes_suite());
 #endif
     srunner_run_all(runner, CK_ENV);
     const int failed = srunner_ntests_failed(runner), run = srunner_ntests_run(runner);

@@ -44,6 +44,7 @@ static void add_mass(scene_ledger *l, const bbm_element *e, const double c[2], d
     l->L += dm * (x * v - y * u);
     l->P_size += dm * sqrt(u * u + v * v);
     l->L_size += dm * (fabs(x * v) + fabs(y * u));
+    l->speed = fmax(l->speed, fmax(fabs(u), fabs(v)));
 }
 
 static void add_motion(const bbm_model *m, const bbm_element *e, scene_ledger *l)
@@ -226,31 +227,63 @@ void scene_balance(const bbm_model *m, scene_ledger *l)
         l->elastic += elastic_energy(&m->element[i]);
         l->springs += held_energy(m, &m->element[i]);
     }
-    for (int b = 0; b < m->bonds; b++)
+    for (int b = 0; b < m->bonds; b++) {
         l->springs += bond_energy(m, &m->bond[b]);
+        l->stiffness += 2 * bond_stiffness(m, &m->element[m->bond[b].i], &m->element[m->bond[b].j]);
+    }
     for (int k = 0; k < m->contacts; k++)
         l->springs += contact_energy(m, &m->contact[k]);
     l->overlap = overlap(m);
 }
 
-void scene_barycentres(const bbm_model *m, double (*x)[2])
+void scene_remember(const bbm_model *m, scene_memory *before)
 {
-    for (int i = 0; i < m->elements; i++)
-        place(m, &m->element[i], x[i]);
+    for (int i = 0; i < m->elements; i++) {
+        place(m, &m->element[i], before[i].x);
+        memcpy(before[i].V, m->element[i].V, sizeof before[i].V);
+    }
 }
 
-/* Of the weight, on the way of the barycentres from `before`; `size` counts all parts as positive. */
-double scene_work(const bbm_model *m, double (*before)[2], double *size)
+/* Of the weight, on the way of the barycentres; `size` counts all parts as positive. */
+double scene_work(const bbm_model *m, const scene_memory *before, double *size)
 {
+    const double *g = m->par.gravity;
     double work = 0, x[2];
 
     *size = 0;
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         place(m, e, x);
-        const double w = mass(e) * (m->par.gravity[0] * (x[0] - before[i][0]) + m->par.gravity[1] * (x[1] - before[i][1]));
+        const double w = mass(e) * (g[0] * (x[0] - before[i].x[0]) + g[1] * (x[1] - before[i].x[1]));
         work += w;
         *size += fabs(w);
     }
     return work;
+}
+
+/* Polar moment of inertia. */
+static double inertia(const bbm_model *m, const bbm_element *e)
+{
+    bbm_element spinning = *e;
+    scene_ledger l = { 0 };
+
+    memcpy(spinning.V, (double[6]){ 0, 0, 1 }, sizeof spinning.V);
+    add_motion(m, &spinning, &l);
+    return 2 * l.kinetic;
+}
+
+/* What the angular momentum may change by in the step, for a scheme that keeps the energy: a torque works on the angle r
+ * with tan(r/2)/(r/2) in place of 1, and inertia is that of the step's start while the element is strained in it. */
+double scene_turning_off(const bbm_model *m, const scene_memory *before)
+{
+    double sum = 0;
+
+    for (int i = 0; i < m->elements; i++) {
+        const double *V = before[i].V, *W = m->element[i].V, dt = m->par.dt;
+        const double r = fmin(1, dt * fmax(fabs(V[2]), fabs(W[2])) / 2);
+        const double rates = fabs(V[3]) + fabs(V[4]) + fabs(V[5]) + fabs(W[3]) + fabs(W[4]) + fabs(W[5]);
+        const double push = fabs(W[2] - V[2]) * (r > 0 ? tan(r) / r - 1 : 0);
+        sum += inertia(m, &m->element[i]) * (push + (fabs(V[2]) + fabs(W[2]) + rates) * rates * dt / 2);
+    }
+    return sum;
 }

@@ -40,8 +40,11 @@ typedef struct {                /* what there is at one moment                  
     double kinetic, elastic, springs;   /* J                                                                    */
     double P[2], L;             /* N s, N m s   momentum, and that about the origin                             */
     double P_size, L_size;      /* the same, all parts counted as positive: what a drift is small against       */
+    double stiffness, speed;    /* N/m, m/s     of all bonds and fixed points; the largest                      */
     double overlap;             /* m        of two blocks, at most, beyond their deepest closed contact         */
 } scene_ledger;
+
+typedef struct { double x[2], V[6]; } scene_memory;     /* barycentre and velocity of an element before a step   */
 
 enum { RULE_GAIN, RULE_MOMENTUM, RULE_TURNING, RULE_OVERLAP, RULE_BITS, RULE_UNITS, RULE_ORDER, RULE_FAR, RULE_FRAME, RULES };
 
@@ -64,12 +67,14 @@ bbm_status scene_build(const test_scene *s, bbm_model **m);     /* ready for bbm
 /* The same scene otherwise. */
 void scene_in_units(test_scene *s, double L, double M, double T);       /* units that are so much smaller        */
 void scene_in_frame(test_scene *s, double angle, const double shift[2]);
+int scene_has_ties(const test_scene *s);                        /* decided by what faces up                     */
 void scene_shuffle(test_scene *s, int place[]);                 /* block k becomes number place[k]              */
 void scene_add_far_stone(test_scene *s);                        /* the last block                               */
 
 void scene_balance(const bbm_model *m, scene_ledger *l);
-void scene_barycentres(const bbm_model *m, double (*x)[2]);     /* [elements]                                   */
-double scene_work(const bbm_model *m, double (*before)[2], double *size);       /* of gravity since then        */
+void scene_remember(const bbm_model *m, scene_memory *before);  /* [elements]                                   */
+double scene_work(const bbm_model *m, const scene_memory *before, double *size);        /* of gravity since     */
+double scene_turning_off(const bbm_model *m, const scene_memory *before);
 
 void scene_try(const test_scene *s, int verbose, scene_trial *t);
 void scene_try_twin(const test_scene *s, int rule, scene_trial *t);     /* RULE_BITS and on                     */

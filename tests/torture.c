@@ -73,12 +73,6 @@ static void add_to(tally *t, const test_scene *s, const scene_trial *f)
             t->peak[r] = f->peak[r].most, t->peak_seed[r] = s->seed;
 }
 
-/* A corner exactly on a corner, and sides that lie on each other, are decided by what faces up. */
-static int has_ties(const test_scene *s)
-{
-    return s->kind == SCENE_STACK || s->kind == SCENE_WALL || s->kind == SCENE_CORNERS_MEET;
-}
-
 static void run_scene(const test_scene *s, const wish *w, tally *t)
 {
     scene_trial f;
@@ -89,7 +83,7 @@ static void run_scene(const test_scene *s, const wish *w, tally *t)
     }
     scene_try(s, w->verbose, &f);
     for (int rule = RULE_BITS; rule < RULES; rule++)
-        if (rule != RULE_FRAME || !has_ties(s))
+        if (rule != RULE_FRAME || !scene_has_ties(s))
             scene_try_twin(s, rule, &f);
     report(s, &f, t);
     add_to(t, s, &f);
