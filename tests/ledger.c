@@ -198,11 +198,28 @@ static double element_overlap(const bbm_model *m, const bbm_element *e, const bb
     return d < 0 ? d : fmin(d, depth_behind(m, f, e));
 }
 
-/* The deepest overlap of two blocks less the depth of their deepest closed contact. */
-static double overlap(const bbm_model *m)
+/* How far the sides of a block of bonded elements may bend, which only touches where it has corners and grid points: by
+ * its strain along a metre, and by the gaps of its bonds. */
+static void find_bending(const bbm_model *m, double bending[])
 {
-    double deepest[SCENE_BLOCKS][SCENE_BLOCKS] = { { 0 } }, most = 0;
+    for (int b = 0; b < m->bonds; b++) {
+        const bbm_bond *k = &m->bond[b];
+        const bbm_element *e[2] = { &m->element[k->i], &m->element[k->j] };
+        double *most = &bending[e[0]->block];
+        for (int i = 0; i < 2; i++) {
+            const bbm_vertex *P = &m->vertex[k->p[i]], *Q = &m->vertex[k->q[i]];
+            const double *s = e[i]->stress, strain = 2 * (fabs(s[0]) + fabs(s[1]) + fabs(s[2])) / e[i]->material.E;
+            *most = fmax(*most, strain + hypot(P->u - Q->u, P->v - Q->v));
+        }
+    }
+}
 
+/* The deepest overlap of two blocks less the depth of their deepest closed contact. */
+static void find_overlap(const bbm_model *m, scene_ledger *l)
+{
+    double deepest[SCENE_BLOCKS][SCENE_BLOCKS] = { { 0 } }, bending[SCENE_BLOCKS] = { 0 };
+
+    find_bending(m, bending);
     for (int k = 0; k < m->contacts; k++) {
         const bbm_contact *c = &m->contact[k];
         const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
@@ -212,11 +229,12 @@ static double overlap(const bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         for (int j = 0; j < i; j++) {
             const bbm_element *e = &m->element[i], *f = &m->element[j];
+            const int p = e->block, q = f->block;
             const int held = m->node[corner(m, e, 0)->node].held && m->node[corner(m, f, 0)->node].held;
-            if (e->block != f->block && !held)
-                most = fmax(most, element_overlap(m, e, f) - deepest[e->block][f->block]);
+            const double d = p == q || held ? 0 : element_overlap(m, e, f) - deepest[p][q] - bending[p] - bending[q];
+            if (d > l->overlap)
+                l->overlap = d, l->pair[0] = p, l->pair[1] = q;
         }
-    return most;
 }
 
 void scene_balance(const bbm_model *m, scene_ledger *l)
@@ -233,7 +251,7 @@ void scene_balance(const bbm_model *m, scene_ledger *l)
     }
     for (int k = 0; k < m->contacts; k++)
         l->springs += contact_energy(m, &m->contact[k]);
-    l->overlap = overlap(m);
+    find_overlap(m, l);
 }
 
 void scene_remember(const bbm_model *m, scene_memory *before)

@@ -42,6 +42,7 @@ typedef struct {                /* what there is at one moment                  
     double P_size, L_size;      /* the same, all parts counted as positive: what a drift is small against       */
     double stiffness, speed;    /* N/m, m/s     of all bonds and fixed points; the largest                      */
     double overlap;             /* m        of two blocks, at most, beyond their deepest closed contact         */
+    int pair[2];                /* those blocks                                                                 */
 } scene_ledger;
 
 typedef struct { double x[2], V[6]; } scene_memory;     /* barycentre and velocity of an element before a step   */

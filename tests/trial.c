@@ -82,10 +82,10 @@ static void judge(const bbm_model *m, const scene_ledger *first, const scene_led
 static void print_step(const bbm_model *m, const scene_ledger *l, double gain)
 {
     if (m->info.step == 1)
-        printf("%5s %12s %12s %12s %10s %10s %10s %6s %5s %9s\n", "step", "kinetic", "elastic", "springs", "gain", "L", "overlap",
-               "passes", "cuts", "contacts");
-    printf("%5d %12.6g %12.6g %12.6g %10.2g %10.4g %10.2g %6d %5d %9d\n", m->info.step, l->kinetic, l->elastic, l->springs,
-           gain, l->L, l->overlap, m->info.passes, m->info.cuts, m->info.contacts);
+        printf("%5s %12s %12s %12s %10s %10s %10s %7s %6s %5s %9s\n", "step", "kinetic", "elastic", "springs", "gain", "L",
+               "overlap", "blocks", "passes", "cuts", "contacts");
+    printf("%5d %12.6g %12.6g %12.6g %10.2g %10.4g %10.2g %3d,%3d %6d %5d %9d\n", m->info.step, l->kinetic, l->elastic,
+           l->springs, gain, l->L, l->overlap, l->pair[0], l->pair[1], m->info.passes, m->info.cuts, m->info.contacts);
 }
 
 static void count(const bbm_model *m, scene_trial *t)
