@@ -1772,12 +1772,8 @@ static bbm_status settle_contacts(bbm_model *m)
             status = solve(m);
         if (!status)
             status = bbm_open_close(m, &pass);
-        const int settled = !status && pass == BBM_PASS_DONE, again = settled && !m->keep_K && bbm_middle_is_off(m);
         m->keep_K = 0;
-        if (again) {
-            bbm_set_middle(m, m->D);
-            pass = BBM_PASS_AGAIN;
-        } else if (settled && rounds++ < m->par.augment) {
+        if (!status && pass == BBM_PASS_DONE && rounds++ < m->par.augment) {
             visit_multipliers(m, 1);
             m->keep_K = 1;
             pass = BBM_PASS_AGAIN;

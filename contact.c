@@ -1277,7 +1277,8 @@ static void note_depth(const bbm_contact_work *w, const bbm_contact *c, double d
     depth[w->body[c->edge]] = fmax(depth[w->body[c->edge]], deep);
 }
 
-/* One look at the solution: whether the friction forces belong to their N, then the states to the forces. */
+/* One look at the solution: whether the friction forces belong to their N, then the states to the forces, and the vectors
+ * of the step to the displacements - but not in a round of multipliers, which keeps K. */
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
 {
     bbm_contact_work *w = m->work;
@@ -1295,7 +1296,10 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     }
     w->forces = w->directions = 0;
     watch_for_cycles(w);
-    if (!change_states(m, AGREE * scale))
+    const int changes = change_states(m, AGREE * scale), off = !m->keep_K && bbm_middle_is_off(m);
+    if (off)
+        bbm_set_middle(m, m->D);
+    if (!changes && !off)
         *pass = BBM_PASS_DONE;
     else
         *pass = ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;

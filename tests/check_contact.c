@@ -2814,7 +2814,7 @@ START_TEST(a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were)
 END_TEST
 
 /* Springs so stiff that the last bit of a coordinate is worth more than the weight, so that friction and normal
- * force cannot agree in a step of any size: it is halved until it has taken 5,000 solutions. The solver is let
+ * force cannot agree in a step of any size: it is halved ten times, to dt/1024, and that is all. The solver is let
  * off early, at 1e-6; its exactness would make no difference. The model stays as one that has not been touched. */
 START_TEST(contacts_that_never_settle_end_with_a_status_and_the_numbers)
 {
@@ -2822,9 +2822,9 @@ START_TEST(contacts_that_never_settle_end_with_a_status_and_the_numbers)
 
     m->par.pcg.tolerance = 1e-6;
     ck_assert_int_eq(bbm_step(m), BBM_OPEN_CLOSE);
-    ck_assert_int_ge(m->info.cuts, 2);
-    ck_near(m->h, m->par.dt / pow(2, m->info.cuts), m->par.dt, ROUNDING);
-    ck_assert_msg(strstr(bbm_message(m), "step 1 at t = 0, dt cut to 0.00") && strstr(bbm_message(m), " 5000 passes") &&
+    ck_assert_int_eq(m->info.cuts, 10);
+    ck_near(m->h, m->par.dt / 1024, m->par.dt, ROUNDING);
+    ck_assert_msg(strstr(bbm_message(m), "step 1 at t = 0, dt cut to 9.76") && strstr(bbm_message(m), " passes") &&
                   strstr(bbm_message(m), " contacts"), "%s", bbm_message(m));
     ck_assert(same_state(m, n));
     bbm_model_free(m);
@@ -2992,9 +2992,9 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
 }
 END_TEST
 
-/* Three looks at a block: it comes down on the table; stays there, turned by 0.01 rad; and is lifted off. That no state
- * changes the second time is no cycle, so both contacts open at once. */
-START_TEST(a_pass_that_changes_no_state_is_no_cycle)
+/* Three looks at a block: it comes down on the table; turns there by 0.01 rad, so that the vectors of the step are renewed
+ * and no state changes; and is lifted off. That is no cycle, so both contacts open at once. */
+START_TEST(a_pass_that_renews_the_vectors_is_no_cycle)
 {
     bbm_model *m = block_on_table();
     bbm_pass pass;
@@ -3003,7 +3003,7 @@ START_TEST(a_pass_that_changes_no_state_is_no_cycle)
         m->D[7] = k < 2 ? -0.01 : 0.01;
         m->D[8] = k == 1 ? 0.01 : 0;
         ck_ok(bbm_open_close(m, &pass), m);
-        ck_assert_int_eq(pass, k == 1 ? BBM_PASS_DONE : BBM_PASS_AGAIN);
+        ck_assert_int_eq(pass, BBM_PASS_AGAIN);
     }
     ck_ok(bbm_keep_contacts(m), m);
     ck_assert_int_eq(m->info.contacts, 0);
@@ -3031,28 +3031,28 @@ END_TEST
 
 /* The block comes down, and then turns by 5e-5 about the middle of its lower side: its corners end the step r^2/4 =
  * 6e-10 m beside where the vectors of its start see them, which is much for the shear springs of 1e12 N/m, and nothing for
- * the normal springs of 1e6. Locked contacts have to be solved again; sliding ones have no shear spring. At 2e-4 the turn
- * itself is too much. */
+ * the normal springs of 1e6. Locked contacts have to be solved again; sliding ones have no shear spring. At 3e-4 the turn
+ * itself is too much, (3e-4)^2 2 > 1e-7, but not in a round of multipliers, which keeps K. */
 START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
 {
     bbm_model *m = block_on_table();
-    const double turn = _i < 2 ? 5e-5 : 2e-4;
+    const double turn = _i < 2 ? 5e-5 : 3e-4;
     bbm_pass pass;
 
     m->par.p_n = 1e6;
     m->par.p_s = 1e12;
     m->par.friction = _i ? 0 : 30;
     for (int k = 0; k < 3; k++) {
+        m->keep_K = k == 2 && _i == 3;
         m->D[6] = k < 2 ? 0 : -turn / 2;
         m->D[7] = -0.01;
         m->D[8] = k < 2 ? 0 : turn;
         ck_ok(bbm_open_close(m, &pass), m);
     }
-    ck_assert_int_eq(pass, BBM_PASS_DONE);
-    ck_assert_int_eq(bbm_middle_is_off(m), _i != 1);
-    bbm_set_middle(m, m->D);
+    ck_assert_int_eq(pass, _i % 2 ? BBM_PASS_DONE : BBM_PASS_AGAIN);
     ck_ok(bbm_open_close(m, &pass), m);
-    ck_assert(!bbm_middle_is_off(m));
+    ck_assert_int_eq(pass, BBM_PASS_DONE);
+    ck_assert_int_eq(bbm_middle_is_off(m), _i == 3);
     bbm_model_free(m);
 }
 END_TEST
@@ -3492,9 +3492,9 @@ static void add_redone(Suite *s)
         { a_solution_that_moves_further_than_foreseen_is_noticed, 4 },
         { the_end_of_an_edge_belongs_to_it, 4 },
         { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
-        { a_pass_that_changes_no_state_is_no_cycle, 1 },
+        { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
         { a_set_of_states_that_comes_back_is_a_cycle, 1 },
-        { vectors_of_the_step_are_off_by_the_force_that_they_make, 3 },
+        { vectors_of_the_step_are_off_by_the_force_that_they_make, 4 },
         { piles_settle_in_few_passes, 1 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
