@@ -16,7 +16,7 @@ CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene
 PROGRAM  = bbm model msh write
 TORTURE  = scenes ledger trial
-SUITES   = check_bbm check_contact check_solver check_beyond
+SUITES   = check_bbm check_contact check_solver check_beyond check_motion
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
