@@ -2,9 +2,9 @@
  * scene otherwise (other units, order, frame, one more stone far away), of which the result is known from its own.
  *
  * Twins differ by rounding, and collisions let that grow: without limit in the end. So they are compared until some steps
- * after the first contact, but for units that are powers of two, where no bit may differ. What rounding does to a scene
- * is what another order of its blocks does: a stone far away may matter a thousand times that, for an order is but one
- * sample of it. */
+ * after the first contact, and while no step is cut, for where the iteration did not settle is a matter of rounding. Not
+ * so for units that are powers of two, where no bit may differ. What rounding does to a scene is what another order of
+ * its blocks does: a stone far away may matter a thousand times that, for an order is but one sample of it. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,11 +12,19 @@
 
 #include "scenes.h"
 
-/* The bounds. */
+/* The bounds and their reasons.
+ * energy             what the solver leaves, and vectors of a D that is right to 1e-4 of the largest force: its share of
+ *                    what contacts hold
+ * momentum           rounding, 300 steps
+ * angular momentum   directions of forces that are right to the same 1e-4 turn by that share of the impulse; 3e-6 is seen
+ * overlap            forces within 1e-9 of the largest agree: 1e-9 of 1e8 N at p_n = 1e6 N/m
+ * other units, order, frame    the same 1e-9 of forces, over three steps in contact; 1e-7 is seen
+ * bits               smaller numbers are dropped by the solver
+ * far                what is out of reach for the run has no part in it: rounding of places of 100 m */
 const struct scene_rule scene_rule[RULES] = {
     [RULE_GAIN]     = { "a step makes energy, of what was there",        1e-5  },
     [RULE_MOMENTUM] = { "momentum drifts",                               1e-9  },
-    [RULE_TURNING]  = { "angular momentum drifts",                       1e-7  },
+    [RULE_TURNING]  = { "angular momentum drifts",                       1e-5  },
     [RULE_OVERLAP]  = { "blocks overlap deeper than their contacts [m]", 1e-7  },
     [RULE_BITS]     = { "other units, powers of two, differ [m]",        1e-90 },
     [RULE_UNITS]    = { "other units differ [m]",                        1e-6  },
@@ -107,7 +115,7 @@ void scene_try(const test_scene *s, int verbose, scene_trial *t)
     bbm_model *m;
     bbm_status status = scene_build(s, &m);
     scene_memory *before = calloc(m ? (size_t)m->elements + 1 : 1, sizeof *before);
-    scene_ledger first, start, end;
+    scene_ledger first = { 0 }, start, end;
     double left = 0, off = 0;
 
     memset(t, 0, sizeof *t);
@@ -219,6 +227,8 @@ static void compare(bbm_model *m, bbm_model *n, const likeness *k, int rule, sce
                 note(t, rule, INFINITY, i + 1);
             return;
         }
+        if (rule != RULE_BITS && m->info.cuts + n->info.cuts > 0)
+            return;
         note(t, rule, fmax(0, differs(m, n, k) - allowed), i + 1);
         left -= rule == RULE_BITS ? 0 : m->info.contacts > 0;
         t->steps++;
