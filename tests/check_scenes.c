@@ -7,7 +7,7 @@
 #include "check.h"
 #include "scenes.h"
 
-enum { SEEDS = 14, TWIN_SEEDS = 5 };
+enum { SEEDS = 10, TWIN_SEEDS = 5 };
 
 /* ------------------------------------------------------------------------------------------------- the oracle */
 
