@@ -515,6 +515,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
         [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
+        [BBM_STOPPED] = "stopped from outside",
         [BBM_ENERGY] = "the step makes energy",
     };
 
@@ -1595,8 +1596,8 @@ static bbm_status solve(bbm_model *m)
 
     if (pcg.form == BBM_TWO_LEVEL && !long_step(m))
         pcg.form = BBM_EISENSTAT;
-    if (m->watch)
-        m->watch(m, m->watch_context);
+    if (m->watch && m->watch(m, m->watch_context))
+        return fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
     const bbm_status status = bbm_solve(m->K, m->F, m->D, &pcg, &m->info.pcg);
     m->info.iterations += i->iterations;
     m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
@@ -1992,12 +1993,15 @@ static double contact_energy(const bbm_parameters *p, const bbm_contact *c)
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
 }
 
-/* The energies after the last step; `springs` are bonds, fixed points and closed contacts. */
+/* The energies after the last step; `springs` are bonds, fixed points and closed contacts.
+ * None before bbm_prepare. */
 void bbm_energies(const bbm_model *m, bbm_energy *energy)
 {
     condition c[2];
 
     *energy = (bbm_energy){ 0, 0, 0 };
+    if (!m->K)
+        return;
     for (int i = 0; i < m->elements; i++) {
         energy->kinetic += kinetic_energy(m, &m->element[i]);
         energy->elastic += elastic_energy(&m->element[i]);

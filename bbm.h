@@ -15,6 +15,10 @@
 
 #define BBM_VERSION "0.1"
 
+#if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
+#error "bbm needs IEEE arithmetic with infinity and NaN: compile without -Ofast, -ffast-math, -ffinite-math-only"
+#endif
+
 enum { BBM_GAUSS = 4 };                         /* Gauss points of a line load: exact to degree 7              */
 enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };      /* directions in which a point is held; they add up            */
 
@@ -43,6 +47,7 @@ typedef enum {
     BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps                       */
     BBM_OPEN_CLOSE,             /* the open-close iteration does not settle, even in the smallest step    */
     BBM_ENERGY,                 /* the smallest step still makes energy                                   */
+    BBM_STOPPED,                /* watch said so                                                          */
     BBM_STATUS_COUNT
 } bbm_status;
 
@@ -253,8 +258,8 @@ typedef struct bbm_model {
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
     int  culprit;               /* the element of BBM_OVERLAP or BBM_FREE_TO_MOVE                               */
-    /* --- for whoever wants to see K and F: called before each solution --- */
-    void (*watch)(const struct bbm_model *m, void *context);
+    /* --- for whoever wants to see K and F, or to stop: called before each solution, which not 0 prevents --- */
+    int (*watch)(const struct bbm_model *m, void *context);
     void *watch_context;
 } bbm_model;
 

@@ -34,9 +34,11 @@ Suite *bbm_suite(void);
 Suite *beyond_suite(void);
 Suite *contact_suite(void);
 Suite *motion_suite(void);
+Suite *limits_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
 Suite *scenes_suite(void);
+Suite *files_suite(void);
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

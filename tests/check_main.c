@@ -16,10 +16,12 @@ int main(void)
     srunner_add_suite(runner, contact_suite());
     srunner_add_suite(runner, beyond_suite());
     srunner_add_suite(runner, motion_suite());
+    srunner_add_suite(runner, limits_suite());
 #ifdef CASES
     srunner_add_suite(runner, cases_suite());
     srunner_add_suite(runner, model_suite());
     srunner_add_suite(runner, scenes_suite());
+    srunner_add_suite(runner, files_suite());
 #endif
     srunner_run_all(runner, CK_ENV);
     const int failed = srunner_ntests_failed(runner), run = srunner_ntests_run(runner);
