@@ -10,7 +10,8 @@
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm contact solver beyond/middle beyond/balance
+LIBRARY  = bbm contact solver $(BEYOND:%=beyond/%)
+BEYOND   = middle balance overlap pieces mechanism loose
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)
@@ -18,7 +19,7 @@ SHARED   = case output plot scene
 PROGRAM  = bbm model msh write
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
-SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_limits
+SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_limits check_refused
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free

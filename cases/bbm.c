@@ -15,6 +15,7 @@
 
 /* The signal that came. Signals have no other way to say something: this variable, and it alone, has file scope. */
 static volatile sig_atomic_t stopped;
+enum { NAMED = 10 };                            /* pieces of a block that a warning names at most */
 
 typedef struct { const char *model, *matrix; char folder[1024]; int quiet, exit; } arguments;  /* exit: -1, go on    */
 
@@ -152,8 +153,37 @@ static void summarise(const model *p, const char *folder)
             most = bbm_mises(m->element[e].stress), e_most = e;
     printf("%d step%s, t = %g s, %d contacts closed, residual %.1e\n", m->info.step, m->info.step == 1 ? "" : "s",
            m->info.t, m->info.contacts, m->info.pcg.residual);
+    if (p->dynamic)
+        printf("no step made more than %.1e of its energy beyond the work of loads\n", m->info.gain);
     printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element %s\nresults in %s\n", far,
            p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
+}
+
+/* A block whose elements nothing bonds together may be meant, but is said: with an element of each piece. */
+static void warn_of_pieces(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece), *count = piece + m->elements;
+
+    if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
+        free(piece);
+        return;
+    }
+    for (int e = 0; e < m->elements; e++)
+        count[m->element[e].block] += piece[e] == e;
+    for (int b = 0; b < p->blocks; b++) {
+        int left = count[b] > 1 ? NAMED : 0;
+        if (count[b] > 1)
+            fprintf(stderr, "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements", path,
+                    p->block[b], count[b]);
+        for (int e = 0; e < m->elements && left > 0; e++)
+            if (piece[e] == e && m->element[e].block == b)
+                fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
+        if (count[b] > 1)
+            fprintf(stderr, "%s; elements are bonded along sides whose two nodes they share\n",
+                    count[b] > NAMED ? " ..." : "");
+    }
+    free(piece);
 }
 
 /* --------------------------------------------------------------------------------------------------- the run */
@@ -194,6 +224,21 @@ static bbm_status run_steps(write_results *w, progress *s)
     return !status && !w->status && !stopped && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED : status;
 }
 
+/* Statics without equilibrium, by the names of the file. */
+static void report_loose(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    const int i = m->culprit, j = m->other;
+
+    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path, m->info.step + 1,
+            p->block[m->element[i].block], p->element[i]);
+    if (j >= 0)
+        fprintf(stderr, "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix it, or use dynamic\n",
+                p->block[m->element[j].block], p->element[j]);
+    else
+        fprintf(stderr, "is free to move; fix it, or use dynamic\n");
+}
+
 /* The message of a run that failed; `when`: in which part of it. The library's own message may name the step. */
 static void report(const model *p, bbm_status status, const char *when, const arguments *a)
 {
@@ -206,6 +251,8 @@ static void report(const model *p, bbm_status status, const char *when, const ar
     else if (status == BBM_STEPS_EXHAUSTED)
         fprintf(stderr, "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n", a->model,
                 m->info.step, m->info.change, m->par.tolerance);
+    else if (status == BBM_NO_EQUILIBRIUM)
+        report_loose(p, a->model);
     else if (status && strstr(message, "step "))
         fprintf(stderr, "%s: %s%s\n", a->model, when, message);
     else if (status)
@@ -256,6 +303,7 @@ static int run(model *p, const arguments *a, clock_t start)
 
     catch_signals();
     warn(p, a->model);
+    warn_of_pieces(p, a->model);
     p->m->watch = before_solution;
     p->m->watch_context = &w;
     if (!a->quiet)

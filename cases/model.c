@@ -760,6 +760,19 @@ static void measure_box(model_reader *r)
     r->margin = NEAR * hypot(r->high[0] - r->low[0], r->high[1] - r->low[1]);
 }
 
+/* Names the blocks and the elements that lie in each other. */
+static int overlap(model_reader *r)
+{
+    const model *p = r->p;
+    bbm_overlap o;
+
+    if (bbm_find_overlap(p->m, &o))
+        return out_of_memory(r);
+    return model_fail(r, r->element[o.j].at, "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
+                      "%g %g, expected blocks that touch at most", p->element[o.j], r->block[r->element[o.j].block].name,
+                      o.depth, p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
+}
+
 static int build(model_reader *r)
 {
     model *p = r->p;
@@ -785,7 +798,7 @@ static int build(model_reader *r)
         return model_fail(r, e->at, "element %s lies on another one of its block, expected elements side by side",
                           e->id);
     if (status)
-        return refused(r, status);
+        return status == BBM_BLOCKS_OVERLAP ? overlap(r) : refused(r, status);
     p->velocity = make_room(r, r->blocks, sizeof *p->velocity);
     r->chosen_node = make_room(r, r->nodes, sizeof *r->chosen_node);
     return !p->status;
@@ -1137,7 +1150,15 @@ static int finish(model_reader *r)
     p->block = make_room(r, r->blocks, sizeof *p->block);
     for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
         p->block[p->blocks] = r->block[p->blocks].name;
-    const bbm_status status = p->dynamic || p->status ? BBM_OK : bbm_check_held(p->m);
+    int loose;
+    if (p->status)
+        return 0;
+    if (bbm_find_mechanism(p->m, &loose))
+        return out_of_memory(r);
+    if (loose >= 0)
+        return model_fail(r, r->element[loose].at, "the elements of block '%s' are bonded at midpoints and can turn against "
+                          "each other, expected: bond at moment", p->block[p->m->element[loose].block]);
+    const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return model_fail(r, (model_place){ r->path, 0 }, "block '%s' is free to move, expected fix, fixblock or a "
                           "contact that holds it in statics", p->block[p->m->element[p->m->culprit].block]);

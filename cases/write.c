@@ -106,7 +106,7 @@ static void put_summary(const write_results *w, int step)
     bbm_energies(w->p->m, &e);
     fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes, i->iterations,
             i->pcg.residual, i->contacts);
-    put_numbers(w->summary.file, 4, (double[]){ e.kinetic, e.elastic, e.springs, i->work });
+    put_numbers(w->summary.file, 5, (double[]){ e.kinetic, e.elastic, e.springs, i->work, i->gained });
     fputc('\n', w->summary.file);
 }
 
@@ -339,7 +339,7 @@ int write_open(write_results *w)
     for (int k = 0; k < w->p->monitors; k++)
         fprintf(w->history.file, ",%s_u,%s_v", w->p->monitor[k].name, w->p->monitor[k].name);
     fprintf(w->history.file, "\n");
-    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,external\n");
+    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,external,gained\n");
     w->film.title = w->p->title;
     return 1;
 }

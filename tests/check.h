@@ -35,6 +35,7 @@ Suite *beyond_suite(void);
 Suite *contact_suite(void);
 Suite *motion_suite(void);
 Suite *limits_suite(void);
+Suite *refused_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
 Suite *scenes_suite(void);

@@ -17,6 +17,7 @@ int main(void)
     srunner_add_suite(runner, beyond_suite());
     srunner_add_suite(runner, motion_suite());
     srunner_add_suite(runner, limits_suite());
+    srunner_add_suite(runner, refused_suite());
 #ifdef CASES
     srunner_add_suite(runner, cases_suite());
     srunner_add_suite(runner, model_suite());

@@ -17,6 +17,8 @@ typedef struct { const char *name, *message; } wrong;
 static const wrong wrongs[] = {
     { "unknown-statement", ".model:9: unknown statement 'elephant', expected one like node, element, material, "
       "static" },
+    { "blocks-overlap", ".model:11: element 9 of block 'stone' lies 0.005 m deep in element 1 of block 'base' at 0.5 "
+      "0.9975, expected blocks that touch at most" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
     { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x] [y]" },
@@ -429,6 +431,40 @@ START_TEST(a_fixed_block_does_not_hold_the_nodes_of_its_neighbour)
 }
 END_TEST
 
+/* An element with a hanging node, and two beside it that share it. */
+START_TEST(a_block_in_pieces_is_said)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(run_text("pieces", "node 1 0 0\nnode 2 2 0\nnode 3 2 1\nnode 4 1 1\nnode 5 0 1\nnode 6 2 2\n"
+                              "node 7 1 2\nnode 8 0 2\nmaterial rock E 1e10 nu 0.25 density 2500\n"
+                              "element 10 beam rock 1 2 3 5\nelement 20 beam rock 5 4 7 8\n"
+                              "element 30 beam rock 4 3 6 7\nfixblock beam\ndynamic dt 0.01 steps 1\n"), 0);
+    ck_assert_str_eq(slurp("out/model/pieces.err", said), "out/model/pieces.model: warning: block 'beam' is in 2 pieces "
+                     "that no bond joins, with the elements 10, 20; elements are bonded along sides whose two nodes they "
+                     "share\n");
+}
+END_TEST
+
+/* A block that slides off a slope, and one bonded at midpoints on rollers. */
+START_TEST(statics_names_the_block_that_slides_and_refuses_a_mechanism)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(run_text("slides", STEEL "node 1 0 0\nnode 2 4 0\nnode 3 4 1\nnode 4 0 1\nnode 5 1 1\nnode 6 2 1\n"
+                              "node 7 2 2\nnode 8 1 2\nelement 1 base steel 1 2 3 4\nelement 9 stone steel 5 6 7 8\n"
+                              "fixblock base\ngravity 5 -9.81\ncontact friction 20\nstatic\n"), 1);
+    ck_assert_str_eq(slurp("out/model/slides.err", said), "out/model/slides.model: step 1: statics finds no equilibrium: "
+                     "block 'stone' (element 9) slides, rolls, tips on or leaves block 'base' (element 1); raise the "
+                     "friction, fix it, or use dynamic\n");
+    ck_assert_int_eq(run_text("gears", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 2 0\nnode 4 0 1\nnode 5 1 1\nnode 6 2 1\n"
+                              "element 7 plate steel 1 2 5 4\nelement 8 plate steel 2 3 6 5\nbond at midpoints\n"
+                              "fix box 0 0 0 1\nload node 6 0 -1\nstatic\n"), 2);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/gears.err", said), "the elements of block 'plate' are bonded at "
+                                 "midpoints and can turn against each other, expected: bond at moment\n"));
+}
+END_TEST
+
 Suite *model_suite(void)
 {
     Suite *s = suite_create("model");
@@ -456,6 +492,8 @@ Suite *model_suite(void)
     tcase_add_test(t, both_versions_of_a_mesh_and_the_same_by_hand_agree);
     tcase_add_test(t, a_node_that_blocks_share_has_a_row_for_each);
     tcase_add_test(t, a_fixed_block_does_not_hold_the_nodes_of_its_neighbour);
+    tcase_add_test(t, a_block_in_pieces_is_said);
+    tcase_add_test(t, statics_names_the_block_that_slides_and_refuses_a_mechanism);
     suite_add_tcase(s, t);
     return s;
 }

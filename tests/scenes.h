@@ -56,6 +56,7 @@ typedef struct {                /* what a trial found                           
     char message[200];
     long steps, passes, cuts;
     int most_passes;
+    double rounding;            /* m        what another order of the blocks makes                              */
     struct { double most; int step, first, steps; } peak[RULES];    /* the largest, its step; beyond the bound: */
                                 /* the first step, how many                                                     */
 } scene_trial;

@@ -51,6 +51,8 @@ static void note(scene_trial *t, int rule, double value, int step)
         t->peak[rule].first = step;
 }
 
+static double beyond(double x, double allowed) { return isnan(x) ? x : fmax(0, x - allowed); }
+
 /* Neither gravity nor anything fixed. */
 static int is_isolated(const test_scene *s)
 {
@@ -102,8 +104,8 @@ static void judge(const bbm_model *m, const scene_ledger *first, const scene_led
 {
     const double drift = hypot(l->P[0] - first->P[0], l->P[1] - first->P[1]), turning = fabs(l->L - first->L);
 
-    note(t, RULE_MOMENTUM, fmax(0, drift - left) / first->P_size, m->info.step);
-    note(t, RULE_TURNING, fmax(0, turning - off) / first->L_size, m->info.step);
+    note(t, RULE_MOMENTUM, beyond(drift, left) / first->P_size, m->info.step);
+    note(t, RULE_TURNING, beyond(turning, off) / first->L_size, m->info.step);
 }
 
 static void print_step(const bbm_model *m, const scene_ledger *l, double gain)
@@ -237,7 +239,7 @@ static double differs(const bbm_model *m, const bbm_model *n, const likeness *k)
 static void compare(bbm_model *m, bbm_model *n, const likeness *k, int rule, scene_trial *t)
 {
     const int steps = m->par.steps < TWIN_STEPS ? m->par.steps : TWIN_STEPS;
-    double allowed = rule == RULE_FAR ? 1000 * t->peak[RULE_ORDER].most : 0;
+    double allowed = rule == RULE_FAR ? 1000 * t->rounding : 0;
 
     for (int left = AFTER_CONTACT, i = 0; left > 0 && i < steps; i++) {
         const bbm_status status = bbm_step(m), other = bbm_step(n);
@@ -249,7 +251,9 @@ static void compare(bbm_model *m, bbm_model *n, const likeness *k, int rule, sce
         if (rule != RULE_BITS && m->info.cuts + n->info.cuts > 0)
             return;
         allowed += rule == RULE_BITS || rule == RULE_FAR ? 0 : (i + 1) * place_left(m);
-        note(t, rule, fmax(0, differs(m, n, k) - allowed), i + 1);
+        const double difference = differs(m, n, k);
+        note(t, rule, beyond(difference, allowed), i + 1);
+        t->rounding = rule == RULE_ORDER ? fmax(t->rounding, difference) : t->rounding;
         left -= rule == RULE_BITS ? 0 : m->info.contacts > 0;
         t->steps++;
     }
