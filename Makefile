@@ -17,7 +17,8 @@ GALLERY  = incline shaken topple column overhang drop impact turning arch restin
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case output plot scene
 PROGRAM  = bbm model msh write
-PROGRAMS = check_cases check_model check_files programs
+TORTURE  = scenes ledger trial
+PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
 SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_limits check_refused
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
@@ -52,7 +53,7 @@ $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 $O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/torture: $O/tests/torture.o $O/tests/scenes.o $O/tests/ledger.o $(LIBRARY:%=$O/%.o)
+$O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 torture: $O/torture

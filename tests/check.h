@@ -38,6 +38,7 @@ Suite *limits_suite(void);
 Suite *refused_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
+Suite *scenes_suite(void);
 Suite *files_suite(void);
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */

@@ -21,6 +21,7 @@ int main(void)
 #ifdef CASES
     srunner_add_suite(runner, cases_suite());
     srunner_add_suite(runner, model_suite());
+    srunner_add_suite(runner, scenes_suite());
     srunner_add_suite(runner, files_suite());
 #endif
     srunner_run_all(runner, CK_ENV);

@@ -44,6 +44,7 @@ static void add_mass(scene_ledger *l, const bbm_element *e, const double c[2], d
     l->L += dm * (x * v - y * u);
     l->P_size += dm * sqrt(u * u + v * v);
     l->L_size += dm * (fabs(x * v) + fabs(y * u));
+    l->speed = fmax(l->speed, fmax(fabs(u), fabs(v)));
 }
 
 static void add_motion(const bbm_model *m, const bbm_element *e, scene_ledger *l)
@@ -161,6 +162,81 @@ static double contact_energy(const bbm_model *m, const bbm_contact *c)
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * m->par.p_n) + c->T * c->T / (2 * m->par.p_s);
 }
 
+/* How far P1 is inside the edge P2 P3 of another block. */
+static double contact_depth(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *a = &m->vertex[m->edge[c->edge].a], *b = &m->vertex[m->edge[c->edge].b];
+    const bbm_vertex *p = &m->vertex[m->edge[c->corner].a];
+
+    return ((b->x - a->x) * (p->y - a->y) - (b->y - a->y) * (p->x - a->x)) / hypot(b->x - a->x, b->y - a->y);
+}
+
+/* ---------------------------------------------------------------------------------------------------- overlaps */
+
+/* The least depth of the convex e behind a side of the convex f; below 0 if one of them parts the two. */
+static double depth_behind(const bbm_model *m, const bbm_element *e, const bbm_element *f)
+{
+    double least = INFINITY;
+
+    for (int k = 0; k < f->n; k++) {
+        const bbm_vertex *a = corner(m, f, k), *b = corner(m, f, k + 1);
+        const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
+        double most = -INFINITY;
+        for (int i = 0; i < e->n; i++)
+            most = fmax(most, (x * (corner(m, e, i)->y - a->y) - y * (corner(m, e, i)->x - a->x)) / l);
+        least = fmin(least, most);
+        if (least < 0)
+            break;
+    }
+    return least;
+}
+
+static double element_overlap(const bbm_model *m, const bbm_element *e, const bbm_element *f)
+{
+    const double d = depth_behind(m, e, f);
+
+    return d < 0 ? d : fmin(d, depth_behind(m, f, e));
+}
+
+/* How far the sides of a block of bonded elements may bend, which only touches where it has corners and grid points: by
+ * its strain along a metre, and by the gaps of its bonds. */
+static void find_bending(const bbm_model *m, double bending[])
+{
+    for (int b = 0; b < m->bonds; b++) {
+        const bbm_bond *k = &m->bond[b];
+        const bbm_element *e[2] = { &m->element[k->i], &m->element[k->j] };
+        double *most = &bending[e[0]->block];
+        for (int i = 0; i < 2; i++) {
+            const bbm_vertex *P = &m->vertex[k->p[i]], *Q = &m->vertex[k->q[i]];
+            const double *s = e[i]->stress, strain = 2 * (fabs(s[0]) + fabs(s[1]) + fabs(s[2])) / e[i]->material.E;
+            *most = fmax(*most, strain + hypot(P->u - Q->u, P->v - Q->v));
+        }
+    }
+}
+
+/* The deepest overlap of two blocks less the depth of their deepest closed contact. */
+static void find_overlap(const bbm_model *m, scene_ledger *l)
+{
+    double deepest[SCENE_BLOCKS][SCENE_BLOCKS] = { { 0 } }, bending[SCENE_BLOCKS] = { 0 };
+
+    find_bending(m, bending);
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
+        if (c->state != BBM_OPEN)
+            deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], contact_depth(m, c));
+    }
+    for (int i = 0; i < m->elements; i++)
+        for (int j = 0; j < i; j++) {
+            const bbm_element *e = &m->element[i], *f = &m->element[j];
+            const int p = e->block, q = f->block;
+            const int held = m->node[corner(m, e, 0)->node].held && m->node[corner(m, f, 0)->node].held;
+            const double d = p == q || held ? 0 : element_overlap(m, e, f) - deepest[p][q] - bending[p] - bending[q];
+            if (d > l->overlap)
+                l->overlap = d, l->pair[0] = p, l->pair[1] = q;
+        }
+}
+
 void scene_balance(const bbm_model *m, scene_ledger *l)
 {
     memset(l, 0, sizeof *l);
@@ -169,30 +245,63 @@ void scene_balance(const bbm_model *m, scene_ledger *l)
         l->elastic += elastic_energy(&m->element[i]);
         l->springs += held_energy(m, &m->element[i]);
     }
-    for (int b = 0; b < m->bonds; b++)
+    for (int b = 0; b < m->bonds; b++) {
         l->springs += bond_energy(m, &m->bond[b]);
+        l->stiffness += 2 * bond_stiffness(m, &m->element[m->bond[b].i], &m->element[m->bond[b].j]);
+    }
     for (int k = 0; k < m->contacts; k++)
         l->springs += contact_energy(m, &m->contact[k]);
+    find_overlap(m, l);
 }
 
-void scene_barycentres(const bbm_model *m, double (*x)[2])
+void scene_remember(const bbm_model *m, scene_memory *before)
 {
-    for (int i = 0; i < m->elements; i++)
-        place(m, &m->element[i], x[i]);
+    for (int i = 0; i < m->elements; i++) {
+        place(m, &m->element[i], before[i].x);
+        memcpy(before[i].V, m->element[i].V, sizeof before[i].V);
+    }
 }
 
-/* Of the weight, on the way of the barycentres from `before`; `size` counts all parts as positive. */
-double scene_work(const bbm_model *m, double (*before)[2], double *size)
+/* Of the weight, on the way of the barycentres; `size` counts all parts as positive. */
+double scene_work(const bbm_model *m, const scene_memory *before, double *size)
 {
+    const double *g = m->par.gravity;
     double work = 0, x[2];
 
     *size = 0;
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         place(m, e, x);
-        const double w = mass(e) * (m->par.gravity[0] * (x[0] - before[i][0]) + m->par.gravity[1] * (x[1] - before[i][1]));
+        const double w = mass(e) * (g[0] * (x[0] - before[i].x[0]) + g[1] * (x[1] - before[i].x[1]));
         work += w;
         *size += fabs(w);
     }
     return work;
+}
+
+/* Polar moment of inertia. */
+static double inertia(const bbm_model *m, const bbm_element *e)
+{
+    bbm_element spinning = *e;
+    scene_ledger l = { 0 };
+
+    memcpy(spinning.V, (double[6]){ 0, 0, 1 }, sizeof spinning.V);
+    add_motion(m, &spinning, &l);
+    return 2 * l.kinetic;
+}
+
+/* What the angular momentum may change by in the step, for a scheme that keeps the energy: a torque works on the angle r
+ * with tan(r/2)/(r/2) in place of 1, and inertia is that of the step's start while the element is strained in it. */
+double scene_turning_off(const bbm_model *m, const scene_memory *before)
+{
+    double sum = 0;
+
+    for (int i = 0; i < m->elements; i++) {
+        const double *V = before[i].V, *W = m->element[i].V, dt = m->par.dt;
+        const double r = fmin(1, dt * fmax(fabs(V[2]), fabs(W[2])) / 2);
+        const double rates = fabs(V[3]) + fabs(V[4]) + fabs(V[5]) + fabs(W[3]) + fabs(W[4]) + fabs(W[5]);
+        const double push = fabs(W[2] - V[2]) * (r > 0 ? tan(r) / r - 1 : 0);
+        sum += inertia(m, &m->element[i]) * (push + (fabs(V[2]) + fabs(W[2]) + rates) * rates * dt / 2);
+    }
+    return sum;
 }

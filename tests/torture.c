@@ -5,16 +5,12 @@
  *     make torture KIND=box TIME=600      one kind, ten minutes
  *
  * Prints what breaks a rule as it goes, with the seed that repeats it; exit 1 if anything did. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "scenes.h"
-
-/* A step may gain that share of what is there: rounding, and what the solver leaves. */
-#define GAIN 1e-5
 
 typedef struct {
     uint64_t seed;
@@ -23,106 +19,87 @@ typedef struct {
 } wish;
 
 typedef struct {
-    long scenes, steps, findings, passes, cuts;
+    long scenes, steps, findings, passes, cuts, status[BBM_STATUS_COUNT], broken[RULES];
     int most_passes;
-    uint64_t most_seed, gain_seed;
-    double gain;
-    long status[BBM_STATUS_COUNT];
+    uint64_t most_seed, peak_seed[RULES];
+    double peak[RULES];
 } tally;
 
-typedef struct { double most; int step, times; } worst;
-
-static void note(worst *w, double value, int step)
-{
-    w->times++;
-    if (value > w->most) {
-        w->most = value;
-        w->step = step;
-    }
-}
-
-static void report(const test_scene *s, const worst *w, const char *what, double bound, tally *t)
-{
-    if (w->times == 0)
-        return;
-    t->findings++;
-    printf("seed %llu %s: %s %.3g at step %d, more than %.3g; %d steps\n", (unsigned long long)s->seed, scene_name(s->kind),
-           what, w->most, w->step, bound, w->times);
-}
-
-/* One step, and its balance: the share of what is there that it gained. */
-static bbm_status balanced_step(bbm_model *m, double (*before)[2], scene_ledger *l, double *gain)
-{
-    const double start = l->kinetic + l->elastic + l->springs;
-    double size;
-
-    scene_barycentres(m, before);
-    const bbm_status status = bbm_step(m);
-    if (status)
-        return status;
-    scene_balance(m, l);
-    const double work = scene_work(m, before, &size), more = l->kinetic + l->elastic + l->springs - start - work;
-    *gain = start + size > 0 ? more / (start + size) : 0;
-    return BBM_OK;
-}
-
-static void print_scene(const test_scene *s, const bbm_model *m)
+static void print_scene(const test_scene *s)
 {
     const bbm_parameters *p = &s->par;
+    int elements = 0;
 
-    printf("seed %llu, %s: %d blocks, %d elements, dt %g, %d steps, p_n %g, p_s %g, friction %.3g, gravity %g\n",
-           (unsigned long long)s->seed, scene_name(s->kind), s->blocks, m->elements, p->dt, p->steps, p->p_n, p->p_s,
-           p->friction, p->gravity[1]);
-    printf("%5s %12s %12s %12s %10s %6s %5s %9s\n", "step", "kinetic", "elastic", "springs", "gain", "passes", "cuts",
-           "contacts");
+    for (int k = 0; k < s->blocks; k++)
+        elements += s->block[k].elements;
+    printf("%d blocks, %d elements, %d steps, p_s %g, gravity %g, alpha %g, bonding %d, cohesion %g, tension %g\n", s->blocks,
+           elements, p->steps, p->p_s, p->gravity[1], p->alpha, (int)p->bonding, p->cohesion, p->tension);
+}
+
+static void print_name(const test_scene *s)
+{
+    printf("seed %llu %s (p_n %g, dt %g, friction %g%s): ", (unsigned long long)s->seed, scene_name(s->kind), s->par.p_n,
+           s->par.dt, s->par.friction, s->par.augment ? ", augmented" : "");
+}
+
+static void report(const test_scene *s, const scene_trial *f, tally *t)
+{
+    if (f->status) {
+        t->findings++;
+        print_name(s);
+        printf("%s\n", f->message);
+    }
+    for (int r = 0; r < RULES; r++)
+        if (f->peak[r].steps > 0) {
+            t->findings++;
+            t->broken[r]++;
+            print_name(s);
+            printf("%s: %.3g at step %d, at most %.3g; %d steps, from %d on\n", scene_rule[r].text, f->peak[r].most,
+                   f->peak[r].step, scene_rule[r].bound, f->peak[r].steps, f->peak[r].first);
+        }
+}
+
+static void add_to(tally *t, const test_scene *s, const scene_trial *f)
+{
+    t->scenes++;
+    t->steps += f->steps;
+    t->passes += f->passes;
+    t->cuts += f->cuts;
+    t->status[f->status]++;
+    if (f->most_passes > t->most_passes)
+        t->most_passes = f->most_passes, t->most_seed = s->seed;
+    for (int r = 0; r < RULES; r++)
+        if (f->peak[r].most > t->peak[r])
+            t->peak[r] = f->peak[r].most, t->peak_seed[r] = s->seed;
 }
 
 static void run_scene(const test_scene *s, const wish *w, tally *t)
 {
-    bbm_model *m;
-    scene_ledger l;
-    worst gain = { 0 };
-    bbm_status status = scene_build(s, &m);
-    double (*before)[2] = calloc(m ? (size_t)m->elements + 1 : 1, sizeof *before), g = 0;
+    scene_trial f;
 
-    if (w->verbose)
-        print_scene(s, m);
-    scene_balance(m, &l);
-    while (!status && m->info.step < s->par.steps) {
-        status = balanced_step(m, before, &l, &g);
-        if (w->verbose)
-            printf("%5d %12.6g %12.6g %12.6g %10.2g %6d %5d %9d\n", m->info.step, l.kinetic, l.elastic, l.springs, g,
-                   m->info.passes, m->info.cuts, m->info.contacts);
-        if (!(g <= GAIN))
-            note(&gain, isnan(g) ? INFINITY : g, m->info.step);
-        if (g > t->gain)
-            t->gain = g, t->gain_seed = s->seed;
-        if (m->info.passes > t->most_passes)
-            t->most_passes = m->info.passes, t->most_seed = s->seed;
-        t->steps++;
-        t->passes += m->info.passes;
-        t->cuts += m->info.cuts;
+    if (w->verbose) {
+        print_name(s);
+        print_scene(s);
     }
-    t->scenes++;
-    t->status[status]++;
-    if (status) {
-        t->findings++;
-        printf("seed %llu %s: %s\n", (unsigned long long)s->seed, scene_name(s->kind), bbm_message(m));
-    }
-    report(s, &gain, "a step gains the share", GAIN, t);
-    free(before);
-    bbm_model_free(m);
+    scene_try(s, w->verbose, &f);
+    for (int rule = RULE_BITS; rule < RULES; rule++)
+        if (rule != RULE_FRAME || !scene_has_ties(s))
+            scene_try_twin(s, rule, &f);
+    report(s, &f, t);
+    add_to(t, s, &f);
 }
 
 static void print_tally(const tally *t)
 {
-    printf("%ld scenes, %ld steps, %ld findings; largest gain of a step %.3g (seed %llu); solutions: %.2f a step, at most "
-           "%d (seed %llu); %ld cuts\n", t->scenes, t->steps, t->findings, t->gain, (unsigned long long)t->gain_seed,
-           (double)t->passes / (double)(t->steps > 0 ? t->steps : 1), t->most_passes, (unsigned long long)t->most_seed,
-           t->cuts);
+    printf("\n%ld scenes, %ld steps, %ld findings; solutions: %.2f a step, at most %d (seed %llu); %ld cuts\n", t->scenes,
+           t->steps, t->findings, (double)t->passes / (double)(t->steps > 0 ? t->steps : 1), t->most_passes,
+           (unsigned long long)t->most_seed, t->cuts);
+    for (int r = 0; r < RULES; r++)
+        printf("    %-48s at most %-9.3g (seed %llu), %ld scenes beyond %g\n", scene_rule[r].text, t->peak[r],
+               (unsigned long long)t->peak_seed[r], t->broken[r], scene_rule[r].bound);
     for (int k = 1; k < BBM_STATUS_COUNT; k++)
         if (t->status[k] > 0)
-            printf("    %ld times: %s\n", t->status[k], bbm_status_text((bbm_status)k));
+            printf("    %ld scenes: %s\n", t->status[k], bbm_status_text((bbm_status)k));
 }
 
 static int kind_of(const char *name)
