@@ -37,8 +37,8 @@
 
 /* ------------------------------------------------------------------------ 2.1 Displacement of an element */
 
-/* Area, barycentre and second moments of a polygon by simplex integration: the sum over its edges of the signed
- * triangles (origin, a, b) with twice the area c = xa yb - xb ya,
+/* Area, barycentre and second moments of a polygon by simplex integration, for Eq. (12): the sum over its edges of the
+ * signed triangles (origin, a, b) with twice the area c = xa yb - xb ya,
  *     A = sum c/2,   int x dA = sum c/6 (xa + xb),   int x^2 dA = sum c/12 (xa^2 + xa xb + xb^2),
  *     int x y dA = sum c/24 (xa yb + 2 xa ya + 2 xb yb + xb ya).
  * Convex or not, the signs take care of it. The origin is first vertex 0, then the barycentre, so that nothing
@@ -154,7 +154,7 @@ static double mass_per_area(const bbm_element *e)
     return e->material.density * e->material.thickness * e->A0 / e->A;
 }
 
-/* int T^T T dA, Eq. (16): with the origin in the barycentre the first moments vanish. */
+/* int T^T T dA, Eq. (12), (16), (17): with the origin in the barycentre the first moments vanish. */
 void bbm_mode_integral(const bbm_element *e, double M[6][6])
 {
     const double A = e->A, xx = e->Sxx, yy = e->Syy, xy = e->Sxy;
@@ -419,7 +419,7 @@ void bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2]
     add_force(T, f, F);
 }
 
-/* Point and weight g of Gauss and Legendre on 0 <= s <= 1. */
+/* Point and weight g of Gauss and Legendre on 0 <= s <= 1, for Eq. (38) and (42). */
 void bbm_gauss_point(int g, double *s, double *weight)
 {
     const double inner = 3.0 / 7 - 2.0 / 7 * sqrt(6.0 / 5), outer = 3.0 / 7 + 2.0 / 7 * sqrt(6.0 / 5);
@@ -446,7 +446,7 @@ void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const
 }
 
 /* A constant load f [N/m] from a to b: F_i += l (fx, fy, -Y fx + X fy, X fx, Y fy, (Y fx + X fy)/2), with (X, Y) the
- * middle of the line seen from the barycentre, Eq. (43). */
+ * middle of the line seen from the barycentre, Eq. (39), (43). */
 void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b, const double f[2],
                                  double F[6])
 {
@@ -1547,7 +1547,7 @@ static void gather_loads(bbm_model *m)
         load_line(m, &m->line_load[l]);
 }
 
-/* K, unless it is kept, and F of the present geometry, section 3. */
+/* K, unless it is kept, and F of the present geometry, Eq. (5). */
 static bbm_status assemble(bbm_model *m)
 {
     bbm_status status = BBM_OK;
@@ -1566,7 +1566,7 @@ static bbm_status assemble(bbm_model *m)
     return status ? status : bbm_assemble_contacts(m);
 }
 
-/* Solves K D = F; what went wrong becomes a sentence with the numbers. */
+/* Solves K D = F, Eq. (5); what went wrong becomes a sentence with the numbers. */
 static bbm_status solve(bbm_model *m)
 {
     const bbm_pcg_info *i = &m->info.pcg;
@@ -1614,7 +1614,7 @@ static void turn_stress(double s[3], double r)
     s[2] = half * n + t * c;
 }
 
-/* Moves one element by its D: vertices, stress by E e, Eq. (7), velocity by Eq. (14). */
+/* Moves one element by its D: vertices, stress by E e, Eq. (7), (8), velocity by Eq. (14). */
 static void update_element(bbm_model *m, bbm_element *e)
 {
     const int exact = m->par.rotation == BBM_EXACT && !isinf(m->h);
@@ -1640,7 +1640,8 @@ static void update_element(bbm_model *m, bbm_element *e)
     e->sum[2] += e->D[2];
 }
 
-/* Moves all elements; how small the step was against all so far, Eq. (71), is left in info.change. */
+/* Moves all elements by their places in D, Eq. (3); how small the step was against all so far, Eq. (71), is left in
+ * info.change. */
 static void update(bbm_model *m)
 {
     double step2 = 0, sum2 = 0;
