@@ -34,6 +34,7 @@ Suite *bbm_suite(void);
 Suite *beyond_suite(void);
 Suite *bars_suite(void);
 Suite *theory_suite(void);
+Suite *equations_suite(void);
 Suite *contact_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
