@@ -1756,14 +1756,22 @@ static bbm_model *two_squares(int block0, int block1)
 
 START_TEST(elements_of_different_blocks_are_not_bonded)
 {
-    bbm_model *m = two_squares(0, 1), *n = two_squares(4, 4);
+    bbm_model *m = two_squares(0, 1), *n = two_squares(4, 4), *t = new_model(&SOLID);
 
     ck_ok(bbm_prepare(m), m);
     ck_ok(bbm_prepare(n), n);
     ck_assert(m->bonds == 0 && m->edges == 8);
     ck_assert(n->bonds == 1 && n->edges == 6);
+    /* Sorted, the last side of the first triangle and the first side of the second are neighbours. */
+    for (int k = 0; k < 4; k++)
+        ck_ok(bbm_add_node(t, k % 2, k / 2, NULL), t);
+    for (int k = 0; k < 2; k++)
+        ck_ok(bbm_add_element(t, k, 0, 3, (int[]){ k, k + 1, k + 2 }, NULL), t);
+    ck_ok(bbm_prepare(t), t);
+    ck_assert(t->bonds == 0 && t->edges == 6);
     bbm_model_free(m);
     bbm_model_free(n);
+    bbm_model_free(t);
 }
 END_TEST
 
