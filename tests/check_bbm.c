@@ -707,6 +707,7 @@ static bbm_model *new_model(const bbm_material *material)
     m->par.bonding = BBM_VERTICES;         /* the paper's bonds; check_beyond.c has the others */
     ck_ok(bbm_add_material(m, material, NULL), m);
     m->par.pcg.tolerance = 1e-15;
+    m->par.pcg.iterations = 1000;               /* several times what is needed: an error ends at once */
     return m;
 }
 

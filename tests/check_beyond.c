@@ -27,6 +27,7 @@ static bbm_model *make(const grid *g, double alpha, int augment, bbm_bonding bon
     m->par.augment = augment;
     m->par.bonding = bonding;
     m->par.pcg.tolerance = 1e-13;
+    m->par.pcg.iterations = 1000;               /* several times what is needed: an error ends at once */
     bbm_add_material(m, &(bbm_material){ E, NU, 1000, 1 }, NULL);
     for (int j = 0; j <= g->ny; j++)
         for (int i = 0; i <= g->nx; i++) {

@@ -43,6 +43,7 @@ static bbm_model *new_model(void)
     m->par.keep = 1;
     m->par.gravity[1] = -GRAVITY;
     m->par.pcg.tolerance = 1e-14;
+    m->par.pcg.iterations = 1000;               /* several times what is needed: an error ends at once */
     ck_ok(bbm_add_material(m, &rock, NULL), m);
     ck_ok(bbm_add_material(m, &base, NULL), m);
     return m;
