@@ -42,6 +42,7 @@ Suite *model_suite(void);
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX
 extern int test_allocations_left;       /* k >= 0: k calls succeed, then none; -k < 0: only call k fails */
+extern size_t test_bytes;               /* asked for so far */
 void *test_malloc(size_t size);
 void *test_calloc(size_t count, size_t size);
 void *test_realloc(void *old, size_t size);

@@ -1174,6 +1174,38 @@ START_TEST(coarse_space_that_finds_no_memory_is_none)
 }
 END_TEST
 
+/* Bytes for the coarse space of a strip of triangles: i has the corners i, i + 1, i + 2 and a side with the next one. */
+static size_t strip_bytes(int triangles)
+{
+    int (*pair)[2] = calloc((size_t)triangles, sizeof *pair), *first = calloc(4 * (size_t)triangles + 1, sizeof *first);
+    int *node = first + triangles + 1;
+    bbm_matrix *K;
+
+    for (int i = 0; i < triangles; i++) {
+        pair[i][0] = i;
+        pair[i][1] = i + (i + 1 < triangles);
+        first[i + 1] = 3 * i + 3;
+        for (int k = 0; k < 3; k++)
+            node[3 * i + k] = i + k;
+    }
+    ck_assert_int_eq(bbm_matrix_new(triangles, triangles, pair, &K), BBM_OK);
+    const size_t before = test_bytes;
+    ck_assert_int_eq(bbm_matrix_coarse(K, triangles + 2, first, node), BBM_OK);
+    const size_t bytes = test_bytes - before;
+    bbm_matrix_free(K);
+    free(pair);
+    free(first);
+    return bytes;
+}
+
+/* Each node of the strip has a block in Kc for itself and for the two before it, 32 bytes each; P and Q of a triangle's
+ * corners take 576, all that is numbered 152. Nodes across a common side, 3 apart, would take 248 more. */
+START_TEST(kc_has_room_for_corners_of_one_element_and_no_others)
+{
+    ck_assert_uint_le(strip_bytes(200) - strip_bytes(100), 100 * (96 + 576 + 152));
+}
+END_TEST
+
 START_TEST(matrix_that_is_not_positive_definite_is_found_out_on_two_levels)
 {
     static const int first[] = { 0, 1, 2 }, node[] = { 0, 0 };
@@ -1507,6 +1539,7 @@ Suite *solver_suite(void)
     tcase_add_loop_test(two, solution_does_not_depend_on_earlier_ones, 0, 3);
     tcase_add_test(two, coarse_nodes_and_corners_that_do_not_exist_are_refused);
     tcase_add_test(two, coarse_space_that_finds_no_memory_is_none);
+    tcase_add_test(two, kc_has_room_for_corners_of_one_element_and_no_others);
     tcase_add_test(two, matrix_that_is_not_positive_definite_is_found_out_on_two_levels);
     tcase_add_loop_test(two, blocks_come_out_as_they_went_in, 0, PATTERNS);
     tcase_add_loop_test(two, iterations_on_two_levels_are_few_and_do_not_grow_with_the_mesh, 0, 11);
