@@ -1382,6 +1382,26 @@ START_TEST(a_thrown_body_follows_the_parabola)
 }
 END_TEST
 
+/* In a frame that moves with its base a body feels the base's acceleration the other way round; taken at the step's end,
+ * t = 0.01 and 0.02 s, where sin(omega t) is 1 and 0. */
+START_TEST(the_acceleration_of_the_base_acts_like_gravity_the_other_way)
+{
+    bbm_model *m = flyer(_i);
+    const double a[2] = { 3, -2 }, g[2] = { 0.5, -9.81 };
+
+    memcpy(m->par.gravity, g, sizeof g);
+    memcpy(m->par.shake, a, sizeof a);
+    m->par.omega = acos(-1) / 2 / 0.01;
+    for (int step = 1; step <= 2; step++) {
+        ck_ok(bbm_step(m), m);
+        for (int e = 0; e < m->elements; e++)
+            for (int r = 0; r < 2; r++)
+                ck_near(m->element[e].V[r], (step * g[r] - a[r]) * 0.01, 0.1, ROUNDING);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
 START_TEST(a_spinning_element_keeps_its_angular_velocity_and_its_mass)
 {
     bbm_model *m = unit_square(&SOLID);
@@ -1970,6 +1990,7 @@ static const struct { bbm_status status; int n, node[MOST]; } POLYGONS[] = {
     { BBM_ZERO_AREA, 4, { 0, 6, 18, 12 } },
     { BBM_ZERO_AREA, 3, { 0, 2, 25 } },                     /* as flat as rounding */
     { BBM_ZERO_AREA, 3, { 0, 10, 27 } },
+    { BBM_ZERO_AREA, 3, { 0, 5, 27 } },                     /* long, with one short side */
     { BBM_OK, 3, { 0, 2, 26 } },                            /* flat, but not a line */
     { BBM_SELF_CROSSING, 4, { 0, 2, 10, 12 } },             /* bow ties, of no signed area and of some */
     { BBM_SELF_CROSSING, 4, { 0, 3, 10, 12 } },
@@ -2610,6 +2631,7 @@ static void add_models(Suite *s)
     };
     const entry steps[] = {
         { a_thrown_body_follows_the_parabola, 2 },
+        { the_acceleration_of_the_base_acts_like_gravity_the_other_way, 2 },
         { a_spinning_element_keeps_its_angular_velocity_and_its_mass, 2 },
         { stress_turns_with_the_element, 2 },
         { bonded_elements_keep_their_momentum_while_they_shake_each_other, 2 },
