@@ -2,13 +2,14 @@
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make bench     time ratios of the solver     make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files
+# make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  the tests under ASan and UBSan
 
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm contact solver
+LIBRARY  = bbm contact solver beyond/middle beyond/balance
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting
 CASES    = $(RUN) $(GALLERY)
@@ -47,6 +48,12 @@ $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 
 $O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+$O/torture: $O/tests/torture.o $O/tests/scenes.o $O/tests/ledger.o $(LIBRARY:%=$O/%.o)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+torture: $O/torture
+	$O/torture $(or $(SEED),1) $(or $(SCENES),0) $(or $(TIME),60) $(KIND)
 
 $O/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
@@ -100,5 +107,5 @@ fuzz:
 clean:
 	rm -rf out bbm
 
-.PHONY: all run gallery converge bench quick check memcheck sanitize fuzz libcheck clean
+.PHONY: all run gallery converge bench quick check memcheck sanitize fuzz torture libcheck clean
 .DELETE_ON_ERROR:

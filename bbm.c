@@ -34,6 +34,8 @@
 /* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured, with blocks of 2 to
  * 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
+/* Solutions of one step, cut or not, after which it has not settled: some times what the worst walls needed. */
+enum { SOLUTIONS = 5000 };
 
 /* ------------------------------------------------------------------------ 2.1 Displacement of an element */
 
@@ -215,15 +217,16 @@ static void add_force(double T[2][6], const double f[2], double F[6])
  * end of the step is |d|, d = d0 + Ti(P) Di - Tj(Q) Dj, d0 = P - Q, Eq. (18)-(23); Pi_b = k/2 d.d, Eq. (24)-(26)
  *     ->   K_ii += k Ti^T Ti,  K_ij -= k Ti^T Tj,  K_jj += k Tj^T Tj,  Eq. (27),
  *          F_i -= k Ti^T d0,  F_j += k Tj^T d0,                        Eq. (28).
- * d0 is the difference of the displacements: coordinates would add their round-off. */
+ * d0 is the difference of the displacements: coordinates would add their round-off. Deviation, here and for fixed points
+ * and loads: T at the middle of the step, with which d is exact (beyond/middle.c). */
 void bbm_bonding_submatrices(const bbm_element *i, const bbm_vertex *P, const bbm_element *j, const bbm_vertex *Q,
                              double k, bbm_submatrices *s)
 {
     const double pull[2] = { k * (P->u - Q->u), k * (P->v - Q->v) }, push[2] = { -pull[0], -pull[1] };
-    double Ti[2][6], Tj[2][6];
+    double Ti[2][6], Tj[2][6], at[2];
 
-    bbm_mode_matrix(i, P->x, P->y, Ti);
-    bbm_mode_matrix(j, Q->x, Q->y, Tj);
+    bbm_middle_matrix(i, P->x, P->y, Ti, at);
+    bbm_middle_matrix(j, Q->x, Q->y, Tj, at);
     add_product(k, Ti, Ti, s->Kii);
     add_product(-k, Ti, Tj, s->Kij);
     add_product(k, Tj, Tj, s->Kjj);
@@ -325,14 +328,14 @@ static void add_gap(const bbm_element *i, const bbm_vertex *const P[2], const bb
                           (P[0]->v - Q[0]->v + s * (P[1]->v - Q[1]->v)) / 2 };
     const double pull[2] = { W[0][0] * d[0] + W[0][1] * d[1], W[1][0] * d[0] + W[1][1] * d[1] };
     const double push[2] = { -pull[0], -pull[1] };
-    double T[2][2][6], Ti[2][6], Tj[2][6];
+    double T[2][2][6], Ti[2][6], Tj[2][6], at[2];
 
     for (int end = 0; end < 2; end++)
-        bbm_mode_matrix(i, P[end]->x, P[end]->y, T[end]);
+        bbm_middle_matrix(i, P[end]->x, P[end]->y, T[end], at);
     for (int a = 0; a < 12; a++)
         Ti[a / 6][a % 6] = (T[0][a / 6][a % 6] + s * T[1][a / 6][a % 6]) / 2;
     for (int end = 0; end < 2; end++)
-        bbm_mode_matrix(j, Q[end]->x, Q[end]->y, T[end]);
+        bbm_middle_matrix(j, Q[end]->x, Q[end]->y, T[end], at);
     for (int a = 0; a < 12; a++)
         Tj[a / 6][a % 6] = (T[0][a / 6][a % 6] + s * T[1][a / 6][a % 6]) / 2;
     add_weighted(Ti, W, Ti, 1, m->Kii);
@@ -364,9 +367,9 @@ double bbm_fixed_stiffness(double alpha, const bbm_element *e)
 void bbm_fixed_submatrix(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k, bbm_submatrix *s)
 {
     const double push[2] = { k * (W->wall[0] - P->u), k * (W->wall[1] - P->v) };
-    double T[2][6];
+    double T[2][6], at[2];
 
-    bbm_mode_matrix(e, P->x, P->y, T);
+    bbm_middle_matrix(e, P->x, P->y, T, at);
     for (int r = 0; r < 2; r++)
         for (int a = 0; a < 6 && (W->held & (r == 0 ? BBM_X : BBM_Y)); a++) {
             for (int b = 0; b < 6; b++)
@@ -413,9 +416,9 @@ void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int middles, 
 /* A concentrated load f [N] at the vertex P: F_i += T^T(P) f. */
 void bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6])
 {
-    double T[2][6];
+    double T[2][6], at[2];
 
-    bbm_mode_matrix(e, P->x, P->y, T);
+    bbm_middle_matrix(e, P->x, P->y, T, at);
     add_force(T, f, F);
 }
 
@@ -437,25 +440,24 @@ void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const
     const double l = hypot(b->x - a->x, b->y - a->y);
 
     for (int g = 0; g < BBM_GAUSS; g++) {
-        double s, w, T[2][6];
+        double s, w, T[2][6], at[2];
         bbm_gauss_point(g, &s, &w);
         const double wlf[2] = { w * l * f[g][0], w * l * f[g][1] };
-        bbm_mode_matrix(e, a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, T);
+        bbm_middle_matrix(e, a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, T, at);
         add_force(T, wlf, F);
     }
 }
 
-/* A constant load f [N/m] from a to b: F_i += l (fx, fy, -Y fx + X fy, X fx, Y fy, (Y fx + X fy)/2), with (X, Y) the
- * middle of the line seen from the barycentre, Eq. (39), (43). */
+/* A constant load f [N/m] from a to b: F_i += l T^T f = l (fx, fy, -Y fx + X fy, X fx, Y fy, (Y fx + X fy)/2), with T at
+ * (X, Y), the middle of the line seen from the barycentre, Eq. (39), (43). */
 void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b, const double f[2],
                                  double F[6])
 {
-    const double l = hypot(b->x - a->x, b->y - a->y);
-    const double X = (a->x + b->x) / 2 - e->x, Y = (a->y + b->y) / 2 - e->y;
-    const double add[6] = { f[0], f[1], -Y * f[0] + X * f[1], X * f[0], Y * f[1], (Y * f[0] + X * f[1]) / 2 };
+    const double l = hypot(b->x - a->x, b->y - a->y), lf[2] = { l * f[0], l * f[1] };
+    double T[2][6], at[2];
 
-    for (int r = 0; r < 6; r++)
-        F[r] += l * add[r];
+    bbm_middle_matrix(e, (a->x + b->x) / 2, (a->y + b->y) / 2, T, at);
+    add_force(T, lf, F);
 }
 
 /* ---------------------------------------------------------------------------- 3.6 Volume force submatrix */
@@ -513,6 +515,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
         [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
+        [BBM_ENERGY] = "the step makes energy",
     };
 
     return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
@@ -577,6 +580,8 @@ static void free_prepared(bbm_model *m)
     free(m->F);
     free(m->D);
     free(m->load);
+    free(m->end_element);
+    free(m->end_vertex);
     free(m->force);
     free(m->force_before);
     bbm_matrix_free(m->K);
@@ -591,6 +596,8 @@ static void free_prepared(bbm_model *m)
     m->bond = NULL;
     m->edge = NULL;
     m->meet_first = m->meet = NULL;
+    m->end_element = NULL;
+    m->end_vertex = NULL;
     m->F = m->D = m->load = m->force = m->force_before = NULL;
     m->K = NULL;
 }
@@ -1160,9 +1167,12 @@ bbm_status bbm_prepare(bbm_model *m)
         m->F = calloc(6 * (size_t)m->elements, sizeof *m->F);
         m->D = calloc(6 * (size_t)m->elements, sizeof *m->D);
         m->load = calloc(6 * (size_t)m->elements, sizeof *m->load);
+        m->end_element = calloc((size_t)m->elements, sizeof *m->element);
+        m->end_vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
         m->force = calloc(4 * (size_t)(m->bonds + m->vertices), sizeof *m->force);
         m->force_before = calloc(4 * (size_t)(m->bonds + m->vertices), sizeof *m->force);
-        status = m->F && m->D && m->load && m->force && m->force_before ? lay_out_matrix(m) : out_of_memory(m);
+        status = m->F && m->D && m->load && m->force && m->force_before && m->end_element && m->end_vertex
+                     ? lay_out_matrix(m) : out_of_memory(m);
     }
     if (!status)
         status = bbm_contact_new(m) ? out_of_memory(m) : BBM_OK;
@@ -1378,13 +1388,13 @@ static int vertex_conditions(const bbm_model *m, int v, condition c[2])
 static void moved_vertex(const bbm_model *m, int v, int wall, double u[2])
 {
     const bbm_vertex *p = &m->vertex[v];
-    double T[2][6];
+    double T[2][6], at[2];
 
     if (wall) {
         memcpy(u, m->node[p->node].wall, 2 * sizeof *u);
         return;
     }
-    bbm_mode_matrix(&m->element[p->element], p->x, p->y, T);
+    bbm_middle_matrix(&m->element[p->element], p->x, p->y, T, at);
     for (int r = 0; r < 2; r++) {
         u[r] = r == 0 ? p->u : p->v;
         for (int a = 0; a < 6; a++)
@@ -1517,7 +1527,8 @@ static bbm_status assemble_bond(bbm_model *m, const bbm_bond *b)
     return bbm_add_submatrices(m, b->i, b->j, &s);
 }
 
-/* The block lies on the left of a pressed edge, from a to b: the pressure pushes that way. */
+/* The block lies on the left of a pressed edge, from a to b: the pressure pushes that way. With the edge as it lies
+ * in the middle of the step its work is p times the area that the edge sweeps. */
 static void load_line(bbm_model *m, const bbm_line_load *l)
 {
     const int i = m->vertex[l->a].element;
@@ -1525,21 +1536,29 @@ static void load_line(bbm_model *m, const bbm_line_load *l)
     const double p = l->pressure / hypot(b->x - a->x, b->y - a->y);
 
     if (l->constant) {
-        const double f[2] = { l->f[0][0] - p * (b->y - a->y), l->f[0][1] + p * (b->x - a->x) };
+        double T[2][6], am[2], bm[2];
+        bbm_middle_matrix(&m->element[i], a->x, a->y, T, am);
+        bbm_middle_matrix(&m->element[i], b->x, b->y, T, bm);
+        const double f[2] = { l->f[0][0] - p * (bm[1] - am[1]), l->f[0][1] + p * (bm[0] - am[0]) };
         bbm_constant_load_submatrix(&m->element[i], a, b, f, &m->load[6 * i]);
     } else {
         bbm_varying_load_submatrix(&m->element[i], a, b, l->f, &m->load[6 * i]);
     }
 }
 
-/* Gravity, less the acceleration of the base at the end of the step, in which the model is at rest; 3.5, 3.6. */
-static void gather_loads(bbm_model *m)
+/* Gravity of the step, less the acceleration of the base at its end, in which the model is at rest. */
+static void find_gravity(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
     const double swing = isinf(m->h) ? 0 : sin(p->omega * (m->info.t + m->h));
 
     for (int a = 0; a < 2; a++)
         m->gravity[a] = p->gravity[a] - p->shake[a] * swing;
+}
+
+/* The part of F that comes from outside: gravity, 3.5, 3.6. */
+static void gather_loads(bbm_model *m)
+{
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
     for (int i = 0; i < m->elements; i++)
         load_element(m, i);
@@ -1552,8 +1571,10 @@ static bbm_status assemble(bbm_model *m)
 {
     bbm_status status = BBM_OK;
 
-    if (!m->keep_K)
+    if (!m->keep_K) {
+        gather_loads(m);
         bbm_matrix_clear(m->K);
+    }
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     if (!m->keep_K && m->par.pcg.form == BBM_TWO_LEVEL && long_step(m))
         interpolate_elements(m);
@@ -1604,8 +1625,8 @@ void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], doubl
     }
 }
 
-/* The stress turns with the element: R s R^T. */
-static void turn_stress(double s[3], double r)
+/* A tensor (xx, yy, xy) turns with the element: R s R^T. */
+static void turn_tensor(double s[3], double r)
 {
     const double c = cos(2 * r), n = sin(2 * r), mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2, t = s[2];
 
@@ -1614,14 +1635,44 @@ static void turn_stress(double s[3], double r)
     s[2] = half * n + t * c;
 }
 
-/* Moves one element by its D: vertices, stress by E e, Eq. (7), (8), velocity by Eq. (14). */
-static void update_element(bbm_model *m, bbm_element *e)
+/* int u.M u dA of a field u = T V. */
+static double inertia_form(const bbm_element *e, const double V[6])
 {
-    const int exact = m->par.rotation == BBM_EXACT && !isinf(m->h);
+    double TT[6][6], sum = 0;
+
+    bbm_mode_integral(e, TT);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            sum += V[a] * TT[a][b] * V[b];
+    return mass_per_area(e) * sum;
+}
+
+/* Stress and strain rates turn with an element that has moved, and the change of its moments by strain, which no force of
+ * the step knows of, changes no energy: turning and straining slow down or speed up together. */
+static void turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
+{
+    double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 }, turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
+    bbm_element end = *e;
+
+    const double before = inertia_form(start, turning);
+    turn_tensor(e->stress, e->D[2]);
+    turn_tensor(rate, e->D[2]);
+    turning[3] = rate[0], turning[4] = rate[1], turning[5] = 2 * rate[2];
+    bbm_element_geometry(&end, vertex);
+    const double after = inertia_form(&end, turning), factor = after > 0 ? sqrt(before / after) : 1;
+    for (int a = 2; a < 6; a++)
+        e->V[a] = factor * turning[a];
+}
+
+/* Moves one element of the step's end by its D: vertices, stress by E e, Eq. (7), (8), velocity by Eq. (14). Deviation:
+ * stress and strain rates turn with the element. */
+static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
+{
+    const bbm_element start = *e;
     double E[3][3], u[2];
 
-    for (int v = e->first; v < e->first + e->n; v++) {
-        bbm_vertex *p = &m->vertex[v];
+    for (int k = 0; k < e->n; k++) {
+        bbm_vertex *p = &vertex[k];
         bbm_move(m, e, e->D, p->x, p->y, u);
         p->u += u[0];
         p->v += u[1];
@@ -1632,26 +1683,43 @@ static void update_element(bbm_model *m, bbm_element *e)
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
             e->stress[a] += E[a][b] * e->D[3 + b];
-    if (exact)
-        turn_stress(e->stress, e->D[2]);
     bbm_newmark_velocity(e, m->h, m->par.keep);
-    e->sum[0] += e->D[0];
-    e->sum[1] += e->D[1];
-    e->sum[2] += e->D[2];
+    if (bbm_is_exact(m))
+        turn_element(&start, e, vertex);
+    for (int a = 0; a < 3; a++)
+        e->sum[a] += e->D[a];
 }
 
-/* Moves all elements by their places in D, Eq. (3); how small the step was against all so far, Eq. (71), is left in
- * info.change. */
-static void update(bbm_model *m)
+/* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one that shares all but what
+ * moves; the first stays as it is. */
+static bbm_model move_model(const bbm_model *m)
+{
+    bbm_model end = *m;
+
+    end.element = m->end_element;
+    end.vertex = m->end_vertex;
+    end.contact = bbm_list_contacts(m, &end.contacts);
+    end.info.step++;
+    memcpy(end.element, m->element, (size_t)m->elements * sizeof *m->element);
+    memcpy(end.vertex, m->vertex, (size_t)m->vertices * sizeof *m->vertex);
+    for (int i = 0; i < m->elements; i++) {
+        memcpy(end.element[i].D, &m->D[6 * i], sizeof end.element[i].D);
+        update_element(m, &end.element[i], &end.vertex[end.element[i].first]);
+    }
+    return end;
+}
+
+/* Makes the step's end the present; how small the step was against all so far, Eq. (71), is left in info.change. */
+static void update(bbm_model *m, const bbm_model *end)
 {
     double step2 = 0, sum2 = 0;
 
+    memcpy(m->element, end->element, (size_t)m->elements * sizeof *m->element);
+    memcpy(m->vertex, end->vertex, (size_t)m->vertices * sizeof *m->vertex);
     for (int i = 0; i < m->elements; i++) {
-        bbm_element *e = &m->element[i];
-        memcpy(e->D, &m->D[6 * i], sizeof e->D);
+        const bbm_element *e = &m->element[i];
         for (int a = 0; a < 6; a++)
             m->info.work += m->load[6 * i + a] * e->D[a];
-        update_element(m, e);
         step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
     }
@@ -1666,35 +1734,53 @@ static void count_time(bbm_model *m, int phase, clock_t since)
     m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
 }
 
+/* The energy balance of the step that ends in `end`, and a sentence if it is broken. */
+static bbm_status check_balance(bbm_model *m, const bbm_model *end)
+{
+    double gain, there;
+    const bbm_status status = bbm_check_balance(m, end, &gain, &there);
+
+    return status ? fail(m, status, "step %d at t = %g, dt cut to %g: %g J more than its loads' work, of %g J",
+                         m->info.step + 1, m->info.t, m->h, gain, there) : BBM_OK;
+}
+
 static bbm_status unsettled(bbm_model *m)
 {
     return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1, m->info.t,
                 m->h, m->info.passes, bbm_contact_count(m));
 }
 
-/* Assembles and solves until the contacts have settled, and then once more for each round of multipliers, which change
- * F alone: K and all that the solver made of it are kept. */
+/* Assembles and solves until the contacts have settled and the vectors are those of the step's middle, and then once more
+ * for each round of multipliers, which change F alone: K and all that the solver made of it are kept. Deviation: in
+ * dynamics each step starts its multipliers from zero. Kept, they would be an integral controller, and in short steps
+ * unstable (doc/limits.md). */
 static bbm_status settle_contacts(bbm_model *m)
 {
     clock_t start = clock();
     bbm_pass pass = BBM_PASS_AGAIN;
     bbm_status status = lay_out_matrix(m);
+    const size_t forces = 4 * (size_t)(m->bonds + m->vertices) * sizeof *m->force;
 
-    memcpy(m->force, m->force_before, 4 * (size_t)(m->bonds + m->vertices) * sizeof *m->force);
+    if (isinf(m->h))
+        memcpy(m->force, m->force_before, forces);
+    else
+        memset(m->force, 0, forces);
     m->keep_K = 0;
     for (int rounds = 0; !status && pass == BBM_PASS_AGAIN;) {
         status = assemble(m);
         count_time(m, BBM_ASSEMBLE, start);
-        m->keep_K = 0;
         if (!status)
             status = solve(m);
         if (!status)
             status = bbm_open_close(m, &pass);
+        m->keep_K = 0;
         if (!status && pass == BBM_PASS_DONE && rounds++ < m->par.augment) {
             visit_multipliers(m, 1);
             m->keep_K = 1;
             pass = BBM_PASS_AGAIN;
         }
+        if (m->info.passes >= SOLUTIONS && pass == BBM_PASS_AGAIN)
+            pass = BBM_PASS_GIVE_UP;
         start = clock();
     }
     return !status && pass == BBM_PASS_GIVE_UP ? unsettled(m) : status;
@@ -1710,16 +1796,15 @@ static bbm_status try_step(bbm_model *m)
 
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
-    gather_loads(m);
+    find_gravity(m);
     bbm_guess_step(m);
     for (int k = 0; k < DETECTIONS && !status && !foreseen; k++) {
         const clock_t start = clock();
-        const int alone = k > 0 && bbm_contact_count(m) == 0;
-        status = bbm_detect_contacts(m);
+        status = bbm_detect_contacts(m, &foreseen);             /* the same list as before: the solution holds */
         count_time(m, BBM_DETECT, start);
-        foreseen = alone && bbm_contact_count(m) == 0;      /* nothing was in reach, nothing is: the solution holds */
         if (status || foreseen)
             break;
+        bbm_set_middle(m, bbm_guess(m));
         if (isinf(m->h))
             status = check_held(m);
         if (!status)
@@ -1728,7 +1813,11 @@ static bbm_status try_step(bbm_model *m)
     }
     if (status || !foreseen)
         return status ? status : unsettled(m);
-    update(m);
+    const bbm_model end = move_model(m);
+    status = check_balance(m, &end);
+    if (status)
+        return status;
+    update(m, &end);
     return bbm_keep_contacts(m);
 }
 
@@ -1740,12 +1829,12 @@ bbm_status bbm_check_held(bbm_model *m)
     m->h = INFINITY;
     if (!status) {
         bbm_guess_step(m);
-        status = bbm_detect_contacts(m);
+        status = bbm_detect_contacts(m, NULL);
     }
     return status == BBM_OK ? check_held(m) : status == BBM_NO_MEMORY ? out_of_memory(m) : status;
 }
 
-/* One time step. If the contacts do not settle, dt is halved and the step done again, down to dt/1024; the nominal step
+/* One time step. If the contacts do not settle or the step makes energy, dt is halved and the step done again, down to dt/1024; the nominal step
  * is completed in parts, which grow again. When it fails, the model is that of the last part that went well. */
 bbm_status bbm_step(bbm_model *m)
 {
@@ -1757,7 +1846,8 @@ bbm_status bbm_step(bbm_model *m)
     while (!status && left > 0) {
         m->h = isinf(m->par.dt) ? m->par.dt : m->par.dt * part / PARTS;
         status = try_step(m);
-        if (status == BBM_OPEN_CLOSE && part > 1 && !isinf(m->par.dt)) {
+        const int again = status == BBM_OPEN_CLOSE || status == BBM_ENERGY;
+        if (again && part > 1 && !isinf(m->par.dt) && m->info.passes < SOLUTIONS) {
             part /= 2;
             m->info.cuts++;
             status = BBM_OK;
@@ -1830,19 +1920,17 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
 
 /* ------------------------------------------------------------------------------------------------ energies */
 
-/* 1/2 int V.M V dA, Eq. (11) with the velocity in place of the acceleration. A step hands on a share `keep` of V. */
+/* 1/2 int V.M V dA of the present geometry, Eq. (11) with the velocity in place of the acceleration. A step hands on a share `keep` of V. */
 static double kinetic_energy(const bbm_model *m, const bbm_element *e)
 {
     const double keep = m->info.step > 0 ? m->par.keep : 1;
-    double TT[6][6], V[6], sum = 0;
+    bbm_element now = *e;
+    double V[6];
 
-    bbm_mode_integral(e, TT);
+    bbm_element_geometry(&now, &m->vertex[e->first]);
     for (int a = 0; a < 6; a++)
         V[a] = keep > 0 ? e->V[a] / keep : 2 / m->h * e->D[a];
-    for (int a = 0; a < 6; a++)
-        for (int b = 0; b < 6; b++)
-            sum += V[a] * TT[a][b] * V[b];
-    return mass_per_area(e) * sum / 2;
+    return inertia_form(&now, V) / 2;
 }
 
 /* 1/2 int stress.strain dA, with Hooke's law (7) the other way round. */
@@ -1854,7 +1942,7 @@ static double elastic_energy(const bbm_element *e)
     return e->material.thickness * e->A0 * work / 2;
 }
 
-/* k/2 d.d of what a multiplier would make meet. */
+/* 1/2 (f + k d).d of what a multiplier f makes meet: from zero in each step it is part of a stiffer spring. */
 static double condition_energy(const bbm_model *m, const condition *c)
 {
     double d[2] = { 0, 0 };
@@ -1865,7 +1953,8 @@ static double condition_energy(const bbm_model *m, const condition *c)
         d[0] += (P->u - (c->wall ? W[0] : Q->u)) / 2;
         d[1] += (P->v - (c->wall ? W[1] : Q->v)) / 2;
     }
-    return c->k / 2 * ((c->directions & BBM_X ? d[0] * d[0] : 0) + (c->directions & BBM_Y ? d[1] * d[1] : 0));
+    return ((c->directions & BBM_X ? (c->f[0] + c->k * d[0]) * d[0] : 0)
+            + (c->directions & BBM_Y ? (c->f[1] + c->k * d[1]) * d[1] : 0)) / 2;
 }
 
 /* 1/2 dd.M dd of a bond of a whole edge, dd = (d1 - d2)/2. */
@@ -1896,6 +1985,14 @@ static double held_moment_energy(const bbm_model *m, const bbm_element *e, int v
     return d[0] * (M[0][0] * d[0] + M[0][1] * d[1]) + d[1] * (M[1][0] * d[0] + M[1][1] * d[1]);
 }
 
+/* What the springs of a contact hold; friction holds what its shear spring would, see bbm_keep_contacts. */
+static double contact_energy(const bbm_parameters *p, const bbm_contact *c)
+{
+    const double T = c->state == BBM_SLIDE ? bbm_shear_strength(p, c->N, c->area) : c->T;
+
+    return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
+}
+
 /* The energies after the last step; `springs` are bonds, fixed points and closed contacts. */
 void bbm_energies(const bbm_model *m, bbm_energy *energy)
 {
@@ -1917,7 +2014,5 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
         energy->springs += held_moment_energy(m, &m->element[m->vertex[v].element], v);
     }
     for (int k = 0; k < m->contacts; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            energy->springs += m->contact[k].N * m->contact[k].N / (2 * m->par.p_n)
-                               + m->contact[k].T * m->contact[k].T / (2 * m->par.p_s);
+        energy->springs += contact_energy(&m->par, &m->contact[k]);
 }

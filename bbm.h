@@ -42,6 +42,7 @@ typedef enum {
     BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                                */
     BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps                       */
     BBM_OPEN_CLOSE,             /* the open-close iteration does not settle, even in the smallest step    */
+    BBM_ENERGY,                 /* the smallest step still makes energy                                   */
     BBM_STATUS_COUNT
 } bbm_status;
 
@@ -83,6 +84,7 @@ typedef struct {                /* an element: triangle, quadrilateral, any simp
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps                            */
     /* --- solution of the last step --- */
     double D[6];                /* u0, v0 [m], r0 [rad], ex, ey, gxy [-]                                        */
+    double mid[6];              /* the D in whose middle its vectors are taken, beyond/middle.c; 0: the paper   */
 } bbm_element;
 
 typedef struct {                /* an internal edge: two bonding springs between elements i and j               */
@@ -152,15 +154,17 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     bbm_contact_state state;
     double sign;                /* of the slip while it slides: 1 towards P3                                    */
     double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                                          */
+    double rest;                /* m        d_n at which the normal spring carries nothing: 0, or where it was  */
+                                /*          when it closed inside, so that no spring starts loaded              */
     double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
     int    whole;               /* closed since the start and not broken: has cohesion and tensile strength     */
     /* --- of the step --- */
     int    rival[4];            /* other lines of entrance, in the list, or -1: two at P3, two at P2            */
     double gap;                 /* m        d_n at the start                                                    */
     double area;                /* m^2      of the joint that P1 stands for; 0 if it is not whole               */
+    double share;               /* -        of the step after it hit, on which its shear spring acts            */
     int    off;                 /* the foot is not on the edge at the start                                     */
     double d_n, d_s;            /* m        normal distance and slip at the end                                 */
-    double more[2];             /* m        second-order terms of d_n and d_s that (55) and (61) drop           */
     double used;                /* N        the N that the friction of the last solution used                   */
     bbm_contact_state next;
     int    closings;            /* in this step                                                                 */
@@ -169,6 +173,8 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
 typedef struct {                /* what the formulas of 3.7 take                                                */
     const bbm_element *i, *j;
     const bbm_vertex *P1, *P2, *P3;
+    int exact;                  /* with what (60) drops, see beyond/middle.c; 0: the paper                      */
+    double rest;                /* m        see bbm_contact; 0: the paper                                       */
 } bbm_touch;
 
 typedef struct { double d, e[6], g[6]; } bbm_spring;    /* its length is d + e.D_i + g.D_j                      */
@@ -204,6 +210,8 @@ typedef struct {                /* what the last step did                       
     double penetration;         /* m        the deepest                                                         */
     int    iterations;          /* of SSOR-PCG, in all solutions of the step                                    */
     double work;                /* J        of loads and gravity, in all steps                                  */
+    double gained;              /* J        what dynamic steps have made beyond the balance, beyond/balance.c   */
+    double gain;                /* -        the most that one of them made, against what was there              */
     double seconds[BBM_PHASES]; /* s        CPU time, in all steps                                              */
 } bbm_info;
 
@@ -231,6 +239,8 @@ typedef struct bbm_model {
     double *F, *D;              /* [6 elements]                              */
     double *load;               /* [6 elements] the part of F that comes from outside: loads, gravity           */
     double gravity[2];          /* m/s^2    of the step in hand: gravity less the acceleration of the base      */
+    bbm_element *end_element;   /* [elements] the end of the step in hand, see move_model                       */
+    bbm_vertex *end_vertex;     /* [vertices]                                                                   */
     double *force, *force_before;   /* N    [4 (bonds + vertices)] multipliers of bonds and fixed points: forces
                                    from i on j, from element on wall; and those of the start of the step       */
     double h;                   /* s        the step in hand: dt, or a part of it                               */
@@ -320,10 +330,9 @@ void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]
 
 /* 3.7, 3.8 */
 void   bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);                          /* (52)-(57)             */
-void   bbm_normal_submatrices(const bbm_touch *c, double more, double p_n, bbm_submatrices *s);   /* (58a-f)    */
+void   bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s);     /* (58a-f)               */
 void   bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s);            /* (53), (60)-(62)       */
-void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double more, double p_s,
-                             bbm_submatrices *s);                                      /* (63), (64)            */
+void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s, bbm_submatrices *s);  /* (63), (64) */
 void   bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y, double u[2]);
 void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s); /* (65)-(69) */
 double bbm_shear_strength(const bbm_parameters *p, double N, double area);
@@ -334,13 +343,23 @@ bbm_status bbm_contact_new(bbm_model *m);
 void       bbm_contact_free(bbm_contact_work *w);
 void       bbm_guess_step(bbm_model *m);
 int        bbm_moved_too_far(bbm_model *m);
-bbm_status bbm_detect_contacts(bbm_model *m);
+const double *bbm_guess(const bbm_model *m);
+bbm_status bbm_detect_contacts(bbm_model *m, int *same);
+bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);
 int        bbm_contact_count(const bbm_model *m);
 void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
 bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s);
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
+int        bbm_contacts_are_off(const bbm_model *m, double share);
 bbm_status bbm_keep_contacts(bbm_model *m);
+
+/* ------------------------------------------------ beyond the paper: beyond/middle.c, beyond/balance.c             */
+int        bbm_is_exact(const bbm_model *m);
+void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+void       bbm_set_middle(bbm_model *m, const double D[]);
+int        bbm_middle_is_off(const bbm_model *m);
+bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there);
 
 /* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
  * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,

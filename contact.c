@@ -43,8 +43,8 @@
  * a contact that closes for a second time starts as SLIDE. Nothing of the model moves before all has settled: a step
  * that does not settle is done again with half the time step, without a trace of the first trial.
  *
- * Deviations from the paper: the second-order terms that (55) and (61) drop are put back (put_back); grid points inside
- * the shorter of two straight sides touch, too (carries), so that a deformable block rests on its whole side.
+ * Deviations from the paper: points and T at the middle of the step (beyond/middle.c); grid points inside the shorter of
+ * two straight sides touch, too (carries), so that a deformable block rests on its whole side.
  */
 #include "bbm.h"
 
@@ -61,12 +61,12 @@
  * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, feet closer to the end of an edge
  *                 are at the end, and depths that differ less are a tie: rounding of a model file, elastic strain
  * AGREE    [-]    forces that differ by less, against the largest force of the model, agree: what the solver can tell
- * SECOND   [-]    forces of second-order terms that are wrong by less, against the same, are left to the next step   */
+ * TIE      [-]    fractions of a step that differ less are the same moment: rounding                                */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define TOUCH 1e-6
 #define AGREE 1e-9
-#define SECOND 1e-4
+#define TIE 1e-9
 
 #define FAR 1e15        /* cells of the grid */
 
@@ -88,8 +88,12 @@ struct bbm_contact_work {
     double touch;               /* m        TOUCH times that of the start                                       */
     /* --- what the step may do --- */
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
-    double deepest;             /* m        |d_n| of the closed contacts, at most, at the end of the last step  */
-    double search;              /* m        vertices further from an edge do not reach it                       */
+    int *body;                  /* [edges]  the first boundary edge of the same block                           */
+    double *depth;              /* [edges]  m, of a body: |d_n| of its closed contacts, at most, before the step */
+    double *now;                /* [edges]  m, the same of the solution, or of the start if that is deeper      */
+    double *travel;             /* [edges]  m, of a body: how far its vertices may move in the step             */
+    double *moved;              /* [edges]  m, the same of the solution                                         */
+    double search;              /* m        vertices further from an edge do not reach it, in any block         */
     /* --- the grid --- */
     double cell;                /* m        width of its cells                                                  */
     int *head;                  /* [PLACES edges] the last entry of each place, or -1                           */
@@ -100,7 +104,8 @@ struct bbm_contact_work {
     pair *pairs_of;             /* [pairs]                                                                      */
     int *first, *old;           /* [edges+1] those of corner c are pairs_of[first[c] ..]; in the model's list,  */
                                 /*           of the last step, contact[old[c] ..]                               */
-    bbm_contact *list;          /* [pairs]                                                                      */
+    bbm_contact *list;          /* [listed]                                                                     */
+    int listed;                 /* -1: no list of this step yet                                                 */
     /* --- the iteration --- */
     int passes, forces, single;
     uint64_t seen[PASSES + 1];  /* the states of each pass                                                      */
@@ -112,27 +117,29 @@ struct bbm_contact_work {
 /* ------------------------------------------------------------------------------- 3.7.1 Normal submatrices */
 
 /* The normal distance of P1 from P2 P3, positive outside. With the three points moved by T D, Eq. (48)-(50), and the
- * terms of second order dropped, d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57):
+ * terms of second order dropped, d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
- *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l. */
+ *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
+ * Deviation: points and T of e and g at the middle of the step (beyond/middle.c); then only the change of l is dropped. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y, x3 = c->P3->x, y3 = c->P3->y;
     const double l = hypot(x3 - x2, y3 - y2);
-    double T1[2][6], T2[2][6], T3[2][6];
+    double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2];
 
-    bbm_mode_matrix(c->i, x1, y1, T1);
-    bbm_mode_matrix(c->j, x2, y2, T2);
-    bbm_mode_matrix(c->j, x3, y3, T3);
+    bbm_middle_matrix(c->i, x1, y1, T1, p1);
+    bbm_middle_matrix(c->j, x2, y2, T2, p2);
+    bbm_middle_matrix(c->j, x3, y3, T3, p3);
     n->d = ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) / l;
     for (int a = 0; a < 6; a++) {
-        n->e[a] = (T1[0][a] * (y2 - y3) + T1[1][a] * (x3 - x2)) / l;
-        n->g[a] = (T2[0][a] * (y3 - y1) + T2[1][a] * (x1 - x3) + T3[0][a] * (y1 - y2) + T3[1][a] * (x2 - x1)) / l;
+        n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
+        n->g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
+                   + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
     }
 }
 
 /* A spring p over d = d0 + e.D_i + g.D_j, Pi = p/2 d^2, Eq. (51): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T,
- * F_i -= p d0 e, F_j -= p d0 g. */
+ * F_i -= p d0 e, F_j -= p d0 g, Eq. (58), (63). */
 static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
 {
     for (int a = 0; a < 6; a++) {
@@ -146,44 +153,47 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). `more` is added to d_n: the second-order term that (55) drops. */
-void bbm_normal_submatrices(const bbm_touch *c, double more, double p_n, bbm_submatrices *s)
+/* Pi_n = p_n/2 d_n^2, Eq. (51)   ->   Eq. (58)-(59), (58a-f). Deviation: it counts from `rest`, see bbm_contact. */
+void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;
 
     bbm_normal_vectors(c, &n);
-    n.d += more;
+    n.d -= c->rest;
     add_spring(p_n, &n, s);
 }
 
 /* -------------------------------------------------------------------------------- 3.7.2 Shear submatrices */
 
-/* The displacement of P1 along the edge against its anchor P0, d_s = S1 + e.D_i + g.D_j, Eq. (53), (60)-(62), with
- *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m.
- * The anchor is the point P0 = P3 + anchor (P2 - P3) of the edge's material. */
+/* The displacement of P1 along the edge against its anchor P0, d_s = S1 + e.D_i + g.D_j, Eq. (48)-(50), (53), (60)-(62),
+ *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m,     Eq. (64), (67), (68).
+ * The anchor is the point P0 = P3 + anchor (P2 - P3) of the edge's material. Deviation: at the middle of the step, and with
+ * what (60) drops, the turning of m: (T3 - T2)^T (P1 - P0)/l in g. Without it friction does not keep angular momentum. */
 void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
 {
     const double x0 = c->P3->x + anchor * (c->P2->x - c->P3->x), y0 = c->P3->y + anchor * (c->P2->y - c->P3->y);
     const double l = hypot(c->P3->x - c->P2->x, c->P3->y - c->P2->y);
-    const double mx = (c->P3->x - c->P2->x) / l, my = (c->P3->y - c->P2->y) / l;
-    double T1[2][6], T0[2][6];
+    double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
 
-    bbm_mode_matrix(c->i, c->P1->x, c->P1->y, T1);
-    bbm_mode_matrix(c->j, x0, y0, T0);
-    s->d = (c->P1->x - x0) * mx + (c->P1->y - y0) * my;
+    bbm_middle_matrix(c->i, c->P1->x, c->P1->y, T1, p1);
+    bbm_middle_matrix(c->j, x0, y0, T0, p0);
+    bbm_middle_matrix(c->j, c->P2->x, c->P2->y, T2, p2);
+    bbm_middle_matrix(c->j, c->P3->x, c->P3->y, T3, p3);
+    const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
+    const double ax = c->exact ? (p1[0] - p0[0]) / l : 0, ay = c->exact ? (p1[1] - p0[1]) / l : 0;
+    s->d = ((c->P1->x - x0) * (c->P3->x - c->P2->x) + (c->P1->y - y0) * (c->P3->y - c->P2->y)) / l;
     for (int a = 0; a < 6; a++) {
         s->e[a] = T1[0][a] * mx + T1[1][a] * my;
-        s->g[a] = -T0[0][a] * mx - T0[1][a] * my;
+        s->g[a] = -T0[0][a] * mx - T0[1][a] * my + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
     }
 }
 
-/* Pi_s = p_s/2 d_s^2   ->   Eq. (63), (64). `more` as above. */
-void bbm_shear_submatrices(const bbm_touch *c, double anchor, double more, double p_s, bbm_submatrices *s)
+/* Pi_s = p_s/2 d_s^2, Eq. (51)   ->   Eq. (63), (64). */
+void bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s, bbm_submatrices *s)
 {
     bbm_spring v;
 
     bbm_shear_vectors(c, anchor, &v);
-    v.d += more;
     add_spring(p_s, &v, s);
 }
 
@@ -217,7 +227,7 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
     const double strength = bbm_shear_strength(p, c->N, c->area);
 
     if (c->state == BBM_OPEN)
-        return -p->p_n * c->d_n > slack ? BBM_LOCK : BBM_OPEN;
+        return -p->p_n * (c->d_n - c->rest) > slack ? BBM_LOCK : BBM_OPEN;
     if (c->N < (c->whole ? -p->tension * c->area : 0))
         return BBM_OPEN;
     if (p->friction == 0 && p->cohesion == 0)
@@ -314,6 +324,32 @@ static void link_edges(bbm_model *m, int ends[])
     }
 }
 
+static int compare_pairs(const void *a, const void *b)
+{
+    const pair *p = a, *q = b;
+    const int d = (p->corner > q->corner) - (p->corner < q->corner);
+
+    return d ? d : (p->edge > q->edge) - (p->edge < q->edge);
+}
+
+/* Finds the first boundary edge of each block; 0: no memory. */
+static int number_bodies(bbm_model *m)
+{
+    pair *of = calloc((size_t)m->edges, sizeof *of);                        /* block and edge */
+
+    if (!of)
+        return 0;
+    for (int e = 0; e < m->edges; e++)
+        of[e] = (pair){ m->edge[e].block, e };
+    qsort(of, (size_t)m->edges, sizeof *of, compare_pairs);
+    for (int k = 0, first = 0; k < m->edges; k++) {
+        first = of[k].corner == of[first].corner ? first : k;
+        m->work->body[of[k].edge] = of[first].edge;
+    }
+    free(of);
+    return 1;
+}
+
 void bbm_contact_free(bbm_contact_work *w)
 {
     if (!w)
@@ -325,6 +361,11 @@ void bbm_contact_free(bbm_contact_work *w)
     free(w->span);
     free(w->along);
     free(w->guess);
+    free(w->body);
+    free(w->depth);
+    free(w->now);
+    free(w->travel);
+    free(w->moved);
     free(w->head);
     free(w->entries);
     free(w->pairs_of);
@@ -355,11 +396,19 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->old = calloc(n + 1, sizeof *w->old);
         w->head = calloc(PLACES * n, sizeof *w->head);
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
+        w->body = calloc(n, sizeof *w->body);
+        w->depth = calloc(n, sizeof *w->depth);
+        w->now = calloc(n, sizeof *w->now);
+        w->travel = calloc(n, sizeof *w->travel);
+        w->moved = calloc(n, sizeof *w->moved);
     }
     const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
-                   && w->head && w->guess;
+                   && w->head && w->guess && w->body && w->depth && w->now && w->travel && w->moved
+                   && number_bodies(m);
     if (ok)
         link_edges(m, ends);
+    for (int e = 0; e < m->edges && ok; e++)        /* prepared again in a run: contacts may be as deep as they were */
+        w->depth[e] = m->info.penetration;
     free(ends);
     return ok ? BBM_OK : BBM_NO_MEMORY;
 }
@@ -460,13 +509,14 @@ static foot find_foot(const bbm_model *m, int corner, int e)
 }
 
 /* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
- * and the block is convex there: it lies on the outside. */
+ * and the block is convex there: it lies on the outside. The far end of a side may be as deep as closed contacts are. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
 {
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
+    const double deep = fmin(w->now[w->body[corner]], w->now[w->body[e]]);
 
-    return fmin(cross(q, s), -cross(p, s)) >= -slack && is_convex(w, corner);
+    return cross(q, s) >= -slack - deep / q.length && cross(s, p) >= -slack - deep / p.length && is_convex(w, corner);
 }
 
 static int coincide(const bbm_contact_work *w, int e, int f)
@@ -496,6 +546,21 @@ static int carries(const bbm_model *m, int c, int e)
     return faces_up(q, p);
 }
 
+/* How far two blocks may approach each other in this step. */
+static double approach(const bbm_contact_work *w, int c, int e)
+{
+    return w->travel[w->body[c]] + w->travel[w->body[e]];
+}
+
+/* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of the two blocks do.
+ * Nothing comes in from behind. What moves by T of the start of a step may also end it inside. */
+static double behind(const bbm_model *m, int c, int e)
+{
+    const bbm_contact_work *w = m->work;
+
+    return 2 * fmin(w->depth[w->body[c]], w->depth[w->body[e]]) + w->touch + (bbm_is_exact(m) ? 0 : approach(w, c, e));
+}
+
 /* Whether the corner may come to touch the edge in this step. If it is still outside it may also turn there first, as
  * when a side falls flat on an edge. */
 static int may_touch(const bbm_model *m, int corner, int e)
@@ -504,7 +569,9 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const double turns = fabs(w->guess[6 * m->edge[corner].element + 2]) + fabs(w->guess[6 * m->edge[e].element + 2]);
     const foot f = find_foot(m, corner, e);
 
-    if (fmax(fabs(f.d), f.off) > w->search)
+    if (fmax(fabs(f.d), f.off) > approach(w, corner, e) + behind(m, corner, e))
+        return 0;
+    if (f.off <= w->touch && f.d < -behind(m, corner, e))
         return 0;
     return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * turns : PARALLEL);
 }
@@ -638,7 +705,8 @@ static int find_rival(const bbm_model *m, pair p, int Q, pair other)
 
     if (!is_convex(w, Q) || coincide(w, p.edge, other.edge))
         return -1;
-    return hypot(a->x - b->x, a->y - b->y) > 2 * w->search ? -1 : find_pair(w, other.corner, other.edge);
+    const double reach = approach(w, p.corner, p.edge) + behind(m, p.corner, p.edge);
+    return hypot(a->x - b->x, a->y - b->y) > 2 * reach ? -1 : find_pair(w, other.corner, other.edge);
 }
 
 /* ------------------------------------------------------------- detection: what carries over from step to step */
@@ -647,7 +715,7 @@ static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P1 = start_of(m, c->corner), *P2 = end_of(m, c->edge), *P3 = start_of(m, c->edge);
 
-    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3 };
+    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3, bbm_is_exact(m), c->rest };
 }
 
 /* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s, m from P2 to P3. */
@@ -724,10 +792,10 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const int strong = m->par.cohesion > 0 || m->par.tension > 0, end = w->after[p.edge];
     const int start = m->info.step == 0 && m->info.t == 0;
 
-    *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d };
+    *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d, .share = 1 };
     if (old) {
         c->state = old->state, c->sign = old->sign, c->anchor = old->anchor, c->whole = old->whole;
-        c->N = c->used = old->N, c->T = old->T;
+        c->N = c->used = old->N, c->T = old->T, c->rest = old->rest;
     } else if (start && fmax(fabs(f.d), f.off) <= w->touch) {
         c->whole = 1;
         c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
@@ -738,22 +806,26 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->rival[3] = find_rival(m, p, end, (pair){ end, p.corner });
     c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : end);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
-    if (!old || old->corner != p.corner || old->edge != p.edge)
-        place_anchor(m, c, c->T);
     if (c->state != BBM_OPEN && has_left(m, c))
-        c->state = BBM_OPEN;
+        c->state = BBM_OPEN, c->N = c->T = 0;
+    if (!old || c->state == BBM_OPEN || old->corner != p.corner || old->edge != p.edge) {
+        place_anchor(m, c, c->T);
+        c->rest = bbm_is_exact(m) ? fmin(0, c->gap + c->N / m->par.p_n) : 0;
+    }
 }
 
-static double largest_displacement(const bbm_model *m, const double D[])
+/* How far the boundary of each body moves by D; of a body, at its first edge. */
+static void find_travel(const bbm_model *m, const double D[], double travel[])
 {
-    double largest = 0, u[2];
+    double u[2];
 
-    for (int v = 0; v < m->vertices; v++) {
-        const bbm_vertex *p = &m->vertex[v];
+    memset(travel, 0, (size_t)m->edges * sizeof *travel);
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *p = start_of(m, e);
+        double *most = &travel[m->work->body[e]];
         bbm_move(m, &m->element[p->element], &D[6 * p->element], p->x, p->y, u);
-        largest = fmax(largest, u[0] * u[0] + u[1] * u[1]);
+        *most = fmax(*most, hypot(u[0], u[1]));
     }
-    return sqrt(largest);
 }
 
 /* What the velocities and gravity foretell of the step. */
@@ -764,19 +836,44 @@ void bbm_guess_step(bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         for (int a = 0; a < 6; a++)
             m->work->guess[6 * i + a] = isinf(m->h) ? 0 : m->element[i].V[a] * m->h + fall[a];
+    m->work->listed = -1;
+}
+
+/* D as far as known before the solution, [6 elements]. */
+const double *bbm_guess(const bbm_model *m)
+{
+    return m->work->guess;
 }
 
 /* Whether the solution moves further than the detection has foreseen; it then is the next guess. */
 int bbm_moved_too_far(bbm_model *m)
 {
-    const bbm_contact_work *w = m->work;
-    int too_far = 2 * largest_displacement(m, m->D) > w->search;
+    bbm_contact_work *w = m->work;
+    int too_far = 0;
 
+    find_travel(m, m->D, w->moved);
+    for (int e = 0; e < m->edges; e++)
+        too_far |= w->moved[e] > w->travel[e];
     for (int i = 0; i < m->elements && !too_far; i++)
         too_far = fabs(m->D[6 * i + 2]) > 2 * fabs(w->guess[6 * i + 2]) + PARALLEL / 2;
     if (too_far)
         memcpy(w->guess, m->D, 6 * (size_t)m->elements * sizeof *w->guess);
     return too_far;
+}
+
+/* How far the bodies may move: a tenth more than the guess, or what rounding and a closed contact give. */
+static void foresee(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+
+    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
+    find_travel(m, w->guess, w->travel);
+    w->search = 0;
+    for (int e = 0; e < m->edges; e++) {
+        w->travel[e] = 1.1 * w->travel[e] + w->depth[e] + w->touch / 2;
+        w->search = fmax(w->search, w->travel[e]);
+    }
+    w->search = 4 * w->search + w->touch;
 }
 
 /* Room for the pairs as contacts. */
@@ -790,29 +887,51 @@ static int list_fits(bbm_contact_work *w)
     return w->list_room > 0;
 }
 
+/* Whether the list of this step has the pairs that were found once more. */
+static int is_same_list(const bbm_contact_work *w)
+{
+    int same = w->listed == w->pairs;
+
+    for (int k = 0; k < w->pairs && same; k++)
+        same = w->list[k].corner == w->pairs_of[k].corner && w->list[k].edge == w->pairs_of[k].edge;
+    return same;
+}
+
 /* Lists the contacts that may be closed in this step, from the present positions and the contacts of the last step,
- * which stay as they are. The search distance: two vertices approach each other by twice the largest displacement of
- * the guess at most; and a closed contact must stay in the list, however deep. */
-bbm_status bbm_detect_contacts(bbm_model *m)
+ * which stay as they are; `same` (may be NULL): the list of this step had these pairs already. */
+bbm_status bbm_detect_contacts(bbm_model *m, int *same)
 {
     bbm_contact_work *w = m->work;
 
     find_directions(m);
-    w->search = 2.2 * largest_displacement(m, w->guess) + 2 * w->deepest + w->touch;
+    foresee(m);
     bbm_status status = fill_grid(m);
     if (!status)
         status = list_pairs(m);
     if (!status)
         status = drop_duplicates(m);
-    if (!status && !list_fits(w))
-        status = BBM_NO_MEMORY;
-    for (int k = 0; k < w->pairs && !status; k++)
+    const int known = !status && is_same_list(w);
+    if (same)
+        *same = known;
+    if (status || known)
+        return status;
+    if (!list_fits(w))
+        return BBM_NO_MEMORY;
+    for (int k = 0; k < w->pairs; k++)
         make_contact(m, w->pairs_of[k], &w->list[k]);
+    w->listed = w->pairs;
     w->passes = w->forces = w->single = w->directions = 0;
-    return status;
+    return BBM_OK;
 }
 
 /* ------------------------------------------------------------------------------------------ assembly */
+
+/* The contacts of the step in hand. */
+bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
+{
+    *contacts = m->work->pairs;
+    return m->work->list;
+}
 
 int bbm_contact_count(const bbm_model *m)
 {
@@ -834,15 +953,16 @@ static double friction_force(const bbm_parameters *p, const bbm_contact *c)
     return c->sign * (c->area > 0 ? bbm_shear_strength(p, c->used, c->area) : c->used * tan_friction(p));
 }
 
+/* The springs of a closed contact, Eq. (58) and (63), or spring and friction, Eq. (65), (69). */
 static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
 {
     const bbm_touch t = touch_of(m, c);
     const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
     bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
 
-    bbm_normal_submatrices(&t, c->more[0], m->par.p_n, &s);
+    bbm_normal_submatrices(&t, m->par.p_n, &s);
     if (c->state == BBM_LOCK)
-        bbm_shear_submatrices(&t, c->anchor, c->more[1], m->par.p_s, &s);
+        bbm_shear_submatrices(&t, c->anchor, c->share * m->par.p_s, &s);
     else
         bbm_friction_submatrices(&t, c->anchor, friction_force(&m->par, c), &s);
     return bbm_add_submatrices(m, i, j, &s);
@@ -860,7 +980,7 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
 
 /* ---------------------------------------------------------------- the open-close iteration: distances */
 
-/* d_n and d_s at the end of the step, as the update will move the points, without dropping anything. */
+/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone is the start's. */
 static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
 {
     const bbm_touch t = touch_of(m, c);
@@ -872,13 +992,14 @@ static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2
     bbm_move(m, t.j, Dj, t.P2->x, t.P2->y, u2);
     bbm_move(m, t.j, Dj, t.P3->x, t.P3->y, u3);
     bbm_move(m, t.j, Dj, x0, y0, u0);
-    const double x = t.P3->x - t.P2->x + u3[0] - u2[0], y = t.P3->y - t.P2->y + u3[1] - u2[1], l = hypot(x, y);
+    const double x = t.P3->x - t.P2->x + u3[0] - u2[0], y = t.P3->y - t.P2->y + u3[1] - u2[1];
+    const double l = hypot(t.P3->x - t.P2->x, t.P3->y - t.P2->y);
     const double px = t.P1->x - t.P2->x + u1[0] - u2[0], py = t.P1->y - t.P2->y + u1[1] - u2[1];
     d[0] = (x * py - y * px) / l;
     d[1] = ((t.P1->x - x0 + u1[0] - u0[0]) * x + (t.P1->y - y0 + u1[1] - u0[1]) * y) / l;
 }
 
-/* d = d0 + e.D_i + g.D_j of the solution. */
+/* d = d0 + e.D_i + g.D_j of the solution, Eq. (57), (61). */
 static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
 {
     const double *Di = &m->D[6 * m->edge[c->corner].element], *Dj = &m->D[6 * m->edge[c->edge].element];
@@ -889,67 +1010,21 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
     return d;
 }
 
-/* The linear d_n and d_s of the solution, Eq. (57) and (61). */
-static void linear_distances(const bbm_model *m, const bbm_contact *c, double d[2])
+/* d_n, d_s, N and T of the solution, Eq. (57) and (61). An open contact has its anchor at P3, so that -d_s is the way
+ * along the edge. */
+static void measure(const bbm_model *m, bbm_contact *c)
 {
     const bbm_touch t = touch_of(m, c);
     bbm_spring n, s;
 
+    if (c->state == BBM_OPEN)
+        c->anchor = 0, c->share = 1;
     bbm_normal_vectors(&t, &n);
     bbm_shear_vectors(&t, c->anchor, &s);
-    d[0] = spring_length(m, c, &n);
-    d[1] = spring_length(m, c, &s);
-}
-
-/* d_n, d_s, N and T of the solution. An open contact has its anchor at P3, so that -d_s is the way along the edge. */
-static void measure(const bbm_model *m, bbm_contact *c)
-{
-    double d[2];
-
-    if (c->state == BBM_OPEN) {
-        c->anchor = 0;
-        exact_distances(m, c, d);
-        c->d_n = d[0];
-        c->d_s = d[1];
-        c->N = c->T = 0;
-    } else {
-        linear_distances(m, c, d);
-        c->d_n = d[0] + c->more[0];
-        c->d_s = d[1] + c->more[1];
-        c->N = -m->par.p_n * c->d_n;
-        c->T = m->par.p_s * c->d_s;
-    }
-}
-
-/* What (55) and (61) leave out, of second order in the turning. Deviation: it is put back. Without it a corner that
- * turns by r ends the step r^2/2 times its lever away from where the spring held it: for a stiff spring, a blow. */
-static void put_back(const bbm_model *m, bbm_contact *c)
-{
-    double d[2];
-
-    exact_distances(m, c, c->more);
-    linear_distances(m, c, d);
-    c->more[0] -= d[0];
-    c->more[1] -= d[1];
-}
-
-/* Puts the terms back that belong to the solution; whether the forces of those it was made with were off by more than
- * the slack. */
-static int correct_distances(bbm_model *m, double slack)
-{
-    int off = 0;
-
-    for (int k = 0; k < m->work->pairs; k++) {
-        bbm_contact *c = &m->work->list[k];
-        const double more[2] = { c->more[0], c->more[1] };
-        if (c->state == BBM_OPEN)
-            continue;
-        put_back(m, c);
-        if (m->par.p_n * fabs(more[0] - c->more[0]) > slack
-            || (c->state == BBM_LOCK && m->par.p_s * fabs(more[1] - c->more[1]) > slack))
-            off = 1;
-    }
-    return off;
+    c->d_n = spring_length(m, c, &n);
+    c->d_s = c->share * spring_length(m, c, &s);
+    c->N = c->state == BBM_OPEN ? 0 : -m->par.p_n * (c->d_n - c->rest);
+    c->T = c->state == BBM_OPEN ? 0 : m->par.p_s * c->d_s;
 }
 
 /* The largest force in the model: on an element, inertia included, or in a contact. What the solver leaves as its
@@ -964,6 +1039,23 @@ static double largest_force(const bbm_model *m)
     for (int k = 0; k < w->pairs; k++)
         F = fmax(F, fabs(w->list[k].N));
     return F;
+}
+
+/* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
+ * of the largest one, or an open contact on the wrong side. */
+int bbm_contacts_are_off(const bbm_model *m, double share)
+{
+    const double slack = share * largest_force(m);
+
+    for (int k = 0; k < m->work->pairs; k++) {
+        const bbm_contact *c = &m->work->list[k];
+        double d[2];
+        exact_distances(m, c, d);
+        const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(c->share * d[1] - c->d_s);
+        if (c->state == BBM_OPEN ? n > slack && (d[0] < 0) != (c->d_n < 0) : n > slack || (c->state == BBM_LOCK && s > slack))
+            return 1;
+    }
+    return 0;
 }
 
 /* ------------------------------------------------------------------- the open-close iteration: friction */
@@ -1082,14 +1174,22 @@ static int goes_first(direction p, direction q)
     return fabs(flatter) > PARALLEL ? flatter > 0 : (p.x > 0) == (p.y > 0);
 }
 
-/* Whether an open contact, though crossed, may not close: off the edge from the start of the step to its end, or a side
- * points into the edge by then; or a rival line is closed, is not crossed, or is the shorter way out. A line counts by
- * its deepest in the step: P does not come in through one that it has been behind from the start, beyond the corner. */
+/* The fraction of the step at which P crosses a line; 0 for one that it starts on, -1 for one that it starts behind. */
+static double crossed_at(const bbm_contact_work *w, const bbm_contact *c)
+{
+    if (c->gap <= w->touch)
+        return c->gap < -w->touch ? -1 : 0;
+    return c->gap / (c->gap - c->d_n);
+}
+
+/* Whether an open contact, though crossed, may not close: from behind, off the edge from the start of the step to its end,
+ * or a side points into the edge by then; or a rival line is closed, is not crossed, or is crossed later: the line
+ * crossed last is where P comes in. */
 static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
 
-    if (!foot_on_edge(m, c) || !enters_at_end(m, c))
+    if (!foot_on_edge(m, c) || !enters_at_end(m, c) || c->gap < -behind(m, c->corner, c->edge))
         return 1;
     for (int k = 0; k < 4; k++) {
         if (c->rival[k] < 0)
@@ -1099,8 +1199,8 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
             return 1;
         if (!enters_at_end(m, r))
             continue;
-        const double mine = fmin(c->gap, c->d_n), other = fmin(r->gap, r->d_n);
-        const int tie = fabs(other - mine) <= w->touch;
+        const double mine = crossed_at(w, c), other = crossed_at(w, r);
+        const int tie = fabs(other - mine) <= TIE;
         const int first = tie ? goes_first(w->along[r->edge], w->along[c->edge]) : other > mine;
         if (r->d_n >= 0 || (first && foot_on_edge(m, r)))
             return 1;
@@ -1108,16 +1208,16 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
     return 0;
 }
 
-/* A contact closes where P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Returns
- * the way of P1 along the edge in the step, towards P3. */
+/* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Its shear
+ * spring feels the share of the slip that is left, so that it never pushes along. Returns the way of P1 along the edge in
+ * the step, towards P3. */
 static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
 {
-    const double gap = fmax(0, c->gap), when = gap / (gap - c->d_n);
-    const double s = find_foot(m, c->corner, c->edge).s, way = -c->d_s - s;
+    const double gap = fmax(0, c->gap), s = find_foot(m, c->corner, c->edge).s;
 
-    c->anchor = (s + when * way) / m->work->along[c->edge].length;
-    put_back(m, c);
-    return -way;
+    c->share = 1 - gap / (gap - c->d_n);
+    c->anchor = s / m->work->along[c->edge].length;
+    return c->d_s + s;
 }
 
 /* A contact that closes for a second time in a step was opened by the shear spring of its first trial, which need not
@@ -1169,15 +1269,27 @@ static void watch_for_cycles(bbm_contact_work *w)
     w->seen[w->passes] = hash;
 }
 
-/* One look at the solution: whether the friction forces belong to their N, then the states to the forces, then the
- * distances to the displacements. */
+/* The depth of a closed contact counts for both its bodies. */
+static void note_depth(const bbm_contact_work *w, const bbm_contact *c, double depth[])
+{
+    const double deep = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
+
+    depth[w->body[c->corner]] = fmax(depth[w->body[c->corner]], deep);
+    depth[w->body[c->edge]] = fmax(depth[w->body[c->edge]], deep);
+}
+
+/* One look at the solution: whether the friction forces belong to their N, then the states to the forces, and the vectors
+ * of the step to the displacements - but not in a round of multipliers, which keeps K. */
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
 {
     bbm_contact_work *w = m->work;
 
     m->info.passes++;
-    for (int k = 0; k < w->pairs; k++)
+    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
+    for (int k = 0; k < w->pairs; k++) {
         measure(m, &w->list[k]);
+        note_depth(w, &w->list[k], w->now);
+    }
     const double scale = largest_force(m);
     if (!forces_agree(m, AGREE * scale)) {
         *pass = w->forces < FORCES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
@@ -1185,7 +1297,10 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     }
     w->forces = w->directions = 0;
     watch_for_cycles(w);
-    if (!change_states(m, AGREE * scale) && !correct_distances(m, SECOND * scale))
+    const int changes = change_states(m, AGREE * scale), off = !m->keep_K && bbm_middle_is_off(m);
+    if (off)
+        bbm_set_middle(m, m->D);
+    if (!changes && !off)
         *pass = BBM_PASS_DONE;
     else
         *pass = ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
@@ -1204,19 +1319,20 @@ bbm_status bbm_keep_contacts(bbm_model *m)
 
     find_directions(m);
     m->info.contacts = 0;
-    m->info.penetration = w->deepest = 0;
+    m->info.penetration = 0;
+    memset(w->depth, 0, (size_t)m->edges * sizeof *w->depth);
     for (int k = 0; k < w->pairs; k++) {
         bbm_contact *c = &w->list[k];
         const double strength = bbm_shear_strength(&m->par, c->N, c->area);
         c->whole = c->whole && (c->state == BBM_LOCK || (c->state == BBM_SLIDE && strength == 0));
-        if (c->state == BBM_SLIDE) {
+        if (c->state == BBM_SLIDE)
             c->T = c->sign * strength;
+        if (c->state == BBM_SLIDE || c->share < 1)
             place_anchor(m, c, c->T);
-        }
         if (c->state != BBM_OPEN) {
             m->info.contacts++;
             m->info.penetration = fmax(m->info.penetration, -c->d_n);
-            w->deepest = fmax(w->deepest, fabs(c->d_n));
+            note_depth(w, c, w->depth);
         }
     }
     m->contact = w->list;

@@ -202,7 +202,7 @@ typedef struct {                /* a corner of one element at an edge of another
     bbm_element i, j;
     bbm_vertex vi[4], vj[4];
     bbm_touch touch;
-    double anchor, more, p;
+    double anchor, p;
 } encounter;
 
 static const struct { int n; double x[4][2]; } SHAPES[] = {
@@ -223,9 +223,8 @@ static void make_encounter(encounter *c, int which)
 {
     make_element(&c->i, c->vi, which / 2, 0.5, 0.75);
     make_element(&c->j, c->vj, which % 2, -1.5, 0.25);
-    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[which % 3], &c->vj[1], &c->vj[0] };      /* P3 comes before P2 */
+    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[which % 3], &c->vj[1], &c->vj[0], 0, 0 };      /* P3 comes before P2 */
     c->anchor = 0.375;
-    c->more = 0.125;
     c->p = 3;
 }
 
@@ -280,12 +279,12 @@ typedef double energy(const encounter *c, const double D[UNKNOWNS]);
 
 static double normal_energy(const encounter *c, const double D[UNKNOWNS])
 {
-    return c->p / 2 * pow(normal_distance(c, D) + c->more, 2);
+    return c->p / 2 * pow(normal_distance(c, D), 2);
 }
 
 static double shear_energy(const encounter *c, const double D[UNKNOWNS])
 {
-    return c->p / 2 * pow(slip(c, D) + c->more, 2);
+    return c->p / 2 * pow(slip(c, D), 2);
 }
 
 /* The work against the friction force, which does not change in a solution. */
@@ -359,7 +358,7 @@ START_TEST(the_normal_submatrices_are_derivatives_of_the_normal_springs_energy)
     encounter c;
 
     make_encounter(&c, _i);
-    bbm_normal_submatrices(&c.touch, c.more, c.p, &s);
+    bbm_normal_submatrices(&c.touch, c.p, &s);
     check_derivatives(normal_energy, &c, &s);
 }
 END_TEST
@@ -370,7 +369,7 @@ START_TEST(the_shear_submatrices_are_derivatives_of_the_shear_springs_energy)
     encounter c;
 
     make_encounter(&c, _i);
-    bbm_shear_submatrices(&c.touch, c.anchor, c.more, c.p, &s);
+    bbm_shear_submatrices(&c.touch, c.anchor, c.p, &s);
     check_derivatives(shear_energy, &c, &s);
 }
 END_TEST
@@ -400,7 +399,7 @@ static void place_on_plate(encounter *c, double x, double y)
         c->vj[k] = (bbm_vertex){ .x = plate[k][0], .y = plate[k][1] };
     bbm_element_geometry(&c->i, c->vi);
     bbm_element_geometry(&c->j, c->vj);
-    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[0], &c->vj[1], &c->vj[0] };
+    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[0], &c->vj[1], &c->vj[0], 0, 0 };
 }
 
 START_TEST(the_normal_distance_is_negative_inside_and_the_slip_positive_towards_P3)
@@ -663,7 +662,7 @@ static void detect(bbm_model *m)
 {
     m->h = m->par.dt;
     bbm_guess_step(m);
-    ck_ok(bbm_detect_contacts(m), m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
     ck_ok(bbm_keep_contacts(m), m);
 }
 
@@ -707,7 +706,7 @@ static int same_places(const bbm_model *m, const bbm_model *n)
 }
 
 typedef struct {                /* a vertex against an edge, by geometry alone */
-    double distance, beyond;    /* from the line; beyond the edge's nearer end, negative on the edge    */
+    double height, beyond;      /* over the line; beyond the edge's nearer end, negative on the edge    */
     double clear;               /* sine by which the vertex's sides point away from the edge, the lesser */
     double parallel;            /* the lesser angle of its sides with the edge                           */
     double bulge;               /* sine of the turn at the vertex, positive when convex                  */
@@ -724,7 +723,7 @@ static sight look(const outline *a, int i, const outline *b, int k)
     const double s = (P[0] - A[0]) * t[0] + (P[1] - A[1]) * t[1];
     const double away[2] = { (to[0] * n[0] + to[1] * n[1]) / lt, (from[0] * n[0] + from[1] * n[1]) / lf };
 
-    return (sight){ .distance = fabs((P[0] - A[0]) * n[0] + (P[1] - A[1]) * n[1]), .beyond = fmax(-s, s - l),
+    return (sight){ .height = (P[0] - A[0]) * n[0] + (P[1] - A[1]) * n[1], .beyond = fmax(-s, s - l),
                     .clear = fmin(away[0], away[1]), .parallel = fmin(fabs(away[0]), fabs(away[1])),
                     .bulge = (to[0] * from[1] - to[1] * from[0]) / lt / lf, .end = s < l / 2 ? k : (k + 1) % b->n };
 }
@@ -742,11 +741,11 @@ static int is_listed(const place *list, int n, const outline *a, int i, const ou
     return bsearch(&p, list, (size_t)n, sizeof p, compare_places) != NULL;
 }
 
-/* Compares the list with the definition. What is nearer than `reach`, the way that two vertices can approach each
- * other in the step, must be in it; what is further than 1.15 times that must not: the program may look a little
- * further. Sides nearer to parallel than 0.012 are left to other tests, as one of two contacts is dropped there.
+/* Compares the list with the definition. What is nearer than the ways of both blocks must be in it; what is further than
+ * 1.15 times that must not: the program may look a little further. What lies behind an edge, more than rounding (1e-5 m),
+ * is not in it. Sides nearer to parallel than 0.012 are left to other tests, as one of two contacts is dropped there.
  * Beyond an end of an edge that is no corner, the next edge is the one to touch. */
-static void check_list(const bbm_model *m, const outline o[BLOCKS], double reach)
+static void check_list(const bbm_model *m, const outline o[BLOCKS], const double way[BLOCKS])
 {
     place *list = list_places(m);
     int must = 0, may = 0;
@@ -757,15 +756,18 @@ static void check_list(const bbm_model *m, const outline o[BLOCKS], double reach
                 const int i = ik / o[b].n, k = ik % o[b].n, listed = is_listed(list, m->contacts, &o[a], i, &o[b], k);
                 const sight s = look(&o[a], i, &o[b], k);
                 const int corner = s.bulge > 1e-3, here = s.beyond < 0 || bulge_at(&o[b], s.end) > 1e-3;
+                const double reach = way[a] + way[b], far = fmax(fabs(s.height), s.beyond);
                 may += listed;
-                ck_assert(!listed || (corner && s.clear > -0.011 && fmax(s.distance, s.beyond) < 1.15 * reach));
-                if (!corner || s.clear < 0 || s.parallel < 0.012 || hypot(s.distance, fmax(0, s.beyond)) > reach)
+                ck_assert(!listed || (corner && s.clear > -0.011 && far < 1.15 * reach + 1e-5));
+                ck_assert(!listed || s.height > -1e-5 || s.beyond > 0);
+                if (!corner || s.clear < 0 || s.parallel < 0.012 || hypot(s.height, fmax(0, s.beyond)) > reach
+                    || s.height < 0)
                     continue;
                 ck_assert(listed || !here);
                 must += listed;
             }
     ck_assert_int_eq(may, m->contacts);
-    ck_assert(reach < 0.1 || must > BLOCKS);
+    ck_assert(way[17] < 0.05 || must > SLABS);
     free(list);
 }
 
@@ -777,14 +779,16 @@ START_TEST(the_grid_finds_the_pairs_that_comparing_all_with_all_finds)
     unsigned seed = (unsigned)_i + 1;
     outline o[BLOCKS];
     bbm_model *m = random_blocks(o, seed, 0, PLACES[_i / 2]);
+    double way[BLOCKS];
 
+    for (int b = 0; b < BLOCKS; b++)
+        way[b] = disp * (b == 17 ? 1 : fabs(random_number(&seed)));
     for (int e = 0; e < m->elements; e++) {
-        const double angle = PI * random_number(&seed), share = e == 17 ? 1 : fabs(random_number(&seed));
-        const double v = disp / m->par.dt * share;
+        const double angle = PI * random_number(&seed), v = way[m->element[e].block] / m->par.dt;
         set_velocity(m, e, v * cos(angle), v * sin(angle));
     }
     detect(m);
-    check_list(m, o, 2 * disp);
+    check_list(m, o, way);
     bbm_model_free(m);
 }
 END_TEST
@@ -1076,8 +1080,8 @@ START_TEST(the_detection_looks_as_far_as_a_block_falls_in_the_step)
 }
 END_TEST
 
-/* A fast block beside the end of the table, level with its top: on the line, but not on the edge. Or above it. Both
- * are in reach of the step, and neither is part of a joint. */
+/* A block that comes fast to the end of the table, level with its top: on the line, but not on the edge. Or to its top
+ * from above. Both are in reach of the step, and neither is part of a joint. */
 START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
 {
     bbm_model *m = new_model();
@@ -1086,7 +1090,7 @@ START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? 0 : 5.125, .y = _i ? 0.125 : 0, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
-    set_velocity(m, 1, 10, 0);
+    set_velocity(m, 1, _i ? 0 : -15, _i ? -15 : 0);
     detect(m);
     ck_assert_int_ge(m->contacts, 1);
     for (int k = 0; k < m->contacts; k++)
@@ -1245,9 +1249,24 @@ static int closed_along(const bbm_model *m, double angle, int axis)
     return closed > 0;
 }
 
-/* It crosses both lines of entrance in the first step; along y it gets less deep (or along x), so that it is pushed
- * back along y and keeps its velocity along x. */
-START_TEST(two_corners_that_meet_leave_by_the_shortest_way)
+/* By theory the push of the first step is normal to the edge as it lies in the middle of the step: of the change of
+ * velocity, in the frame of the blocks, what is along it. */
+static double push_along_the_edge(const bbm_model *m, int e, double angle, const double before[2], int axis)
+{
+    double v[2], turn = NAN;
+
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            turn = m->element[m->edge[m->contact[k].edge].element].D[2] / 2;
+    velocity_in_frame(m, e, angle, v);
+    const double x = v[0] - before[0], y = v[1] - before[1];
+    return axis == 0 ? x * cos(turn) + y * sin(turn) : y * cos(turn) - x * sin(turn);
+}
+
+/* It crosses both lines of entrance in the first step, from the same distance; the upright one last (or the flat one),
+ * which it also crosses less deep. It is pushed back along x (or y) alone. 1e-6: as far as the vectors of the step are
+ * renewed. */
+START_TEST(two_corners_that_meet_leave_by_the_line_crossed_last)
 {
     const int upright = _i % 2;
     const double vx = upright ? -4 : -3, vy = upright ? -3 : -4;
@@ -1259,9 +1278,9 @@ START_TEST(two_corners_that_meet_leave_by_the_shortest_way)
         bbm_model *m = corner_to_corner(vx, vy, angle, k % 2, &e);
         run_steps(m, 1);
         ck_assert(closed_along(m, angle, upright ? 0 : 1));
+        ck_near(push_along_the_edge(m, e, angle, (double[]){ vx, vy }, upright ? 0 : 1), 0, 4, 1e-6);
         run_steps(m, 4);
         velocity_in_frame(m, e, angle, v);
-        ck_near(v[upright ? 0 : 1], upright ? vx : vy, 4, 1e-6);
         ck_assert(v[upright ? 1 : 0] > -2.5);                   /* slower than before */
         bbm_model_free(m);
     }
@@ -1277,6 +1296,8 @@ START_TEST(corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whi
     for (int i = 0; i < 5; i++) {
         run_steps(m, 1);
         run_steps(n, 1);
+        if (i == 0)
+            ck_near(push_along_the_edge(m, e, 0, (double[]){ -3, -3 }, 0), 0, 3, 1e-6);
         for (int a = 0; a < 3; a++) {
             ck_near(m->element[e].V[a], n->element[f].V[a], 4, SOLVED);
             ck_near(m->element[1 - e].V[a], n->element[1 - f].V[a], 4, SOLVED);
@@ -1285,7 +1306,6 @@ START_TEST(corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whi
             ck_near(m->element[0].V[a] + m->element[1].V[a], -3, 3, SOLVED);
     }
     ck_assert(m->element[e].V[1] > -2.5);
-    ck_near(m->element[e].V[0], -3, 3, 1e-6);
     bbm_model_free(m);
     bbm_model_free(n);
 }
@@ -1461,13 +1481,19 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -4);
     for (int again = 0; again < 2; again++) {
-        detect(m);
-        for (int k = 0; k < m->contacts; k++)
-            if (corner_vertex(m, &m->contact[k]) == vertex_of(m, e, 0)) {
-                ck_assert_int_eq(m->contact[k].state, again ? PASSED[_i / 4].then : BBM_OPEN);
-                m->contact[k].state = BBM_LOCK;
+        int n;
+        m->h = m->par.dt;
+        bbm_guess_step(m);
+        ck_ok(bbm_detect_contacts(m, NULL), m);
+        bbm_contact *list = bbm_list_contacts(m, &n);
+        for (int k = 0; k < n; k++)
+            if (corner_vertex(m, &list[k]) == vertex_of(m, e, 0)) {
+                ck_assert_int_eq(list[k].state, again ? PASSED[_i / 4].then : BBM_OPEN);
+                list[k].state = BBM_LOCK;
+                list[k].d_n = y;
                 found++;
             }
+        ck_ok(bbm_keep_contacts(m), m);
     }
     ck_assert_int_eq(found, 2);
     bbm_model_free(m);
@@ -1584,7 +1610,7 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
     m->element[e].V[2] = turn / m->par.dt;
     m->h = m->par.dt;
     bbm_guess_step(m);
-    ck_ok(bbm_detect_contacts(m), m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
     m->D[6 * e + 2] = turn;
     bbm_move(m, &m->element[e], &m->D[6 * e], start[0], start[1], u);
     m->D[6 * e] = 4.98 - start[0] - u[0];
@@ -1962,11 +1988,11 @@ START_TEST(a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_
 }
 END_TEST
 
-/* A block tilted by 0.02 rad overhangs a table and falls on its lower corner; the table's corner, 1.5 m away, is under
- * its lower side, near enough to be listed, and stays 1 cm below. */
+/* A tilted block overhangs a table and falls on its lower corner by 2 cm; the table's corner, 1.5 m away, is 2.075 cm
+ * under its lower side, in reach of the step (2.2 cm), and is not reached. */
 START_TEST(a_corner_is_stopped_though_a_far_one_under_the_same_side_is_not_reached)
 {
-    const double side = _i ? -1 : 1, tilt = 0.02 * side;
+    const double side = _i ? -1 : 1, tilt = 0.0105 * side;
     double beam[4][2];
     bbm_model *m = new_model();
 
@@ -2607,38 +2633,21 @@ START_TEST(momentum_is_kept_in_an_impact)
 }
 END_TEST
 
-/* What one step adds to the angular momentum of two elements, by theory. The push J of the step acts where they were at
- * its start, and they end it elsewhere: dt/2 v x J for each, with the velocity v before. Shear forces act at P1 and at
- * P0, which are d_n apart at the start: a couple T d_n. P is the momentum before the step, Q after it. */
-static double momentum_off(const bbm_model *m, double P[2][2], double Q[2][2])
+/* Forces act at the middle of the step, where their points meet on the way: nothing is left of the moments of the step's
+ * start. What is left is of the strain of the impact, v sqrt(rho/E) = 7e-4, which changes the moment of inertia of what
+ * turns, DENSITY/6 at up to 1 rad/s: 1.2e-4 of DENSITY. With vectors of the start it was 1e-2 with friction. */
+START_TEST(angular_momentum_is_kept_in_an_impact_up_to_the_strain_of_what_turns)
 {
-    double off = 0;
-
-    for (int b = 0; b < 2; b++)
-        off += m->par.dt / 2 * (P[b][0] * (Q[b][1] - P[b][1]) - P[b][1] * (Q[b][0] - P[b][0])) / DENSITY;
-    for (int k = 0; k < m->contacts; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            off += m->par.dt * m->contact[k].T * m->contact[k].gap;
-    return off;
-}
-
-/* The scheme does not keep it. What is left beside the theory above is the push, some 2500 N s, times the way that the
- * squares are strained by it: v sqrt(rho/E) l = 7e-4 of their size, times the angle of turning by then, 1e-2. */
-START_TEST(angular_momentum_changes_by_the_way_in_a_step_and_the_couple_of_the_friction)
-{
-    double P[2][2], Q[2][2], L0, L, theory = 0, change = 0;
+    double P[2][2], L0, L, change = 0;
     bbm_model *m = impact(_i, 1e-3);
 
     momenta(m, P, &L0);
     for (int i = 0; i < 60; i++) {
         run_steps(m, 1);
-        momenta(m, Q, &L);
-        theory += momentum_off(m, P, Q);
+        momenta(m, P, &L);
         change = fmax(change, fabs(L - L0));
-        ck_near(L - L0, theory, DENSITY, 2e-5);
-        memcpy(P, Q, sizeof P);
     }
-    ck_assert(IMPACTS[_i].phi == 0 || change > 1e-4 * DENSITY);       /* so that the theory has something to say */
+    ck_near(change, 0, DENSITY, 1.2e-4);
     bbm_model_free(m);
 }
 END_TEST
@@ -2705,9 +2714,17 @@ static int was_closed(const bbm_contact old[], int n, int corner)
     return 0;
 }
 
+/* How much further the last step would have moved an element's points without its forces, at most: dt/2 of the change of
+ * their velocities; the polygons reach 0.6 m from their barycentres, the table 5 m, but it is fixed. */
+static double held_back(const bbm_model *m, const double V[][6], int e)
+{
+    const double *v = m->element[e].V;
+
+    return m->par.dt / 2 * (hypot(v[0] - V[e][0], v[1] - V[e][1]) + 0.6 * fabs(v[2] - V[e][2]));
+}
+
 /* In a pile that is thrown about in long steps, a corner that hits an edge has its foot on it, at the end of the step
- * if not at its start, and stands clear of it at the end. The iteration moves on after it has closed: by some mm, some
- * 0.01 rad. */
+ * if not at its start, and stands clear of it at the end - as the step would be without the forces of the hit. */
 START_TEST(what_hits_an_edge_is_a_corner_with_its_foot_on_it)
 {
     bbm_model *m = pile((unsigned)_i + 1, 0);
@@ -2720,8 +2737,11 @@ START_TEST(what_hits_an_edge_is_a_corner_with_its_foot_on_it)
     for (int i = 0; i < 60; i++) {
         bbm_contact *old = calloc((size_t)m->contacts + 1, sizeof *old);
         const int n = m->contacts;
+        double V[PILE + 1][6];
         if (n)
             memcpy(old, m->contact, (size_t)n * sizeof *old);
+        for (int e = 0; e <= PILE; e++)
+            memcpy(V[e], m->element[e].V, sizeof V[e]);
         run_steps(m, 1);
         for (int k = 0; k < m->contacts; k++) {
             const bbm_contact *c = &m->contact[k];
@@ -2729,7 +2749,9 @@ START_TEST(what_hits_an_edge_is_a_corner_with_its_foot_on_it)
             stand(m, c, &beyond, &clear);
             if (c->state == BBM_OPEN || was_closed(old, n, c->corner))
                 continue;
-            ck_assert_msg(!c->off || beyond < 5e-3, "step %d: beyond %g", i, beyond);
+            const double i_back = held_back(m, (const double (*)[6])V, m->edge[c->corner].element);
+            const double j_back = held_back(m, (const double (*)[6])V, m->edge[c->edge].element);
+            ck_assert_msg(!c->off || beyond < i_back + j_back, "step %d: beyond %g", i, beyond);
             ck_assert_msg(clear > -0.02, "step %d: clear %g", i, clear);
             hits++;
         }
@@ -2805,7 +2827,6 @@ START_TEST(contacts_that_never_settle_end_with_a_status_and_the_numbers)
     ck_near(m->h, m->par.dt / 1024, m->par.dt, ROUNDING);
     ck_assert_msg(strstr(bbm_message(m), "step 1 at t = 0, dt cut to 9.76") && strstr(bbm_message(m), " passes") &&
                   strstr(bbm_message(m), " contacts"), "%s", bbm_message(m));
-    ck_assert(m->info.passes > 11 && m->info.passes < 11 * 1000);
     ck_assert(same_state(m, n));
     bbm_model_free(m);
     bbm_model_free(n);
@@ -2823,7 +2844,7 @@ static bbm_model *block_on_table(void)
     ck_ok(bbm_prepare(m), m);
     m->h = m->par.dt;
     bbm_guess_step(m);
-    ck_ok(bbm_detect_contacts(m), m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
     return m;
 }
 
@@ -2890,14 +2911,14 @@ START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
     m->element[1].V[2] = _i < 2 ? 0 : 1;
     m->gravity[1] = 0;
     bbm_guess_step(m);
-    ck_ok(bbm_detect_contacts(m), m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     ck_assert(!bbm_moved_too_far(m));
     m->D[6] = way * by[_i][0];
     m->D[6 + 2] = turn * by[_i][1];
     ck_assert_int_eq(bbm_moved_too_far(m), _i % 2);
     if (_i % 2) {
-        ck_ok(bbm_detect_contacts(m), m);
+        ck_ok(bbm_detect_contacts(m, NULL), m);
         ck_assert(!bbm_moved_too_far(m));           /* it has become the guess */
     }
     bbm_model_free(m);
@@ -2920,7 +2941,7 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
     set_velocity(m, e + 1, 0, -25);
     m->h = m->par.dt;
     bbm_guess_step(m);
-    ck_ok(bbm_detect_contacts(m), m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
     for (int i = e; i < e + 2; i++) {
         m->D[6 * i] = -side * beyond;
         m->D[6 * i + 1] = -0.25;
@@ -2940,7 +2961,7 @@ END_TEST
 START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
 {
     const double clear = _i % 2 ? 1 : -2, turned = radians(_i / 2 ? 70 - clear : clear - 70), slope = radians(30);
-    const double up[2] = { -sin(slope), cos(slope) }, tip[2] = { 0.125 * up[0], 0.125 * up[1] };
+    const double up[2] = { -sin(slope), cos(slope) }, tip[2] = { 0.1 * up[0], 0.1 * up[1] };
     double wedge[3][2] = { { tip[0], tip[1] } };
     bbm_model *m = new_model();
     bbm_pass pass;
@@ -2956,11 +2977,12 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
     set_velocity(m, e, 0, -10);
     m->h = m->par.dt;
     bbm_guess_step(m);
-    ck_ok(bbm_detect_contacts(m), m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
     m->D[6 * e + 2] = turned;
     bbm_move(m, &m->element[e], &m->D[6 * e], tip[0], tip[1], u);
     for (int a = 0; a < 2; a++)
         m->D[6 * e + a] = -1e-3 * up[a] - tip[a] - u[a];
+    bbm_set_middle(m, m->D);
     ck_ok(bbm_open_close(m, &pass), m);
     ck_ok(bbm_keep_contacts(m), m);
     int hit = 0;
@@ -2971,9 +2993,9 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
 }
 END_TEST
 
-/* Three looks at a block: it comes down on the table; turns there by 0.01 rad, so that distances are corrected and no
- * state changes; and is lifted off. That is no cycle, so both contacts open at once. */
-START_TEST(a_pass_that_corrects_distances_is_no_cycle)
+/* Three looks at a block: it comes down on the table; turns there by 0.01 rad, so that the vectors of the step are renewed
+ * and no state changes; and is lifted off. That is no cycle, so both contacts open at once. */
+START_TEST(a_pass_that_renews_the_vectors_is_no_cycle)
 {
     bbm_model *m = block_on_table();
     bbm_pass pass;
@@ -3008,24 +3030,30 @@ START_TEST(a_set_of_states_that_comes_back_is_a_cycle)
 }
 END_TEST
 
-/* The block comes down, and then turns by a thousandth about the middle of its lower side: its corners end the step
- * r^2/4 = 2.5e-7 m beside where the formulas see them, which is much for the shear springs of 1e12 N/m, and
- * nothing for the normal springs of 1e6. Locked contacts have to be solved again; sliding ones have no shear spring. */
-START_TEST(second_order_terms_count_by_the_force_that_they_make)
+/* The block comes down, and then turns by 5e-5 about the middle of its lower side: its corners end the step r^2/4 =
+ * 6e-10 m beside where the vectors of its start see them, which is much for the shear springs of 1e12 N/m, and nothing for
+ * the normal springs of 1e6. Locked contacts have to be solved again; sliding ones have no shear spring. At 3e-4 the turn
+ * itself is too much, (3e-4)^2 2 > 1e-7, but not in a round of multipliers, which keeps K. */
+START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
 {
     bbm_model *m = block_on_table();
+    const double turn = _i < 2 ? 5e-5 : 3e-4;
     bbm_pass pass;
 
     m->par.p_n = 1e6;
     m->par.p_s = 1e12;
     m->par.friction = _i ? 0 : 30;
     for (int k = 0; k < 3; k++) {
-        m->D[6] = k < 2 ? 0 : -0.5e-3;
+        m->keep_K = k == 2 && _i == 3;
+        m->D[6] = k < 2 ? 0 : -turn / 2;
         m->D[7] = -0.01;
-        m->D[8] = k < 2 ? 0 : 1e-3;
+        m->D[8] = k < 2 ? 0 : turn;
         ck_ok(bbm_open_close(m, &pass), m);
     }
-    ck_assert_int_eq(pass, _i ? BBM_PASS_DONE : BBM_PASS_AGAIN);
+    ck_assert_int_eq(pass, _i % 2 ? BBM_PASS_DONE : BBM_PASS_AGAIN);
+    ck_ok(bbm_open_close(m, &pass), m);
+    ck_assert_int_eq(pass, BBM_PASS_DONE);
+    ck_assert_int_eq(bbm_middle_is_off(m), _i == 3);
     bbm_model_free(m);
 }
 END_TEST
@@ -3374,7 +3402,7 @@ static void add_detection(Suite *s)
 static void add_corners(Suite *s)
 {
     const entry e[] = {
-        { two_corners_that_meet_leave_by_the_shortest_way, 2 },
+        { two_corners_that_meet_leave_by_the_line_crossed_last, 2 },
         { corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whichever_block_comes_first, 1 },
         { of_two_lines_as_steep_the_one_that_rises_to_the_right_counts, 2 },
         { a_corner_beside_a_corner_meets_the_side_that_lies_there, 2 },
@@ -3445,7 +3473,7 @@ static void add_motion(Suite *s)
         { a_dropped_block_never_rebounds_faster_than_it_came, 2 * COUNT(DROP_STEPS) },
         { a_contact_is_anchored_where_it_hit, 2 },
         { momentum_is_kept_in_an_impact, COUNT(IMPACTS) },
-        { angular_momentum_changes_by_the_way_in_a_step_and_the_couple_of_the_friction, 3 },
+        { angular_momentum_is_kept_in_an_impact_up_to_the_strain_of_what_turns, COUNT(IMPACTS) },
         { a_turning_block_keeps_its_area, 1 },
         { the_papers_linear_update_lets_a_turning_block_grow, 1 },
     };
@@ -3465,9 +3493,9 @@ static void add_redone(Suite *s)
         { a_solution_that_moves_further_than_foreseen_is_noticed, 4 },
         { the_end_of_an_edge_belongs_to_it, 4 },
         { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
-        { a_pass_that_corrects_distances_is_no_cycle, 1 },
+        { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
         { a_set_of_states_that_comes_back_is_a_cycle, 1 },
-        { second_order_terms_count_by_the_force_that_they_make, 2 },
+        { vectors_of_the_step_are_off_by_the_force_that_they_make, 4 },
         { piles_settle_in_few_passes, 1 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
