@@ -443,7 +443,7 @@ START_TEST(a_load_that_varies_along_a_line_is_the_derivative_of_its_potential)
     make_body(&b, &SHAPES[_i], 3, -2, &seed);
     for (int degree = 0; degree < 7; degree++) {
         source s = { .i = &b, .P = 1, .Q = 2 };
-        double f[BBM_GAUSS][2] = { { 0 } };
+        double f[BBM_GAUSS + 1][2] = { [BBM_GAUSS] = { INFINITY, INFINITY } };      /* which nobody may read */
         for (int n = 0; n <= degree; n++)
             for (int r = 0; r < 2; r++)
                 s.f[n][r] = random_number(&seed);
@@ -1688,6 +1688,28 @@ START_TEST(a_body_without_load_stays_where_it_is)
 END_TEST
 
 /* One polygon as the whole block, plain DDA: in balance the mean stress is sum of f x^T / (t A), made symmetric. */
+/* A pressure p [N/m] on all sides of any polygon is in balance, and -p/t is the stress in x and in y. */
+START_TEST(a_body_under_pressure_all_round_has_that_stress)
+{
+    const shape *s = &SHAPES[_i];
+    bbm_model *m = new_model(&SOLID);
+    int nodes[CORNERS];
+
+    for (int c = 0; c < s->n; c++)
+        ck_ok(bbm_add_node(m, s->x[c][0], s->x[c][1], &nodes[c]), m);
+    ck_ok(bbm_add_element(m, 0, 0, s->n, nodes, NULL), m);
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, 2, BBM_Y, 0, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < m->edges; e++)
+        ck_ok(bbm_load_edge(m, e, 0, 0, 5), m);
+    ck_ok(bbm_step(m), m);
+    for (int a = 0; a < 3; a++)
+        ck_near(m->element[0].stress[a], a < 2 ? -5 / SOLID.thickness : 0, 5, SOLVED);
+    bbm_model_free(m);
+}
+END_TEST
+
 START_TEST(a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads)
 {
     const shape *s = &SHAPES[2];
@@ -2186,6 +2208,20 @@ START_TEST(elements_of_one_block_on_the_same_side_of_an_edge_are_named)
 }
 END_TEST
 
+START_TEST(a_load_on_an_edge_that_does_not_exist_is_refused)
+{
+    bbm_model *m = unit_square(&SOLID);
+
+    if (_i > 0)
+        ck_ok(bbm_prepare(m), m);
+    if (_i == 3)
+        ck_ok(bbm_load_edge(m, 3, 1, 2, 3), m);
+    else
+        check_error(m, bbm_load_edge(m, (int[]){ 0, -1, 4 }[_i], 1, 2, 3), BBM_BAD_INDEX, "loaded edge");
+    bbm_model_free(m);
+}
+END_TEST
+
 START_TEST(a_line_load_on_what_is_no_boundary_edge_is_refused)
 {
     const int nodes[4][2] = { { 1, 4 }, { 0, 4 }, { 2, 2 }, { 0, 0 } };    /* inside, a diagonal, points */
@@ -2627,6 +2663,7 @@ static void add_models(Suite *s)
         { loads_of_one_node_and_of_one_edge_add_up, 1 },
         { gravity_pulls_at_the_mass_of_each_element, 1 },
         { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 },
+        { a_body_under_pressure_all_round_has_that_stress, COUNT(SHAPES) },
         { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 },
     };
     const entry steps[] = {
@@ -2673,6 +2710,7 @@ static void add_mesh_and_errors(Suite *s)
         { a_node_that_no_element_has_is_named, 1 },
         { elements_of_one_block_on_the_same_side_of_an_edge_are_named, 1 },
         { a_line_load_on_what_is_no_boundary_edge_is_refused, 4 },
+        { a_load_on_an_edge_that_does_not_exist_is_refused, 4 },
         { a_load_on_an_edge_that_two_blocks_have_goes_to_the_first, 1 },
         { statics_refuses_a_body_that_is_free_to_move_and_names_it, COUNT(HOLDS) },
         { fixed_points_close_together_hold_a_body_within_reason, 1 },
