@@ -15,7 +15,7 @@ GALLERY  = incline shaken topple column overhang drop impact turning arch restin
 CASES    = $(RUN) $(GALLERY)
 SHARED   = case plot scene theory
 PROGRAM  = bbm model msh write
-SUITES   = check_bbm check_contact check_solver check_beyond check_bars check_theory check_equations
+SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_bars check_theory check_equations
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free

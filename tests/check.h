@@ -36,6 +36,7 @@ Suite *bars_suite(void);
 Suite *theory_suite(void);
 Suite *equations_suite(void);
 Suite *contact_suite(void);
+Suite *motion_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
 

@@ -223,7 +223,7 @@ static void make_encounter(encounter *c, int which)
 {
     make_element(&c->i, c->vi, which / 2, 0.5, 0.75);
     make_element(&c->j, c->vj, which % 2, -1.5, 0.25);
-    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[which % 3], &c->vj[1], &c->vj[0], 0, 0 };      /* P3 comes before P2 */
+    c->touch = (bbm_touch){ &c->i, &c->j, &c->vi[which % 3], &c->vj[1], &c->vj[0], 0, 0.125 }; /* P3 comes before P2 */
     c->anchor = 0.375;
     c->p = 3;
 }
@@ -279,7 +279,7 @@ typedef double energy(const encounter *c, const double D[UNKNOWNS]);
 
 static double normal_energy(const encounter *c, const double D[UNKNOWNS])
 {
-    return c->p / 2 * pow(normal_distance(c, D), 2);
+    return c->p / 2 * pow(normal_distance(c, D) - c->touch.rest, 2);
 }
 
 static double shear_energy(const encounter *c, const double D[UNKNOWNS])

@@ -17,7 +17,7 @@
 
 #ifndef CASES
 
-enum { LIMIT = 80, SHARE = 10 };       /* s  for all of the quick tests, 40 times what they take; for one of them */
+enum { LIMIT = 80, SHARE = 10 };       /* s  for all of the quick tests, which take 2 to 5; for one of them */
 
 /* libcheck ends a test that hangs after 4 s. If an error lets hundreds hang, one after the other, that is long: a second
  * process ends the tests after LIMIT. The one in hand, which is then alone, ends after its SHARE. */
@@ -65,6 +65,7 @@ int main(void)
     srunner_add_suite(runner, bbm_suite());
     srunner_add_suite(runner, contact_suite());
     srunner_add_suite(runner, beyond_suite());
+    srunner_add_suite(runner, motion_suite());
     srunner_add_suite(runner, bars_suite());
     srunner_add_suite(runner, theory_suite());
     srunner_add_suite(runner, equations_suite());

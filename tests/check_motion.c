@@ -1,0 +1,389 @@
+/* check_motion.c - dynamic steps keep energy and momentum: the vectors of the middle of the step, the energy balance,
+ * multipliers in steps of every length, corners, thin plates and stones far away. */
+#include <string.h>
+
+#include "check.h"
+
+Suite *motion_suite(void);
+
+static bbm_model *new_model(double modulus, double dt)
+{
+    bbm_model *m;
+
+    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    bbm_add_material(m, &(bbm_material){ modulus, 0.2, 2500, 1 }, NULL);
+    m->par.dt = dt;
+    m->par.keep = 1;
+    return m;
+}
+
+/* A rectangle of nx x ny quadrilaterals, or twice as many triangles, turned by `angle` about its lower left corner. Returns
+ * its first element. */
+typedef struct { double x, y, w, h, angle; int nx, ny, triangles; } box;
+
+static int add_box(bbm_model *m, int block, const box *b)
+{
+    const int first = m->nodes, e = m->elements, nx = b->nx ? b->nx : 1, ny = b->ny ? b->ny : 1;
+    const double c = cos(b->angle), s = sin(b->angle);
+
+    for (int k = 0; k < (nx + 1) * (ny + 1); k++) {
+        const double x = b->w * (k % (nx + 1)) / nx, y = b->h * (k / (nx + 1)) / ny;
+        ck_ok(bbm_add_node(m, b->x + c * x - s * y, b->y + s * x + c * y, NULL), m);
+    }
+    for (int k = 0; k < nx * ny; k++) {
+        const int a = first + k / nx * (nx + 1) + k % nx, d = a + nx + 1;
+        if (b->triangles) {
+            ck_ok(bbm_add_element(m, block, 0, 3, (int[]){ a, a + 1, d + 1 }, NULL), m);
+            ck_ok(bbm_add_element(m, block, 0, 3, (int[]){ a, d + 1, d }, NULL), m);
+        } else {
+            ck_ok(bbm_add_element(m, block, 0, 4, (int[]){ a, a + 1, d + 1, d }, NULL), m);
+        }
+    }
+    return e;
+}
+
+static void hold_block(bbm_model *m, int block)
+{
+    for (int v = 0; v < m->vertices; v++)
+        if (m->element[m->vertex[v].element].block == block)
+            ck_ok(bbm_fix_node(m, m->vertex[v].node, BBM_XY, 0, 0), m);
+}
+
+/* The block moves by (vx, vy) and turns by w about (x, y). */
+static void throw_block(bbm_model *m, int block, double vx, double vy, double w, double x, double y)
+{
+    for (int i = 0; i < m->elements; i++) {
+        bbm_element *e = &m->element[i];
+        if (e->block != block)
+            continue;
+        e->V[0] = vx - w * (e->y - y);
+        e->V[1] = vy + w * (e->x - x);
+        e->V[2] = w;
+    }
+}
+
+static double sum_of(const bbm_model *m)
+{
+    bbm_energy e;
+
+    bbm_energies(m, &e);
+    return e.kinetic + e.elastic + e.springs;
+}
+
+static void run_steps(bbm_model *m, int n)
+{
+    for (int i = 0; i < n; i++)
+        ck_ok(bbm_step(m), m);
+}
+
+/* ------------------------------------------------------------------------------------ the middle of the step */
+
+/* D of large turns and strains, from one number. */
+static void some_motion(int seed, double D[6])
+{
+    for (int a = 0; a < 6; a++)
+        D[a] = (a < 2 ? 0.5 : a == 2 ? 1.5 : 0.2) * sin(1 + 7.3 * seed + 2.1 * a);
+}
+
+/* The exact motion of the point X from the barycentre, written with complex numbers' multiplication. */
+static void exact_motion(const bbm_element *e, const double D[6], double x, double y, double moved[2])
+{
+    const double X = x - e->x, Y = y - e->y;
+    const double sx = X + D[3] * X + D[5] / 2 * Y, sy = Y + D[5] / 2 * X + D[4] * Y;
+
+    moved[0] = e->x + D[0] + cos(D[2]) * sx - sin(D[2]) * sy;
+    moved[1] = e->y + D[1] + sin(D[2]) * sx + cos(D[2]) * sy;
+}
+
+static double sum_row(const double T[6], const double D[6])
+{
+    double sum = 0;
+
+    for (int a = 0; a < 6; a++)
+        sum += T[a] * D[a];
+    return sum;
+}
+
+/* Also for a D in whose middle it is not: then it is T to first order. 4e-16 of numbers up to 3, summed up: 1e-14. */
+START_TEST(the_matrix_of_the_middle_moves_points_exactly)
+{
+    bbm_model *m = new_model(1e9, 0.01);
+    const int i = add_box(m, 0, &(box){ 1, 2, 1.5, 0.5, 0.3, 1, 1, 0 });
+    double T[2][6], at[2], to[2], paper[2][6];
+
+    ck_ok(bbm_prepare(m), m);
+    m->h = m->par.dt;
+    bbm_mode_matrix(&m->element[i], 2.5, 1, paper);
+    bbm_middle_matrix(&m->element[i], 2.5, 1, T, at);
+    ck_assert_int_eq(memcmp(T, paper, sizeof T), 0);                /* mid is 0: the paper's */
+    for (int seed = 0; seed < 20; seed++) {
+        bbm_element *e = &m->element[i];
+        some_motion(seed, m->D);
+        bbm_set_middle(m, m->D);
+        exact_motion(e, m->D, 2.5, 1, to);
+        bbm_middle_matrix(e, 2.5, 1, T, at);
+        ck_near(2.5 + sum_row(T[0], m->D), to[0], 1, 1e-14);
+        ck_near(1 + sum_row(T[1], m->D), to[1], 1, 1e-14);
+        ck_near(at[0], (2.5 + to[0]) / 2, 1, 1e-14);
+        ck_near(at[1], (1 + to[1]) / 2, 1, 1e-14);
+    }
+    m->par.rotation = BBM_LINEAR;
+    bbm_set_middle(m, m->D);
+    bbm_middle_matrix(&m->element[i], 2.5, 1, T, at);
+    ck_assert_int_eq(memcmp(T, paper, sizeof T), 0);
+    m->par.rotation = BBM_EXACT;
+    m->h = INFINITY;
+    bbm_set_middle(m, m->D);
+    bbm_middle_matrix(&m->element[i], 2.5, 1, T, at);
+    ck_assert_int_eq(memcmp(T, paper, sizeof T), 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* l d_n and l d_s of three points, by their products. */
+static void products(double p1[2], double p2[2], double p3[2], double p0[2], double d[2])
+{
+    const double bx = p3[0] - p2[0], by = p3[1] - p2[1];
+
+    d[0] = bx * (p1[1] - p2[1]) - by * (p1[0] - p2[0]);
+    d[1] = bx * (p1[0] - p0[0]) + by * (p1[1] - p0[1]);
+}
+
+/* The lengths of both springs of a contact at the end of the step, over the length l of the edge at its start. */
+START_TEST(with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths)
+{
+    bbm_model *m = new_model(1e9, 0.01);
+    const int i = add_box(m, 0, &(box){ 0, 0, 1.5, 0.5, 0.3, 1, 1, 0 });
+    const int j = add_box(m, 1, &(box){ 0.5, -2, 1, 1, -0.2, 1, 1, 0 });
+    const bbm_element *a = &m->element[i], *b = &m->element[j];
+
+    ck_ok(bbm_prepare(m), m);
+    m->h = m->par.dt;
+    for (int seed = 0; seed < 20; seed++) {
+        const bbm_vertex *P1 = &m->vertex[a->first], *P2 = &m->vertex[b->first + 1], *P3 = &m->vertex[b->first];
+        const double anchor = 0.3, l = hypot(P3->x - P2->x, P3->y - P2->y);
+        const bbm_touch c = { a, b, P1, P2, P3, 1, 0 };
+        bbm_spring n, s;
+        double p1[2], p2[2], p3[2], p0[2], d[2];
+        some_motion(seed, m->D);
+        some_motion(seed + 100, m->D + 6);
+        bbm_set_middle(m, m->D);
+        bbm_normal_vectors(&c, &n);
+        bbm_shear_vectors(&c, anchor, &s);
+        exact_motion(a, m->D, P1->x, P1->y, p1);
+        exact_motion(b, m->D + 6, P2->x, P2->y, p2);
+        exact_motion(b, m->D + 6, P3->x, P3->y, p3);
+        exact_motion(b, m->D + 6, P3->x + anchor * (P2->x - P3->x), P3->y + anchor * (P2->y - P3->y), p0);
+        products(p1, p2, p3, p0, d);
+        ck_near(n.d + sum_row(n.e, m->D) + sum_row(n.g, m->D + 6), d[0] / l, 1, 1e-13);
+        ck_near(s.d + sum_row(s.e, m->D) + sum_row(s.g, m->D + 6), d[1] / l, 1, 1e-13);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* --------------------------------------------------------------------------------------------- bonded blocks spin */
+
+static const struct { double w; int triangles; bbm_bonding bonding; int augment; } SPINS[] = {
+    { 1, 0, BBM_MOMENT, 2 },  { 5, 0, BBM_MOMENT, 2 },   { 20, 0, BBM_MOMENT, 2 },   { 20, 0, BBM_MOMENT, 0 },
+    { 5, 1, BBM_VERTICES, 2 }, { 20, 1, BBM_VERTICES, 0 }, { 20, 0, BBM_VERTICES, 2 },
+};
+
+/* A free block of 3 x 3 cells that flies, spins by up to 0.2 rad a step, and is under a pressure all round, or not. In the
+ * first steps it is strained by the centrifugal force and the pressure, and swings; from then on it keeps its energy.
+ * Springs and elements hold no more than that stress asks for, twice that in a swing: rho w^2 R^2 with R = 0.7, along
+ * two axes, squared over 2 E; the springs 2.5/alpha of it. A spring that turns by w dt in a step pulls as it lies at its end
+ * and loses (w dt)^2 of its energy. A pressure that balances itself does no work but on those strains. */
+START_TEST(a_bonded_block_that_spins_keeps_its_energy)
+{
+    for (int pressed = 0; pressed < 2; pressed++) {
+        bbm_model *m = new_model(1e10, 0.01);
+        const double w = SPINS[_i].w, stress = 2500 * w * w * 0.5 + pressed * 1e4, elastic = stress * stress / 1e10;
+        bbm_energy e;
+        add_box(m, 0, &(box){ 0, 0, 1, 1, 0, 3, 3, SPINS[_i].triangles });
+        m->par.augment = SPINS[_i].augment;
+        m->par.bonding = SPINS[_i].bonding;
+        ck_ok(bbm_prepare(m), m);
+        for (int edge = 0; edge < m->edges && pressed; edge++)
+            ck_ok(bbm_load_edge(m, edge, 0, 0, 1e4), m);
+        throw_block(m, 0, 2, -1, w, 0.5, 0.5);
+        const double start = sum_of(m);
+        run_steps(m, 50);
+        const double before = sum_of(m) - m->info.work;
+        run_steps(m, 100);
+        bbm_energies(m, &e);
+        ck_near(start, before, 4 * elastic, 1);
+        ck_near(sum_of(m) - m->info.work, before, before + 1e8 * w * w * 1e-4 * e.springs, 1e-6);
+        ck_near(m->info.work, 0, 4 * elastic, 1);
+        ck_assert(e.elastic < 4 * elastic && e.springs < 4 * 0.025 * elastic);
+        ck_assert_msg(m->info.gain < 1e-6, "gain %g", m->info.gain);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------ steps of every length, and the net */
+
+/* A block of one square or of bonded cells, fixed or thrown, in steps from 1e-2 to 1e-7 s with multipliers: what it has
+ * is at most what it got. Kept from step to step they made 1e29 J of nothing at 3e-4 s. */
+START_TEST(multipliers_make_no_energy_in_steps_of_any_length)
+{
+    const int fixed = _i % 2, kind = _i / 2 % 3;
+
+    for (double dt = 1e-2; dt > 0.9e-7; dt /= sqrt(10)) {
+        bbm_model *m = new_model(1e9, dt);
+        add_box(m, 0, &(box){ 0, 0, 10, 10, 0, kind ? 3 : 1, kind ? 3 : 1, kind == 2 });
+        m->par.augment = _i < 6 ? 2 : 5;
+        m->par.gravity[1] = fixed ? -9.81 : 0;
+        if (fixed)
+            hold_block(m, 0);
+        ck_ok(bbm_prepare(m), m);
+        throw_block(m, 0, fixed ? 0 : 1, 0, fixed ? 0 : 0.5, 5, 5);
+        const double before = sum_of(m);
+        run_steps(m, 150);
+        ck_assert_msg(sum_of(m) <= before + m->info.work + 1e-8 * (before + fabs(m->info.work)), "dt %g: %g J of %g",
+                      dt, sum_of(m), before + m->info.work);
+        ck_assert_msg(m->info.gain < 1e-5, "dt %g: %g", dt, m->info.gain);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* Adds to the momentum of the first element in each solution: energy from nowhere. */
+static void kick(const bbm_model *m, void *impulse)
+{
+    m->F[0] += *(double *)impulse / m->h;
+}
+
+/* A push that no load does is found out in every part of the step, and the block is where it was. One that does less than
+ * a thousandth goes through, and is counted: an impulse J makes v J of the 2500 v^2/2 that were there. */
+START_TEST(a_step_that_makes_energy_is_cut_and_then_refused)
+{
+    double impulse = 2500 * 0.1;
+    bbm_model *m = new_model(1e9, 0.01);
+
+    add_box(m, 0, &(box){ 0, 0, 1, 1, 0, 1, 1, 0 });
+    ck_ok(bbm_prepare(m), m);
+    throw_block(m, 0, 1, 0, 0, 0, 0);
+    m->watch = kick;
+    m->watch_context = &impulse;
+    ck_assert_int_eq(bbm_step(m), BBM_ENERGY);
+    ck_assert_int_eq(m->info.cuts, 10);
+    ck_assert_msg(strstr(bbm_message(m), "step 1 at t = 0, dt cut to 9.76"), "%s", bbm_message(m));
+    ck_assert(m->vertex[0].u == 0 && m->element[0].V[0] == 1 && m->info.step == 0 && m->info.gained == 0);
+    impulse = 2500 * 0.0004;
+    ck_ok(bbm_step(m), m);
+    ck_near(m->info.gained, 2500 * 0.0004, 1, 1e-3);
+    ck_near(m->info.gain, 0.0008, 1, 1e-6);
+    impulse = -impulse;
+    ck_ok(bbm_step(m), m);
+    ck_near(m->info.gained, 2500 * 0.0004, 1, 1e-3);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------------------- contacts */
+
+/* Four slabs of 2 cm lie on each other and on a floor; a stone flies by far away, or lies there. */
+static bbm_model *slabs(double v)
+{
+    bbm_model *m = new_model(1e9, 0.01);
+
+    m->par.gravity[1] = -9.81;
+    m->par.friction = 30;
+    add_box(m, 0, &(box){ -2, -1, 4, 1, 0, 1, 1, 0 });
+    hold_block(m, 0);
+    for (int k = 0; k < 4; k++)
+        add_box(m, 1 + k, &(box){ -0.5, 0.02 * k, 1, 0.02, 0, 1, 1, 0 });
+    const int e = add_box(m, 5, &(box){ 20, 5, 0.5, 0.5, 0, 1, 1, 0 });
+    ck_ok(bbm_prepare(m), m);
+    m->element[e].V[0] = v;
+    return m;
+}
+
+/* Up to 100 m/s, in the same pattern of K: the solver's tolerance, 1e-10 of all forces, is what is left. */
+START_TEST(a_stone_far_away_changes_nothing)
+{
+    const double v = _i ? 100 : 5;
+    bbm_model *m = slabs(v), *n = slabs(0);
+
+    for (int i = 0; i < 30; i++) {
+        run_steps(m, 1);
+        run_steps(n, 1);
+        for (int k = 0; k < m->element[5].first; k++) {
+            ck_near(m->vertex[k].u, n->vertex[k].u, 1, 1e-10);
+            ck_near(m->vertex[k].v, n->vertex[k].v, 1, 1e-10);
+        }
+    }
+    ck_assert_int_eq(m->info.contacts, n->info.contacts);
+    bbm_model_free(m);
+    bbm_model_free(n);
+}
+END_TEST
+
+/* A fixed unit square, and one of 0.5 whose lower left corner is 1 cm inside its right side's line and `above` its top,
+ * turned, that falls on it at 2 m/s or comes at an angle: frictionless, it gains nothing. */
+START_TEST(a_corner_that_comes_in_over_a_corner_gains_no_energy)
+{
+    const double turn[4] = { 0.3, 0.1, 0.6, 1.2 }, above[3] = { 2e-3, 1e-2, 1e-4 }, inside[2] = { 0.01, 0.001 };
+    bbm_model *m = new_model(1e9, 0.01);
+    const double way = _i / 24 ? 0.5 : 0;
+
+    m->par.p_n = 1e9;
+    m->par.p_s = 4e8;
+    add_box(m, 0, &(box){ -1, -1, 1, 1, 0, 1, 1, 0 });
+    hold_block(m, 0);
+    add_box(m, 1, &(box){ -inside[_i / 12 % 2], above[_i / 4 % 3], 0.5, 0.5, turn[_i % 4], 1, 1, 0 });
+    ck_ok(bbm_prepare(m), m);
+    throw_block(m, 1, -2 * sin(way), -2 * cos(way), 0, 0, 0);
+    for (int i = 0; i < 40; i++) {
+        const double before = sum_of(m);
+        run_steps(m, 1);
+        ck_assert_msg(sum_of(m) <= before * (1 + 1e-6), "step %d: %g J become %g", i, before, sum_of(m));
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block of 1 m falls at 10 to 400 m/s on a plate of 2 cm, in steps in which it goes many times through it. It gets no
+ * deeper than the springs at its corners let it, v sqrt(m/(2 p_n)), also when that is deeper than the plate, and comes
+ * back. */
+START_TEST(a_fast_block_does_not_pass_a_thin_plate)
+{
+    const double v[4] = { 10, 50, 100, 400 }, deep = v[_i % 4] * sqrt(2500 / 2e9);
+    bbm_model *m = new_model(1e10, 0.01);
+
+    add_box(m, 0, &(box){ -2, -0.02, 4, 0.02, 0, 1, 1, 0 });
+    hold_block(m, 0);
+    const int e = add_box(m, 1, &(box){ -0.5, 0.3, 1, 1, _i / 4 * 0.1, 1, 1, 0 });
+    ck_ok(bbm_prepare(m), m);
+    throw_block(m, 1, 0, -v[_i % 4], 0, 0, 0);
+    const double before = sum_of(m);
+    for (int i = 0; i < 50; i++) {
+        run_steps(m, 1);
+        ck_assert(sum_of(m) <= before * (1 + 1e-6));
+        for (int k = 0; k < 4; k++)
+            ck_assert_msg(m->vertex[m->element[e].first + k].y > (i < 10 ? -deep : -1e-3), "step %d: y = %g", i,
+                          m->vertex[m->element[e].first + k].y);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+Suite *motion_suite(void)
+{
+    Suite *s = suite_create("motion");
+    TCase *t = tcase_create("motion");
+
+    tcase_set_timeout(t, 60);
+    tcase_add_test(t, the_matrix_of_the_middle_moves_points_exactly);
+    tcase_add_test(t, with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths);
+    tcase_add_loop_test(t, a_bonded_block_that_spins_keeps_its_energy, 0, sizeof SPINS / sizeof *SPINS);
+    tcase_add_loop_test(t, multipliers_make_no_energy_in_steps_of_any_length, 0, 12);
+    tcase_add_test(t, a_step_that_makes_energy_is_cut_and_then_refused);
+    tcase_add_loop_test(t, a_stone_far_away_changes_nothing, 0, 2);
+    tcase_add_loop_test(t, a_corner_that_comes_in_over_a_corner_gains_no_energy, 0, 48);
+    tcase_add_loop_test(t, a_fast_block_does_not_pass_a_thin_plate, 0, 8);
+    suite_add_tcase(s, t);
+    return s;
+}
