@@ -1,4 +1,5 @@
-/* theory.c - the textbook solutions of Experiments I and II: formulas alone, so that tests can differentiate them. */
+/* theory.c - the textbook solutions of Experiments I and II: formulas alone, so that tests can
+ * differentiate them. */
 #include <math.h>
 
 #include "theory.h"
@@ -29,6 +30,8 @@ void theory_plate_displacement(const theory_plate *p, double x, double y, double
     const double r = hypot(x, y), th = atan2(y, x), r3 = r * r * r;
     const double c = p->S / (8 * p->E / (2 * (1 + p->nu))), k = (3 - p->nu) / (1 + p->nu);
 
-    u[0] = c * (r * (k + 1) * cos(th) + 2 / r * ((1 + k) * cos(th) + cos(3 * th)) - 2 / r3 * cos(3 * th));
-    u[1] = c * (r * (k - 3) * sin(th) + 2 / r * ((1 - k) * sin(th) + sin(3 * th)) - 2 / r3 * sin(3 * th));
+    u[0] = c * (r * (k + 1) * cos(th) + 2 / r * ((1 + k) * cos(th) + cos(3 * th))
+                - 2 / r3 * cos(3 * th));
+    u[1] = c * (r * (k - 3) * sin(th) + 2 / r * ((1 - k) * sin(th) + sin(3 * th))
+                - 2 / r3 * sin(3 * th));
 }

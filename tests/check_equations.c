@@ -1,8 +1,9 @@
-/* check_equations.c - doc/equations.md against the sources: each equation of the paper has a row; each function of the
- * row is defined in the file behind it, under a comment that cites the equation; each test of the row is there.
+/* check_equations.c - doc/equations.md against the sources: each equation of the paper has a row;
+ * each function of the row is defined in the file behind it, under a comment that cites the
+ * equation; each test of the row is there.
  *
- * A citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)", "Eq. (57) and (61)",
- * "Eq. (58a-f)".
+ * A citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)",
+ * "Eq. (57) and (61)", "Eq. (58a-f)".
  */
 #define _POSIX_C_SOURCE 200809L
 #include <ctype.h>
@@ -30,7 +31,7 @@ static char *slurp(const char *path)
     return text;
 }
 
-/* ------------------------------------------------------------------------------------ what a comment cites */
+/* ------------------------------------------------------------------------- what a comment cites */
 
 /* Reads "(12)", "(58a-f)" at *p; 0 if there is none. */
 static int read_number(const char **p)
@@ -84,9 +85,10 @@ START_TEST(citations_are_read_as_they_are_meant)
 }
 END_TEST
 
-/* ------------------------------------------------------------------------------------------- the sources */
+/* ---------------------------------------------------------------------------------- the sources */
 
-/* Where the function is defined: its name at the beginning of a line that does not end in a semicolon. NULL: nowhere. */
+/* Where the function is defined: its name at the beginning of a line that does not end in a
+ * semicolon. NULL: nowhere. */
 static const char *find_definition(const char *source, const char *function)
 {
     const size_t length = strlen(function);
@@ -95,9 +97,9 @@ static const char *find_definition(const char *source, const char *function)
         const char *line = p;
         while (line > source && line[-1] != '\n')
             line--;
-        if (p == line || (p[-1] != ' ' && p[-1] != '*') || p[length] != '(' || !isalpha((unsigned char)*line))
+        if (p == line || !isalpha((unsigned char)*line) || p[length] != '(')
             continue;
-        if (p[strcspn(p, ";{")] == '{')
+        if ((p[-1] == ' ' || p[-1] == '*') && p[strcspn(p, ";{")] == '{')
             return line;
     }
     return NULL;
@@ -127,7 +129,8 @@ static void comment_above(const char *source, const char *definition, char *comm
 
 START_TEST(the_comment_of_a_function_is_the_one_right_above_it)
 {
-    const char source[] = "/* of f, Eq.\n * (3). */\nint f(int a);\n\n/* of g,\n *     Eq. (4). */\nstatic double g(int a)\n{\n"
+    const char source[] = "/* of f, Eq.\n * (3). */\nint f(int a);\n\n"
+                          "/* of g,\n *     Eq. (4). */\nstatic double g(int a)\n{\n"
                           "    f(a);\n}\n\nint f(int a)\n{\n}\n";
     char comment[200];
 
@@ -158,7 +161,7 @@ static int is_test(const char *name)
     return found;
 }
 
-/* ---------------------------------------------------------------------------------------------- the table */
+/* ------------------------------------------------------------------------------------ the table */
 
 /* Copies the name between backticks at p; the character behind it. */
 static char *read_name(char *p, char name[NAME])
@@ -179,11 +182,13 @@ static void check_function(const char *row, int n, const char *function, const c
 
     ck_assert_msg(definition != NULL, "%s: %s does not define %s", row, file, function);
     comment_above(source, definition, comment, sizeof comment);
-    ck_assert_msg(n == 0 || cites(comment, n), "the comment above %s in %s does not cite Eq. (%d)", function, file, n);
+    ck_assert_msg(n == 0 || cites(comment, n), "%s: the comment of %s does not cite Eq. (%d)", file,
+                  function, n);
     free(source);
 }
 
-/* "`f`, `g` (bbm.c), `h` (contact.c)": the names since the last file are in the next one. The number of functions. */
+/* "`f`, `g` (bbm.c), `h` (contact.c)": the names since the last file are in the next one. The
+ * number of functions. */
 static int check_functions(const char *row, int n, char *column)
 {
     char name[20][NAME], file[NAME];
@@ -229,7 +234,8 @@ START_TEST(each_equation_has_functions_that_cite_it_and_tests_that_exist)
         if (strncmp(line, "| ", 2) != 0 || strncmp(line, "| Eq.", 5) == 0)
             continue;
         for (int c = 1; c < 4; c++) {
-            ck_assert_msg((end = strchr(column[c - 1], '|')) != NULL, "four columns are expected: %.60s", line);
+            end = strchr(column[c - 1], '|');
+            ck_assert_msg(end != NULL, "four columns are expected: %.60s", line);
             *end = '\0';
             column[c] = end + 1;
         }

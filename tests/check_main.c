@@ -1,8 +1,8 @@
 /* check_main.c - runs the suites; the exit status says whether all tests passed.
  *
- * libcheck reads its settings from the environment: CK_FORK=no runs everything in one process, for a debugger or
- * valgrind; CK_VERBOSITY=verbose lists every test; CK_RUN_CASE=name runs one group. With CASES defined the numbers of
- * the experiments are tested, too.
+ * libcheck reads its settings from the environment: CK_FORK=no runs everything in one process, for
+ * a debugger or valgrind; CK_VERBOSITY=verbose lists every test; CK_RUN_CASE=name runs one group.
+ * With CASES defined the numbers of the experiments are tested, too.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <signal.h>
@@ -17,10 +17,11 @@
 
 #ifndef CASES
 
-enum { LIMIT = 80, SHARE = 10 };       /* s  for all of the quick tests, which take 2 to 5; for one of them */
+enum { LIMIT = 80, SHARE = 10 };    /* s  for all of the quick tests, which take 2 to 5; for one */
 
-/* libcheck ends a test that hangs after 4 s. If an error lets hundreds hang, one after the other, that is long: a second
- * process ends the tests after LIMIT. The one in hand, which is then alone, ends after its SHARE. */
+/* libcheck ends a test that hangs after 4 s. If an error lets hundreds hang, one after the other,
+ * that is long: a second process ends the tests after LIMIT. The one in hand, which is then alone,
+ * ends after its SHARE. */
 static pid_t set_limit(void)
 {
     const struct rlimit share = { SHARE, SHARE };
@@ -32,7 +33,8 @@ static pid_t set_limit(void)
             _exit(EXIT_SUCCESS);
     }
     if (watch == 0) {
-        fprintf(stderr, "The tests took more than %d s and were ended. CK_FORK=no has no limit.\n", LIMIT);
+        fprintf(stderr, "The tests took over %d s and were ended; CK_FORK=no has no limit.\n",
+                LIMIT);
         kill(tests, SIGKILL);
         _exit(EXIT_SUCCESS);
     }
