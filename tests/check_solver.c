@@ -10,6 +10,7 @@
  */
 #include <float.h>
 #include <string.h>
+#include <time.h>
 
 #include "check.h"
 
@@ -559,6 +560,25 @@ START_TEST(residual_is_the_true_one)
         /* two ways to round K D, against a residual that may be rounding itself */
         ck_near(info.residual, norm(6 * s->n, r) / norm(6 * s->n, s->F), 1.0, ROUNDING);
     }
+    free_system(s);
+}
+END_TEST
+
+START_TEST(a_solution_takes_no_longer_than_the_processor_was_at_it)
+{
+    dense_system *s = new_system(GRID, 15);
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const clock_t start = clock();
+    double D[MOST_6];
+    bbm_pcg_info info;
+
+    while (clock() - start < CLOCKS_PER_SEC / 1000)     /* so that the start is not 0 */
+        ;
+    const clock_t before = clock();
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+    const double seconds = (double)(clock() - before) / CLOCKS_PER_SEC;
+    ck_assert(info.seconds[0] >= 0 && info.seconds[1] >= 0);
+    ck_assert_double_le(info.seconds[0] + info.seconds[1], seconds);
     free_system(s);
 }
 END_TEST
@@ -1515,6 +1535,7 @@ Suite *solver_suite(void)
     tcase_add_loop_test(solution, iterations_are_as_many_as_with_dense_matrices, 0, COUNT(OMEGA));
     tcase_add_loop_test(solution, eisenstat_takes_the_textbook_iterations_to_the_same_solution, 0, PATTERNS);
     tcase_add_loop_test(solution, residual_is_the_true_one, 0, PATTERNS);
+    tcase_add_loop_test(solution, a_solution_takes_no_longer_than_the_processor_was_at_it, 0, COUNT(FORM));
     tcase_add_loop_test(solution, two_solutions_are_equal_to_the_last_bit, 0, COUNT(FORM));
     tcase_add_loop_test(solution, loads_of_any_size_give_the_same_digits, 0, COUNT(FORM));
     tcase_add_loop_test(solution, no_load_gives_no_displacement_in_no_iteration, 0, COUNT(FORM));
