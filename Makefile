@@ -4,18 +4,22 @@
 # make gallery   blocks that slide, topple, fall; the model files
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
-# make converge  meshes against alpha          make sanitize  the tests under ASan and UBSan
+# make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
+# make windows   ./bbm for Windows (mingw-w64)
 
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm contact solver beyond/middle beyond/balance
+LIBRARY  = bbm contact solver $(BEYOND:%=beyond/%)
+BEYOND   = middle balance overlap pieces mechanism loose
 RUN      = exp1 exp2 exp3
-GALLERY  = incline shaken topple column overhang drop impact turning arch resting
+GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)
-SHARED   = case plot scene theory
+SHARED   = case output plot scene theory
 PROGRAM  = bbm model msh write
-SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_bars check_theory check_equations
+PROGRAMS = check_cases check_model check_files programs
+SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_bars check_limits check_refused \
+           check_theory check_equations
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
@@ -64,7 +68,16 @@ $O/failing/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(FAILING) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-$O/tests/check_cases.o $O/tests/check_model.o: CPPFLAGS += -DBUILD='"$O"'
+# The programs with that allocator take the number of allocations from the environment, TEST_ALLOCATIONS.
+$O/failing/bbm: $(PROGRAM:%=$O/failing/cases/%.o) $(SHARED:%=$O/failing/cases/%.o) $(LIBRARY:%=$O/failing/%.o) \
+$O/tests/test_alloc.o
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+$(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failing/cases/%.o) \
+$(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+$(PROGRAMS:%=$O/tests/%.o): CPPFLAGS += -DBUILD='"$O"'
 
 $O/tests/check_all.o: tests/check_main.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
@@ -75,10 +88,10 @@ TESTED = $(SUITES:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBR
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$O/check: $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o $(TESTED)
+$O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$(SUITES:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/check_cases.o $O/tests/check_model.o: | libcheck
+$(SUITES:%=$O/tests/%.o) $(PROGRAMS:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/test_alloc.o: | libcheck
 
 libcheck:
 	@echo '#include <check.h>' | $(CC) $(CPPFLAGS) -E - >/dev/null 2>&1 || \
@@ -87,16 +100,40 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
-check: $O/check $(CASES:%=$O/%) $O/bbm
+check: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
 	$O/check
+	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
 
 memcheck:
 	$(MAKE) O=out/memcheck CPPFLAGS=-DGUARD=0 out/memcheck/quick
 	CK_FORK=no valgrind -q --error-exitcode=1 --leak-check=full --errors-for-leak-kinds=definite,indirect,possible \
 	out/memcheck/quick
 
+# --- ASan and UBSan: all programs and tests; and the short part of it that `make check` does, too ---
+SANITIZED = out/sanitize
+SANITIZERS = -fsanitize=address,undefined -fno-sanitize-recover=all
+SANITIZE = O=$(SANITIZED) CPPFLAGS=-DGUARD=0 CFLAGS="-g -O1 $(SANITIZERS)"
+HAS_SANITIZERS = { mkdir -p out && echo 'int main(void) { return 0; }' > out/none.c && \
+$(CC) $(SANITIZERS) -o out/none out/none.c 2>/dev/null || ! echo "no sanitizers here: the programs were not run with them"; }
+
 sanitize:
-	$(MAKE) O=out/sanitize CPPFLAGS=-DGUARD=0 CFLAGS="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all" quick
+	$(MAKE) $(SANITIZE) all check
+
+# The shipped models, but for the two that take long, with the matrix; and all wrong ones.
+smoke: $O/bbm
+	@mkdir -p $O/run
+	@for m in $(filter-out %/exp3.model %/wall.model,$(wildcard cases/models/*.model)); do \
+	$O/bbm -q $$m -o $O/run/good -m $O/run/K.mtx || { echo "$$m failed"; exit 1; }; done
+	@for m in tests/bad/*.model; do $O/bbm $$m -o $O/run/bad 2>$O/run/said; \
+	[ $$? = 2 ] || { cat $O/run/said; exit 1; }; done
+
+# The same sources for Windows; isnan and isinf of mingw-w64 mention float whatever they are given.
+WINDOWS = x86_64-w64-mingw32-gcc
+
+windows:
+	@mkdir -p out/windows
+	$(WINDOWS) $(STRICT) -Wno-float-conversion $(CPPFLAGS) $(CFLAGS) -static -o out/windows/bbm.exe $(PROGRAM:%=cases/%.c) $(SHARED:%=cases/%.c) \
+	$(LIBRARY:%=%.c) -lm
 
 fuzz:
 	@mkdir -p out/corpus
@@ -107,5 +144,5 @@ fuzz:
 clean:
 	rm -rf out bbm
 
-.PHONY: all run gallery converge bench quick check memcheck sanitize fuzz torture libcheck clean
+.PHONY: all run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean
 .DELETE_ON_ERROR:

@@ -36,6 +36,13 @@
 #define CROSSED 3.0
 /* Solutions of one step, cut or not, after which it has not settled: some times what the worst walls needed. */
 enum { SOLUTIONS = 5000 };
+/* A residual |F - K D|/|F| above this is no solution, though the iteration ended: stiffnesses too far apart for doubles. */
+#define UNSOLVED 1e-3
+/* What an element may strain in a step of dynamics, and turn [rad] if it is bonded: the vectors of the middle grow without
+ * bound towards half a turn. One static step is linear elasticity for loads of any size; but strained by 1 an element has
+ * turned over. */
+#define FAR_STRAIN 0.5
+#define FAR_TURN 1.0
 
 /* ------------------------------------------------------------------------ 2.1 Displacement of an element */
 
@@ -508,13 +515,18 @@ const char *bbm_status_text(bbm_status s)
         [BBM_ZERO_AREA] = "an element has no area",
         [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
         [BBM_OVERLAP] = "elements of one block overlap",
+        [BBM_BLOCKS_OVERLAP] = "blocks overlap at the start",
         [BBM_UNUSED_NODE] = "a node belongs to no element",
         [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
         [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
+        [BBM_MECHANISM] = "elements bonded at midpoints alone can turn against each other",
         [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
-        [BBM_NOT_CONVERGED] = "the equations were not solved in the given iterations",
+        [BBM_NOT_CONVERGED] = "the equations were not solved",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
+        [BBM_NO_EQUILIBRIUM] = "statics finds no equilibrium",
+        [BBM_STEP_TOO_LONG] = "the step is too long",
         [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
+        [BBM_STOPPED] = "stopped from outside",
         [BBM_ENERGY] = "the step makes energy",
     };
 
@@ -885,7 +897,7 @@ static bbm_status sort_edges(bbm_model *m, const side s[])
         if (same == 1)
             m->edge[m->edges++] = (bbm_edge){ i->element, i->a, i->b, i->block };
         else if (same > 2 || m->vertex[i->a].node == m->vertex[j->a].node)
-            return m->culprit = j->element,
+            return m->culprit = j->element, m->other = i->element,
                    fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d", i->element,
                         s[v + same - 1].element, i->low, i->high);
         else
@@ -1147,6 +1159,22 @@ static bbm_status lay_out_matrix(bbm_model *m)
     return BBM_OK;
 }
 
+/* Refuses elements that lie in each other. */
+static bbm_status check_overlap(bbm_model *m)
+{
+    bbm_overlap o;
+
+    if (bbm_find_overlap(m, &o))
+        return out_of_memory(m);
+    if (o.i < 0)
+        return BBM_OK;
+    const int p = m->element[o.i].block, q = m->element[o.j].block;
+    m->culprit = o.j;
+    m->other = o.i;
+    return fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d with element %d, block %d "
+                "with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
+}
+
 /* Checks the model and makes all that the steps need: the vertices at each node, boundary and internal edges, K. */
 bbm_status bbm_prepare(bbm_model *m)
 {
@@ -1161,6 +1189,8 @@ bbm_status bbm_prepare(bbm_model *m)
         status = list_meeting_vertices(m);
     if (!status)
         status = connect_elements(m);
+    if (!status)
+        status = check_overlap(m);
     if (!status)
         status = place_line_loads(m);
     if (!status) {
@@ -1213,12 +1243,22 @@ static bbm_status check_parameters(bbm_model *m)
     return BBM_OK;
 }
 
-/* What must hold before a step: a prepared model, parameters in their ranges. */
+static bbm_status check_bonding(bbm_model *m)
+{
+    if (bbm_find_mechanism(m, &m->culprit))
+        return out_of_memory(m);
+    if (m->culprit < 0)
+        return BBM_OK;
+    return fail(m, BBM_MECHANISM, "block %d, element %d; BBM_MOMENT holds them", m->element[m->culprit].block, m->culprit);
+}
+
+/* What must hold before a step: a prepared model, parameters in their ranges, before the first one bonds that hold. */
 static bbm_status check_step(bbm_model *m)
 {
     if (!m->K)
         return m->status ? m->status : fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    return check_parameters(m);
+    const bbm_status status = check_parameters(m);
+    return status || m->info.step > 0 || m->par.bonding != BBM_MIDPOINTS ? status : check_bonding(m);
 }
 
 /* ---------------------------------------------------------- bonds and fixed points of the model */
@@ -1587,7 +1627,22 @@ static bbm_status assemble(bbm_model *m)
     return status ? status : bbm_assemble_contacts(m);
 }
 
-/* Solves K D = F, Eq. (5); what went wrong becomes a sentence with the numbers. */
+/* What went wrong in a solution becomes a sentence with the numbers. */
+static bbm_status describe_failure(bbm_model *m, bbm_status status)
+{
+    const bbm_pcg_info *i = &m->info.pcg;
+    const int step = m->info.step + 1;
+
+    if (status == BBM_NOT_FINITE)
+        return fail(m, status, "step %d, a load, velocity, stress or stiffness is too large", step);
+    if (i->element >= 0)
+        return fail(m, status, "step %d, element %d of block %d: it has turned over, or the stiffnesses that meet "
+                    "there are too far apart", step, i->element, m->element[i->element].block);
+    return fail(m, status, "step %d, %d iterations, residual %.2g%s", step, i->iterations, i->residual,
+                status == BBM_NOT_CONVERGED ? "; more iterations or a smaller alpha help" : "");
+}
+
+/* Solves K D = F, Eq. (5). */
 static bbm_status solve(bbm_model *m)
 {
     const bbm_pcg_info *i = &m->info.pcg;
@@ -1595,16 +1650,13 @@ static bbm_status solve(bbm_model *m)
 
     if (pcg.form == BBM_TWO_LEVEL && !long_step(m))
         pcg.form = BBM_EISENSTAT;
-    if (m->watch)
-        m->watch(m, m->watch_context);
+    if (m->watch && m->watch(m, m->watch_context))
+        return fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
     const bbm_status status = bbm_solve(m->K, m->F, m->D, &pcg, &m->info.pcg);
     m->info.iterations += i->iterations;
     m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
     m->info.seconds[BBM_ITERATE] += i->seconds[1];
-    if (status)
-        return fail(m, status, "step %d, %d iterations, residual %.2g, element %d", m->info.step + 1, i->iterations,
-                    i->residual, i->element);
-    return BBM_OK;
+    return status ? describe_failure(m, status) : BBM_OK;
 }
 
 /* How a point at X from the barycentre moves: translation, strain, then exact rotation by r0,
@@ -1746,6 +1798,9 @@ static bbm_status check_balance(bbm_model *m, const bbm_model *end)
 
 static bbm_status unsettled(bbm_model *m)
 {
+    if (isinf(m->h))
+        return fail(m, BBM_OPEN_CLOSE, "step %d of statics, %d passes, %d contacts; dynamic with damping 0 (keep = 0) may "
+                    "find an equilibrium", m->info.step + 1, m->info.passes, bbm_contact_count(m));
     return fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", m->info.step + 1, m->info.t,
                 m->h, m->info.passes, bbm_contact_count(m));
 }
@@ -1786,6 +1841,80 @@ static bbm_status settle_contacts(bbm_model *m)
     return !status && pass == BBM_PASS_GIVE_UP ? unsettled(m) : status;
 }
 
+/* Whether the solution solves the equations, and turns and strains no element too far; a comparison with NaN is false. */
+static bbm_status check_solution(bbm_model *m)
+{
+    const double most = isinf(m->h) ? 1 : FAR_STRAIN;
+    int far = -1;
+
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 3; a < 6; a++)
+            if (!(fabs(m->D[6 * i + a]) < most))
+                far = i;
+    for (int b = 0; b < m->bonds && !isinf(m->h); b++)
+        if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN) || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
+            far = m->bond[b].i;
+    if (far < 0 && (m->par.pcg.tolerance > UNSOLVED || m->info.pcg.residual <= UNSOLVED))
+        return BBM_OK;
+    if (far < 0)
+        return fail(m, BBM_NOT_CONVERGED, "step %d, residual %.2g: the stiffnesses of materials, bonds and contacts are too "
+                    "far apart", m->info.step + 1, m->info.pcg.residual);
+    const double *D = &m->D[6 * far], strain = fmax(fmax(fabs(D[3]), fabs(D[4])), fabs(D[5]));
+    return fail(m, BBM_STEP_TOO_LONG, "step %d: element %d of block %d strains by %.2g and turns by %.2g rad; %s",
+                m->info.step + 1, far, m->element[far].block, strain, fabs(D[2]), isinf(m->h)
+                ? "in statics smaller loads or a larger E help" : "a smaller dt, velocity or load helps");
+}
+
+/* Whether the equations, or the states of the contacts, had no end. */
+static int is_lost(bbm_status s)
+{
+    return s == BBM_NOT_POSITIVE_DEFINITE || s == BBM_NOT_CONVERGED || s == BBM_NOT_FINITE || s == BBM_OPEN_CLOSE;
+}
+
+/* In statics all contacts of a block may begin to slide in one pass, and nothing holds it then, though not all would have
+ * to: the second attempt lets one contact change in each pass, so that the others can take over. */
+static bbm_status settle_once_more(bbm_model *m)
+{
+    bbm_status status = settle_contacts(m);
+
+    if (is_lost(status) && isinf(m->h)) {
+        status = bbm_start_again(m);
+        if (!status)
+            status = settle_contacts(m);
+    }
+    return status;
+}
+
+/* Statics that fails because a block is loose says so, and who. */
+static bbm_status explain(bbm_model *m, bbm_status status)
+{
+    const double h = bbm_long_step(m);
+    bbm_pcg pcg = m->par.pcg;
+    bbm_pcg_info info;
+    int pair[2];
+
+    if (!isinf(m->h) || (!is_lost(status) && status != BBM_STEP_TOO_LONG))
+        return status;
+    m->h = h;
+    m->keep_K = 0;
+    const bbm_status assembled = assemble(m);
+    m->h = INFINITY;
+    pcg.form = BBM_EISENSTAT;
+    if (assembled)
+        return assembled;
+    bbm_push_all(m);
+    if (bbm_solve(m->K, m->F, m->D, &pcg, &info) || !bbm_find_loose(m, h, pair))
+        return status;
+    m->culprit = pair[0];
+    m->other = pair[1];
+    const int block = m->element[pair[0]].block;
+    if (pair[1] < 0)
+        return fail(m, BBM_NO_EQUILIBRIUM, "block %d (element %d) is free to move; hold it, or use dynamics", block,
+                    pair[0]);
+    return fail(m, BBM_NO_EQUILIBRIUM, "block %d (element %d) slides, rolls, tips on or leaves block %d (element %d); raise the "
+                "friction, hold it, or use dynamics", block, pair[0], m->element[pair[1]].block, pair[1]);
+}
+
 /* Fig. 8 once with the step m->h. Nothing moves before all has gone well: a solution that moves further than its
  * contacts were looked for is the next guess, and if they outrun it again and again the step has not settled. */
 static bbm_status try_step(bbm_model *m)
@@ -1808,11 +1937,13 @@ static bbm_status try_step(bbm_model *m)
         if (isinf(m->h))
             status = check_held(m);
         if (!status)
-            status = settle_contacts(m);
+            status = settle_once_more(m);
         foreseen = !status && !bbm_moved_too_far(m);
     }
-    if (status || !foreseen)
-        return status ? status : unsettled(m);
+    if (!status)
+        status = foreseen ? check_solution(m) : unsettled(m);
+    if (status)
+        return explain(m, status);
     const bbm_model end = move_model(m);
     status = check_balance(m, &end);
     if (status)
@@ -1834,7 +1965,8 @@ bbm_status bbm_check_held(bbm_model *m)
     return status == BBM_OK ? check_held(m) : status == BBM_NO_MEMORY ? out_of_memory(m) : status;
 }
 
-/* One time step. If the contacts do not settle or the step makes energy, dt is halved and the step done again, down to dt/1024; the nominal step
+/* One time step. If the contacts do not settle, the step makes energy, or elements turn or strain too far, dt is halved
+ * and the step done again, down to dt/1024, as long as that takes no more than some solutions; the nominal step
  * is completed in parts, which grow again. When it fails, the model is that of the last part that went well. */
 bbm_status bbm_step(bbm_model *m)
 {
@@ -1846,10 +1978,11 @@ bbm_status bbm_step(bbm_model *m)
     while (!status && left > 0) {
         m->h = isinf(m->par.dt) ? m->par.dt : m->par.dt * part / PARTS;
         status = try_step(m);
-        const int again = status == BBM_OPEN_CLOSE || status == BBM_ENERGY;
+        const int again = status == BBM_OPEN_CLOSE || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG;
         if (again && part > 1 && !isinf(m->par.dt) && m->info.passes < SOLUTIONS) {
             part /= 2;
             m->info.cuts++;
+            m->message[0] = '\0';
             status = BBM_OK;
             continue;
         }
@@ -1993,12 +2126,15 @@ static double contact_energy(const bbm_parameters *p, const bbm_contact *c)
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
 }
 
-/* The energies after the last step; `springs` are bonds, fixed points and closed contacts. */
+/* The energies after the last step; `springs` are bonds, fixed points and closed contacts.
+ * None before bbm_prepare. */
 void bbm_energies(const bbm_model *m, bbm_energy *energy)
 {
     condition c[2];
 
     *energy = (bbm_energy){ 0, 0, 0 };
+    if (!m->K)
+        return;
     for (int i = 0; i < m->elements; i++) {
         energy->kinetic += kinetic_energy(m, &m->element[i]);
         energy->elastic += elastic_energy(&m->element[i]);

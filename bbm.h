@@ -15,6 +15,10 @@
 
 #define BBM_VERSION "0.1"
 
+#if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
+#error "bbm needs IEEE arithmetic with infinity and NaN: compile without -Ofast, -ffast-math, -ffinite-math-only"
+#endif
+
 enum { BBM_GAUSS = 4 };                         /* Gauss points of a line load: exact to degree 7              */
 enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };      /* directions in which a point is held; they add up            */
 
@@ -34,15 +38,20 @@ typedef enum {
     BBM_ZERO_AREA,              /* an element without area                                                */
     BBM_SELF_CROSSING,          /* an element whose boundary meets itself                                 */
     BBM_OVERLAP,                /* elements of one block that lie on the same side of an edge             */
+    BBM_BLOCKS_OVERLAP,         /* blocks that overlap at the start                                       */
     BBM_UNUSED_NODE,            /* a node that no element has                                             */
     BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                                */
     BBM_FREE_TO_MOVE,           /* statics, and the fixed points do not hold a body against rigid motion  */
+    BBM_MECHANISM,              /* elements bonded at midpoints alone turn against each other at no energy  */
     /* --- the solution failed: the numbers are in bbm_info --- */
     BBM_NOT_POSITIVE_DEFINITE,  /* K is not; info.element is the row, or -1 if the iteration found out    */
     BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                                */
     BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps                       */
+    BBM_NO_EQUILIBRIUM,         /* statics, and a block slides, tips or falls: m->culprit on m->other             */
+    BBM_STEP_TOO_LONG,          /* elements turn or strain too far in a step, even in the smallest one          */
     BBM_OPEN_CLOSE,             /* the open-close iteration does not settle, even in the smallest step    */
     BBM_ENERGY,                 /* the smallest step still makes energy                                   */
+    BBM_STOPPED,                /* watch said so                                                          */
     BBM_STATUS_COUNT
 } bbm_status;
 
@@ -217,6 +226,12 @@ typedef struct {                /* what the last step did                       
 
 typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 
+typedef struct {                /* elements i < j that overlap                                                  */
+    int    i, j;
+    double depth;               /* m        the shortest way that parts them                                    */
+    double x, y;                /* m        the middle of what they share                                       */
+} bbm_overlap;
+
 typedef struct bbm_matrix bbm_matrix;           /* K, in solver.c                                               */
 typedef struct bbm_contact_work bbm_contact_work;       /* scratch of contact.c                                 */
 
@@ -252,9 +267,9 @@ typedef struct bbm_model {
     bbm_info info;
     bbm_status status;          /* the first error while building            */
     char message[200];          /* what the last error was about             */
-    int  culprit;               /* the element of BBM_OVERLAP or BBM_FREE_TO_MOVE                               */
-    /* --- for whoever wants to see K and F: called before each solution --- */
-    void (*watch)(const struct bbm_model *m, void *context);
+    int  culprit, other;        /* the element of BBM_OVERLAP, BBM_FREE_TO_MOVE, BBM_MECHANISM; another one, or -1  */
+    /* --- for whoever wants to see K and F, or to stop: called before each solution, which not 0 prevents --- */
+    int (*watch)(const struct bbm_model *m, void *context);
     void *watch_context;
 } bbm_model;
 
@@ -289,6 +304,9 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);          
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy);/* N/m, constant         */
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f, const void *context);
 bbm_status bbm_prepare(bbm_model *m);                   /* checks, sorts the edges (2.2), lays out K            */
+int        bbm_find_pieces(const bbm_model *m, int piece[]);       /* what bonds join, by its first element    */
+bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest at the start; i = -1: none   */
+bbm_status bbm_find_mechanism(const bbm_model *m, int *element);    /* of BBM_MIDPOINTS; -1: none               */
 /* After bbm_prepare: on a boundary edge; whether all is held against rigid motion, as statics needs.            */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);           /* N/m       */
 bbm_status bbm_check_held(bbm_model *m);
@@ -346,6 +364,7 @@ int        bbm_moved_too_far(bbm_model *m);
 const double *bbm_guess(const bbm_model *m);
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);
+bbm_status bbm_start_again(bbm_model *m);
 int        bbm_contact_count(const bbm_model *m);
 void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
 bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s);
@@ -353,6 +372,10 @@ bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 bbm_status bbm_keep_contacts(bbm_model *m);
+/* When statics fails: a step in which inertia is small against stiffness, a push, and who goes far in its solution.  */
+double     bbm_long_step(const bbm_model *m);
+void       bbm_push_all(bbm_model *m);
+int        bbm_find_loose(const bbm_model *m, double h, int pair[2]);
 
 /* ------------------------------------------------ beyond the paper: beyond/middle.c, beyond/balance.c             */
 int        bbm_is_exact(const bbm_model *m);

@@ -828,14 +828,14 @@ static void find_travel(const bbm_model *m, const double D[], double travel[])
     }
 }
 
-/* What the velocities and gravity foretell of the step. */
+/* What the velocities and gravity foretell of the step; in statics a step is as long as the last one at most. */
 void bbm_guess_step(bbm_model *m)
 {
     const double fall[6] = { m->gravity[0] * m->h * m->h / 2, m->gravity[1] * m->h * m->h / 2 };
 
     for (int i = 0; i < m->elements; i++)
         for (int a = 0; a < 6; a++)
-            m->work->guess[6 * i + a] = isinf(m->h) ? 0 : m->element[i].V[a] * m->h + fall[a];
+            m->work->guess[6 * i + a] = isinf(m->h) ? m->element[i].D[a] : m->element[i].V[a] * m->h + fall[a];
     m->work->listed = -1;
 }
 
@@ -922,6 +922,21 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
     w->listed = w->pairs;
     w->passes = w->forces = w->single = w->directions = 0;
     return BBM_OK;
+}
+
+/* Detects them again, with those locked that slid, by the force that their friction had; from now on one state changes in
+ * each pass. */
+bbm_status bbm_start_again(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+    m->work->listed = -1;
+    const bbm_status status = bbm_detect_contacts(m, NULL);
+
+    for (int k = 0; k < w->pairs && !status; k++)
+        if (w->list[k].state == BBM_SLIDE)
+            w->list[k].state = BBM_LOCK;
+    w->single = 1;
+    return status;
 }
 
 /* ------------------------------------------------------------------------------------------ assembly */

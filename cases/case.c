@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "case.h"
 
@@ -13,15 +12,6 @@ static void stop(const char *what, const char *why)
 {
     fprintf(stderr, "%s: %s\n", what, why);
     exit(1);
-}
-
-static void *room(int count, size_t size)
-{
-    void *p = calloc((size_t)count, size);
-
-    if (!p)
-        stop("pictures", "out of memory");
-    return p;
 }
 
 void case_must(const bbm_model *m, bbm_status s)
@@ -112,6 +102,7 @@ void case_add_grid(bbm_model *m, case_grid *g)
     for (int j = 0; j < g->ny; j++)
         for (int i = 0; i < g->nx; i++)
             add_cell(m, g, i, j);
+    case_must(m, m->status);
 }
 
 int case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[2])
@@ -123,6 +114,7 @@ int case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[
     for (int i = 0; i < n; i++)
         bbm_add_node(m, xy[i][0], xy[i][1], &node[i]);
     bbm_add_element(m, block, material, n, node, &element);
+    case_must(m, m->status);
     return element;
 }
 
@@ -244,11 +236,14 @@ static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 
 void case_record(scene *s, const bbm_model *m)
 {
-    scene_force *force = room(m->contacts + 1, sizeof *force);
+    scene_force *force = calloc((size_t)m->contacts + 1, sizeof *force);
 
-    for (int k = 0; k < m->contacts; k++)
+    for (int k = 0; k < m->contacts && force; k++)
         force[k] = force_of(m, &m->contact[k]);
-    scene_record(s, m, m->info.t, m->contacts, force);
+    if (force)
+        scene_record(s, m, m->info.t, m->contacts, force);
+    else
+        s->failed = 1;
     free(force);
 }
 
@@ -318,7 +313,7 @@ const char *case_path(const case_results *r, const char *file, char path[128])
 
 static void make_folder(const char *path)
 {
-    if (mkdir(path, 0777) != 0 && errno != EEXIST)
+    if (!output_make_folder(path))
         stop(path, strerror(errno));
 }
 
@@ -327,7 +322,7 @@ void case_open(case_results *r, const char *name)
     char path[128];
 
     snprintf(r->folder, sizeof r->folder, "out/%s", name);
-    r->worst = 0;
+    r->worst = r->failed = 0;
     make_folder("out");
     make_folder(r->folder);
     r->csv = fopen(case_path(r, "results.csv", path), "w");
@@ -336,12 +331,13 @@ void case_open(case_results *r, const char *name)
     fprintf(r->csv, "quantity,x,y,computed,reference,kind,relative_error\n");
 }
 
-void case_close(case_results *r)
+int case_close(case_results *r)
 {
-    const int bad = ferror(r->csv);
-
-    if (fclose(r->csv) || bad)
+    if (r && (ferror(r->csv) | fclose(r->csv)))
         stop(r->folder, "results.csv could not be written");
+    if (fflush(stdout) || ferror(stdout))
+        stop("stdout", "could not be written");
+    return r ? r->failed : 0;
 }
 
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed, double reference,
@@ -389,87 +385,102 @@ void case_write_curves(const case_results *r, const char *file, const char *head
 
 /* ------------------------------------------------------------------------------------------------ pictures */
 
-void case_draw_chart(const case_results *r, const char *file, const plot_chart *c)
+/* What is left of a picture that could not be made: a line, and the exit status. */
+static void finish(case_results *r, const char *path, int done)
+{
+    if (!done) {
+        fprintf(stderr, "%s could not be written: %s\n", path, strerror(errno));
+        r->failed = 1;
+    }
+}
+
+void case_draw_chart(case_results *r, const char *file, const plot_chart *c)
 {
     char path[128];
 
-    if (!plot_write_chart(case_path(r, file, path), c))
-        stop(path, "could not be written");
+    finish(r, path, plot_write_chart(case_path(r, file, path), c));
 }
 
-void case_open_page(const case_results *r, const char *file, plot *p, double width, double height)
+void case_open_page(case_results *r, const char *file, plot *p, double width, double height)
 {
     char path[128];
 
-    if (!plot_open(p, case_path(r, file, path), width, height))
-        stop(path, "could not be written");
+    finish(r, path, plot_open(p, case_path(r, file, path), width, height));
 }
 
-void case_close_page(const case_results *r, plot *p)
+void case_close_page(case_results *r, plot *p)
 {
-    if (!plot_close(p))
-        stop(r->folder, "a picture could not be written");
+    if (p->out.file)
+        finish(r, p->out.path, plot_close(p));
 }
 
-void case_draw_movie(const case_results *r, const char *file, const bbm_model *m, const scene *s)
+void case_draw_movie(case_results *r, const char *file, const bbm_model *m, const scene *s)
 {
     char path[128];
 
-    if (!scene_write_movie(s, m, case_path(r, file, path)))
-        stop(path, "could not be written");
+    finish(r, path, scene_write_movie(s, m, case_path(r, file, path)));
 }
 
-void case_draw_panels(const case_results *r, const char *file, const bbm_model *m, const scene *s, int n,
+void case_draw_panels(case_results *r, const char *file, const bbm_model *m, const scene *s, int n,
                       const double time[])
 {
     char path[128];
 
-    if (!scene_write_panels(s, m, case_path(r, file, path), n, time))
-        stop(path, "could not be written");
+    finish(r, path, scene_write_panels(s, m, case_path(r, file, path), n, time));
 }
 
-/* A map of a nodal quantity over the mesh; on the deformed mesh unless map->magnify is negative. */
-static void draw(const case_results *r, const char *file, const bbm_model *m, const char *quantity, plot_map *map)
+/* The arrays of a map: [nodes] x, y, u, v and the quantity; [elements+1] first; [vertices] corner. */
+static void fill_map(const bbm_model *m, const char *quantity, double *at, int *first, int *corner)
 {
-    double *number = room(5 * m->nodes, sizeof *number);
-    double *x = number, *y = x + m->nodes, *value = y + m->nodes, *u = value + m->nodes, *v = u + m->nodes;
-    int *first = room(m->elements + 1, sizeof *first), *corner = room(m->vertices, sizeof *corner);
-    char path[128];
-
     for (int n = 0; n < m->nodes; n++) {
         bbm_result here;
         bbm_nodal_result(m, n, -1, &here);
-        x[n] = m->node[n].x;
-        y[n] = m->node[n].y;
-        u[n] = here.u;
-        v[n] = here.v;
-        value[n] = case_quantity(&here, quantity);
+        const double value[5] = { m->node[n].x, m->node[n].y, here.u, here.v, case_quantity(&here, quantity) };
+        for (int k = 0; k < 5; k++)
+            at[k * m->nodes + n] = value[k];
     }
     for (int e = 0; e < m->elements; e++)
-        first[e] = m->element[e].first;
-    first[m->elements] = m->vertices;
-    for (int a = 0; a < m->vertices; a++)
-        corner[a] = m->vertex[a].node;
-    map->mesh = (plot_mesh){ m->nodes, m->elements, x, y, first, corner };
-    map->value = value;
-    map->quantity.name = quantity[1] == 'v' ? "von Mises stress" : quantity;
-    map->quantity.unit = quantity[0] == 's' ? "Pa" : "m";
-    if (map->magnify >= 0)
-        map->u = u, map->v = v;
-    if (!plot_write_map(case_path(r, file, path), map))
-        stop(path, "could not be written");
-    free(number);
+        first[e + 1] = m->element[e].first + m->element[e].n;
+    for (int v = 0; v < m->vertices; v++)
+        corner[v] = m->vertex[v].node;
+}
+
+int case_write_map(const char *path, const bbm_model *m, const char *quantity, plot_map *map)
+{
+    const size_t n = (size_t)m->nodes;
+    double *at = calloc(5 * n, sizeof *at);
+    int *first = calloc((size_t)m->elements + 1, sizeof *first), *corner = calloc((size_t)m->vertices, sizeof *corner);
+    int done = at && first && corner;
+
+    if (done) {
+        fill_map(m, quantity, at, first, corner);
+        map->mesh = (plot_mesh){ m->nodes, m->elements, at, at + n, first, corner };
+        map->value = at + 4 * n;
+        map->quantity.name = quantity[1] == 'v' ? "von Mises stress" : quantity;
+        map->quantity.unit = quantity[0] == 's' ? "Pa" : "m";
+        if (map->magnify >= 0)
+            map->u = at + 2 * n, map->v = at + 3 * n;
+        done = plot_write_map(path, map);
+    } else {
+        errno = ENOMEM;
+    }
+    free(at);
     free(first);
     free(corner);
+    return done;
 }
 
-void case_draw_map(const case_results *r, const char *file, const bbm_model *m, const char *quantity,
-                   const char *title)
+void case_draw_map(case_results *r, const char *file, const bbm_model *m, const char *quantity, const char *title)
 {
-    draw(r, file, m, quantity, &(plot_map){ .title = title, .magnify = -1 });
+    char path[128];
+
+    finish(r, path, case_write_map(case_path(r, file, path), m, quantity,
+                                   &(plot_map){ .title = title, .magnify = -1 }));
 }
 
-void case_draw_deformed(const case_results *r, const char *file, const bbm_model *m, const char *title)
+void case_draw_deformed(case_results *r, const char *file, const bbm_model *m, const char *title)
 {
-    draw(r, file, m, "svm", &(plot_map){ .title = title });
+    char path[128];
+
+    finish(r, path, case_write_map(case_path(r, file, path), m, "svm", &(plot_map){ .title = title }));
 }

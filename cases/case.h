@@ -28,11 +28,13 @@ typedef struct {                    /* out/NAME/results.csv                     
     char folder[64];
     FILE *csv;
     double worst;                   /* largest |relative error| of the rows since it was last set to 0            */
+    int failed;                     /* 1: a picture could not be made                                             */
 } case_results;
 
 /* A status is printed with its message and the program ends with 1: what is written so far stays. */
 void   case_must(const bbm_model *m, bbm_status s);
 bbm_model *case_model(void);                                        /* a new model, or the end of the program     */
+/* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
 /* A block of one element: the polygon through xy, nodes of its own. Returns the element. */
 int    case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[2]);
@@ -52,7 +54,8 @@ double case_quantity(const bbm_result *r, const char *quantity);    /* u, v, sxx
 
 typedef struct { int passes, cuts; } case_effort;                   /* most passes of a step; all halvings of dt  */
 void   case_step(bbm_model *m, case_effort *e, scene *s);           /* one step; e and s may be NULL              */
-void   case_record(scene *s, const bbm_model *m);                   /* positions, and contact forces as arrows    */
+void   case_record(scene *s, const bbm_model *m);                   /* positions, and contact forces as arrows; without
+                                                                       memory the scene has failed                */
 /* Quasi-static steps, to start a run in equilibrium: springs that are loaded suddenly would swing.             */
 void   case_settle(bbm_model *m, int steps);
 
@@ -61,7 +64,8 @@ const struct case_value *case_find(const case_reference *r, const char *quantity
 void   case_free_reference(case_reference *r);
 
 void   case_open(case_results *r, const char *name);                /* makes out/NAME and opens its results.csv   */
-void   case_close(case_results *r);
+/* Closes it and returns the exit status of the program: 1 if a picture could not be made. NULL: there is none.   */
+int    case_close(case_results *r);
 /* One row of results.csv; kind is theory, fem (converged) or fem_coarse (six-node triangles). Returns the error. */
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed, double reference,
                 const char *kind);
@@ -71,16 +75,18 @@ const char *case_path(const case_results *r, const char *file, char path[128]);
 void   case_write_curves(const case_results *r, const char *file, const char *header, int rows, int columns,
                          const double *table);                      /* [rows][columns] as CSV                     */
 
-/* Pictures in the folder of the results: FILE.svg. */
-void   case_draw_chart(const case_results *r, const char *file, const plot_chart *c);
-void   case_open_page(const case_results *r, const char *file, plot *p, double width, double height);
-void   case_close_page(const case_results *r, plot *p);             /* several charts in one file, by plot.h       */
-void   case_draw_movie(const case_results *r, const char *file, const bbm_model *m, const scene *s);
-void   case_draw_panels(const case_results *r, const char *file, const bbm_model *m, const scene *s, int n,
+/* Pictures in the folder of the results: FILE.svg. One that cannot be made is said on stderr, and case_close tells.  */
+void   case_draw_chart(case_results *r, const char *file, const plot_chart *c);
+void   case_open_page(case_results *r, const char *file, plot *p, double width, double height);
+void   case_close_page(case_results *r, plot *p);                   /* several charts in one file, by plot.h       */
+void   case_draw_movie(case_results *r, const char *file, const bbm_model *m, const scene *s);
+void   case_draw_panels(case_results *r, const char *file, const bbm_model *m, const scene *s, int n,
                         const double time[]);                       /* the frames nearest to n times              */
-void   case_draw_map(const case_results *r, const char *file, const bbm_model *m, const char *quantity,
+void   case_draw_map(case_results *r, const char *file, const bbm_model *m, const char *quantity,
                      const char *title);                            /* contours of a nodal quantity               */
-void   case_draw_deformed(const case_results *r, const char *file, const bbm_model *m, const char *title);
+void   case_draw_deformed(case_results *r, const char *file, const bbm_model *m, const char *title);
+/* The map alone, under a name of its own: 1, or 0 and errno.                                                     */
+int    case_write_map(const char *path, const bbm_model *m, const char *quantity, plot_map *map);
 void   case_print_parameters(const bbm_model *m);                   /* Table 1, and what the solution took        */
 void   case_progress(const char *what);                             /* one line on stdout, at once                */
 

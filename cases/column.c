@@ -101,9 +101,8 @@ int main(void)
            effort.cuts);
     case_record(&s, m);
     case_draw_panels(&r, "forces.svg", m, &s, 1, (double[]){ 0 });
-    case_close(&r);
     printf("\nNumbers and picture: %s/results.csv, forces.svg\n", r.folder);
     scene_free(&s);
     bbm_model_free(m);
-    return 0;
+    return case_close(&r);
 }

@@ -81,7 +81,7 @@ static double theory(double step)
     return pow(1 + q, -acos(-1) / (2 * th));
 }
 
-static void draw(const case_results *r, const double ratio[2][STEPS])
+static void draw(case_results *r, const double ratio[2][STEPS])
 {
     enum { N = 81 };
     double x[N], y[N], flat[N], one[N];
@@ -104,7 +104,7 @@ static void draw(const case_results *r, const double ratio[2][STEPS])
                     .series = s });
 }
 
-static void draw_movie(const case_results *r)
+static void draw_movie(case_results *r)
 {
     bbm_model *m = build_drop(1e-3, 1);
     scene s = { .title = "Dropped on a corner, dt = 1 ms", .play = 8, .most = 120 };
@@ -147,7 +147,6 @@ int main(void)
     printf("\nEnergy in these %d runs: at most %.1e of that at the start more than it\n", 2 * STEPS, gain);
     draw(&r, (const double (*)[STEPS])ratio);
     draw_movie(&r);
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, rebound.svg, states.svg, movie.svg\n", r.folder);
-    return 0;
+    return case_close(&r);
 }

@@ -138,7 +138,7 @@ static void print_table_2(const bbm_model *dda, const bbm_model *bbm)
 }
 
 /* Fig. 10 as a table and as a picture: the deflection of the axis. */
-static void show_deflection(const case_results *r, const bbm_model *dda, const bbm_model *bbm, const case_reference *ref)
+static void show_deflection(case_results *r, const bbm_model *dda, const bbm_model *bbm, const case_reference *ref)
 {
     enum { N = 9 };
     double x[N], v[4][N], table[N][5];
@@ -280,7 +280,7 @@ static void print_quadrilaterals(const case_reference *b)
 }
 
 /* Fig. 11-13: contours, and the deformed mesh. */
-static void draw_maps(const case_results *r, const bbm_model *m)
+static void draw_maps(case_results *r, const bbm_model *m)
 {
     case_draw_map(r, "fig11.svg", m, "u", "Fig. 11: displacement u, load a");
     case_draw_map(r, "fig12.svg", m, "v", "Fig. 12: displacement v, load a");
@@ -321,7 +321,7 @@ int main(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "converge") == 0) {
         bbm_model_free(dda);
         converge();
-        return 0;
+        return case_close(NULL);
     }
     printf("\n# Experiment I: cantilever\n\n");
     case_open(&r, "exp1");
@@ -340,12 +340,11 @@ int main(int argc, char **argv)
     print_augmented(&ref[1]);
     print_quadrilaterals(&ref[1]);
     draw_maps(&r, m[0]);
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, deformed.svg\n", r.folder);
     for (int k = 0; k < 3; k++) {
         bbm_model_free(m[k]);
         case_free_reference(&ref[k]);
     }
     bbm_model_free(dda);
-    return 0;
+    return case_close(&r);
 }

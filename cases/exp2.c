@@ -205,7 +205,7 @@ static int on_line(const line_of *l, const struct case_value *f)
            ? f->x == 0 : fabs(hypot(f->x, f->y) - 1) < 1e-6);
 }
 
-static void draw_line(const case_results *r, const bbm_model *const m[2], const case_reference *b5, const line_of *l)
+static void draw_line(case_results *r, const bbm_model *const m[2], const case_reference *b5, const line_of *l)
 {
     double at[128], value[2][128], exact[128], table[128][4], fem_at[16], fem[16];
     char csv[32], svg[32], header[80];
@@ -240,7 +240,7 @@ static void draw_line(const case_results *r, const bbm_model *const m[2], const 
 }
 
 /* Fig. 15-19. */
-static void draw_lines(const case_results *r, const bbm_model *const m[2], const case_reference *b5)
+static void draw_lines(case_results *r, const bbm_model *const m[2], const case_reference *b5)
 {
     enum { NX = 2 * 17, NY = 2 * 12, ROW = NX + 1 };
     const line_of line[] = {
@@ -256,7 +256,7 @@ static void draw_lines(const case_results *r, const bbm_model *const m[2], const
 }
 
 /* Fig. 20-23. */
-static void draw_maps(const case_results *r, const bbm_model *m)
+static void draw_maps(case_results *r, const bbm_model *m)
 {
     case_draw_map(r, "fig20.svg", m, "sxx", "Fig. 20: stress sxx, plate b5");
     case_draw_map(r, "fig21a.svg", m, "syy", "Fig. 21: stress syy, plate b5");
@@ -295,7 +295,7 @@ int main(int argc, char **argv)
 
     if (argc > 1 && strcmp(argv[1], "converge") == 0) {
         converge();
-        return 0;
+        return case_close(NULL);
     }
     printf("\n# Experiment II: plate with a hole\n\n");
     case_open(&r, "exp2");
@@ -311,12 +311,11 @@ int main(int argc, char **argv)
     print_summary(m[1]);
     draw_lines(&r, (const bbm_model *const *)m, &ref[0]);
     draw_maps(&r, m[0]);
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, fig15 to fig19 as csv and svg, fig20.svg to fig23.svg, deformed.svg\n",
            r.folder);
     for (int k = 0; k < 2; k++) {
         bbm_model_free(m[k]);
         case_free_reference(&ref[k]);
     }
-    return 0;
+    return case_close(&r);
 }

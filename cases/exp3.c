@@ -64,7 +64,7 @@ static bbm_model *make_model(const variant *v, int *first)
     pull(m, *first, v->line);
     m->par.dt = DT;
     m->par.gravity[1] = -v->gravity;
-    m->par.alpha = 100;
+    m->par.alpha = 1000;
     m->par.bonding = BBM_VERTICES;                          /* the paper's bonds and solver */
     m->par.pcg.form = BBM_EISENSTAT;
     m->par.augment = v->augment;                            /* beyond the paper: fixed points that do not give */
@@ -166,7 +166,7 @@ static void print_summary(const slide s[RUNS])
 }
 
 /* Fig. 25: u and v of P, all that can be seen, and v once more in a scale in which it can be seen. */
-static void draw_figure(const case_results *r, const slide s[RUNS], const variant v[RUNS])
+static void draw_figure(case_results *r, const slide s[RUNS], const variant v[RUNS])
 {
     enum { N = STEPS + 1, MARKS = 21 };
     double t[N], exact[N], zero[N], v_of[3][N], some[3][MARKS], table[N][8];
@@ -234,11 +234,10 @@ int main(void)
     film.mark = &mark;
     case_draw_movie(&r, "slide.svg", s[1].m, &film);
     case_draw_panels(&r, "states.svg", s[1].m, &film, 3, (double[]){ 0, 1, 2 });
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg, slide.svg (it moves), states.svg\n",
            r.folder);
     scene_free(&film);
     for (int k = 0; k < RUNS; k++)
         bbm_model_free(s[k].m);
-    return 0;
+    return case_close(&r);
 }

@@ -91,7 +91,7 @@ static void show_momentum(case_results *r)
     for (int phi = 0; phi <= 30; phi += 30)
         for (int k = 0; k < 5; k++) {
             const double p_n = pow(10, 9 + k % 3), dt = k < 3 ? 2e-5 : 1e-4;
-            char name[80];
+            char name[90];
             if (k > 2 && p_n > 1e9)
                 continue;
             meet(0.3, phi, p_n, dt, error);
@@ -154,8 +154,7 @@ int main(void)
         case_compare(&r, name, e, theory(1e9, dt));
         swing(&r, dt, e, dt < 5e-5 ? &s : NULL);
     }
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, states.svg, cradle.svg\n", r.folder);
     scene_free(&s);
-    return 0;
+    return case_close(&r);
 }

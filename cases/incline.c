@@ -160,7 +160,7 @@ static void print_thrown(case_results *r)
 /* ------------------------------------------------------------------------------------------------ pictures */
 
 /* The theory of all friction angles is one series, with gaps. */
-static void draw_ways(const case_results *r)
+static void draw_ways(case_results *r)
 {
     enum { N = STEPS + 1, MARKS = 11 };
     static const char *const name[ANGLES] = { "phi = 0", "phi = 10", "phi = 20", "phi = 25", "phi = 29", "phi = 31",
@@ -191,7 +191,7 @@ static void draw_ways(const case_results *r)
                       "phi=31,theory,phi=40,theory", N, 1 + 2 * ANGLES, &table[0][0]);
 }
 
-static void draw_film(const case_results *r)
+static void draw_film(case_results *r)
 {
     scene film = { .title = "A block on 30 degrees, phi = 20", .window = { -2.5, 1.5, -1.5, 1.4 }, .most = 64 };
     bbm_model *m = start(&(slide){ A, 20, 0.01, 1e9, 0, 1, 13, 20 });
@@ -217,8 +217,7 @@ int main(void)
     print_thrown(&r);
     draw_ways(&r);
     draw_film(&r);
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, distance.csv, distance.svg, sudden.csv, sudden.svg, settled.csv, "
            "states.svg, slide.svg (it moves)\n", r.folder);
-    return 0;
+    return case_close(&r);
 }

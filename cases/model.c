@@ -3,7 +3,7 @@
  *
  *     NOTHING NEEDED   title, node, mesh, material, and all that goes into the parameters
  *     NODES            element, set               need nodes and materials
- *     BLOCKS           use                        needs blocks
+ *     BLOCKS           use, fixblock              need blocks
  *     MODEL            the rest, on the library's model, which is built and prepared before
  *
  * Every function of a statement takes its words one by one from the reader (next_word, number, whole, options, where)
@@ -22,6 +22,8 @@
 
 /* Of the model's size: nodes closer to a given place, or to the rim of a box, are there. */
 #define NEAR 1e-6
+
+enum { LARGEST = 1 << 28 };             /* bytes of a file: a longer one, or one without end, is no model */
 
 enum { NOTHING_NEEDED, NODES, BLOCKS, MODEL, PHASES };
 
@@ -52,6 +54,15 @@ static int out_of_memory(model_reader *r)
     model_fail(r, (model_place){ r->path, 0 }, "out of memory");
     r->p->status = 1;
     return 0;
+}
+
+/* What the library refuses, and no line is to blame for. */
+static int refused(model_reader *r, bbm_status status)
+{
+    if (status == BBM_NO_MEMORY)
+        return out_of_memory(r);
+    return model_fail(r, (model_place){ r->path, 0 }, "%.400s",
+                      *bbm_message(r->p->m) ? bbm_message(r->p->m) : bbm_status_text(status));
 }
 
 /* The room is a power of two, 16 at least: when the count has reached it, it is doubled. */
@@ -131,10 +142,10 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
     char *text = f ? malloc(room) : NULL;
 
     *size = 0;
-    while (text && got > 0) {
+    while (text && got > 0 && *size < LARGEST - 1) {
         got = fread(text + *size, 1, room - 1 - *size, f);
         *size += got;
-        if (*size == room - 1) {
+        if (*size == room - 1 && room < LARGEST) {
             char *more = realloc(text, room *= 2);
             if (!more)
                 free(text);
@@ -144,6 +155,8 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
     const int bad = !f || ferror(f), why = errno;
     if (bad)
         model_fail(r, at, "%.200s cannot be read: %s", path, strerror(why));
+    else if (*size == LARGEST - 1)
+        model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
     else if (!text || !model_grow(r, &p->text, p->texts, sizeof *p->text))
         out_of_memory(r);
     if (f)
@@ -444,7 +457,7 @@ static int read_dynamic(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
     option o[] = {
-        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1), COUNT("settle", &r->p->settle, 1),
+        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1), COUNT("settle", &r->p->settle, 0),
         { .name = "damping", .x = &p->keep, .low = 0, .high = 1, .rim = "[]", .expected = "0 to 1" },
     };
 
@@ -613,20 +626,37 @@ static int read_use(model_reader *r)
     return 1;
 }
 
+static int next_block(model_reader *r) { return known(r, &r->block_of, "block", next_word(r)); }
+
+static int read_fixblock(model_reader *r)
+{
+    const int block = next_block(r);
+
+    if (block < 0 || !at_end(r))
+        return 0;
+    if (r->block[block].fixed)
+        return model_fail(r, r->s->at, "block '%s' is fixed for the second time, expected once", r->block[block].name);
+    return r->block[block].fixed = 1;
+}
+
 /* -------------------------------------------------------------------------- building the library's model */
 
-/* Statics takes no time; what the file leaves out depends on the materials. */
+/* What the file leaves out: the contacts are as stiff as the softest material of a block that is not fixed, for a fixed
+ * one is often given an E that only says "rigid". */
 static void set_defaults(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
-    double stiffest = 0;
+    double softest[2] = { INFINITY, INFINITY };         /* of the blocks that are free, of all */
 
     for (int e = 0; e < r->elements; e++) {
         const bbm_material *m = &r->material[r->element[e].material];
-        stiffest = fmax(stiffest, m->E * m->thickness);
+        for (int k = r->block[r->element[e].block].fixed; k < 2; k++)
+            softest[k] = fmin(softest[k], m->E * m->thickness);
     }
+    r->p->slippery = r->blocks > 1 && p->p_n != 0 && p->p_s != 0 && p->friction < 0;
+    p->friction = fmax(p->friction, 0);
     if (p->p_n < 0)
-        p->p_n = 50 * stiffest;
+        p->p_n = 50 * softest[isinf(softest[0]) ? 1 : 0];
     if (p->p_s < 0)
         p->p_s = 0.4 * p->p_n;
     if (p->p_s == 0)                            /* a shear spring that carries nothing: no friction */
@@ -730,6 +760,19 @@ static void measure_box(model_reader *r)
     r->margin = NEAR * hypot(r->high[0] - r->low[0], r->high[1] - r->low[1]);
 }
 
+/* Names the blocks and the elements that lie in each other. */
+static int overlap(model_reader *r)
+{
+    const model *p = r->p;
+    bbm_overlap o;
+
+    if (bbm_find_overlap(p->m, &o))
+        return out_of_memory(r);
+    return model_fail(r, r->element[o.j].at, "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
+                      "%g %g, expected blocks that touch at most", p->element[o.j], r->block[r->element[o.j].block].name,
+                      o.depth, p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
+}
+
 static int build(model_reader *r)
 {
     model *p = r->p;
@@ -755,7 +798,7 @@ static int build(model_reader *r)
         return model_fail(r, e->at, "element %s lies on another one of its block, expected elements side by side",
                           e->id);
     if (status)
-        return out_of_memory(r);
+        return status == BBM_BLOCKS_OVERLAP ? overlap(r) : refused(r, status);
     p->velocity = make_room(r, r->blocks, sizeof *p->velocity);
     r->chosen_node = make_room(r, r->nodes, sizeof *r->chosen_node);
     return !p->status;
@@ -925,19 +968,6 @@ static int read_pressure(model_reader *r)
     return where(r, 0) && number(r, &p) && at_end(r) && load_edges(r, 0, 0, p);
 }
 
-static int next_block(model_reader *r) { return known(r, &r->block_of, "block", next_word(r)); }
-
-static int read_fixblock(model_reader *r)
-{
-    const int block = next_block(r);
-
-    if (block < 0 || !at_end(r))
-        return 0;
-    if (r->block[block].fixed)
-        return model_fail(r, r->s->at, "block '%s' is fixed for the second time, expected once", r->block[block].name);
-    return r->block[block].fixed = 1;
-}
-
 static int read_velocity(model_reader *r)
 {
     const int block = next_block(r);
@@ -1003,7 +1033,7 @@ static const struct kind { const char *name, *form; int (*read)(model_reader *r)
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "set", "set NAME nodes ID ID ...", read_set, NODES, 0 },
     { "use", "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
-    { "fixblock", "fixblock BLOCK", read_fixblock, MODEL, 0 },
+    { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
     { "fix", "fix WHERE [x] [y]", read_fix, MODEL, 0 },
     { "load", "load WHERE FX FY", read_load, MODEL, 0 },
     { "traction", "traction WHERE TX TY", read_traction, MODEL, 0 },
@@ -1120,12 +1150,20 @@ static int finish(model_reader *r)
     p->block = make_room(r, r->blocks, sizeof *p->block);
     for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
         p->block[p->blocks] = r->block[p->blocks].name;
-    const bbm_status status = p->dynamic || p->status ? BBM_OK : bbm_check_held(p->m);
+    int loose;
+    if (p->status)
+        return 0;
+    if (bbm_find_mechanism(p->m, &loose))
+        return out_of_memory(r);
+    if (loose >= 0)
+        return model_fail(r, r->element[loose].at, "the elements of block '%s' are bonded at midpoints and can turn against "
+                          "each other, expected: bond at moment", p->block[p->m->element[loose].block]);
+    const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return model_fail(r, (model_place){ r->path, 0 }, "block '%s' is free to move, expected fix, fixblock or a "
                           "contact that holds it in statics", p->block[p->m->element[p->m->culprit].block]);
     if (status)
-        return out_of_memory(r);
+        return refused(r, status);
     return !p->status;
 }
 
@@ -1164,7 +1202,7 @@ int model_read(const char *path, model *p)
     if (bbm_model_new(&p->m)) {
         out_of_memory(&r);
     } else {
-        p->m->par.p_n = p->m->par.p_s = -1;
+        p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
         p->m->par.augment = 2;
         p->m->par.bonding = BBM_MOMENT;
         p->m->par.faces = 1;

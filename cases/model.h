@@ -21,6 +21,7 @@ typedef struct {
     char  *title;               /* or NULL                                                                      */
     int    dynamic, settle;     /* quasi-static steps before t = 0                                              */
     int    every, vtk, svg;     /* every: 0, the end only                                                       */
+    int    slippery;            /* several blocks, which may touch, and no friction given                       */
     int    blocks, monitors;
     const char **block;         /* [blocks]     names                                                           */
     const char **node;          /* [m->nodes]   ids                                                             */

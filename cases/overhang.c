@@ -112,10 +112,9 @@ int main(void)
     let_go(factor[3], 150, &falls, &m);
     case_draw_panels(&r, "falls.svg", m, &falls, 4, (double[]){ 0, 0.7, 1.0, 1.3 });
     case_draw_movie(&r, "movie.svg", m, &falls);
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, stands.svg, falls.svg, movie.svg\n", r.folder);
     bbm_model_free(m);
     scene_free(&stands);
     scene_free(&falls);
-    return 0;
+    return case_close(&r);
 }

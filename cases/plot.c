@@ -13,6 +13,7 @@
  */
 #include "plot.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -26,10 +27,10 @@ static const double LETTER = 7.8;       /* pixels, generous mean width of a lett
 
 void plot_put(plot *p, const char *format, ...)
 {
-    if (!p->file) return;
+    if (!p->out.file) return;
     va_list list;
     va_start(list, format);
-    if (vfprintf(p->file, format, list) < 0) p->failed = 1;
+    if (vfprintf(p->out.file, format, list) < 0 && !p->failed) p->failed = errno;
     va_end(list);
 }
 
@@ -71,36 +72,23 @@ static double text_width(const char *s)
     return LETTER * letters;
 }
 
-static int temporary_name(const plot *p, char *name, size_t size)
-{
-    return (size_t)snprintf(name, size, "%s.tmp", p->path) < size;
-}
-
 int plot_open(plot *p, const char *path, double width, double height)
 {
-    char name[sizeof p->path];
     *p = (plot){ 0 };
-    if (strlen(path) >= sizeof p->path) return 0;
-    strcpy(p->path, path);
-    if (!temporary_name(p, name, sizeof name)) return 0;
-    p->file = fopen(name, "w");
+    if (!output_open(&p->out, path)) return 0;
     plot_put(p, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" ");
     plot_put(p, "width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" ", width, height, width, height);
     plot_put(p, "font-family=\"sans-serif\" font-size=\"%d\">\n", TEXT);
     plot_put(p, "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n");
-    return p->file != NULL;
+    return 1;
 }
 
 int plot_close(plot *p)
 {
-    char name[sizeof p->path];
-    if (!p->file || !temporary_name(p, name, sizeof name)) return 0;
     plot_put(p, "</svg>\n");
-    if (ferror(p->file)) p->failed = 1;
-    if (fclose(p->file)) p->failed = 1;
-    p->file = NULL;
-    if (!p->failed && rename(name, p->path) == 0) return 1;
-    remove(name);
+    if (!p->failed) return output_close(&p->out);
+    errno = p->failed;
+    output_drop(&p->out);
     return 0;
 }
 
@@ -584,7 +572,10 @@ static void draw_outline(plot *p, const plot_map *m, double magnify, const char 
 {
     int n = 0, total = m->mesh.cells > 0 ? m->mesh.first[m->mesh.cells] - m->mesh.first[0] : 0;
     int (*side)[2] = total > 0 ? malloc((size_t)total * sizeof *side) : NULL;
-    if (!side) { p->failed |= total > 0; return; }
+    if (!side) {
+        if (total > 0) p->failed = ENOMEM;
+        return;
+    }
     for (int c = 0; c < m->mesh.cells; c++)
         for (int i = m->mesh.first[c], end = m->mesh.first[c + 1]; i < end; i++, n++) {
             int a = m->mesh.corner[i], b = m->mesh.corner[i + 1 < end ? i + 1 : m->mesh.first[c]];

@@ -9,13 +9,13 @@
  *                            .y = { .name = "v", .unit = "m" }, .count = 2, .series = s };
  *     if (!plot_write_chart("out/axis.svg", &c)) ...
  *
- * Values are in the unit given; the picture may show them in mm or kPa and says so. Texts are UTF-8. The file is
- * written as NAME.tmp and renamed when it is complete, so a picture under its own name is never half a picture.
+ * Values are in the unit given; the picture may show them in mm or kPa and says so. Texts are UTF-8. A
+ * picture under its own name is never half a picture (output.h).
  */
 #ifndef PLOT_H
 #define PLOT_H
 
-#include <stdio.h>
+#include "output.h"
 
 typedef enum {
     PLOT_LINE,                  /* the first such series solid, each later one with its own dashes              */
@@ -63,7 +63,7 @@ typedef struct {
     int           hide_mesh;    /* no lines between the cells                                                   */
 } plot_map;
 
-/* Whole pictures. They return 1 when the complete file stands under its name, else 0. */
+/* Whole pictures. They return 1 when the complete file stands under its name, else 0, with the reason in errno. */
 int plot_write_chart(const char *path, const plot_chart *c);
 int plot_write_map(const char *path, const plot_map *m);
 
@@ -81,9 +81,8 @@ typedef struct {
 } plot_axis;
 
 typedef struct {
-    FILE     *file;
-    char      path[512];
-    int       failed;
+    output    out;
+    int       failed;           /* the first error, as errno has it                                             */
     plot_axis x, y;             /* of the last panel                                                            */
 } plot;
 

@@ -69,7 +69,7 @@ static double row_stress(const bbm_model *m, int j, double *worst)
     return sum / area;
 }
 
-static void draw(const case_results *r, const bbm_model *const m[2])
+static void draw(case_results *r, const bbm_model *const m[2])
 {
     double exact[2] = { -rho * g * h, 0 }, ends[2] = { 0, h };
     double y[2][CELL * NX * NY], value[2][CELL * NX * NY];
@@ -117,9 +117,8 @@ int main(void)
     draw(&r, (const bbm_model *const *)m);
     case_draw_map(&r, "corners.svg", m[0], "syy", "Stress syy, standing on its corners");
     case_draw_map(&r, "faces.svg", m[1], "syy", "Stress syy, standing on its face");
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, rows.svg, corners.svg, faces.svg\n", r.folder);
     for (int k = 0; k < 2; k++)
         bbm_model_free(m[k]);
-    return 0;
+    return case_close(&r);
 }

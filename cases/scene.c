@@ -19,6 +19,7 @@
  */
 #include "scene.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -497,6 +498,7 @@ static layout arrange(const film *f, int n)
 /* Opens a page for n panels and draws title and legend. */
 static int open_page(film *f, const char *path, int n, layout *l)
 {
+    errno = f->s->failed ? ENOMEM : EINVAL;
     if (f->s->failed || f->s->frames < 1 || n < 1 || f->m->vertices != f->s->vertices) return 0;
     measure(f);
     *l = arrange(f, n);

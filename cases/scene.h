@@ -62,7 +62,8 @@ typedef struct {
 int  scene_record(scene *s, const bbm_model *m, double time, int forces, const scene_force *force);
 void scene_free(scene *s);      /* the recording; the choices stay. A scene without frames is fine, too         */
 
-/* They return 1 when the complete file stands under its name, else 0. Nothing recorded is nothing to write.    */
+/* They return 1 when the complete file stands under its name, else 0 and errno. Nothing recorded is nothing to
+ * write.                                                                                                       */
 int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
 int  scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n, const double time[]);
                                 /* the recorded frames nearest to the n times, each with its time as a caption  */

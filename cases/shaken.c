@@ -72,7 +72,7 @@ static double theory(const shaking *k, double t)
 }
 
 /* The way down the base after each step; returns their number. */
-static int run(const shaking *k, double t[MOST], double s[MOST], const case_results *movie)
+static int run(const shaking *k, double t[MOST], double s[MOST], case_results *movie)
 {
     bbm_model *m = case_block_on_slope(&(case_slope){ k->angle, 1, 0.5, k->phi, k->p_n, k->dt, 5 });
     scene film = { .title = "A block on a shaken incline, seen from the incline", .window = { -1.4, 1.4, -0.6, 1 } };
@@ -114,7 +114,7 @@ static void print_table(case_results *r)
         for (int slips = 1; slips <= 5; slips += 4) {
             const int at = n * slips / 5 - 1;
             const double exact = theory(&k[i], t[at]), nowhere[2] = { NAN, NAN };
-            char name[64];
+            char name[80];
             snprintf(name, sizeof name, "slip%d.a%g.phi%g.dt%g.p_n%.0e", slips, k[i].angle, k[i].phi, k[i].dt,
                      k[i].p_n);
             printf(" %.8f | %.8f | %+.1e |", s[at], exact, case_row(r, name, nowhere, s[at], exact, "theory"));
@@ -126,7 +126,7 @@ static void print_table(case_results *r)
 }
 
 /* The slip over time, and under it what shakes the base. */
-static void draw(const case_results *r, const shaking *k)
+static void draw(case_results *r, const shaking *k)
 {
     enum { ROOM = 600 };
     double t[MOST], s[MOST], at[ROOM], some[ROOM], exact[ROOM], base[ROOM], a_y[ROOM], table[ROOM][4];
@@ -166,7 +166,6 @@ int main(void)
     case_open(&r, "shaken");
     print_table(&r);
     draw(&r, &(shaking){ 10, 20, 4, 6, 5, 0.01, 1e9 });
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, slip.csv, slip.svg, shaken.svg (it moves)\n", r.folder);
-    return 0;
+    return case_close(&r);
 }

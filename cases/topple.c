@@ -147,7 +147,7 @@ static void list_wrong(const chart c[SHAPES])
         }
 }
 
-static void write_points(const case_results *r, const chart *c)
+static void write_points(case_results *r, const chart *c)
 {
     double table[MOST][7];
     char file[40], *slash;
@@ -197,7 +197,7 @@ static void draw_chart(plot *p, plot_box box, const chart *c)
                     .y = { "phi", "degrees", 0, 0, 90 }, .count = REGIMES + 1 + (off > 0), .series = s });
 }
 
-static void draw_charts(const case_results *r, const chart c[SHAPES])
+static void draw_charts(case_results *r, const chart c[SHAPES])
 {
     plot p;
 
@@ -208,7 +208,7 @@ static void draw_charts(const case_results *r, const chart c[SHAPES])
 }
 
 /* The four regimes side by side, at the same friction of 30 degrees. */
-static void draw_film(const case_results *r)
+static void draw_film(case_results *r)
 {
     static const struct { double a, k, x; } at[4] = { { 20, 0.5, 0 }, { 40, 1, 5 }, { 32, 0.5, 10 }, { 60, 0.5, 14 } };
     scene film = { .title = "phi = 30: stands, slides, topples, slides and topples", .most = 64 };
@@ -260,8 +260,7 @@ int main(void)
         list_wrong(c);
     draw_charts(&r, c);
     draw_film(&r);
-    case_close(&r);
     printf("\nNumbers and pictures: %s/results.csv, points_1-3.csv to points_2.csv, chart.svg, states.svg, "
            "regimes.svg (it moves)\n", r.folder);
-    return 0;
+    return case_close(&r);
 }

@@ -94,7 +94,7 @@ static double turn(bbm_rotation rotation, double dt, int n, double *growth, doub
     return end;
 }
 
-static void draw(const case_results *r, const double growth[2][STEPS + 1])
+static void draw(case_results *r, const double growth[2][STEPS + 1])
 {
     double t[STEPS + 1], exact[STEPS + 1], table[STEPS + 1][4];
 
@@ -137,7 +137,6 @@ int main(void)
         printf("| dt = %g s | %+.1e | %.4e | %.4e | %.1e |\n", dt, end, gain, theory, error);
     }
     draw(&r, (const double (*)[STEPS + 1])growth);
-    case_close(&r);
     printf("\nNumbers and picture: %s/results.csv, area.csv, area.svg\n", r.folder);
-    return 0;
+    return case_close(&r);
 }

@@ -1,6 +1,7 @@
 /* write.c - results as files. Every number has 15 significant digits, those of K and F 17, with which a double comes
  * back as it was. Nodes are those of the library's model: a node of the file for each block that has it. */
 #define _POSIX_C_SOURCE 200809L
+#include <dirent.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,47 +11,31 @@
 #include "case.h"
 #include "write.h"
 
+enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */
+
 /* ------------------------------------------------------------------------------------------------------ files */
 
 static int fail(write_results *w, const char *path, const char *why)
 {
-    if (!w->status)
-        snprintf(w->message, sizeof w->message, "%s cannot be written: %s", path, why);
+    fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step, path, why);
     w->status = 1;
     return 0;
 }
 
-/* A file that is there and is no regular one, a device or a pipe, is written as it is: it must not be replaced. */
-static int open_file(write_results *w, write_file *f, const char *folder, const char *name)
+static const char *path_of(const write_results *w, const char *name, char path[LONGEST])
 {
-    struct stat old;
-
-    f->file = NULL;
-    if ((size_t)snprintf(f->path, sizeof f->path, "%s%s%s", folder, *folder ? "/" : "", name) >= sizeof f->path)
-        return fail(w, f->path, "the name is too long");
-    f->direct = stat(f->path, &old) == 0 && !S_ISREG(old.st_mode);
-    snprintf(f->temporary, sizeof f->temporary, "%s%s", f->path, f->direct ? "" : ".tmp");
-    f->file = fopen(f->temporary, "w");
-    return f->file ? 1 : fail(w, f->path, strerror(errno));
+    snprintf(path, LONGEST, "%s/%s", w->folder, name);
+    return path;
 }
 
-static int close_file(write_results *w, write_file *f)
+static int open_file(write_results *w, output *f, const char *path)
 {
-    FILE *file = f->file;
+    return output_open(f, path) ? 1 : fail(w, path, strerror(errno));
+}
 
-    f->file = NULL;
-    if (!file)
-        return 0;
-    errno = 0;
-    const int bad = fflush(file) || ferror(file), why = errno;
-    if (fclose(file) || bad) {
-        if (!f->direct)
-            remove(f->temporary);
-        return fail(w, f->path, strerror(why ? why : errno));
-    }
-    if (!f->direct && rename(f->temporary, f->path))
-        return fail(w, f->path, strerror(errno));
-    return 1;
+static int close_file(write_results *w, output *f)
+{
+    return output_close(f) ? 1 : fail(w, f->path, strerror(errno));
 }
 
 /* ----------------------------------------------------------------------------------------------------- tables */
@@ -121,7 +106,7 @@ static void put_summary(const write_results *w, int step)
     bbm_energies(w->p->m, &e);
     fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes, i->iterations,
             i->pcg.residual, i->contacts);
-    put_numbers(w->summary.file, 4, (double[]){ e.kinetic, e.elastic, e.springs, i->work });
+    put_numbers(w->summary.file, 5, (double[]){ e.kinetic, e.elastic, e.springs, i->work, i->gained });
     fputc('\n', w->summary.file);
 }
 
@@ -185,11 +170,11 @@ static void put_vtk(FILE *f, const model *p, double t)
 
 static int write_vtk(write_results *w, int step)
 {
-    write_file f;
-    char name[32];
+    output f;
+    char name[32], path[LONGEST];
 
     snprintf(name, sizeof name, "step_%06d.vtk", step);
-    if (!open_file(w, &f, w->folder, name))
+    if (!open_file(w, &f, path_of(w, name, path)))
         return 0;
     put_vtk(f.file, w->p, time_of(w->p, step));
     return close_file(w, &f);
@@ -197,64 +182,24 @@ static int write_vtk(write_results *w, int step)
 
 /* --------------------------------------------------------------------------------------------------- pictures */
 
-static const char *path_of(const write_results *w, const char *name, char path[1024])
-{
-    snprintf(path, 1024, "%s/%s", w->folder, name);
-    return path;
-}
-
-/* The arrays of a map: [nodes] x, y, u, v, mises; [elements+1] first; [vertices] corner. */
-static void fill_map(const bbm_model *m, double *at, int *first, int *corner)
-{
-    for (int n = 0; n < m->nodes; n++) {
-        bbm_result r;
-        bbm_nodal_result(m, n, -1, &r);
-        const double value[5] = { m->node[n].x, m->node[n].y, r.u, r.v, r.mises };
-        for (int k = 0; k < 5; k++)
-            at[k * m->nodes + n] = value[k];
-    }
-    for (int e = 0; e < m->elements; e++)
-        first[e + 1] = m->element[e].first + m->element[e].n;
-    for (int v = 0; v < m->vertices; v++)
-        corner[v] = m->vertex[v].node;
-}
-
-/* The deformed mesh with von Mises. Static displacements are magnified, those of a motion are not. */
-static int draw_mises(write_results *w)
-{
-    const bbm_model *m = w->p->m;
-    const size_t n = (size_t)m->nodes;
-    double *at = calloc(5 * n, sizeof *at);
-    int *first = calloc((size_t)m->elements + 1, sizeof *first), *corner = calloc((size_t)m->vertices, sizeof *corner);
-    char path[1024];
-    int done = at && first && corner;
-
-    if (done) {
-        fill_map(m, at, first, corner);
-        done = plot_write_map(path_of(w, "mises.svg", path), &(plot_map){
-            .title = w->p->title, .mesh = { m->nodes, m->elements, at, at + n, first, corner },
-            .quantity = { "von Mises", "Pa", 0, 0, 0 }, .value = at + 4 * n, .u = at + 2 * n, .v = at + 3 * n,
-            .magnify = w->p->dynamic ? 1 : 0 });
-    }
-    free(at);
-    free(first);
-    free(corner);
-    return done ? 1 : fail(w, path_of(w, "mises.svg", path), strerror(errno));
-}
-
-static int draw_pictures(write_results *w)
+/* A picture that cannot be made costs no results. */
+static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
     const double now = m->info.t;
     scene end = { .title = w->p->title };
-    char path[1024];
+    plot_map map = { .title = w->p->title, .magnify = w->p->dynamic ? 1 : 0 };     /* 0: a static one is magnified */
+    char path[LONGEST];
 
     case_record(&end, m);
-    int done = scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now);
+    if (!scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now))
+        fail(w, path, strerror(errno));
     scene_free(&end);
-    if (done && w->p->dynamic && w->film.frames > 0)     /* none, if the first step failed */
-        done = scene_write_movie(&w->film, m, path_of(w, "movie.svg", path));
-    return done ? draw_mises(w) : fail(w, path, strerror(errno));
+    if (w->p->dynamic && (w->film.frames > 0 || w->film.failed))    /* neither: the start has failed */
+        if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
+            fail(w, path, strerror(errno));
+    if (!case_write_map(path_of(w, "mises.svg", path), m, "svm", &map))
+        fail(w, path, strerror(errno));
 }
 
 /* ---------------------------------------------------------------------------------------------- Matrix Market */
@@ -266,21 +211,21 @@ static int compare_pairs(const void *p, const void *q)
     return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* The pairs i >= j with a submatrix, sorted, each once: the diagonal, bonds and contacts. Returns their number. */
+/* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and contacts. Returns their
+ * number. */
 static int list_blocks(const bbm_model *m, int (*pair)[2])
 {
-    const int others = m->bonds + m->pairs;
     int n = 0;
 
     for (int i = 0; i < m->elements; i++)
         pair[i][0] = pair[i][1] = i;
-    for (int k = 0; k < others; k++) {
+    for (int k = 0; k < m->pairs; k++) {
         const int i = m->pair[k][0], j = m->pair[k][1];
         pair[m->elements + k][0] = i > j ? i : j;
         pair[m->elements + k][1] = i > j ? j : i;
     }
-    qsort(pair, (size_t)(m->elements + others), sizeof *pair, compare_pairs);
-    for (int k = 0; k < m->elements + others; k++)
+    qsort(pair, (size_t)(m->elements + m->pairs), sizeof *pair, compare_pairs);
+    for (int k = 0; k < m->elements + m->pairs; k++)
         if (n == 0 || compare_pairs(pair[n - 1], pair[k]) != 0)
             memmove(pair[n++], pair[k], sizeof *pair);
     return n;
@@ -300,26 +245,26 @@ static void put_matrix(FILE *f, const bbm_model *m, int blocks, int (*pair)[2])
     }
 }
 
-void write_matrix(const bbm_model *m, void *results)
+void write_matrix(write_results *w)
 {
-    write_results *w = results;
+    const bbm_model *m = w->p->m;
     const clock_t start = clock();
     int (*pair)[2];
-    char name[1024];
-    write_file f;
+    char name[LONGEST];
+    output f;
 
     if (w->matrix_done++)
         return;
-    pair = calloc((size_t)m->elements + (size_t)m->bonds + (size_t)m->pairs, sizeof *pair);
+    pair = calloc((size_t)m->elements + (size_t)m->pairs, sizeof *pair);
     if (!pair) {
         fail(w, w->matrix, "out of memory");
-    } else if (open_file(w, &f, "", w->matrix)) {
+    } else if (open_file(w, &f, w->matrix)) {
         put_matrix(f.file, m, list_blocks(m, pair), pair);
         close_file(w, &f);
     }
     free(pair);
     snprintf(name, sizeof name, "%s.rhs", w->matrix);
-    if (!w->status && open_file(w, &f, "", name)) {
+    if (!w->status && open_file(w, &f, name)) {
         fprintf(f.file, "%%%%MatrixMarket matrix array real general\n%d 1\n", 6 * m->elements);
         for (int k = 0; k < 6 * m->elements; k++)
             fprintf(f.file, "%.17g\n", m->F[k]);
@@ -330,24 +275,71 @@ void write_matrix(const bbm_model *m, void *results)
 
 /* ------------------------------------------------------------------------------------------------- the run */
 
+/* The length of a name that a run writes, without the ending of a temporary file; 0: it is another one. */
+static size_t is_ours(const char *name, long *process)
+{
+    static const char *const all[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv",
+                                       "contacts.svg", "movie.svg", "mises.svg" };
+    const size_t temporary = output_is_temporary(name, process), n = temporary ? temporary : strlen(name);
+    const size_t digits = strncmp(name, "step_", 5) == 0 ? strspn(name + 5, "0123456789") : 0;
+
+    if (!temporary)
+        *process = 0;
+    if (digits > 0 && n == 9 + digits && strncmp(name + 5 + digits, ".vtk", 4) == 0)
+        return n;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
+            return n;
+    return 0;
+}
+
+/* Looks through the folder: whether another run writes there (some systems do not let its files be removed, others can
+ * tell); then removes what an earlier one left, so that all that stands there is of one run. */
+static int empty_folder(write_results *w)
+{
+    char path[LONGEST], why[100];
+    struct stat what;
+
+    for (int pass = 0; pass < 2 && !w->status; pass++) {
+        DIR *folder = opendir(w->folder);
+        if (!folder)
+            return fail(w, w->folder, strerror(errno));
+        for (struct dirent *entry; !w->status && (entry = readdir(folder)) != NULL; ) {
+            long process;
+            if (!is_ours(entry->d_name, &process) || stat(path_of(w, entry->d_name, path), &what)
+                || !S_ISREG(what.st_mode))
+                continue;
+            snprintf(why, sizeof why, "process %ld writes there; another folder may be given with -o", process);
+            if (process > 0 && (output_is_alive(process) || remove(path)))
+                fail(w, path, why);
+            else if (process == 0 && pass == 1 && remove(path))
+                fail(w, path, strerror(errno));
+        }
+        closedir(folder);
+    }
+    return !w->status;
+}
+
 int write_open(write_results *w)
 {
-    struct stat there;
+    char path[LONGEST];
 
-    if (mkdir(w->folder, 0777) && errno != EEXIST)
-        return fail(w, w->folder, strerror(errno));
-    if (stat(w->folder, &there) || !S_ISDIR(there.st_mode))
-        return fail(w, w->folder, "it is there and no folder; another one may be given with -o");
-    if (!open_file(w, &w->history, w->folder, "history.csv") || !open_file(w, &w->summary, w->folder, "summary.csv")) {
-        if (w->history.file)
-            fclose(w->history.file), remove(w->history.temporary);
+    if ((size_t)snprintf(path, sizeof path, "%s/step_2147483647.vtk", w->folder) >= sizeof path)
+        return fail(w, w->folder, strerror(ENAMETOOLONG));
+    if (!output_make_folder(w->folder))
+        return fail(w, w->folder, errno == EEXIST ? "it is there and no folder; another one may be given with -o"
+                                                  : strerror(errno));
+    if (!empty_folder(w) || !open_file(w, &w->history, path_of(w, "history.csv", path)))
+        return 0;
+    if (!open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
+        output_drop(&w->history);
         return 0;
     }
     fprintf(w->history.file, "step,t");
     for (int k = 0; k < w->p->monitors; k++)
         fprintf(w->history.file, ",%s_u,%s_v", w->p->monitor[k].name, w->p->monitor[k].name);
     fprintf(w->history.file, "\n");
-    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,external\n");
+    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,external,gained\n");
     w->film.title = w->p->title;
     return 1;
 }
@@ -378,12 +370,13 @@ int write_close(write_results *w)
     const struct { const char *name; void (*put)(FILE *f, const model *p); } table[] = {
         { "nodes.csv", put_nodes }, { "elements.csv", put_elements },
     };
-    write_file f;
+    output f;
+    char path[LONGEST];
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
     for (int k = 0; k < 2; k++)
-        if (open_file(w, &f, w->folder, table[k].name)) {
+        if (open_file(w, &f, path_of(w, table[k].name, path))) {
             table[k].put(f.file, p);
             close_file(w, &f);
         }
@@ -393,7 +386,7 @@ int write_close(write_results *w)
         draw_pictures(w);
     scene_free(&w->film);
     w->writing += clock() - start;
-    if (open_file(w, &f, w->folder, "timing.csv")) {
+    if (open_file(w, &f, path_of(w, "timing.csv", path))) {
         put_timing(f.file, w);
         close_file(w, &f);
     }

@@ -37,8 +37,11 @@ Suite *theory_suite(void);
 Suite *equations_suite(void);
 Suite *contact_suite(void);
 Suite *motion_suite(void);
+Suite *limits_suite(void);
+Suite *refused_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
+Suite *files_suite(void);
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

@@ -129,9 +129,7 @@ static const struct { const char *name, *quantity; double most; } moving[] = {
     { "exp3", "without.centre.u", 1e-8 },       { "exp3", "rigid.centre.u", 1e-8 },
     { "exp3", "held.centre.u", 1e-8 },          { "exp3", "held.mark.u", 1e-3 },        { "exp3", "held.mark.v", 9.81e-8 },
     { "exp3", "without.mark.u", 1e-3 },         { "exp3", "rigid.mark.u", 1e-3 },
-    { "exp3", "gravity.mark.u", 1e-3 },
-    /* The fixed points of the plate of 10 GPa give under the weight: its slope, 1e-7, drives the block. */
-    { "exp3", "gravity.centre.u", 5e-7 },
+    { "exp3", "gravity.mark.u", 1e-3 },         { "exp3", "gravity.centre.u", 1e-8 },
     /* v within the static penetration of one corner, W/(2 p_n) = 9.8e-8 m. */
     { "exp3", "without.mark.v", 9.81e-8 },      { "exp3", "rigid.mark.v", 9.81e-8 },
     { "exp3", "gravity.mark.v", 9.81e-8 },
@@ -155,6 +153,20 @@ static const struct { const char *name, *quantity; double most; } moving[] = {
     { "arch", "least t/R", 0.002 },             { "arch", "least phi [degree], t/R = 0.107", 0.002 },
     { "arch", "t/R = 0.15, phi = 30 stands", 0 }, { "arch", "t/R = 0.15, phi = 15 stands", 0 },
     { "arch", "t/R = 0.10, phi = 30 stands", 0 },
+    { "arch", "9 voussoirs, 1.005 ", 0 },       { "arch", "9 voussoirs, 0.995 ", 0 },
+    { "arch", "11 voussoirs, 1.005 ", 0 },      { "arch", "11 voussoirs, 0.995 ", 0 },
+    { "arch", "16 voussoirs, 1.005 ", 0 },      { "arch", "16 voussoirs, 0.995 ", 0 },
+    { "arch", "21 voussoirs, 1.005 ", 0 },      { "arch", "21 voussoirs, 0.995 ", 0 },
+    /* Bisected to 2e-3 of 38 degrees and 2e-2 of 29, where a fall takes longer than is waited. Above its limit not
+     * all joints of the slope slip. */
+    { "slope", "least phi", 1e-3 },             { "slope", "largest push", 5e-3 },
+    { "slope", "stands 0.02 degrees above", 0 }, { "slope", "stands 0.02 degrees below", 0 },
+    { "tilt", "largest tilt", 1e-3 },
+    { "tilt", "stands 0.1 degrees below", 0 },  { "tilt", "stands 0.1 degrees above", 0 },
+    /* The moment of the impact: dt is 1e-3 to 1e-2 of it. Housner's angles are small: 4e-3 is the promise. */
+    { "rocking", "height 2 m, th0 = 0.5 a", 1e-3 }, { "rocking", "height 5 m, th0 = 0.2 a", 1e-3 },
+    { "rocking", "height 5 m, th0 = 0.2 a, Housner", 4e-3 }, { "rocking", "height 5 m, th0 = 0.5 a, Housner", 4e-3 },
+    { "rocking", "height 10 m, th0 = 0.8 a, Housner", 4e-3 }, { "rocking", "height 10 m, th0 = 0.95 a", 1e-3 },
     { "resting", "faces too, mean of row 1", 1e-5 }, { "resting", "faces too, mean of row 8", 1e-5 },
 };
 
@@ -225,7 +237,7 @@ START_TEST(every_file_of_an_experiment_is_complete)
         "exp2/fig17", "exp2/fig18", "exp2/fig19", "exp2/fig20", "exp2/fig21a", "exp2/fig21b", "exp2/fig22",
         "exp2/fig23", "exp2/deformed", "exp3/fig25", "exp3/slide", "exp3/states", "incline/slide", "incline/distance",
         "shaken/slip", "topple/chart", "column/forces", "overhang/movie", "drop/rebound", "impact/cradle", "turning/area",
-        "resting/faces", "arch/thrust", "arch/folds",
+        "resting/faces", "arch/thrust", "arch/folds", "slope/pushes", "slope/falls", "tilt/states", "rocking/rocking",
     };
 
     for (size_t i = 0; i < sizeof svg / sizeof *svg; i++) {
@@ -303,7 +315,7 @@ static void chain(char *command, size_t size, const char *const name[], int name
 /* Runs every experiment, in two chains side by side. */
 static void run_experiments(void)
 {
-    static const char *const first[] = { "exp1", "exp2", "exp3", "shaken", "topple", "column" };
+    static const char *const first[] = { "exp1", "exp2", "exp3", "shaken", "topple", "column", "slope", "rocking", "tilt" };
     static const char *const second[] = { "arch", "incline", "overhang", "drop", "impact", "turning", "resting" };
     char command[2000] = "mkdir -p out; (";
 

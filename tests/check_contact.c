@@ -91,6 +91,17 @@ static void add_table(bbm_model *m, int block)
     add_rectangle(m, block, BASE, (rectangle){ .x = -5, .y = -1, .w = 10, .h = 1, .fixed = 1 });
 }
 
+/* Blocks that lie in each other, for the detection alone: prepared while each has its nodes in a place of its own. */
+static void prepare_apart(bbm_model *m)
+{
+    for (int away = 1; away >= 0; away--) {
+        for (int v = 0; v < m->vertices; v++)
+            m->node[m->vertex[v].node].x = m->vertex[v].x + away * 1e3 * m->element[m->vertex[v].element].block;
+        if (away)
+            ck_ok(bbm_prepare(m), m);
+    }
+}
+
 static void run_steps(bbm_model *m, int steps)
 {
     for (int i = 0; i < steps; i++)
@@ -653,7 +664,7 @@ static bbm_model *random_blocks(outline o[BLOCKS], unsigned seed, int reversed, 
         const int b = reversed ? BLOCKS - 1 - k : k;
         add_outline(m, b, &o[b], b % 3 == 2 && b < BLOCKS - SLABS);
     }
-    ck_ok(bbm_prepare(m), m);
+    prepare_apart(m);
     return m;
 }
 
@@ -1172,7 +1183,7 @@ START_TEST(sides_are_parallel_up_to_a_hundredth)
         else
             add_polygon(m, 1, 5, notch);
     }
-    ck_ok(bbm_prepare(m), m);
+    prepare_apart(m);
     detect(m);
     int here = 0;
     for (int k = 0; k < m->contacts; k++)
@@ -1463,7 +1474,7 @@ START_TEST(rivals_in_a_heap_are_all_other_lines_between_two_corners)
         const outline o = random_outline(0, 1.1 * (b % COLUMNS), 1.1 * (b / COLUMNS), &seed);
         add_outline(m, b, &o, 0);
     }
-    ck_ok(bbm_prepare(m), m);
+    prepare_apart(m);
     for (int e = 0; e < m->elements; e++)
         set_velocity(m, e, 10 * random_number(&seed), 10 * random_number(&seed));
     detect(m);
@@ -1493,7 +1504,7 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
     const int e = add_polygon(m, 1, 4, diamond);
     if (!square_first)
         add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -2, .w = 2, .h = 2 });
-    ck_ok(bbm_prepare(m), m);
+    prepare_apart(m);
     set_velocity(m, e, 0, -4);
     for (int again = 0; again < 2; again++) {
         int n;

@@ -71,9 +71,12 @@ int main(void)
     srunner_add_suite(runner, bars_suite());
     srunner_add_suite(runner, theory_suite());
     srunner_add_suite(runner, equations_suite());
+    srunner_add_suite(runner, limits_suite());
+    srunner_add_suite(runner, refused_suite());
 #ifdef CASES
     srunner_add_suite(runner, cases_suite());
     srunner_add_suite(runner, model_suite());
+    srunner_add_suite(runner, files_suite());
 #endif
     run_tests(runner);
     const int failed = srunner_ntests_failed(runner), run = srunner_ntests_run(runner);

@@ -250,9 +250,10 @@ START_TEST(multipliers_make_no_energy_in_steps_of_any_length)
 END_TEST
 
 /* Adds to the momentum of the first element in each solution: energy from nowhere. */
-static void kick(const bbm_model *m, void *impulse)
+static int kick(const bbm_model *m, void *impulse)
 {
     m->F[0] += *(double *)impulse / m->h;
+    return 0;
 }
 
 /* A push that no load does is found out in every part of the step, and the block is where it was. One that does less than

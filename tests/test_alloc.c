@@ -2,8 +2,9 @@
  *
  * The library under test is compiled with -Dmalloc=test_malloc and so on. With test_allocations_left = k the first k
  * calls succeed and all others return NULL, as they do when memory has run out; with -k call k alone returns NULL,
- * counted from 1, as when one large piece could not be had. malloc has no parameter through which the count could come,
- * so here, and only here, variables have file scope.
+ * counted from 1, as when one large piece could not be had. A program that is linked with it takes the number from the
+ * environment, TEST_ALLOCATIONS. malloc has no parameter through which the count could come, so here, and only here,
+ * variables have file scope.
  *
  * New memory and GUARD bytes behind it are filled with 0x7f: an index read from there is 2139062143, and using it
  * crashes; a number is 1e306. When a piece is freed its guard must be as it was. Tools that watch the memory
@@ -25,6 +26,12 @@ size_t test_bytes = 0;
 
 static int one_more(void)
 {
+    static int asked;
+    const char *wanted = asked ? NULL : getenv("TEST_ALLOCATIONS");
+
+    asked = 1;
+    if (wanted)
+        test_allocations_left = atoi(wanted);
     if (test_allocations_left == 0)
         return 0;
     if (test_allocations_left > 0) {
@@ -73,7 +80,7 @@ void test_free(void *piece)
 
     if (!piece)
         return;
-    for (size_t i = 0; i < GUARD; i++)
+    for (size_t i = 0; i != GUARD; i++)
         if (((unsigned char *)piece)[h[-1].size + i] != 0x7f) {
             fprintf(stderr, "written beyond the end of %zu bytes\n", h[-1].size);
             abort();

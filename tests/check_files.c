@@ -1,0 +1,701 @@
+/* check_files.c - the programs and what they write: that the matrix of -m is that of the results; that
+ * a file which cannot be written, memory that is short, a second run in the same folder or Ctrl-C cost as
+ * little as they can and are never silent; that runs leave nothing behind. */
+#define _POSIX_C_SOURCE 200809L
+#include <dirent.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "programs.h"
+
+static int is_there(const char *path) { return access(path, F_OK) == 0; }
+
+/* Whether a folder has a file whose name ends like this, or one of no bytes. */
+static int has_file(const char *folder, const char *ending, int empty)
+{
+    DIR *d = opendir(folder);
+    struct dirent *entry;
+    struct stat s;
+    int found = 0;
+
+    while (d && (entry = readdir(d)) != NULL) {
+        char path[600];
+        const size_t n = strlen(entry->d_name), e = strlen(ending);
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        found |= n >= e && strcmp(entry->d_name + n - e, ending) == 0 && n > 2
+                 && (!empty || (stat(path, &s) == 0 && s.st_size == 0));
+    }
+    if (d)
+        closedir(d);
+    return found;
+}
+
+/* -------------------------------------------------------------------------------- Matrix Market */
+
+/* Reads out/model/K.mtx and its right-hand side: A [n][n], then b [n], to be freed. Every entry stands
+ * once, in the lower triangle, and their number is as announced. */
+static double *read_matrix(int *size)
+{
+    FILE *f = fopen("out/model/K.mtx", "r");
+    int n, columns, entries, i, j;
+    double value;
+
+    ck_assert_msg(f && fscanf(f, "%%%%MatrixMarket matrix coordinate real symmetric %d %d %d", &n,
+                              &columns, &entries)
+                  == 3, "out/model/K.mtx has no head");
+    ck_assert(n == columns && n > 0 && n < 2000);
+    double *A = malloc((size_t)n * ((size_t)n + 1) * sizeof *A);
+    for (int k = 0; k < n * n; k++)
+        A[k] = NAN;
+    for (int k = 0; k < entries; k++) {
+        ck_assert_int_eq(fscanf(f, "%d %d %lf", &i, &j, &value), 3);
+        ck_assert_msg(1 <= j && j <= i && i <= n && isnan(A[(i - 1) * n + j - 1])
+                      && isfinite(value),
+                      "entry %d, %d of K", i, j);
+        A[(i - 1) * n + j - 1] = A[(j - 1) * n + i - 1] = value;
+    }
+    ck_assert_int_eq(fscanf(f, "%lf", &value), EOF);
+    fclose(f);
+    for (int k = 0; k < n * n; k++)
+        A[k] = isnan(A[k]) ? 0 : A[k];
+    f = fopen("out/model/K.mtx.rhs", "r");
+    ck_assert(f && fscanf(f, "%%%%MatrixMarket matrix array real general %d %d", &i, &columns) == 2
+              && i == n);
+    for (int k = 0; k < n; k++)
+        ck_assert_int_eq(fscanf(f, "%lf", &A[n * n + k]), 1);
+    fclose(f);
+    *size = n;
+    return A;
+}
+
+/* Solves A x = b by Cholesky's A = L L^T; x takes the place of b. */
+static void solve_dense(int n, double *A, double *b)
+{
+    for (int j = 0; j < n; j++) {
+        for (int i = j; i < n; i++) {
+            double s = A[i * n + j];
+            for (int k = 0; k < j; k++)
+                s -= A[i * n + k] * A[j * n + k];
+            ck_assert(i > j || s > 0);
+            A[i * n + j] = i == j ? sqrt(s) : s / A[j * n + j];
+        }
+        for (int k = 0; k < j; k++)
+            b[j] -= A[j * n + k] * b[k];
+        b[j] /= A[j * n + j];
+    }
+    for (int j = n - 1; j >= 0; j--) {
+        for (int k = j + 1; k < n; k++)
+            b[j] -= A[k * n + j] * b[k];
+        b[j] /= A[j * n + j];
+    }
+}
+
+/* Two rows of two squares that touch: the lower one is a block and held, the upper one another and
+ * pressed on it. */
+static const char touching[] = STEEL
+    "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 0 2\nnode 6 1 2\n"
+    "node 7 2 0\nnode 8 2 1\nnode 9 2 2\nelement 1 a steel 1 2 3 4\nelement 3 a steel 2 7 8 3\n"
+    "element 2 b steel 4 3 6 5\nelement 4 b steel 3 8 9 6\nfix box 0 0 2 0\n"
+    "contact friction 60 kn 1e10\ntraction box 0 2 2 2 1e2 -1e3\nstatic\n";
+
+/* The shipped models, one step of each without augmentation. `only`: one solution, which must be that
+ * of K and F; where the contacts settle first, the matrix of the first solution is not the result's. */
+static const struct { const char *model; int only; } matrices[] = {
+    { "exp1", 1 }, { "exp2", 1 }, { "disc", 1 }, { "touching", 1 }, { "arch", 0 }, { "column", 0 },
+    { "dam", 0 }, { "exp3", 0 }, { "incline", 0 }, { "overhang", 0 }, { "wall", 0 },
+};
+
+START_TEST(the_matrix_leads_to_the_displacements_that_the_program_writes)
+{
+    const char *name = matrices[_i].model;
+    char path[100], line[LONG];
+    double largest = 0;
+    int n;
+
+    write_text("out/model/touching.source", touching);
+    const char *form = strcmp(name, "touching") ? "cases/models/%s.model" : "out/model/%s.source";
+    snprintf(path, sizeof path, form, name);
+    ck_assert_int_eq(shell("rm -f out/model/K.mtx*; sed -e '/^output\\|^bond\\|^pcg/d' "
+                           "-e 's/steps.*/steps 1/' -e 's|^mesh |mesh ../../cases/models/|' %s "
+                           "> out/model/matrix.model; "
+                           "printf 'bond augment 0\\npcg tolerance 1e-13\\n' >> out/model/matrix.model; "
+                           "%s/bbm -q out/model/matrix.model -o out/model/matrix "
+                           "-m out/model/K.mtx 2> out/model/matrix.err", path, BUILD), 0);
+    double *A = read_matrix(&n), *x = A + n * n;
+    ck_assert_int_eq(cell("matrix", "summary.csv", "1,", "open_close") == 1, matrices[_i].only);
+    if (strcmp(name, "touching") == 0)
+        ck_assert_double_eq(cell("matrix", "summary.csv", "1,", "contacts"), 3);
+    if (matrices[_i].only) {
+        solve_dense(n, A, x);
+        FILE *f = fopen("out/model/matrix/elements.csv", "r");
+        ck_assert(f && fgets(line, sizeof line, f));
+        for (int k = 0; k < n; k++)
+            largest = fmax(largest, fabs(x[k]));
+        for (int e = 0; e < n / 6; e++) {
+            double u, v, turn;
+            ck_assert(fgets(line, sizeof line, f)
+                      && sscanf(line, "%*[^,],%*[^,],%*f,%*f,%lf,%lf,%lf", &u, &v, &turn) == 3);
+            /* Two solvers of 16 digits at a condition of 1e7 or so. */
+            ck_near(u, x[6 * e], largest, 1e-8);
+            ck_near(v, x[6 * e + 1], largest, 1e-8);
+            ck_near(turn, x[6 * e + 2], largest, 1e-8);
+        }
+        fclose(f);
+    }
+    free(A);
+}
+END_TEST
+
+/* ----------------------------------------------------------------------- what cannot be written */
+
+START_TEST(what_cannot_be_written_is_status_1_with_a_message)
+{
+    static const struct { const char *command, *said; } call[] = {
+        { "bbm -q cases/models/incline.model -o out/model/none/below",
+          "none/below cannot be written: No such file" },
+        { "bbm -q cases/models/incline.model -o Makefile", "it is there and no folder" },
+        { "bbm -q cases/models/incline.model -o out/model/full -m /dev/full",
+          "/dev/full cannot be written: No space" },
+        { "bbm cases/models/incline.model -o out/model/full > /dev/full",
+          "stdout cannot be written" },
+    };
+    char said[LONG];
+
+    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
+        ck_assert_int_eq(shell("%s/%s 2> out/model/bad.err", BUILD, call[k].command), 1);
+        ck_assert_msg(strstr(slurp("out/model/bad.err", said), call[k].said), "%s", said);
+    }
+    ck_assert_int_eq(shell("test -c /dev/full"), 0);
+}
+END_TEST
+
+START_TEST(a_closed_pipe_is_status_1)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("{ sleep 0.2; %s/bbm cases/models/incline.model -o out/model/pipe 2> "
+                           "out/model/bad.err; "
+                           "echo $? > out/model/said; } | true", BUILD), 0);
+    ck_assert_str_eq(slurp("out/model/said", said), "1\n");
+    ck_assert_int_eq(access("out/model/pipe/nodes.csv", F_OK), 0);
+}
+END_TEST
+
+START_TEST(a_file_that_is_cut_off_never_stands_under_its_name)
+{
+    char said[LONG];
+
+    /* No file may grow beyond 512 bytes or 1 kB: nodes.csv of the beam would. */
+    ck_assert_int_eq(shell("rm -rf out/model/cut; ulimit -f 1; %s/bbm -q cases/models/exp1.model "
+                           "-o out/model/cut "
+                           "2> out/model/bad.err", BUILD), 1);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/bad.err", said), "nodes.csv cannot be written: "
+                                 "File too large"));
+    ck_assert_int_ne(access("out/model/cut/nodes.csv", F_OK), 0);
+    ck_assert_int_ne(access("out/model/cut/nodes.csv.tmp", F_OK), 0);
+    ck_assert_int_eq(access("out/model/cut/history.csv", F_OK), 0);
+}
+END_TEST
+
+START_TEST(help_and_version_that_cannot_be_written_are_status_1)
+{
+    static const char *const call[] = { "bbm -h", "bbm --version", "column" };
+
+    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
+        ck_assert_int_eq(shell("%s/%s > /dev/full 2> out/model/bad.err", BUILD, call[k]), 1);
+        ck_assert_int_eq(shell("grep -q '^[a-z: ]*stdout.*be written$' out/model/bad.err"), 0);
+    }
+}
+END_TEST
+
+START_TEST(a_file_without_end_is_refused)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("%s/bbm /dev/zero -o out/model/endless 2> out/model/bad.err", BUILD), 2);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/bad.err", said), "/dev/zero is longer than "
+                                 "268435456 bytes"));
+    ck_assert_int_eq(run_text("endless", "mesh /dev/zero\nstatic\n"), 2);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/endless.err", said),
+                                 "endless.model:1: /dev/zero is longer than"));
+    ck_assert(!is_there("out/model/endless"));
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------- pictures */
+
+/* A block that slides on a table, with pictures; a longer run by other steps. */
+#define SLIDE(steps) "title it slides\n" \
+    "material rigid E 1e14 nu 0.25 density 2500\nmaterial rock E 1e10 nu 0.2 density 2500\n" \
+    "node 1 0 0\nnode 2 9 0\nnode 3 9 2\nnode 4 0 2\nelement 1 table rigid 1 2 3 4\nfixblock table\n" \
+    "node 5 4 2\nnode 6 5 2\nnode 7 5 3\nnode 8 4 3\nelement 2 block rock 5 6 7 8\n" \
+    "gravity 0 -9.81\ncontact friction 5\nvelocity block 1 0\n" \
+    "dynamic dt 0.01 steps " steps "\nmonitor p node 5\noutput every 2 svg vtk\n"
+
+static const char *const pictures[] = { "contacts.svg", "movie.svg", "mises.svg" };
+static const char *const tables[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv",
+                                      "timing.csv" };
+
+START_TEST(a_picture_that_cannot_be_made_is_said_and_costs_nothing_else)
+{
+    char said[LONG], text[100], path[100];
+
+    write_text("out/model/picture.model", SLIDE("10"));
+    /* A folder that is not empty stands in its place. */
+    ck_assert_int_eq(shell("rm -rf out/model/picture; mkdir -p out/model/picture/%s/x",
+                           pictures[_i]), 0);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/picture.model -o out/model/picture 2> "
+                           "out/model/picture.err", BUILD), 1);
+    snprintf(text, sizeof text, "out/model/picture/%s cannot be written: Is a directory",
+             pictures[_i]);
+    ck_assert_msg(strstr(slurp("out/model/picture.err", said), text) != NULL, "%s", said);
+    for (int k = 0; k < 3; k++) {
+        snprintf(path, sizeof path, "out/model/picture/%s", pictures[k]);
+        ck_assert(is_there(path));
+    }
+    for (int k = 0; k < 5; k++) {
+        snprintf(path, sizeof path, "out/model/picture/%s", tables[k]);
+        ck_assert(is_there(path));
+    }
+    ck_assert_double_eq(cell("picture", "history.csv", "", "step"), 10);
+    ck_assert(!has_file("out/model/picture", ".tmp", 0));
+}
+END_TEST
+
+START_TEST(a_picture_of_an_experiment_that_cannot_be_made_costs_no_results)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("mkdir -p out/model/whole; cd out/model/whole && ../../../%s/column > "
+                           "column.log", BUILD), 0);
+    ck_assert_int_eq(shell("mkdir -p out/model/out/column/forces.svg/x; cd out/model && "
+                           "../../%s/column > column.log 2> column.err", BUILD), 1);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/column.err", said),
+                                 "out/column/forces.svg could not be written: Is a directory"));
+    ck_assert_int_eq(shell("cmp out/model/whole/out/column/results.csv "
+                           "out/model/out/column/results.csv"), 0);
+}
+END_TEST
+
+/* ------------------------------------------------------------------------- memory that is short */
+
+/* A mesh of Gmsh, statics, with all that can be written. */
+#define MESHED STEEL "title a plate\nmesh ../../tests/mesh/square22.msh\nuse steel on plate\n" \
+    "fix set left\nset corner nodes 3\nload set corner 0 -1e6\ntraction box 1 0 1 1 1e3 0\n" \
+    "monitor p at 1 1\nstatic\noutput svg vtk\n"
+
+/* Models, and a file that they leave when they end with 0. */
+static const struct { const char *model, *text, *last; } short_of_memory[] = {
+    { "meshed", MESHED, "step_000001.vtk" }, { "slide", SLIDE("4 settle 1"), "movie.svg" },
+};
+
+/* Runs a model with so many allocations, as test_alloc.c counts them; whether all is there. Whatever it
+ * is: a run that lacks something says so and ends with 1; no file is half a file; short of a picture it
+ * keeps its tables. */
+static int run_short(int model, int allocations, int *kept)
+{
+    const char *name = short_of_memory[model].model;
+    char folder[60], path[100], said[LONG];
+    int there = 0;
+
+    const int status = shell("rm -rf out/model/%s out/model/short.mtx*; TEST_ALLOCATIONS=%d "
+                             "exec %s/failing/bbm -q out/model/%s.model -o out/model/%s "
+                             "-m out/model/short.mtx 2> out/model/short.err",
+                             name, allocations, BUILD, name, name);
+    slurp("out/model/short.err", said);
+    snprintf(folder, sizeof folder, "out/model/%s", name);
+    ck_assert_msg((status == 0 && !*said) || (status == 1 && *said),
+                  "%s, %d allocations: status %d, said: %s", name, allocations, status, said);
+    ck_assert_msg(!has_file(folder, ".tmp", 0) && !has_file(folder, "", 1), "%s, %d: left over",
+                  name, allocations);
+    for (int k = 0; k < 5; k++) {
+        snprintf(path, sizeof path, "%s/%s", folder, tables[k]);
+        there += is_there(path);
+    }
+    snprintf(path, sizeof path, "%s/%s", folder, short_of_memory[model].last);
+    ck_assert_msg(status || (there == 5 && is_there(path) && is_there("out/model/short.mtx.rhs")),
+                  "%s, %d: status 0, but not all is there", name, allocations);
+    if (strstr(said, ".svg cannot be written")) {
+        ck_assert_msg(there == 5, "%s, %d: a picture cost results: %s", name, allocations, said);
+        *kept += 1;
+    }
+    return status == 0;
+}
+
+START_TEST(without_memory_a_run_says_so_at_every_allocation)
+{
+    char path[60];
+    int n = 0, kept = 0, good = 0;
+
+    snprintf(path, sizeof path, "out/model/%s.model", short_of_memory[_i].model);
+    write_text(path, short_of_memory[_i].text);
+    while (!run_short(_i, n, &kept))            /* the first n allocations succeed, then none */
+        n++;
+    ck_assert_int_gt(n, 100);
+    ck_assert_int_gt(kept, 0);
+    for (int k = 1; k <= n; k++)                /* the k-th alone fails */
+        good += run_short(_i, -k, &kept);
+    ck_assert_int_lt(good, n / 10);             /* what the program can do without */
+}
+END_TEST
+
+START_TEST(without_memory_an_experiment_says_so)
+{
+    static const char *const name[] = {
+        "exp1", "exp2", "exp3", "incline", "shaken", "topple", "column", "overhang", "drop", "impact",
+        "turning", "arch", "resting", "slope", "tilt", "rocking",
+    };
+    char said[LONG];
+
+    shell("mkdir -p out/model/cases; cp cases/fem.csv out/model/cases");
+    for (size_t k = 0; k < sizeof name / sizeof *name; k++)
+        for (int n = 0; n <= 100; n = n ? 10 * n : 1) {
+            const int status = shell("cd out/model; TEST_ALLOCATIONS=%d exec ../../%s/failing/%s "
+                                     "> short.log 2> short.err", n, BUILD, name[k]);
+            ck_assert_msg(status == 1 && *slurp("out/model/short.err", said),
+                          "%s, %d allocations: status %d", name[k], n, status);
+        }
+}
+END_TEST
+
+/* ---------------------------------------------------------- runs that are under way, or stopped */
+
+static void wait_a_little(void) { nanosleep(&(struct timespec){ 0, 10000000 }, NULL); }
+
+/* A million steps of a fall. */
+#define LONG_RUN STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n" \
+    "velocity b 1 0\ndynamic dt 0.001 steps 1000000%s\nmonitor p node 2\noutput svg\n"
+
+/* Starts ./bbm with out/model/long.model and waits until it writes, for 10 s at most. */
+static pid_t start_long(const char *more)
+{
+    char text[LONG], path[60];
+
+    snprintf(text, sizeof text, LONG_RUN, more);
+    write_text("out/model/long.model", text);
+    shell("rm -rf out/model/long; rm -f out/model/long.err");
+    const pid_t child = fork();
+    if (child == 0) {
+        signal(SIGINT, SIG_DFL);
+        close(2);
+        if (open("out/model/long.err", O_WRONLY | O_CREAT, 0666) == 2)
+            execl(BUILD "/bbm", "bbm", "-q", "out/model/long.model", "-o", "out/model/long",
+                  (char *)NULL);
+        _exit(99);
+    }
+    snprintf(path, sizeof path, "out/model/long/summary.csv.%ld.tmp", (long)child);
+    for (int k = 0; k < 1000 && !is_there(path); k++)
+        wait_a_little();
+    if (!is_there(path))
+        kill(child, SIGKILL);
+    ck_assert_msg(is_there(path), "no %s", path);
+    for (int k = 0; k < 10; k++)
+        wait_a_little();
+    return child;
+}
+
+static int end_of(pid_t child)
+{
+    int status = 0;
+
+    ck_assert_int_eq(waitpid(child, &status, 0), child);
+    ck_assert(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+START_TEST(an_interrupted_run_keeps_what_it_has_computed)
+{
+    const struct { int number; const char *more; } call[] = {
+        { SIGINT, "" }, { SIGTERM, "" }, { SIGINT, " settle 1000000" },
+    };
+    const pid_t child = start_long(call[_i].more);
+    char said[LONG], text[LONG];
+
+    kill(child, call[_i].number);
+    ck_assert_int_eq(end_of(child), 128 + call[_i].number);
+    slurp("out/model/long.err", said);
+    ck_assert_msg(strstr(said, _i == 2 ? "interrupted at settling, step " : "interrupted at step "),
+                  "%s", said);
+    ck_assert(!has_file("out/model/long", ".tmp", 0) && !has_file("out/model/long", "", 1));
+    for (int k = 0; k < 5; k++) {
+        snprintf(text, sizeof text, "out/model/long/%s", tables[k]);
+        ck_assert_msg(is_there(text), "no %s", text);
+    }
+    if (_i == 2)
+        return;
+    const double step = cell("long", "history.csv", "", "step");
+    ck_assert(step > 0 && step < 1000000);
+    snprintf(text, sizeof text, "interrupted at step %.0f of 1000000, t = %g s; what was computed "
+             "until then is in out/model/long\n", step, step / 1000);
+    ck_assert_msg(strstr(said, text) != NULL, "%s, not %s", said, text);
+    ck_relative(cell("long", "nodes.csv", "2,b", "u"), step / 1000, 1e-9);
+    ck_assert(is_there("out/model/long/movie.svg"));
+}
+END_TEST
+
+START_TEST(a_second_signal_ends_a_run_at_once_and_the_next_run_removes_what_it_left)
+{
+    const pid_t child = start_long("");
+
+    kill(child, SIGSTOP);
+    kill(child, SIGINT);
+    kill(child, SIGTERM);
+    kill(child, SIGCONT);                       /* now both are there at the same time */
+    const int status = end_of(child);
+    ck_assert_msg(status == 130 || status == 143, "status %d", status);
+    ck_assert(!is_there("out/model/long/nodes.csv"));
+    ck_assert(has_file("out/model/long", ".tmp", 0));
+    ck_assert_int_eq(shell("sed -i 's/steps 1000000/steps 10/' out/model/long.model; "
+                           "%s/bbm -q out/model/long.model -o out/model/long", BUILD), 0);
+    ck_assert(!has_file("out/model/long", ".tmp", 0));
+    ck_assert_double_eq(cell("long", "history.csv", "", "step"), 10);
+}
+END_TEST
+
+START_TEST(a_second_run_in_the_same_folder_is_refused_and_disturbs_nothing)
+{
+    const pid_t child = start_long("");
+    char said[LONG], text[100];
+
+    write_text("out/model/second.model", SLIDE("10"));
+    ck_assert_int_eq(shell("%s/bbm -q out/model/second.model -o out/model/long 2> "
+                           "out/model/second.err", BUILD), 1);
+    snprintf(text, sizeof text, "process %ld writes there; another folder may be given with -o",
+             (long)child);
+    ck_assert_msg(strstr(slurp("out/model/second.err", said), text) != NULL, "%s", said);
+    kill(child, SIGINT);
+    ck_assert_int_eq(end_of(child), 130);
+    ck_assert_double_gt(cell("long", "history.csv", "", "p_u"), 0);
+    ck_assert(!has_file("out/model/long", ".vtk", 0));
+}
+END_TEST
+
+START_TEST(a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else)
+{
+    char said[LONG];
+
+    write_text("out/model/again.model", SLIDE("10"));
+    ck_assert_int_eq(shell("rm -rf out/model/again; mkdir -p out/model/again/step_000007.vtk; "
+                           "cd out/model/again; echo 1 | tee step_000099.vtk step_1.vtk.old notes.txt "
+                           "history.csv.1999999999.tmp step_12.vtk.1999999999.tmp "
+                           "notes.csv.1999999999.tmp > said"), 0);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/again.model -o out/model/again", BUILD), 0);
+    ck_assert_int_eq(shell("cd out/model/again; ls -d *.vtk* *.tmp *.txt | tr '\\n' ' ' > ../said"), 0);
+    ck_assert_str_eq(slurp("out/model/said", said),
+                     "notes.csv.1999999999.tmp notes.txt step_000000.vtk step_000002.vtk "
+                     "step_000004.vtk step_000006.vtk step_000007.vtk step_000008.vtk "
+                     "step_000010.vtk step_1.vtk.old ");
+    /* A run without pictures leaves none of an earlier one beside its tables. */
+    ck_assert_int_eq(shell("sed -i /^output/d out/model/again.model; %s/bbm -q "
+                           "out/model/again.model -o out/model/again",
+                           BUILD), 0);
+    ck_assert(!is_there("out/model/again/movie.svg")
+              && !is_there("out/model/again/step_000010.vtk"));
+}
+END_TEST
+
+/* ------------------------------------------------------------ what the file leaves out, is said */
+
+START_TEST(contacts_are_as_stiff_as_the_softest_material_that_is_not_fixed)
+{
+    /* E t = 1e19, 5e9, 1e9 x 2; the first says "rigid". */
+    static const char text[] =
+        "material rigid E 1e19 nu 0.2 density 2500\nmaterial rock E 5e9 nu 0.2 density 2500\n"
+        "material clay E 1e9 nu 0.2 density 2000 thickness 2\n"
+        "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 0 2\nnode 6 1 2\nnode 7 0 3\n"
+        "node 8 1 3\nelement 1 base rigid 1 2 3 4\nelement 2 a rock 4 3 6 5\nelement 3 b clay 5 6 8 7\n"
+        "%s gravity 0 -10\ndynamic dt 0.01 steps 5 settle 5\ncontact friction 30 %s\n";
+    static const struct { const char *fixed, *stiffness; } call[] = {
+        { "fixblock base\n", "kn 1e11 ks 4e10" },               /* 50 E t, and 0.4 of it */
+        { "fixblock base\nfixblock b\n", "kn 2.5e11 ks 1e11" },
+        { "fixblock base\nfixblock b\nfixblock a\n", "kn 1e11 ks 4e10" },      /* the softest of all */
+    };
+    char model[LONG];
+
+    for (int k = 0; k < 3; k++) {
+        snprintf(model, sizeof model, text, call[k].fixed, "");
+        ck_assert_int_eq(run_text("left", model), 0);
+        snprintf(model, sizeof model, text, call[k].fixed, call[k].stiffness);
+        ck_assert_int_eq(run_text("given", model), 0);
+        ck_assert_int_eq(shell("cmp out/model/left/nodes.csv out/model/given/nodes.csv"), 0);
+    }
+}
+END_TEST
+
+START_TEST(settle_0_is_none)
+{
+    ck_assert_int_eq(run_text("unsettled", SLIDE("10")), 0);
+    ck_assert_int_eq(run_text("zero", SLIDE("10 settle 0")), 0);
+    ck_assert_int_eq(shell("cmp out/model/unsettled/history.csv out/model/zero/history.csv"), 0);
+}
+END_TEST
+
+START_TEST(what_is_hardly_meant_is_a_warning)
+{
+    static const char fall[] = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
+        "gravity 0 -10\n%sdynamic dt 0.01 steps 2\n";
+    static const char two[] = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\n"
+        "element 1 a steel 1 2 3\nelement 2 b steel 1 3 4\nfixblock a\n"
+        "gravity 0 -10\n%sdynamic dt 0.01 steps 2\n";
+    static const char falls[] = "out/model/warn.model: warning: nothing is fixed: under gravity all "
+        "blocks fall; fixblock or fix holds them\n";
+    static const char slips[] = "out/model/warn.model: warning: blocks touch without friction: "
+        "`contact friction DEGREES` gives it\n";
+    const struct { const char *text, *more, *said; } call[] = {
+        { fall, "", falls }, { fall, "fix node 1\n", "" }, { fall, "fixblock b\n", "" },
+        { two, "", slips }, { two, "contact kn 1e9\n", slips }, { two, "contact friction 0\n", "" },
+        { two, "contact friction 30\n", "" }, { two, "contact kn 0\n", "" },
+    };
+    char model[LONG], said[LONG];
+
+    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
+        snprintf(model, sizeof model, call[k].text, call[k].more);
+        ck_assert_int_eq(run_text("warn", model), 0);
+        ck_assert_str_eq(slurp("out/model/warn.err", said), call[k].said);
+    }
+}
+END_TEST
+
+START_TEST(a_run_that_fails_says_at_which_step_and_what_the_library_says)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(run_text("fails", SLIDE("10\npcg iterations 1 coarse off")), 1);
+    slurp("out/model/fails.err", said);
+    const char *step = strstr(said, "step 1");
+    ck_assert_msg(strncmp(said, "out/model/fails.model: ", 23) == 0 && step
+                  && !strstr(step + 1, "step 1"), "%s", said);
+    ck_assert_ptr_nonnull(strstr(said, bbm_status_text(BBM_NOT_CONVERGED)));
+    ck_assert_int_eq(run_text("fails", SLIDE("10 settle 3\npcg iterations 1 coarse off")), 1);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/fails.err", said),
+                                 "out/model/fails.model: settling, "));
+    /* What the library refuses and no line of the file is to blame for. */
+    ck_assert_int_eq(run_text("fails", "material m E 1e308 nu 0 density 1\nnode 1 0 0\nnode 2 1 0\n"
+                              "node 3 1 1\nelement 7 b m 1 2 3\nfixblock b\nstatic\n"), 2);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/fails.err", said), "p_n = inf"));
+}
+END_TEST
+
+START_TEST(what_the_shipped_models_leave_is_nothing_for_git)
+{
+    ck_assert_int_eq(shell("for m in cases/models/*.model; do "
+                           "grep -qx \"/$(basename $m .model)/\" .gitignore || exit 1; done"), 0);
+}
+END_TEST
+
+/* ---------------------------------------------------------------------------------- the library */
+
+START_TEST(a_compiler_that_breaks_the_arithmetic_is_refused)
+{
+    static const char *const flag[] = { "-Ofast", "-ffast-math", "-ffinite-math-only" };
+    char said[LONG];
+
+    for (int k = 0; k < 3; k++) {
+        ck_assert_int_ne(shell("env -u MAKEFLAGS -u MAKELEVEL make -s O=out/model/fast CPPFLAGS= "
+                               "CFLAGS=%s "
+                               "out/model/fast/solver.o > out/model/said 2>&1", flag[k]), 0);
+        ck_assert_ptr_nonnull(strstr(slurp("out/model/said", said), "compile without -Ofast"));
+    }
+}
+END_TEST
+
+static bbm_model *square(void)
+{
+    static const double xy[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+    static const int corner[4] = { 0, 1, 2, 3 };
+    bbm_model *m;
+
+    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    bbm_add_material(m, &(bbm_material){ 1e9, 0.2, 2000, 1 }, NULL);
+    for (int k = 0; k < 4; k++)
+        bbm_add_node(m, xy[k][0], xy[k][1], NULL);
+    bbm_add_element(m, 0, 0, 4, corner, NULL);
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 1, BBM_XY, 0, 0);
+    bbm_add_load(m, 2, 1e3, 0);
+    return m;
+}
+
+START_TEST(a_model_that_is_not_prepared_has_no_energy)
+{
+    bbm_model *m = square();
+    bbm_energy e = { 1, 1, 1 };
+
+    m->par.bonding = BBM_VERTICES;          /* vertices that are held by themselves, one by one */
+    m->element[0].stress[0] = 1e6;          /* it would have one */
+    bbm_energies(m, &e);
+    ck_assert(e.kinetic == 0 && e.elastic == 0 && e.springs == 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+static int stop_at_the_second(const bbm_model *m, void *solutions)
+{
+    (void)m;
+    return ++*(int *)solutions == 2;
+}
+
+START_TEST(watch_stops_a_step_before_its_next_solution)
+{
+    bbm_model *m = square();
+    int solutions = 0;
+
+    m->par.augment = 2;                         /* three solutions in the step */
+    m->watch = stop_at_the_second;
+    m->watch_context = &solutions;
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_step(m), BBM_STOPPED);
+    ck_assert_int_eq(solutions, 2);
+    ck_assert_int_eq(m->info.step, 0);
+    ck_assert(m->element[0].sum[0] == 0 && m->vertex[2].u == 0);
+    ck_ok(bbm_step(m), m);
+    ck_assert_int_eq(m->info.step, 1);
+    bbm_model_free(m);
+}
+END_TEST
+
+static void make_folder(void) { shell("rm -rf out/model; mkdir -p out/model"); }
+
+Suite *files_suite(void)
+{
+    Suite *s = suite_create("files");
+    TCase *t = tcase_create("files");
+
+    tcase_set_timeout(t, 120);
+    tcase_add_unchecked_fixture(t, make_folder, NULL);
+    tcase_add_loop_test(t, the_matrix_leads_to_the_displacements_that_the_program_writes, 0,
+                        sizeof matrices / sizeof *matrices);
+    tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
+    tcase_add_test(t, a_closed_pipe_is_status_1);
+    tcase_add_test(t, a_file_that_is_cut_off_never_stands_under_its_name);
+    tcase_add_test(t, help_and_version_that_cannot_be_written_are_status_1);
+    tcase_add_test(t, a_file_without_end_is_refused);
+    tcase_add_loop_test(t, a_picture_that_cannot_be_made_is_said_and_costs_nothing_else, 0, 3);
+    tcase_add_test(t, a_picture_of_an_experiment_that_cannot_be_made_costs_no_results);
+    tcase_add_loop_test(t, without_memory_a_run_says_so_at_every_allocation, 0, 2);
+    tcase_add_test(t, without_memory_an_experiment_says_so);
+    tcase_add_loop_test(t, an_interrupted_run_keeps_what_it_has_computed, 0, 3);
+    tcase_add_test(t, a_second_signal_ends_a_run_at_once_and_the_next_run_removes_what_it_left);
+    tcase_add_test(t, a_second_run_in_the_same_folder_is_refused_and_disturbs_nothing);
+    tcase_add_test(t, a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else);
+    tcase_add_test(t, contacts_are_as_stiff_as_the_softest_material_that_is_not_fixed);
+    tcase_add_test(t, settle_0_is_none);
+    tcase_add_test(t, what_is_hardly_meant_is_a_warning);
+    tcase_add_test(t, a_run_that_fails_says_at_which_step_and_what_the_library_says);
+    tcase_add_test(t, what_the_shipped_models_leave_is_nothing_for_git);
+    suite_add_tcase(s, t);
+    t = tcase_create("library");
+    tcase_add_test(t, a_compiler_that_breaks_the_arithmetic_is_refused);
+    tcase_add_test(t, a_model_that_is_not_prepared_has_no_energy);
+    tcase_add_test(t, watch_stops_a_step_before_its_next_solution);
+    suite_add_tcase(s, t);
+    return s;
+}

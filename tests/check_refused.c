@@ -1,0 +1,704 @@
+/* check_refused.c - tests of what is refused or said: blocks that overlap, meshes in pieces, mechanisms, runs that fail.
+ *
+ * Oracles: outlines whose overlap is known on paper; random polygons against a count of points that lie in both; the
+ * rank of the conditions by dense elimination.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "check.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* A number in [-1, 1], in the same order in every run (Numerical Recipes' linear congruence). */
+static double random_number(unsigned *seed)
+{
+    *seed = (1664525u * *seed + 1013904223u) & 0xffffffffu;
+    return (double)(*seed >> 8) / 8388608.0 - 1;
+}
+
+static bbm_model *new_model(void)
+{
+    const bbm_material rock = { 1e10, 0.25, 2500, 1 };
+    bbm_model *m;
+
+    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_ok(bbm_add_material(m, &rock, NULL), m);
+    return m;
+}
+
+/* Adds a polygon with nodes of its own as one element; its index. */
+static int add_polygon(bbm_model *m, int block, int n, const double p[][2])
+{
+    int node[40], e = -1;
+
+    ck_assert_int_le(n, 40);
+    for (int k = 0; k < n; k++)
+        ck_ok(bbm_add_node(m, p[k][0], p[k][1], &node[k]), m);
+    ck_ok(bbm_add_element(m, block, 0, n, node, &e), m);
+    return e;
+}
+
+/* Adds a rectangle of nx times ny elements, turned about the origin [degree]; the index of its first node. */
+static int add_grid(bbm_model *m, int block, double x, double y, double w, double h, int nx, int ny, double angle)
+{
+    const double c = cos(angle * PI / 180), s = sin(angle * PI / 180);
+    const int node = m->nodes;
+
+    for (int k = 0; k < (nx + 1) * (ny + 1); k++) {
+        const double px = x + w * (k % (nx + 1)) / nx, py = y + h * (k / (nx + 1)) / ny;
+        ck_ok(bbm_add_node(m, c * px - s * py, s * px + c * py, NULL), m);
+    }
+    for (int k = 0; k < nx * ny; k++) {
+        const int a = node + k / nx * (nx + 1) + k % nx;
+        ck_ok(bbm_add_element(m, block, 0, 4, (int[]){ a, a + 1, a + nx + 2, a + nx + 1 }, NULL), m);
+    }
+    return node;
+}
+
+/* --------------------------------------------------------------------------------------------- blocks that overlap */
+
+/* Two outlines, the depth of their overlap (0: they only touch), and the place. */
+typedef struct {
+    const char *name;
+    int n[2];
+    double p[2][12][2], depth, x, y;
+} outlines;
+
+static const outlines OUTLINES[] = {
+    { "5 mm of a block of 1 m", { 4, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0, 0.995 }, { 1, 0.995 }, { 1, 2 }, { 0, 2 } } }, 5e-3, 0.5, 0.9975 },
+    { "sides that touch", { 4, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 1 }, { 2, 1 }, { 2, 2 }, { 0.5, 2 } } }, 0, 0, 0 },
+    { "sides that touch but for rounding", { 4, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
+        { { 0.5, 1 - 1e-9 }, { 2, 1 - 1e-9 }, { 2, 2 }, { 0.5, 2 } } }, 0, 0, 0 },
+    { "one micrometre and a half", { 4, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
+        { { 0, 1 - 1.5e-6 }, { 1, 1 - 1.5e-6 }, { 1, 2 }, { 0, 2 } } }, 1.5e-6, 0.5, 1 - 0.75e-6 },
+    { "half a micrometre", { 4, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
+        { { 0, 1 - 0.5e-6 }, { 1, 1 - 0.5e-6 }, { 1, 2 }, { 0, 2 } } }, 0, 0, 0 },
+    { "a corner on a side", { 4, 3 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 1 }, { 1, 2 }, { 0, 2 } } }, 0, 0, 0 },
+    { "a corner in a side", { 4, 3 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 0.9 }, { 1.5, 1.9 }, { -0.5, 1.9 } } }, 0.1, 0.5, 2.9 / 3 },
+    { "bars that cross", { 4, 4 },
+      { { { -5, -0.1 }, { 5, -0.1 }, { 5, 0.1 }, { -5, 0.1 } }, { { 2, -3 }, { 2.5, -3 }, { 2.5, 3 }, { 2, 3 } } },
+      3, 2.25, 0 },
+    { "a block within another", { 4, 4 },
+      { { { 0, 0 }, { 10, 0 }, { 10, 10 }, { 0, 10 } }, { { 1, 4 }, { 2, 4 }, { 2, 5 }, { 1, 5 } } }, 2, 1.5, 4.5 },
+    { "one and the same block", { 4, 4 },
+      { { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 0, 1 } }, { { 2, 0 }, { 2, 1 }, { 0, 1 }, { 0, 0 } } }, 1, 1, 0.5 },
+    { "a square in the notch of an L", { 6, 4 },
+      { { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } }, { { 1, 1 }, { 2, 1 }, { 2, 2 }, { 1, 2 } } }, 0, 0, 0 },
+    { "a square that cuts into the notch of an L", { 6, 4 },
+      { { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } },
+        { { 0.9, 1.2 }, { 2, 1.2 }, { 2, 1.8 }, { 0.9, 1.8 } } }, 0.1, 0.95, 1.5 },
+    { "a block in the mouth of a U with collinear corners", { 10, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 3, 0 }, { 3, 3 }, { 2, 3 }, { 2, 2 }, { 2, 1 }, { 1, 1 }, { 1, 3 }, { 0, 3 } },
+        { { 1, 1 }, { 2, 1 }, { 2, 3 }, { 1, 3 } } }, 0, 0, 0 },
+    { "a sliver through a block", { 4, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
+        { { -5, 0.5 }, { 5, 0.5 }, { 5, 0.5001 }, { -5, 0.5001 } } }, 0.5, 0.5, 0.50005 },
+    { "apart, boxes overlap", { 3, 3 },
+      { { { 0, 0 }, { 1, 0 }, { 0, 1 } }, { { 1, 1 }, { 0.01, 1 }, { 1, 0.01 } } }, 0, 0, 0 },
+};
+
+START_TEST(blocks_that_overlap_are_refused_with_depth_and_place)
+{
+    const outlines *o = &OUTLINES[_i / 2];
+    bbm_model *m = new_model();
+    bbm_overlap found;
+
+    for (int k = 0; k < 2; k++)
+        add_polygon(m, 7 + k, o->n[k ^ _i % 2], o->p[k ^ _i % 2]);
+    const bbm_status status = bbm_prepare(m);
+    ck_assert_msg(status == (o->depth > 0 ? BBM_BLOCKS_OVERLAP : BBM_OK), "%s: %s", o->name, bbm_message(m));
+    ck_assert_int_eq(bbm_find_overlap(m, &found), BBM_OK);
+    ck_assert_int_eq(found.i, o->depth > 0 ? 0 : -1);
+    if (o->depth > 0) {
+        ck_assert_int_eq(found.j, 1);
+        ck_near(found.depth, o->depth, 10, 1e-15);              /* coordinates are 10 m and smaller */
+        ck_near(found.x, o->x, 10, 1e-15);
+        ck_near(found.y, o->y, 10, 1e-15);
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "block 7 with element 0, block 8 with element 1"));
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A star of n corners about (x, y): as non-convex as it gets. */
+static void star(int n, double x, double y, unsigned *seed, double p[][2])
+{
+    for (int k = 0; k < n; k++) {
+        const double r = 0.55 + 0.45 * random_number(seed), a = 2 * PI * k / n;
+        p[k][0] = x + r * cos(a);
+        p[k][1] = y + r * sin(a);
+    }
+}
+
+/* Even-odd rule: whether (x, y) lies in the polygon. */
+static int is_inside(int n, double p[][2], double x, double y)
+{
+    int in = 0;
+
+    for (int a = 0, b = n - 1; a < n; b = a++)
+        if ((p[a][1] > y) != (p[b][1] > y) && x < (p[b][0] - p[a][0]) * (y - p[a][1]) / (p[b][1] - p[a][1]) + p[a][0])
+            in = !in;
+    return in;
+}
+
+/* Stars at random distances: where a fine grid of points finds one in both they must be refused, at a place in both;
+ * where it finds none, the overlap is shallow against the points' distance of 0.01. */
+START_TEST(stars_overlap_where_points_lie_in_both)
+{
+    enum { N = 17, POINTS = 300 };
+    double p[2][N][2];
+    unsigned seed = 4711u + (unsigned)_i;
+    const double gap = 1 + random_number(&seed), angle = PI * random_number(&seed);
+    bbm_model *m = new_model();
+    bbm_overlap o;
+    int both = 0;
+
+    star(N, 0, 0, &seed, p[0]);
+    star(N, gap * cos(angle), gap * sin(angle), &seed, p[1]);
+    add_polygon(m, 0, N, (const double (*)[2])p[0]);
+    add_polygon(m, 1, N, (const double (*)[2])p[1]);
+    for (int k = 0; k < POINTS * POINTS; k++) {
+        const double x = -1 + 2.0 * (k % POINTS) / POINTS, y = -1 + 2.0 * (k / POINTS) / POINTS;
+        both += is_inside(N, p[0], x, y) && is_inside(N, p[1], x, y);
+    }
+    const bbm_status status = bbm_prepare(m);
+    ck_assert_int_eq(bbm_find_overlap(m, &o), BBM_OK);
+    ck_assert_int_eq(status, o.i < 0 ? BBM_OK : BBM_BLOCKS_OVERLAP);
+    if (both)
+        ck_assert_int_eq(status, BBM_BLOCKS_OVERLAP);
+    if (status)
+        ck_assert(is_inside(N, p[0], o.x, o.y) && is_inside(N, p[1], o.x, o.y));
+    if (status && !both)
+        ck_assert_double_lt(o.depth, 0.03);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(elements_of_one_block_that_overlap_are_refused)
+{
+    const double square[][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+    const double other[][2] = { { 0.5, 0.5 }, { 1.5, 0.5 }, { 1.5, 1.5 }, { 0.5, 1.5 } };
+    bbm_model *m = new_model();
+
+    add_polygon(m, 0, 4, square);
+    add_polygon(m, 0, 4, other);
+    ck_assert_int_eq(bbm_prepare(m), BBM_OVERLAP);
+    ck_assert_int_eq(m->culprit, 1);
+    ck_assert_int_eq(m->other, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* 5 mm, in meshes of many elements, turned by any angle: the block in front is element by element in the other. */
+START_TEST(blocks_of_many_elements_that_overlap_are_refused_at_any_angle)
+{
+    for (int k = 0; k < 2; k++) {
+        bbm_model *m = new_model();
+        add_grid(m, 0, 0, 0, 1, 1, 10, 10, 11.0 * _i);
+        add_grid(m, 1, 0.33, k ? 1 : 0.995, 1, 1, 7, 7, 11.0 * _i);
+        ck_assert_int_eq(bbm_prepare(m), k ? BBM_OK : BBM_BLOCKS_OVERLAP);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+
+
+/* ------------------------------------------------------------------------------------------------ blocks in pieces */
+
+/* 3 x 2 and 2 x 2 elements with nodes of their own along the common side, a triangle that shares one corner with them,
+ * and another block. */
+START_TEST(a_block_falls_into_the_pieces_that_bonds_join)
+{
+    bbm_model *m = new_model();
+    int piece[20];
+
+    add_grid(m, 0, 0, 0, 3, 2, 3, 2, 0);
+    const int node = add_grid(m, 0, 3, 0, 2, 2, 2, 2, 0);
+    add_grid(m, 1, 0, 2, 3, 1, 3, 1, 0);
+    ck_ok(bbm_add_node(m, 7, 2, NULL), m);
+    ck_ok(bbm_add_node(m, 7, 3, NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 3, (int[]){ node + 8, m->nodes - 2, m->nodes - 1 }, NULL), m);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_find_pieces(m, piece), 4);
+    for (int e = 0; e < m->elements; e++)
+        ck_assert_int_eq(piece[e], e < 6 ? 0 : e < 10 ? 6 : e < 13 ? 10 : 13);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A node of one element in the middle of the side of another: not one bond. */
+START_TEST(a_hanging_node_leaves_pieces)
+{
+    const double node[][2] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 0, 1 }, { 2, 2 }, { 1, 2 }, { 0, 2 } };
+    bbm_model *m = new_model();
+    int piece[3];
+
+    for (int k = 0; k < 8; k++)
+        ck_ok(bbm_add_node(m, node[k][0], node[k][1], NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 4 }, NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 4, 3, 6, 7 }, NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 3, 2, 5, 6 }, NULL), m);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_find_pieces(m, piece), 2);
+    ck_assert(piece[0] == 0 && piece[1] == 1 && piece[2] == 1);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ------------------------------------------------------------------------ mechanisms of bonds at midpoints alone */
+
+enum { FREE, CLAMPED, BOTH_CLAMPED, PIN_AND_ROLLER, ROLLERS, PINS };
+
+/* nx times ny squares with nodes off by up to a share of them, held on the left, at both ends, at two nodes below, or
+ * as a quarter of a symmetric plate; then turned about the origin. */
+static bbm_model *held_grid(int nx, int ny, double off, int fixed, double angle)
+{
+    bbm_model *m = new_model();
+    unsigned seed = 3;
+
+    add_grid(m, 0, 0, 0, nx, ny, nx, ny, 0);
+    for (int n = 0; n < m->nodes; n++) {
+        const int i = n % (nx + 1), j = n / (nx + 1), left = i == 0, right = i == nx, low = j == 0;
+        const int bottom = low && (left || right), end = left || (fixed == BOTH_CLAMPED && right);
+        bbm_node *p = &m->node[n];
+        p->x += off * random_number(&seed);
+        p->y += off * random_number(&seed);
+        if ((fixed == CLAMPED || fixed == BOTH_CLAMPED) && end)
+            ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+        if (bottom && (fixed == PINS || fixed == PIN_AND_ROLLER))
+            ck_ok(bbm_fix_node(m, n, left || fixed == PINS ? BBM_XY : BBM_Y, 0, 0), m);
+        if (fixed == ROLLERS && left)
+            ck_ok(bbm_fix_node(m, n, BBM_X, 0, 0), m);
+        if (fixed == ROLLERS && low)
+            ck_ok(bbm_fix_node(m, n, BBM_Y, 0, 0), m);
+        const double x = p->x, y = p->y;
+        p->x = cos(angle) * x - sin(angle) * y;
+        p->y = sin(angle) * x + cos(angle) * y;
+    }
+    for (int v = 0; v < m->vertices; v++) {
+        m->vertex[v].x = m->node[m->vertex[v].node].x;
+        m->vertex[v].y = m->node[m->vertex[v].node].y;
+    }
+    for (int e = 0; e < m->elements; e++) {
+        bbm_element_geometry(&m->element[e], &m->vertex[m->element[e].first]);
+        m->element[e].A0 = m->element[e].A;
+    }
+    m->par.bonding = BBM_MIDPOINTS;
+    ck_ok(bbm_prepare(m), m);
+    return m;
+}
+
+/* As doc/limits.md counts them. */
+static const struct { int nx, ny; double off; int fixed, refused; } GRIDS[] = {
+    { 1, 1, 0, FREE, 0 },               /* no bond */
+    { 2, 1, 0, FREE, 1 },               /* two elements on one pin */
+    { 5, 1, 0, CLAMPED, 1 },            /* a chain */
+    { 5, 1, 0, BOTH_CLAMPED, 1 },
+    { 2, 2, 0, FREE, 1 },
+    { 12, 2, 0.2, FREE, 1 },            /* of two rows any */
+    { 6, 6, 0, FREE, 1 },
+    { 7, 4, 0, PIN_AND_ROLLER, 1 },
+    { 6, 6, 0, ROLLERS, 1 },            /* rollers let the middles of the sides turn */
+    { 24, 6, 0, PINS, 1 },              /* two nodes hold it, too softly */
+    { 24, 6, 1e-6, PIN_AND_ROLLER, 1 }, /* rounding of a file */
+    { 24, 6, 1e-2, PIN_AND_ROLLER, 1 },
+    { 6, 2, 0, CLAMPED, 0 },
+    { 24, 6, 0, CLAMPED, 0 },           /* the experiments */
+    { 48, 12, 0, CLAMPED, 0 },
+    { 200, 2, 0, CLAMPED, 0 },
+    { 24, 6, 1e-2, CLAMPED, 0 },
+    { 24, 6, 0, BOTH_CLAMPED, 0 },
+    { 24, 6, 0.2, FREE, 0 },
+};
+
+START_TEST(bonds_at_midpoints_that_make_a_mechanism_are_refused)
+{
+    const double angle = GRIDS[_i / 2].fixed == ROLLERS ? 0 : _i % 2;   /* turned, rollers along x hold every turning */
+    bbm_model *m = held_grid(GRIDS[_i / 2].nx, GRIDS[_i / 2].ny, GRIDS[_i / 2].off, GRIDS[_i / 2].fixed, angle);
+    int element;
+
+    m->par.dt = 1e-3;                                           /* the smallest blocks are free to move as a whole */
+    ck_assert_int_eq(bbm_find_mechanism(m, &element), BBM_OK);
+    ck_assert_int_eq(element >= 0, GRIDS[_i / 2].refused);
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == (GRIDS[_i / 2].refused ? BBM_MECHANISM : BBM_OK), "%s", bbm_message(m));
+    m->par.bonding = BBM_MOMENT;
+    ck_ok(bbm_step(m), m);
+    bbm_model_free(m);
+}
+END_TEST
+
+enum { MOST = 160 };
+
+/* The number of unknowns that `rows` conditions leave free, by elimination with the largest pivot. */
+static int nullity(int rows, int unknowns, double (*A)[MOST])
+{
+    int rank = 0;
+
+    for (int left = 1; rank < rows && left;) {
+        int r = rank, c = 0;
+        for (int k = rank * unknowns; k < rows * unknowns; k++)
+            if (fabs(A[k / unknowns][k % unknowns]) > fabs(A[r][c]))
+                r = k / unknowns, c = k % unknowns;
+        left = fabs(A[r][c]) > 1e-9;                            /* rounding of numbers near 1 */
+        for (int k = 0; k < unknowns && left; k++) {
+            const double swap = A[r][k];
+            A[r][k] = A[rank][k];
+            A[rank][k] = swap;
+        }
+        for (int q = rank + 1; q < rows && left; q++) {
+            const double f = A[q][c] / A[rank][c];
+            for (int k = 0; k < unknowns; k++)
+                A[q][k] -= f * A[rank][k];
+        }
+        rank += left;
+    }
+    return unknowns - rank;
+}
+
+/* The row by which point (x, y) of an element moves along x or y. */
+static void point_row(const bbm_model *m, int e, double x, double y, int along, double sign, double row[])
+{
+    row[3 * e + along] += sign;
+    row[3 * e + 2] += sign * (along == 0 ? m->element[e].y - y : x - m->element[e].x);
+}
+
+/* Rigid elements: bonds at middles, or at both ends; sides held in the middle if both ends are, else nodes. */
+static int free_motions(const bbm_model *m, int whole)
+{
+    static double A[6 * MOST][MOST];
+    int rows = 0;
+
+    memset(A, 0, sizeof A);
+    for (int b = 0; b < m->bonds; b++)
+        for (int k = 0; k < 4; k++) {
+            const bbm_vertex *p = &m->vertex[m->bond[b].p[k / 2]], *q = &m->vertex[m->bond[b].p[1 - k / 2]];
+            const double s = whole ? 1 : 0.5, x = s * p->x + (1 - s) * q->x, y = s * p->y + (1 - s) * q->y;
+            point_row(m, m->bond[b].i, x, y, k % 2, 1, A[rows]);
+            point_row(m, m->bond[b].j, x, y, k % 2, -1, A[rows++]);
+        }
+    for (int v = 0; v < 2 * m->vertices; v++) {
+        const int e = v / 8, here = v / 2, next = 4 * e + (here + 1) % 4, last = 4 * e + (here + 3) % 4, bit = 1 << v % 2;
+        const bbm_vertex *p = &m->vertex[here], *q = &m->vertex[next];
+        if (!(m->node[p->node].held & bit))
+            continue;
+        if (m->node[q->node].held & bit)
+            point_row(m, e, (p->x + q->x) / 2, (p->y + q->y) / 2, v % 2, 1, A[rows++]);
+        else if (!(m->node[m->vertex[last].node].held & bit))
+            point_row(m, e, p->x, p->y, v % 2, 1, A[rows++]);
+    }
+    return nullity(rows, 3 * m->elements, A);
+}
+
+/* Grids with nodes held at random: whatever more can move than with whole sides bonded is refused. */
+START_TEST(every_mechanism_that_a_dense_elimination_finds_is_refused)
+{
+    unsigned seed = 17u + (unsigned)_i;
+    bbm_model *m = held_grid(1 + _i % 6, 1 + _i / 6 % 5, _i % 4 == 3 ? 0.2 : 0, FREE, 0);
+    int element;
+
+    for (int n = 0; n < m->nodes; n++)
+        if (random_number(&seed) > 0.4 + 0.1 * (_i % 5))
+            ck_ok(bbm_fix_node(m, n, 1 + (int)(1.49 * (1 + random_number(&seed))), 0, 0), m);
+    ck_assert_int_le(3 * m->elements, MOST);
+    const int mechanisms = free_motions(m, 0) - free_motions(m, 1);
+    ck_assert_int_eq(bbm_find_mechanism(m, &element), BBM_OK);
+    if (mechanisms > 0)
+        ck_assert_int_ge(element, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------------------ runs that fail */
+
+/* A block of 2 x 2 elements on a fixed base, both turned about the origin: which begins to slide at tan(angle) =
+ * tan(friction), if statics is asked. */
+static bbm_model *block_on_slope(double angle, double friction)
+{
+    bbm_model *m = new_model();
+    const int base = add_grid(m, 0, -2, -1, 4, 1, 4, 1, angle);
+
+    add_grid(m, 1, -0.5, 0, 1, 0.5, 2, 2, angle);
+    for (int n = base; n < base + 10; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    m->par.gravity[1] = -9.81;
+    m->par.friction = friction;
+    m->par.p_n = 1e12;
+    m->par.p_s = 4e11;
+    ck_ok(bbm_prepare(m), m);
+    return m;
+}
+
+START_TEST(a_block_that_slides_in_statics_is_named_with_what_it_slides_on)
+{
+    static const double friction[] = { 10, 29, 31, 45, 0 };
+    bbm_model *m = block_on_slope(_i % 2 ? 30 : -30, friction[_i / 2]);
+
+    m->par.steps = 4;
+    const bbm_status status = bbm_run(m);
+    ck_assert_msg(status == (friction[_i / 2] < 30 ? BBM_NO_EQUILIBRIUM : BBM_OK), "%s", bbm_message(m));
+    if (status) {
+        ck_assert_int_eq(m->element[m->culprit].block, 1);
+        ck_assert_int_eq(m->element[m->other].block, 0);
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "raise the friction"));
+    }
+    ck_assert_ptr_null(strstr(bbm_message(m), "inf"));
+    ck_assert_ptr_null(strstr(bbm_message(m), "element -1"));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block that lifts off, or is pushed until it tips over its edge. */
+START_TEST(a_block_that_lifts_off_or_tips_in_statics_is_named)
+{
+    bbm_model *m = block_on_slope(0, 80);
+
+    m->par.gravity[1] = _i ? -9.81 : 9.81;
+    m->par.gravity[0] = _i ? 9.81 * 3 : 0;                      /* more than 2, width over height */
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->culprit].block == 1, "%s", bbm_message(m));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A bar on two supports, whose lower side grows and slides outwards on both: as one contact may have to hold it again in
+ * the next step, or in the first one of a stone on a plate that bends. */
+START_TEST(statics_goes_on_where_all_contacts_of_a_block_slide)
+{
+    bbm_model *m = new_model();
+    const int left = add_grid(m, 0, 0.3, -1, 0.5, 1, 1, 1, 0), right = add_grid(m, 1, 9.2, -1, 0.5, 1, 1, 1, 0);
+
+    add_grid(m, 2, 0, 0, 10, 0.5, 20, 2, 0);
+    for (int k = 0; k < 4; k++) {
+        ck_ok(bbm_fix_node(m, left + k, BBM_XY, 0, 0), m);
+        ck_ok(bbm_fix_node(m, right + k, BBM_XY, 0, 0), m);
+    }
+    m->par.gravity[1] = -9.81;
+    m->par.friction = 45;
+    m->par.p_n = 1e11;
+    m->par.p_s = 4e10;
+    m->par.steps = 5;
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+    double N = 0;
+    for (int k = 0; k < m->contacts; k++)
+        N += m->contact[k].N;
+    ck_near(N, 10 * 0.5 * 2500 * 9.81, 10 * 0.5 * 2500 * 9.81, 5e-3);   /* T = N on sides that turn by 3e-3 */
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A disc held on its axis and pressed on a base by 6 % of E times its radius flattens: its contacts move further in a step
+ * than they are deep, and must be found again in the next. */
+static bbm_model *pressed_disc(int held, double load)
+{
+    enum { RIM = 32 };
+    bbm_model *m = new_model();
+    const int base = add_grid(m, 0, -2, -1, 4, 1, 16, 4, 0), centre = m->nodes;
+
+    ck_ok(bbm_add_node(m, 0, 1, NULL), m);
+    for (int ring = 1; ring <= 4; ring++)
+        for (int k = 0; k < RIM; k++)
+            ck_ok(bbm_add_node(m, ring / 4.0 * sin(2 * PI * k / RIM), 1 - ring / 4.0 * cos(2 * PI * k / RIM), NULL), m);
+    for (int k = 0; k < 4 * RIM; k++) {
+        const int a = centre + 1 + k, b = centre + 1 + k / RIM * RIM + (k + 1) % RIM;
+        if (k < RIM)
+            ck_ok(bbm_add_element(m, 1, 0, 3, (int[]){ centre, a, b }, NULL), m);
+        else
+            ck_ok(bbm_add_element(m, 1, 0, 4, (int[]){ a - RIM, a, b, b - RIM }, NULL), m);
+    }
+    for (int n = 0; n < m->nodes; n++) {
+        if (held && n >= centre && fabs(m->node[n].x) < 1e-9)
+            ck_ok(bbm_fix_node(m, n, BBM_X, 0, 0), m);
+        if (n < base + 17)
+            ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    }
+    ck_ok(bbm_add_load(m, centre + 1 + 3 * RIM + RIM / 2, 0, -load), m);
+    m->par.friction = 45;
+    m->par.p_n = 1e13;
+    m->par.p_s = 4e12;
+    m->par.steps = 4;
+    ck_ok(bbm_prepare(m), m);
+    return m;
+}
+
+START_TEST(contacts_of_statics_are_found_again_in_the_next_step)
+{
+    bbm_model *m = pressed_disc(1, 6e8);
+
+    ck_ok(bbm_run(m), m);
+    ck_assert_int_gt(m->info.contacts, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Not held, it rolls off the one corner on which it stands, though no load pushes it that way. */
+START_TEST(a_disc_that_may_roll_is_named)
+{
+    bbm_model *m = pressed_disc(0, 1e6);
+    const bbm_status status = bbm_run(m);
+
+    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->culprit].block == 1 && m->element[m->other].block == 0,
+                  "%d %s", status, bbm_message(m));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block of 2 x 2 elements in free flight: as fast as one likes without turning; turning by 1 rad in a step, dt is
+ * cut; so fast that dt/1024 is not enough, it is said. */
+START_TEST(a_step_in_which_elements_turn_too_far_is_cut_or_refused)
+{
+    static const struct { double v, spin; int cuts; bbm_status status; } flight[] = {
+        { 1e5, 0, 0, BBM_OK }, { 0, 40, 0, BBM_OK }, { 0, 100, 1, BBM_OK }, { 0, 1e6, 10, BBM_STEP_TOO_LONG },
+    };
+    bbm_model *m = new_model();
+
+    add_grid(m, 0, 0, 0, 1, 1, 2, 2, 0);
+    m->par.dt = 0.01;
+    m->par.keep = 1;
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < 4; e++) {
+        bbm_element *i = &m->element[e];
+        const double V[6] = { flight[_i].v - flight[_i].spin * (i->y - 0.5), flight[_i].spin * (i->x - 0.5),
+                              flight[_i].spin, 0, 0, 0 };
+        memcpy(i->V, V, sizeof V);
+    }
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == flight[_i].status, "%s", bbm_message(m));
+    ck_assert_int_ge(m->info.cuts, flight[_i].cuts);
+    if (flight[_i].cuts == 0)
+        ck_assert_int_eq(m->info.cuts, 0);
+    if (status)
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "a smaller dt"));
+    else
+        ck_assert_str_eq(bbm_message(m), "");
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A static load that turns an element over; and one past all numbers. */
+START_TEST(statics_that_turns_elements_over_is_refused)
+{
+    bbm_model *m = new_model();
+
+    add_grid(m, 0, 0, 0, 1, 1, 2, 2, 0);
+    for (int n = 0; n < 3; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    for (int n = 6; n < 9; n++)
+        ck_ok(bbm_add_load(m, n, 0, _i ? -1e308 : -1e11), m);
+    ck_ok(bbm_prepare(m), m);
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == BBM_STEP_TOO_LONG || (_i && status == BBM_NOT_FINITE), "%s", bbm_message(m));
+    ck_assert_ptr_null(strstr(bbm_message(m), "-1"));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A soft element on one that is 1e12 times stiffer: the iteration ends, and its solution solves nothing. */
+START_TEST(an_iteration_that_ends_without_a_solution_is_refused)
+{
+    const bbm_material stiff = { 1e22, 0.2, 2500, 1 };
+    bbm_model *m = new_model();
+    int material;
+
+    ck_ok(bbm_add_material(m, &stiff, &material), m);
+    for (int n = 0; n < 6; n++)
+        ck_ok(bbm_add_node(m, n % 3, n / 3, NULL), m);
+    ck_ok(bbm_add_element(m, 0, material, 4, (int[]){ 0, 1, 4, 3 }, NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 1, 2, 5, 4 }, NULL), m);
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, 3, BBM_XY, 0, 0), m);
+    m->par.gravity[1] = -9.81;
+    m->par.augment = 2;
+    ck_ok(bbm_prepare(m), m);
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == BBM_NOT_CONVERGED && strstr(bbm_message(m), "too far apart"), "%d %s", status, bbm_message(m));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* All that allocates here, with call k failing. */
+static bbm_status allocate_all(void)
+{
+    const double square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+    const bbm_material rock = { 1e10, 0.25, 2500, 1 };
+    bbm_model *m;
+    bbm_status status = bbm_model_new(&m);
+
+    if (status)
+        return status;
+    m->par.bonding = BBM_MIDPOINTS;
+    bbm_add_material(m, &rock, NULL);
+    for (int k = 0; k < 4; k++)
+        bbm_add_node(m, square[k][0], square[k][1], NULL);
+    bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL);
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 1, BBM_XY, 0, 0);
+    bbm_fix_node(m, 2, BBM_XY, 0, 0);
+    bbm_add_load(m, 3, 1, 1);
+    status = bbm_prepare(m);
+    if (!status)
+        status = bbm_step(m);
+    ck_assert_msg(status == BBM_OK || strstr(bbm_message(m), "out of memory"), "%d %s", status, bbm_message(m));
+    bbm_model_free(m);
+    return status;
+}
+
+START_TEST(without_memory_nothing_is_taken_for_sound)
+{
+    bbm_status status = BBM_NO_MEMORY;
+    int k = 0;
+
+    for (; status; k++) {
+        test_allocations_left = -(k + 1);
+        status = allocate_all();
+        const int reached = test_allocations_left >= 0 || status;
+        test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
+        ck_assert(!reached || status == BBM_NO_MEMORY || status == BBM_OK);
+    }
+    ck_assert_int_gt(k, 20);
+}
+END_TEST
+
+Suite *refused_suite(void)
+{
+    Suite *s = suite_create("refused");
+    TCase *overlap = tcase_create("overlap");
+
+    tcase_add_loop_test(overlap, blocks_that_overlap_are_refused_with_depth_and_place, 0,
+                        2 * (int)(sizeof OUTLINES / sizeof *OUTLINES));
+    tcase_add_loop_test(overlap, stars_overlap_where_points_lie_in_both, 0, 100);
+    tcase_add_test(overlap, elements_of_one_block_that_overlap_are_refused);
+    tcase_add_loop_test(overlap, blocks_of_many_elements_that_overlap_are_refused_at_any_angle, 0, 9);
+    suite_add_tcase(s, overlap);
+    TCase *pieces = tcase_create("pieces");
+    tcase_add_test(pieces, a_block_falls_into_the_pieces_that_bonds_join);
+    tcase_add_test(pieces, a_hanging_node_leaves_pieces);
+    suite_add_tcase(s, pieces);
+    TCase *mechanism = tcase_create("mechanism");
+    tcase_add_loop_test(mechanism, bonds_at_midpoints_that_make_a_mechanism_are_refused, 0,
+                        2 * (int)(sizeof GRIDS / sizeof *GRIDS));
+    tcase_add_loop_test(mechanism, every_mechanism_that_a_dense_elimination_finds_is_refused, 0, 300);
+    suite_add_tcase(s, mechanism);
+    TCase *failing = tcase_create("failing");
+    tcase_add_loop_test(failing, a_block_that_slides_in_statics_is_named_with_what_it_slides_on, 0, 10);
+    tcase_add_loop_test(failing, a_block_that_lifts_off_or_tips_in_statics_is_named, 0, 2);
+    tcase_add_test(failing, statics_goes_on_where_all_contacts_of_a_block_slide);
+    tcase_add_test(failing, contacts_of_statics_are_found_again_in_the_next_step);
+    tcase_add_test(failing, a_disc_that_may_roll_is_named);
+    tcase_add_loop_test(failing, a_step_in_which_elements_turn_too_far_is_cut_or_refused, 0, 4);
+    tcase_add_loop_test(failing, statics_that_turns_elements_over_is_refused, 0, 2);
+    tcase_add_test(failing, an_iteration_that_ends_without_a_solution_is_refused);
+    tcase_add_test(failing, without_memory_nothing_is_taken_for_sound);
+    suite_add_tcase(s, failing);
+    return s;
+}

@@ -1,0 +1,78 @@
+/* programs.c - running the programs from the tests, and reading what they write. */
+#define _POSIX_C_SOURCE 200809L
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include "programs.h"
+
+int shell(const char *format, ...)
+{
+    char command[LONG];
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(command, sizeof command, format, args);
+    va_end(args);
+    const int status = system(command);
+    ck_assert(status != -1 && WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+const char *slurp(const char *path, char text[LONG])
+{
+    FILE *f = fopen(path, "rb");
+    const size_t got = f ? fread(text, 1, LONG - 1, f) : 0;
+
+    text[got] = '\0';
+    if (f)
+        fclose(f);
+    return text;
+}
+
+void write_text(const char *path, const char *text)
+{
+    FILE *f = fopen(path, "w");
+
+    ck_assert_ptr_nonnull(f);
+    fputs(text, f);
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+int run_text(const char *name, const char *text)
+{
+    char path[100];
+
+    snprintf(path, sizeof path, "out/model/%s.model", name);
+    write_text(path, text);
+    return shell("rm -rf out/model/%s; %s/bbm -q out/model/%s.model -o out/model/%s 2> "
+                 "out/model/%s.err", name, BUILD,
+                 name, name, name);
+}
+
+double cell(const char *name, const char *file, const char *row, const char *column)
+{
+    char path[100], line[LONG], found[LONG] = "";
+    int k = 0;
+
+    snprintf(path, sizeof path, "out/model/%s/%s", name, file);
+    FILE *f = fopen(path, "r");
+    ck_assert_msg(f && fgets(line, sizeof line, f), "%s cannot be read", path);
+    line[strcspn(line, "\n")] = '\0';
+    char *rest = NULL, *head = strtok_r(line, ",", &rest);
+    for (; head && strcmp(head, column) != 0; head = strtok_r(NULL, ",", &rest))
+        k++;
+    ck_assert_msg(head != NULL, "%s has no column %s", path, column);
+    while (fgets(line, sizeof line, f))
+        if (strncmp(line, row, strlen(row)) == 0)
+            strcpy(found, line);
+    fclose(f);
+    ck_assert_msg(*found, "%s has no row %s", path, row);
+    char *p = found;
+    while (k-- > 0)
+        p = strchr(p, ',') + 1;
+    return strtod(p, NULL);
+}
+

@@ -1,0 +1,23 @@
+/* programs.h - running the programs from the tests, and reading what they write. */
+#ifndef BBM_TESTS_PROGRAMS_H
+#define BBM_TESTS_PROGRAMS_H
+
+#include "check.h"
+
+#ifndef BUILD
+#define BUILD "out/build"       /* where the programs are */
+#endif
+
+enum { LONG = 1500 };           /* of a text */
+
+int shell(const char *format, ...);                     /* a command, as by printf; its exit status */
+const char *slurp(const char *path, char text[LONG]);   /* the beginning of a file; "": not there */
+void write_text(const char *path, const char *text);
+/* Runs the text as out/model/NAME.model into out/model/NAME; the exit status. Messages: NAME.err. */
+int run_text(const char *name, const char *text);
+/* A cell of out/model/NAME/FILE, in the last row that begins with `row` ("" for the last one). */
+double cell(const char *name, const char *file, const char *row, const char *column);
+
+#define STEEL "material steel E 2e11 nu 0.3 density 7800 thickness 0.5\n"
+
+#endif
