@@ -1796,8 +1796,35 @@ static bbm_status check_balance(bbm_model *m, const bbm_model *end)
                          m->info.step + 1, m->info.t, m->h, gain, there) : BBM_OK;
 }
 
+/* Whether the solution solves the equations, and turns and strains no element too far; a comparison with NaN is false. */
+static bbm_status check_solution(bbm_model *m)
+{
+    const double most = isinf(m->h) ? 1 : FAR_STRAIN;
+    int far = -1;
+
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 3; a < 6; a++)
+            if (!(fabs(m->D[6 * i + a]) < most))
+                far = i;
+    for (int b = 0; b < m->bonds && !isinf(m->h); b++)
+        if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN) || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
+            far = m->bond[b].i;
+    if (far < 0 && (m->par.pcg.tolerance > UNSOLVED || m->info.pcg.residual <= UNSOLVED))
+        return BBM_OK;
+    if (far < 0)
+        return fail(m, BBM_NOT_CONVERGED, "step %d, residual %.2g: the stiffnesses of materials, bonds and contacts are too "
+                    "far apart", m->info.step + 1, m->info.pcg.residual);
+    const double *D = &m->D[6 * far], strain = fmax(fmax(fabs(D[3]), fabs(D[4])), fabs(D[5]));
+    return fail(m, BBM_STEP_TOO_LONG, "step %d: element %d of block %d strains by %.2g and turns by %.2g rad; %s",
+                m->info.step + 1, far, m->element[far].block, strain, fabs(D[2]), isinf(m->h)
+                ? "in statics smaller loads or a larger E help" : "a smaller dt, velocity or load helps");
+}
+
+/* The contacts have not settled; in dynamics perhaps because the solution goes too far. */
 static bbm_status unsettled(bbm_model *m)
 {
+    if (!isinf(m->h) && check_solution(m) == BBM_STEP_TOO_LONG)
+        return BBM_STEP_TOO_LONG;
     if (isinf(m->h))
         return fail(m, BBM_OPEN_CLOSE, "step %d of statics, %d passes, %d contacts; dynamic with damping 0 (keep = 0) may "
                     "find an equilibrium", m->info.step + 1, m->info.passes, bbm_contact_count(m));
@@ -1839,30 +1866,6 @@ static bbm_status settle_contacts(bbm_model *m)
         start = clock();
     }
     return !status && pass == BBM_PASS_GIVE_UP ? unsettled(m) : status;
-}
-
-/* Whether the solution solves the equations, and turns and strains no element too far; a comparison with NaN is false. */
-static bbm_status check_solution(bbm_model *m)
-{
-    const double most = isinf(m->h) ? 1 : FAR_STRAIN;
-    int far = -1;
-
-    for (int i = 0; i < m->elements; i++)
-        for (int a = 3; a < 6; a++)
-            if (!(fabs(m->D[6 * i + a]) < most))
-                far = i;
-    for (int b = 0; b < m->bonds && !isinf(m->h); b++)
-        if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN) || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
-            far = m->bond[b].i;
-    if (far < 0 && (m->par.pcg.tolerance > UNSOLVED || m->info.pcg.residual <= UNSOLVED))
-        return BBM_OK;
-    if (far < 0)
-        return fail(m, BBM_NOT_CONVERGED, "step %d, residual %.2g: the stiffnesses of materials, bonds and contacts are too "
-                    "far apart", m->info.step + 1, m->info.pcg.residual);
-    const double *D = &m->D[6 * far], strain = fmax(fmax(fabs(D[3]), fabs(D[4])), fabs(D[5]));
-    return fail(m, BBM_STEP_TOO_LONG, "step %d: element %d of block %d strains by %.2g and turns by %.2g rad; %s",
-                m->info.step + 1, far, m->element[far].block, strain, fabs(D[2]), isinf(m->h)
-                ? "in statics smaller loads or a larger E help" : "a smaller dt, velocity or load helps");
 }
 
 /* Whether the equations, or the states of the contacts, had no end. */

@@ -861,16 +861,18 @@ int bbm_moved_too_far(bbm_model *m)
     return too_far;
 }
 
-/* How far the bodies may move: a tenth more than the guess, or what rounding and a closed contact give. */
+/* How far the bodies may move: a tenth more than the guess, or what rounding and a closed contact give; and no less than
+ * what this step has foreseen before. */
 static void foresee(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
 
     memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
-    find_travel(m, w->guess, w->travel);
+    find_travel(m, w->guess, w->moved);
     w->search = 0;
     for (int e = 0; e < m->edges; e++) {
-        w->travel[e] = 1.1 * w->travel[e] + w->depth[e] + w->touch / 2;
+        const double way = 1.1 * w->moved[e] + w->depth[e] + w->touch / 2;
+        w->travel[e] = w->listed < 0 ? way : fmax(way, w->travel[e]);
         w->search = fmax(w->search, w->travel[e]);
     }
     w->search = 4 * w->search + w->touch;
