@@ -15,11 +15,12 @@ BEYOND   = middle balance overlap pieces mechanism loose
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)
-SHARED   = case output plot scene
+SHARED   = case output plot scene theory
 PROGRAM  = bbm model msh write
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
-SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_limits check_refused
+SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_bars check_limits check_refused \
+           check_theory check_equations
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
@@ -83,7 +84,7 @@ $O/tests/check_all.o: tests/check_main.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) -DCASES $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-TESTED = $(SUITES:%=$O/tests/%.o) $O/tests/test_alloc.o $(LIBRARY:%=$O/failing/%.o)
+TESTED = $(SUITES:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm

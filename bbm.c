@@ -47,8 +47,8 @@ enum { SOLUTIONS = 5000, ITERATIONS = 10 };
 
 /* ------------------------------------------------------------------------ 2.1 Displacement of an element */
 
-/* Area, barycentre and second moments of a polygon by simplex integration: the sum over its edges of the signed
- * triangles (origin, a, b) with twice the area c = xa yb - xb ya,
+/* Area, barycentre and second moments of a polygon by simplex integration, for Eq. (12): the sum over its edges of the
+ * signed triangles (origin, a, b) with twice the area c = xa yb - xb ya,
  *     A = sum c/2,   int x dA = sum c/6 (xa + xb),   int x^2 dA = sum c/12 (xa^2 + xa xb + xb^2),
  *     int x y dA = sum c/24 (xa yb + 2 xa ya + 2 xb yb + xb ya).
  * Convex or not, the signs take care of it. The origin is first vertex 0, then the barycentre, so that nothing
@@ -164,7 +164,7 @@ static double mass_per_area(const bbm_element *e)
     return e->material.density * e->material.thickness * e->A0 / e->A;
 }
 
-/* int T^T T dA, Eq. (16): with the origin in the barycentre the first moments vanish. */
+/* int T^T T dA, Eq. (12), (16), (17): with the origin in the barycentre the first moments vanish. */
 void bbm_mode_integral(const bbm_element *e, double M[6][6])
 {
     const double A = e->A, xx = e->Sxx, yy = e->Syy, xy = e->Sxy;
@@ -430,7 +430,7 @@ void bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2]
     add_force(T, f, F);
 }
 
-/* Point and weight g of Gauss and Legendre on 0 <= s <= 1. */
+/* Point and weight g of Gauss and Legendre on 0 <= s <= 1, for Eq. (38) and (42). */
 void bbm_gauss_point(int g, double *s, double *weight)
 {
     const double inner = 3.0 / 7 - 2.0 / 7 * sqrt(6.0 / 5), outer = 3.0 / 7 + 2.0 / 7 * sqrt(6.0 / 5);
@@ -457,7 +457,7 @@ void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const
 }
 
 /* A constant load f [N/m] from a to b: F_i += l T^T f = l (fx, fy, -Y fx + X fy, X fx, Y fy, (Y fx + X fy)/2), with T at
- * (X, Y), the middle of the line seen from the barycentre, Eq. (43). */
+ * (X, Y), the middle of the line seen from the barycentre, Eq. (39), (43). */
 void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b, const double f[2],
                                  double F[6])
 {
@@ -1607,7 +1607,7 @@ static void gather_loads(bbm_model *m)
         load_line(m, &m->line_load[l]);
 }
 
-/* K, unless it is kept, and F of the present geometry, section 3. */
+/* K, unless it is kept, and F of the present geometry, Eq. (5). */
 static bbm_status assemble(bbm_model *m)
 {
     bbm_status status = BBM_OK;
@@ -1643,7 +1643,7 @@ static bbm_status describe_failure(bbm_model *m, bbm_status status)
                 status == BBM_NOT_CONVERGED ? "; more iterations or a smaller alpha help" : "");
 }
 
-/* Solves K D = F. */
+/* Solves K D = F, Eq. (5). */
 static bbm_status solve(bbm_model *m)
 {
     const bbm_pcg_info *i = &m->info.pcg;
@@ -1717,8 +1717,8 @@ static void turn_element(const bbm_element *start, bbm_element *e, const bbm_ver
         e->V[a] = factor * turning[a];
 }
 
-/* Moves one element of the step's end by its D: vertices, stress by E e, Eq. (7), velocity by Eq. (14). Deviation: stress
- * and strain rates turn with the element. */
+/* Moves one element of the step's end by its D: vertices, stress by E e, Eq. (7), (8), velocity by Eq. (14). Deviation:
+ * stress and strain rates turn with the element. */
 static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
 {
     const bbm_element start = *e;
@@ -1743,7 +1743,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         e->sum[a] += e->D[a];
 }
 
-/* The model at the end of the step, as a second one that shares all but what moves; the first stays as it is. */
+/* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one that shares all but what
+ * moves; the first stays as it is. */
 static bbm_model move_model(const bbm_model *m)
 {
     bbm_model end = *m;

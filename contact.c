@@ -117,7 +117,7 @@ struct bbm_contact_work {
 /* ------------------------------------------------------------------------------- 3.7.1 Normal submatrices */
 
 /* The normal distance of P1 from P2 P3, positive outside. With the three points moved by T D, Eq. (48)-(50), and the
- * terms of second order dropped, d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57):
+ * terms of second order dropped, d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
  * Deviation: points and T of e and g at the middle of the step (beyond/middle.c); then only the change of l is dropped. */
@@ -139,7 +139,7 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 }
 
 /* A spring p over d = d0 + e.D_i + g.D_j, Pi = p/2 d^2, Eq. (51): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T,
- * F_i -= p d0 e, F_j -= p d0 g. */
+ * F_i -= p d0 e, F_j -= p d0 g, Eq. (58), (63). */
 static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
 {
     for (int a = 0; a < 6; a++) {
@@ -153,7 +153,7 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2   ->   Eq. (58)-(59), (58a-f). Deviation: the spring counts from `rest`, see bbm_contact. */
+/* Pi_n = p_n/2 d_n^2, Eq. (51)   ->   Eq. (58)-(59), (58a-f). Deviation: it counts from `rest`, see bbm_contact. */
 void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;
@@ -165,8 +165,8 @@ void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 
 /* -------------------------------------------------------------------------------- 3.7.2 Shear submatrices */
 
-/* The displacement of P1 along the edge against its anchor P0, d_s = S1 + e.D_i + g.D_j, Eq. (53), (60)-(62), with
- *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m.
+/* The displacement of P1 along the edge against its anchor P0, d_s = S1 + e.D_i + g.D_j, Eq. (48)-(50), (53), (60)-(62),
+ *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m,     Eq. (64), (67), (68).
  * The anchor is the point P0 = P3 + anchor (P2 - P3) of the edge's material. Deviation: at the middle of the step, and with
  * what (60) drops, the turning of m: (T3 - T2)^T (P1 - P0)/l in g. Without it friction does not keep angular momentum. */
 void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
@@ -188,7 +188,7 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     }
 }
 
-/* Pi_s = p_s/2 d_s^2   ->   Eq. (63), (64). */
+/* Pi_s = p_s/2 d_s^2, Eq. (51)   ->   Eq. (63), (64). */
 void bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s, bbm_submatrices *s)
 {
     bbm_spring v;
@@ -970,6 +970,7 @@ static double friction_force(const bbm_parameters *p, const bbm_contact *c)
     return c->sign * (c->area > 0 ? bbm_shear_strength(p, c->used, c->area) : c->used * tan_friction(p));
 }
 
+/* The springs of a closed contact, Eq. (58) and (63), or spring and friction, Eq. (65), (69). */
 static bbm_status assemble_contact(bbm_model *m, const bbm_contact *c)
 {
     const bbm_touch t = touch_of(m, c);
@@ -996,7 +997,7 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
 
 /* ---------------------------------------------------------------- the open-close iteration: distances */
 
-/* d_n and d_s at the end of the step, as the update will move the points; l alone is that of the start. */
+/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone is the start's. */
 static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
 {
     const bbm_touch t = touch_of(m, c);
@@ -1015,7 +1016,7 @@ static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2
     d[1] = ((t.P1->x - x0 + u1[0] - u0[0]) * x + (t.P1->y - y0 + u1[1] - u0[1]) * y) / l;
 }
 
-/* d = d0 + e.D_i + g.D_j of the solution. */
+/* d = d0 + e.D_i + g.D_j of the solution, Eq. (57), (61). */
 static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
 {
     const double *Di = &m->D[6 * m->edge[c->corner].element], *Dj = &m->D[6 * m->edge[c->edge].element];

@@ -13,14 +13,14 @@
 
 #include "case.h"
 #include "plot.h"
+#include "theory.h"
 
 static const double L = 48, H = 12, P = 1000, E = 30e6, nu = 0.3, I = 12.0 * 12 * 12 / 12;
 
-/* Timoshenko and Goodier's solution, Eq. (70). */
+/* Eq. (70). */
 static void theory(double x, double y, double u[2])
 {
-    u[0] = P * y / (6 * E * I) * ((6 * L - 3 * x) * x + (2 + nu) * (y * y - H * H / 4));
-    u[1] = -P / (6 * E * I) * (3 * nu * y * y * (L - x) + (4 + 5 * nu) * H * H * x / 4 + (3 * L - x) * x * x);
+    theory_beam_displacement(&(theory_beam){ P, L, H, E, nu }, x, y, u);
 }
 
 /* Parabolic shear that sums to P, a field for the line loads [N/m]. */

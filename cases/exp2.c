@@ -14,28 +14,14 @@
 
 #include "case.h"
 #include "plot.h"
+#include "theory.h"
 
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
 
-/* Kirsch's stresses around a hole of radius 1, Eq. (72). */
+/* Eq. (72). */
 static void theory_stress(double x, double y, double s[3])
 {
-    const double q = 1 / (x * x + y * y), th = atan2(y, x), c2 = cos(2 * th), c4 = cos(4 * th);
-    const double s2 = sin(2 * th), s4 = sin(4 * th);
-
-    s[0] = S * (1 - q * (1.5 * c2 + c4) + 1.5 * q * q * c4);
-    s[1] = S * (-q * (0.5 * c2 - c4) - 1.5 * q * q * c4);
-    s[2] = S * (-q * (0.5 * s2 + s4) + 1.5 * q * q * s4);
-}
-
-/* Kirsch's displacements, Eq. (72). */
-static void theory_displacement(double x, double y, double u[2])
-{
-    const double r = hypot(x, y), th = atan2(y, x), c = S / (8 * E / (2 * (1 + nu))), k = (3 - nu) / (1 + nu);
-    const double r3 = r * r * r;
-
-    u[0] = c * (r * (k + 1) * cos(th) + 2 / r * ((1 + k) * cos(th) + cos(3 * th)) - 2 / r3 * cos(3 * th));
-    u[1] = c * (r * (k - 3) * sin(th) + 2 / r * ((1 - k) * sin(th) + sin(3 * th)) - 2 / r3 * sin(3 * th));
+    theory_plate_stress(&(theory_plate){ S, E, nu }, x, y, s);
 }
 
 /* Stress along the circle around the hole through (x, y). */
@@ -51,7 +37,7 @@ static double theory(const char *quantity, double x, double y)
 {
     double u[2], s[3];
 
-    theory_displacement(x, y, u);
+    theory_plate_displacement(&(theory_plate){ S, E, nu }, x, y, u);
     theory_stress(x, y, s);
     return strcmp(quantity, "u") == 0 ? u[0] : strcmp(quantity, "v") == 0 ? u[1]
          : strcmp(quantity, "sxx") == 0 ? s[0] : strcmp(quantity, "syy") == 0 ? s[1]

@@ -32,6 +32,9 @@
 Suite *solver_suite(void);
 Suite *bbm_suite(void);
 Suite *beyond_suite(void);
+Suite *bars_suite(void);
+Suite *theory_suite(void);
+Suite *equations_suite(void);
 Suite *contact_suite(void);
 Suite *motion_suite(void);
 Suite *limits_suite(void);
@@ -44,6 +47,7 @@ Suite *files_suite(void);
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX
 extern int test_allocations_left;       /* k >= 0: k calls succeed, then none; -k < 0: only call k fails */
+extern size_t test_bytes;               /* asked for so far */
 void *test_malloc(size_t size);
 void *test_calloc(size_t count, size_t size);
 void *test_realloc(void *old, size_t size);

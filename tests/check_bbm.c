@@ -443,7 +443,7 @@ START_TEST(a_load_that_varies_along_a_line_is_the_derivative_of_its_potential)
     make_body(&b, &SHAPES[_i], 3, -2, &seed);
     for (int degree = 0; degree < 7; degree++) {
         source s = { .i = &b, .P = 1, .Q = 2 };
-        double f[BBM_GAUSS][2] = { { 0 } };
+        double f[BBM_GAUSS + 1][2] = { [BBM_GAUSS] = { INFINITY, INFINITY } };      /* which nobody may read */
         for (int n = 0; n <= degree; n++)
             for (int r = 0; r < 2; r++)
                 s.f[n][r] = random_number(&seed);
@@ -707,6 +707,7 @@ static bbm_model *new_model(const bbm_material *material)
     m->par.bonding = BBM_VERTICES;         /* the paper's bonds; check_beyond.c has the others */
     ck_ok(bbm_add_material(m, material, NULL), m);
     m->par.pcg.tolerance = 1e-15;
+    m->par.pcg.iterations = 1000;               /* several times what is needed: an error ends at once */
     return m;
 }
 
@@ -1381,6 +1382,26 @@ START_TEST(a_thrown_body_follows_the_parabola)
 }
 END_TEST
 
+/* In a frame that moves with its base a body feels the base's acceleration the other way round; taken at the step's end,
+ * t = 0.01 and 0.02 s, where sin(omega t) is 1 and 0. */
+START_TEST(the_acceleration_of_the_base_acts_like_gravity_the_other_way)
+{
+    bbm_model *m = flyer(_i);
+    const double a[2] = { 3, -2 }, g[2] = { 0.5, -9.81 };
+
+    memcpy(m->par.gravity, g, sizeof g);
+    memcpy(m->par.shake, a, sizeof a);
+    m->par.omega = acos(-1) / 2 / 0.01;
+    for (int step = 1; step <= 2; step++) {
+        ck_ok(bbm_step(m), m);
+        for (int e = 0; e < m->elements; e++)
+            for (int r = 0; r < 2; r++)
+                ck_near(m->element[e].V[r], (step * g[r] - a[r]) * 0.01, 0.1, ROUNDING);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
 START_TEST(a_spinning_element_keeps_its_angular_velocity_and_its_mass)
 {
     bbm_model *m = unit_square(&SOLID);
@@ -1667,6 +1688,28 @@ START_TEST(a_body_without_load_stays_where_it_is)
 END_TEST
 
 /* One polygon as the whole block, plain DDA: in balance the mean stress is sum of f x^T / (t A), made symmetric. */
+/* A pressure p [N/m] on all sides of any polygon is in balance, and -p/t is the stress in x and in y. */
+START_TEST(a_body_under_pressure_all_round_has_that_stress)
+{
+    const shape *s = &SHAPES[_i];
+    bbm_model *m = new_model(&SOLID);
+    int nodes[CORNERS];
+
+    for (int c = 0; c < s->n; c++)
+        ck_ok(bbm_add_node(m, s->x[c][0], s->x[c][1], &nodes[c]), m);
+    ck_ok(bbm_add_element(m, 0, 0, s->n, nodes, NULL), m);
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, 2, BBM_Y, 0, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < m->edges; e++)
+        ck_ok(bbm_load_edge(m, e, 0, 0, 5), m);
+    ck_ok(bbm_step(m), m);
+    for (int a = 0; a < 3; a++)
+        ck_near(m->element[0].stress[a], a < 2 ? -5 / SOLID.thickness : 0, 5, SOLVED);
+    bbm_model_free(m);
+}
+END_TEST
+
 START_TEST(a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads)
 {
     const shape *s = &SHAPES[2];
@@ -1756,14 +1799,22 @@ static bbm_model *two_squares(int block0, int block1)
 
 START_TEST(elements_of_different_blocks_are_not_bonded)
 {
-    bbm_model *m = two_squares(0, 1), *n = two_squares(4, 4);
+    bbm_model *m = two_squares(0, 1), *n = two_squares(4, 4), *t = new_model(&SOLID);
 
     ck_ok(bbm_prepare(m), m);
     ck_ok(bbm_prepare(n), n);
     ck_assert(m->bonds == 0 && m->edges == 8);
     ck_assert(n->bonds == 1 && n->edges == 6);
+    /* Sorted, the last side of the first triangle and the first side of the second are neighbours. */
+    for (int k = 0; k < 4; k++)
+        ck_ok(bbm_add_node(t, k % 2, k / 2, NULL), t);
+    for (int k = 0; k < 2; k++)
+        ck_ok(bbm_add_element(t, k, 0, 3, (int[]){ k, k + 1, k + 2 }, NULL), t);
+    ck_ok(bbm_prepare(t), t);
+    ck_assert(t->bonds == 0 && t->edges == 6);
     bbm_model_free(m);
     bbm_model_free(n);
+    bbm_model_free(t);
 }
 END_TEST
 
@@ -1962,6 +2013,7 @@ static const struct { bbm_status status; int n, node[MOST]; } POLYGONS[] = {
     { BBM_ZERO_AREA, 4, { 0, 6, 18, 12 } },
     { BBM_ZERO_AREA, 3, { 0, 2, 25 } },                     /* as flat as rounding */
     { BBM_ZERO_AREA, 3, { 0, 10, 27 } },
+    { BBM_ZERO_AREA, 3, { 0, 5, 27 } },                     /* long, with one short side */
     { BBM_OK, 3, { 0, 2, 26 } },                            /* flat, but not a line */
     { BBM_SELF_CROSSING, 4, { 0, 2, 10, 12 } },             /* bow ties, of no signed area and of some */
     { BBM_SELF_CROSSING, 4, { 0, 3, 10, 12 } },
@@ -2155,6 +2207,20 @@ START_TEST(elements_of_one_block_on_the_same_side_of_an_edge_are_named)
     bbm_model_free(n);
     bbm_model_free(o);
     bbm_model_free(p);
+}
+END_TEST
+
+START_TEST(a_load_on_an_edge_that_does_not_exist_is_refused)
+{
+    bbm_model *m = unit_square(&SOLID);
+
+    if (_i > 0)
+        ck_ok(bbm_prepare(m), m);
+    if (_i == 3)
+        ck_ok(bbm_load_edge(m, 3, 1, 2, 3), m);
+    else
+        check_error(m, bbm_load_edge(m, (int[]){ 0, -1, 4 }[_i], 1, 2, 3), BBM_BAD_INDEX, "loaded edge");
+    bbm_model_free(m);
 }
 END_TEST
 
@@ -2599,10 +2665,12 @@ static void add_models(Suite *s)
         { loads_of_one_node_and_of_one_edge_add_up, 1 },
         { gravity_pulls_at_the_mass_of_each_element, 1 },
         { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 },
+        { a_body_under_pressure_all_round_has_that_stress, COUNT(SHAPES) },
         { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 },
     };
     const entry steps[] = {
         { a_thrown_body_follows_the_parabola, 2 },
+        { the_acceleration_of_the_base_acts_like_gravity_the_other_way, 2 },
         { a_spinning_element_keeps_its_angular_velocity_and_its_mass, 2 },
         { stress_turns_with_the_element, 2 },
         { bonded_elements_keep_their_momentum_while_they_shake_each_other, 2 },
@@ -2644,6 +2712,7 @@ static void add_mesh_and_errors(Suite *s)
         { a_node_that_no_element_has_is_named, 1 },
         { elements_of_one_block_on_the_same_side_of_an_edge_are_named, 1 },
         { a_line_load_on_what_is_no_boundary_edge_is_refused, 4 },
+        { a_load_on_an_edge_that_does_not_exist_is_refused, 4 },
         { a_load_on_an_edge_that_two_blocks_have_goes_to_the_first, 1 },
         { statics_refuses_a_body_that_is_free_to_move_and_names_it, COUNT(HOLDS) },
         { fixed_points_close_together_hold_a_body_within_reason, 1 },

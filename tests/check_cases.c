@@ -303,46 +303,6 @@ START_TEST(the_picture_of_the_readme_is_what_the_program_draws)
 }
 END_TEST
 
-START_TEST(each_equation_points_at_a_function_and_a_test_that_exist)
-{
-    static const char *const files[] = {
-        "bbm.h", "bbm.c", "contact.c", "solver.c", "cases/exp1.c", "cases/exp2.c", "cases/exp3.c", "tests/check_bbm.c",
-        "tests/check_contact.c", "tests/check_solver.c", "tests/check_beyond.c", "tests/check_cases.c",
-    };
-    enum { FILES = sizeof files / sizeof *files };
-    char *source[FILES], *text = slurp("doc/equations.md"), *line, *rest = NULL;
-    int seen[73] = { 0 };
-
-    for (int f = 0; f < FILES; f++)
-        source[f] = slurp(files[f]);
-    for (line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
-        int first, last, names = 0;
-        const int got = sscanf(line, "| (%d)-(%d)", &first, &last);
-        if (line[0] != '|')
-            continue;
-        for (int n = first; got >= 1 && n <= (got == 2 ? last : first) && n <= 72; n++)
-            seen[n] = 1;
-        for (char *p = strchr(line, '`'); p; p = strchr(p + 1, '`')) {
-            char name[100];
-            int found = 0;
-            if (sscanf(p + 1, "%99[A-Za-z0-9_]`", name) != 1 || p[1 + strlen(name)] != '`')
-                continue;
-            for (int f = 0; f < FILES; f++)
-                found |= strstr(source[f], name) != NULL;
-            ck_assert_msg(found, "doc/equations.md names `%s`, which no source has", name);
-            names++;
-            p += strlen(name) + 1;
-        }
-        ck_assert_msg(got < 1 || names >= 2, "no function or no test: %s", line);
-    }
-    for (int n = 1; n <= 72; n++)
-        ck_assert_msg(seen[n], "doc/equations.md has no row for equation (%d)", n);
-    free(text);
-    for (int f = 0; f < FILES; f++)
-        free(source[f]);
-}
-END_TEST
-
 /* Appends "BUILD/NAME > out/NAME.log" for each name, so that they run one after the other. */
 static void chain(char *command, size_t size, const char *const name[], int names)
 {
@@ -386,7 +346,6 @@ Suite *cases_suite(void)
     tcase_set_timeout(t, 60);
     tcase_add_test(t, the_numbers_of_the_documents_are_what_the_programs_print);
     tcase_add_test(t, the_picture_of_the_readme_is_what_the_program_draws);
-    tcase_add_test(t, each_equation_points_at_a_function_and_a_test_that_exist);
     suite_add_tcase(s, t);
     return s;
 }

@@ -10,6 +10,7 @@
  */
 #include <float.h>
 #include <string.h>
+#include <time.h>
 
 #include "check.h"
 
@@ -559,6 +560,25 @@ START_TEST(residual_is_the_true_one)
         /* two ways to round K D, against a residual that may be rounding itself */
         ck_near(info.residual, norm(6 * s->n, r) / norm(6 * s->n, s->F), 1.0, ROUNDING);
     }
+    free_system(s);
+}
+END_TEST
+
+START_TEST(a_solution_takes_no_longer_than_the_processor_was_at_it)
+{
+    dense_system *s = new_system(GRID, 15);
+    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const clock_t start = clock();
+    double D[MOST_6];
+    bbm_pcg_info info;
+
+    while (clock() - start < CLOCKS_PER_SEC / 1000)     /* so that the start is not 0 */
+        ;
+    const clock_t before = clock();
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+    const double seconds = (double)(clock() - before) / CLOCKS_PER_SEC;
+    ck_assert(info.seconds[0] >= 0 && info.seconds[1] >= 0);
+    ck_assert_double_le(info.seconds[0] + info.seconds[1], seconds);
     free_system(s);
 }
 END_TEST
@@ -1174,6 +1194,38 @@ START_TEST(coarse_space_that_finds_no_memory_is_none)
 }
 END_TEST
 
+/* Bytes for the coarse space of a strip of triangles: i has the corners i, i + 1, i + 2 and a side with the next one. */
+static size_t strip_bytes(int triangles)
+{
+    int (*pair)[2] = calloc((size_t)triangles, sizeof *pair), *first = calloc(4 * (size_t)triangles + 1, sizeof *first);
+    int *node = first + triangles + 1;
+    bbm_matrix *K;
+
+    for (int i = 0; i < triangles; i++) {
+        pair[i][0] = i;
+        pair[i][1] = i + (i + 1 < triangles);
+        first[i + 1] = 3 * i + 3;
+        for (int k = 0; k < 3; k++)
+            node[3 * i + k] = i + k;
+    }
+    ck_assert_int_eq(bbm_matrix_new(triangles, triangles, pair, &K), BBM_OK);
+    const size_t before = test_bytes;
+    ck_assert_int_eq(bbm_matrix_coarse(K, triangles + 2, first, node), BBM_OK);
+    const size_t bytes = test_bytes - before;
+    bbm_matrix_free(K);
+    free(pair);
+    free(first);
+    return bytes;
+}
+
+/* Each node of the strip has a block in Kc for itself and for the two before it, 32 bytes each; P and Q of a triangle's
+ * corners take 576, all that is numbered 152. Nodes across a common side, 3 apart, would take 248 more. */
+START_TEST(kc_has_room_for_corners_of_one_element_and_no_others)
+{
+    ck_assert_uint_le(strip_bytes(200) - strip_bytes(100), 100 * (96 + 576 + 152));
+}
+END_TEST
+
 START_TEST(matrix_that_is_not_positive_definite_is_found_out_on_two_levels)
 {
     static const int first[] = { 0, 1, 2 }, node[] = { 0, 0 };
@@ -1253,6 +1305,7 @@ static bbm_model *new_mesh(int mesh, int n, double alpha)
     }
     m->par.alpha = alpha;
     m->par.bonding = BBM_VERTICES;
+    m->par.pcg.iterations = 200;                /* several times what is needed: an error ends at once */
     ck_ok(bbm_prepare(m), m);
     for (int b = m->bonds - 1; b >= 0 && mesh == CRACKED; b--) {
         const bbm_vertex *p = &m->vertex[m->bond[b].p[0]], *q = &m->vertex[m->bond[b].p[1]];
@@ -1294,7 +1347,7 @@ END_TEST
 START_TEST(two_levels_and_one_reach_the_same_displacements)
 {
     bbm_model *m = new_mesh(_i, 6, 100);
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-12, .iterations = 100000, .form = BBM_TWO_LEVEL };
+    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-12, .iterations = 5000, .form = BBM_TWO_LEVEL };
     double *D = calloc(6 * (size_t)m->elements, sizeof *D);
     bbm_pcg_info two, one;
 
@@ -1482,6 +1535,7 @@ Suite *solver_suite(void)
     tcase_add_loop_test(solution, iterations_are_as_many_as_with_dense_matrices, 0, COUNT(OMEGA));
     tcase_add_loop_test(solution, eisenstat_takes_the_textbook_iterations_to_the_same_solution, 0, PATTERNS);
     tcase_add_loop_test(solution, residual_is_the_true_one, 0, PATTERNS);
+    tcase_add_loop_test(solution, a_solution_takes_no_longer_than_the_processor_was_at_it, 0, COUNT(FORM));
     tcase_add_loop_test(solution, two_solutions_are_equal_to_the_last_bit, 0, COUNT(FORM));
     tcase_add_loop_test(solution, loads_of_any_size_give_the_same_digits, 0, COUNT(FORM));
     tcase_add_loop_test(solution, no_load_gives_no_displacement_in_no_iteration, 0, COUNT(FORM));
@@ -1506,6 +1560,7 @@ Suite *solver_suite(void)
     tcase_add_loop_test(two, solution_does_not_depend_on_earlier_ones, 0, 3);
     tcase_add_test(two, coarse_nodes_and_corners_that_do_not_exist_are_refused);
     tcase_add_test(two, coarse_space_that_finds_no_memory_is_none);
+    tcase_add_test(two, kc_has_room_for_corners_of_one_element_and_no_others);
     tcase_add_test(two, matrix_that_is_not_positive_definite_is_found_out_on_two_levels);
     tcase_add_loop_test(two, blocks_come_out_as_they_went_in, 0, PATTERNS);
     tcase_add_loop_test(two, iterations_on_two_levels_are_few_and_do_not_grow_with_the_mesh, 0, 11);

@@ -3,8 +3,8 @@
  * The library under test is compiled with -Dmalloc=test_malloc and so on. With test_allocations_left = k the first k
  * calls succeed and all others return NULL, as they do when memory has run out; with -k call k alone returns NULL,
  * counted from 1, as when one large piece could not be had. A program that is linked with it takes the number from the
- * environment, TEST_ALLOCATIONS. malloc has no parameter through which the count could come, so here, and only here, a
- * variable has file scope.
+ * environment, TEST_ALLOCATIONS. malloc has no parameter through which the count could come, so here, and only here,
+ * variables have file scope.
  *
  * New memory and GUARD bytes behind it are filled with 0x7f: an index read from there is 2139062143, and using it
  * crashes; a number is 1e306. When a piece is freed its guard must be as it was. Tools that watch the memory
@@ -22,6 +22,7 @@
 typedef union { size_t size; long double number; void *pointer; } header;      /* in front, aligned for all */
 
 int test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
+size_t test_bytes = 0;
 
 static int one_more(void)
 {
@@ -50,6 +51,7 @@ void *test_malloc(size_t size)
     if (!h)
         return NULL;
     h->size = size;
+    test_bytes += size;
     return memset(h + 1, 0x7f, size + GUARD);
 }
 

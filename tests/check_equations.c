@@ -1,0 +1,264 @@
+/* check_equations.c - doc/equations.md against the sources: each equation of the paper has a row;
+ * each function of the row is defined in the file behind it, under a comment that cites the
+ * equation; each test of the row is there.
+ *
+ * A citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)",
+ * "Eq. (57) and (61)", "Eq. (58a-f)".
+ */
+#define _POSIX_C_SOURCE 200809L
+#include <ctype.h>
+#include <glob.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check.h"
+
+Suite *equations_suite(void);
+
+enum { EQUATIONS = 72, NAME = 120 };
+
+/* The file as a string, to be freed. */
+static char *slurp(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+    long size = 0;
+
+    ck_assert_msg(f != NULL, "%s cannot be read; the tests run in the project's top folder", path);
+    ck_assert(fseek(f, 0, SEEK_END) == 0 && (size = ftell(f)) >= 0 && fseek(f, 0, SEEK_SET) == 0);
+    char *text = calloc((size_t)size + 1, 1);
+    ck_assert(text && fread(text, 1, (size_t)size, f) == (size_t)size);
+    fclose(f);
+    return text;
+}
+
+/* ------------------------------------------------------------------------- what a comment cites */
+
+/* Reads "(12)", "(58a-f)" at *p; 0 if there is none. */
+static int read_number(const char **p)
+{
+    char *end;
+
+    if (**p != '(' || !isdigit((unsigned char)(*p)[1]))
+        return 0;
+    const long n = strtol(*p + 1, &end, 10);
+    while (islower((unsigned char)*end) || *end == '-')
+        end++;
+    if (*end != ')')
+        return 0;
+    *p = end + 1;
+    return (int)n;
+}
+
+static int skip(const char **p, const char *word)
+{
+    if (strncmp(*p, word, strlen(word)) != 0)
+        return 0;
+    *p += strlen(word);
+    return 1;
+}
+
+/* Whether a text, the line ends of a comment taken out, cites equation n. */
+static int cites(const char *text, int n)
+{
+    for (const char *p = strstr(text, "Eq. ("); p; p = strstr(p, "Eq. (")) {
+        p += strlen("Eq. ");
+        for (int first = read_number(&p), more = first; more; more = first) {
+            const int last = p[0] == '-' && p[1] == '(' ? (p++, read_number(&p)) : first;
+            if (first <= n && n <= last)
+                return 1;
+            first = skip(&p, ", ") || skip(&p, " and ") ? read_number(&p) : 0;
+        }
+    }
+    return 0;
+}
+
+START_TEST(citations_are_read_as_they_are_meant)
+{
+    const char text[] = "see (3); Eq. (4): k, Eq. (18)-(20), (22) and (58a-f)  ->  (30), Eq. (5).";
+    const int cited[] = { 4, 5, 18, 19, 20, 22, 58 };
+
+    for (int n = 1, k = 0; n <= EQUATIONS; n++) {
+        const int expected = k < 7 && cited[k] == n;
+        ck_assert_msg(cites(text, n) == expected, "(%d) in \"%s\"", n, text);
+        k += expected;
+    }
+}
+END_TEST
+
+/* ---------------------------------------------------------------------------------- the sources */
+
+/* Where the function is defined: its name at the beginning of a line that does not end in a
+ * semicolon. NULL: nowhere. */
+static const char *find_definition(const char *source, const char *function)
+{
+    const size_t length = strlen(function);
+
+    for (const char *p = strstr(source, function); p; p = strstr(p + 1, function)) {
+        const char *line = p;
+        while (line > source && line[-1] != '\n')
+            line--;
+        if (p == line || !isalpha((unsigned char)*line) || p[length] != '(')
+            continue;
+        if ((p[-1] == ' ' || p[-1] == '*') && p[strcspn(p, ";{")] == '{')
+            return line;
+    }
+    return NULL;
+}
+
+/* The comment that ends in the line before `definition`, in one line, or "". */
+static void comment_above(const char *source, const char *definition, char *comment, size_t size)
+{
+    const char *end = definition, *p;
+
+    *comment = '\0';
+    if (end - source < 3 || strncmp(end - 3, "*/\n", 3) != 0)
+        return;
+    for (p = end - 3; p > source && strncmp(p, "/*", 2) != 0; p--)
+        ;
+    size_t n = 0;
+    for (; p < end && n + 1 < size; p++) {
+        if (*p != '\n')
+            comment[n++] = *p;
+        else if (strncmp(p, "\n * ", 4) == 0)
+            comment[n++] = ' ', p += 3;
+        while (n > 1 && comment[n - 1] == ' ' && comment[n - 2] == ' ')
+            n--;
+    }
+    comment[n] = '\0';
+}
+
+START_TEST(the_comment_of_a_function_is_the_one_right_above_it)
+{
+    const char source[] = "/* of f, Eq.\n * (3). */\nint f(int a);\n\n"
+                          "/* of g,\n *     Eq. (4). */\nstatic double g(int a)\n{\n"
+                          "    f(a);\n}\n\nint f(int a)\n{\n}\n";
+    char comment[200];
+
+    comment_above(source, find_definition(source, "g"), comment, sizeof comment);
+    ck_assert_str_eq(comment, "/* of g, Eq. (4). */");
+    const char *f = find_definition(source, "f");
+    ck_assert(f && strcmp(f, "int f(int a)\n{\n}\n") == 0);
+    comment_above(source, f, comment, sizeof comment);
+    ck_assert_str_eq(comment, "");
+    ck_assert(find_definition(source, "a") == NULL);
+}
+END_TEST
+
+static int is_test(const char *name)
+{
+    char start[NAME + 20];
+    glob_t files;
+    int found = 0;
+
+    snprintf(start, sizeof start, "START_TEST(%s)", name);
+    ck_assert_int_eq(glob("tests/*.c", 0, NULL, &files), 0);
+    for (size_t f = 0; f < files.gl_pathc && !found; f++) {
+        char *text = slurp(files.gl_pathv[f]);
+        found = strstr(text, start) != NULL;
+        free(text);
+    }
+    globfree(&files);
+    return found;
+}
+
+/* ------------------------------------------------------------------------------------ the table */
+
+/* Copies the name between backticks at p; the character behind it. */
+static char *read_name(char *p, char name[NAME])
+{
+    const size_t n = strcspn(p + 1, "`");
+
+    ck_assert_msg(n > 0 && n < NAME && p[n + 1] == '`', "an odd name: %.60s", p);
+    memcpy(name, p + 1, n);
+    name[n] = '\0';
+    return p + n + 2;
+}
+
+/* The function is defined in the file, and if n is an equation, its comment cites it. */
+static void check_function(const char *row, int n, const char *function, const char *file)
+{
+    char *source = slurp(file), comment[4000];
+    const char *definition = find_definition(source, function);
+
+    ck_assert_msg(definition != NULL, "%s: %s does not define %s", row, file, function);
+    comment_above(source, definition, comment, sizeof comment);
+    ck_assert_msg(n == 0 || cites(comment, n), "%s: the comment of %s does not cite Eq. (%d)", file,
+                  function, n);
+    free(source);
+}
+
+/* "`f`, `g` (bbm.c), `h` (contact.c)": the names since the last file are in the next one. The
+ * number of functions. */
+static int check_functions(const char *row, int n, char *column)
+{
+    char name[20][NAME], file[NAME];
+    int names = 0, all = 0;
+
+    for (char *p = column; *p;) {
+        if (*p == '`') {
+            ck_assert_int_lt(names, 20);
+            p = read_name(p, name[names++]);
+        } else if (sscanf(p, "(%100[a-z0-9/_.])", file) == 1) {
+            for (int k = 0; k < names; k++, all++)
+                check_function(row, n, name[k], file);
+            names = 0;
+            p = strchr(p, ')');
+        } else {
+            p++;
+        }
+    }
+    ck_assert_msg(names == 0, "%s: no file behind %s", row, names ? name[names - 1] : "");
+    return all;
+}
+
+static int check_tests(const char *row, char *column)
+{
+    char name[NAME];
+    int all = 0;
+
+    for (char *p = strchr(column, '`'); p; p = strchr(p, '`'), all++) {
+        p = read_name(p, name);
+        ck_assert_msg(is_test(name), "%s: there is no test %s", row, name);
+    }
+    return all;
+}
+
+START_TEST(each_equation_has_functions_that_cite_it_and_tests_that_exist)
+{
+    char *text = slurp("doc/equations.md"), *rest = NULL;
+    int rows[EQUATIONS + 1] = { 0 };
+
+    for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        char *end, *column[4] = { line + 1, NULL, NULL, NULL };
+        const char *number = line + 2;
+        if (strncmp(line, "| ", 2) != 0 || strncmp(line, "| Eq.", 5) == 0)
+            continue;
+        for (int c = 1; c < 4; c++) {
+            end = strchr(column[c - 1], '|');
+            ck_assert_msg(end != NULL, "four columns are expected: %.60s", line);
+            *end = '\0';
+            column[c] = end + 1;
+        }
+        const int n = read_number(&number);
+        ck_assert_int_le(n, EQUATIONS);
+        rows[n]++;
+        ck_assert_msg(check_functions(line + 2, n, column[2]) > 0, "%s: no function", line);
+        ck_assert_msg(check_tests(line + 2, column[3]) > 0, "%s: no test", line);
+    }
+    for (int n = 1; n <= EQUATIONS; n++)
+        ck_assert_msg(rows[n] == 1, "doc/equations.md has %d rows for Eq. (%d)", rows[n], n);
+    free(text);
+}
+END_TEST
+
+Suite *equations_suite(void)
+{
+    Suite *s = suite_create("equations");
+    TCase *t = tcase_create("equations");
+
+    tcase_add_test(t, citations_are_read_as_they_are_meant);
+    tcase_add_test(t, the_comment_of_a_function_is_the_one_right_above_it);
+    tcase_add_test(t, each_equation_has_functions_that_cite_it_and_tests_that_exist);
+    suite_add_tcase(s, t);
+    return s;
+}
