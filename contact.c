@@ -1191,12 +1191,16 @@ static int goes_first(direction p, direction q)
     return fabs(flatter) > PARALLEL ? flatter > 0 : (p.x > 0) == (p.y > 0);
 }
 
-/* The fraction of the step at which P crosses a line; 0 for one that it starts on, -1 for one that it starts behind. */
+/* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as contacts are. */
 static double crossed_at(const bbm_contact_work *w, const bbm_contact *c)
 {
-    if (c->gap <= w->touch)
-        return c->gap < -w->touch ? -1 : 0;
-    return c->gap / (c->gap - c->d_n);
+    return c->gap <= w->touch ? 0 : c->gap / (c->gap - c->d_n);
+}
+
+/* Whether P starts behind the line, so that it cannot come in there. */
+static int is_behind(const bbm_model *m, const bbm_contact *c)
+{
+    return c->gap < -behind(m, c->corner, c->edge);
 }
 
 /* Whether an open contact, though crossed, may not close: from behind, off the edge from the start of the step to its end,
@@ -1206,7 +1210,7 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
 
-    if (!foot_on_edge(m, c) || !enters_at_end(m, c) || c->gap < -behind(m, c->corner, c->edge))
+    if (!foot_on_edge(m, c) || !enters_at_end(m, c) || is_behind(m, c))
         return 1;
     for (int k = 0; k < 4; k++) {
         if (c->rival[k] < 0)
@@ -1219,7 +1223,7 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
         const double mine = crossed_at(w, c), other = crossed_at(w, r);
         const int tie = fabs(other - mine) <= TIE;
         const int first = tie ? goes_first(w->along[r->edge], w->along[c->edge]) : other > mine;
-        if (r->d_n >= 0 || (first && foot_on_edge(m, r)))
+        if (r->d_n >= 0 || (first && foot_on_edge(m, r) && !is_behind(m, r)))
             return 1;
     }
     return 0;
