@@ -640,17 +640,18 @@ static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
 }
 
 /* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the
- * edges coincide. When the sides are aligned, when both start in P and Q or both end there, just one of P and Q has
- * its foot on the other's edge. Whether P on f has to go. */
+ * edges coincide and P lies at Q. When the sides are aligned, when both start in P and Q or both end there, just one
+ * of P and Q has its foot on the other's edge. Whether P on f has to go. */
 static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
 {
     const bbm_contact_work *w = m->work;
 
     if (!coincide(w, mine.edge, other.edge) || !is_listed(w, other.corner, other.edge))
         return 0;
-    const double P = find_foot(m, mine.corner, mine.edge).off, Q = find_foot(m, other.corner, other.edge).off;
-    if (fmax(fabs(P), fabs(Q)) > w->touch)
-        return aligned && P > Q;
+    const foot P = find_foot(m, mine.corner, mine.edge), Q = find_foot(m, other.corner, other.edge);
+    const double beside = P.s - (other.corner == mine.edge ? 0 : w->along[mine.edge].length);
+    if (fmax(fabs(beside), fmax(fabs(P.off), fabs(Q.off))) > w->touch)
+        return aligned && P.off > Q.off;
     const int here = find_closed(m, mine.corner, mine.edge, 0) != NULL;
     const int there = find_closed(m, other.corner, other.edge, 0) != NULL;
     return here != there ? there : !faces_up(w->along[mine.edge], w->along[other.edge]);
