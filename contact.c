@@ -592,6 +592,8 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (f.off <= w->touch && f.d < -behind(m, corner, e) && !find_closed(m, corner, e, 1))
         return 0;
+    if (find_closed(m, corner, e, 0))
+        return 1;
     return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * turns : PARALLEL);
 }
 
