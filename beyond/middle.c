@@ -27,10 +27,10 @@
 
 /* TURN [rad^2]  turn of an element times the error of that turn below which T_m holds: points are right to this times
  *               their lever, and a bonded block that spins by 0.2 rad a step keeps its energy to 1e-9 of it
- * SHARE [-]     force of a contact that comes from T_m of another D, against the largest force of the model: what it
+ * SHARE [-]     force of a contact that comes from T_m of another D, against the largest one on its elements: what it
  *               makes of energy is this share of the energy of the contact's spring */
 #define TURN 1e-7
-#define SHARE 1e-4
+#define SHARE 1e-5
 
 /* Whether points move by the exact rotation. */
 int bbm_is_exact(const bbm_model *m)
