@@ -1176,10 +1176,11 @@ START_TEST(sides_are_parallel_up_to_a_hundredth)
         add_polygon(m, 1, 4, above);
     } else {
         const double dips[4][2] = { { 0, 0 }, { s[0], -s[1] }, { s[0], 9 }, { 0, 9 } };
+        const double left[4][2] = { { 0, 0 }, { 0, 9 }, { -s[0], 9 }, { -s[0], -s[1] } };
         const double notch[5][2] = { { -s[0], -s[1] }, { 0, 0 }, { 100, 0 }, { 100, 9 }, { -s[0], 9 } };
         add_rectangle(m, 0, BASE, (rectangle){ .x = -10, .y = -10, .w = 20, .h = 10 });
-        if (_i / 2 == 1)
-            add_polygon(m, 1, 4, dips);
+        if (_i / 2 != 2)
+            add_polygon(m, 1, 4, _i / 2 == 1 ? dips : left);
         else
             add_polygon(m, 1, 5, notch);
     }
@@ -3372,6 +3373,572 @@ START_TEST(preparing_again_forgets_the_contacts)
 }
 END_TEST
 
+/* ---------------------------------------- who may touch whom, by the step before and in the step */
+
+/* Starts a step: what it foretells, and its list. */
+static bbm_contact *start_step(bbm_model *m, int *n)
+{
+    m->h = m->par.dt;
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
+    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+    return bbm_list_contacts(m, n);
+}
+
+/* A look at a solution in which one element moves by (u, v) and nothing else; the closed
+ * contacts. */
+static int look_at(bbm_model *m, int e, double u, double v)
+{
+    bbm_pass pass;
+    int n, closed = 0;
+
+    m->D[6 * e] = u;
+    m->D[6 * e + 1] = v;
+    ck_ok(bbm_open_close(m, &pass), m);
+    const bbm_contact *list = bbm_list_contacts(m, &n);
+    for (int k = 0; k < n; k++)
+        closed += list[k].state != BBM_OPEN;
+    return closed;
+}
+
+/* The contact of the list whose corner starts in a vertex of an element and whose edge starts in
+ * one of another, or NULL. */
+static bbm_contact *find_listed(const bbm_model *m, int e, int corner, int f, int edge)
+{
+    int n;
+    bbm_contact *list = bbm_list_contacts(m, &n);
+
+    for (int k = 0; k < n; k++)
+        if (corner_vertex(m, &list[k]) == vertex_of(m, e, corner)
+            && start_of(m, list[k].edge) == vertex_of(m, f, edge))
+            return &list[k];
+    return NULL;
+}
+
+static void shift_element(bbm_model *m, int e, double x, double y)
+{
+    for (int k = 0; k < m->element[e].n; k++) {
+        m->vertex[m->element[e].first + k].x += x;
+        m->vertex[m->element[e].first + k].y += y;
+    }
+}
+
+/* A wedge, 1 m long, whose tip is in `at` and whose sides leave it at these angles, in radians. */
+static int add_wedge(bbm_model *m, int block, const double at[2], double from, double to)
+{
+    const double p[3][2] = { { at[0], at[1] }, { at[0] + cos(from), at[1] + sin(from) },
+                             { at[0] + cos(to), at[1] + sin(to) } };
+
+    return add_polygon(m, block, 3, p);
+}
+
+/* The flatter of two lines counts; of two as steep, up to a hundredth, the one that rises to the
+ * right. */
+static double line_that_counts(double p, double q)
+{
+    if (fabs(fabs(sin(p)) - fabs(sin(q))) > 0.01)
+        return fabs(sin(p)) < fabs(sin(q)) ? p : q;
+    return sin(2 * p) > 0 ? p : q;
+}
+
+/* A tip that moves from the direction a through the tip of a wedge of 100 degrees crosses all
+ * lines of both at once. If it is 40 degrees wide it can come in at both sides of the wedge, which
+ * lie at a + 50 and a - 50; if it is 80 and lies to the right, at one side of each, at a + 50 and
+ * a - 60. Of these two lines one counts, in whatever order the blocks are, and whichever of them
+ * moves. */
+START_TEST(of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle)
+{
+    const int askew = _i / 4, first = _i / 2 % 2, other_moves = _i % 2;
+    const double shifts[5] = { 0, 0.002, -0.002, 0.02, -0.02 };
+
+    for (int k = 0; k < 5 * 72; k++) {
+        const double a = radians(5 * (k / 5)) + shifts[k % 5], wide = radians(50);
+        const double way = 0.01 * (other_moves ? -1 : 1);
+        const double expected = line_that_counts(a + radians(50), a - radians(askew ? 60 : 50));
+        const double at[2][2] = { { 0, 0 }, { 0.01 * cos(a), 0.01 * sin(a) } };
+        bbm_model *m = new_model();
+        int e[2], n;
+        m->par.gravity[1] = 0;
+        for (int b = 0; b < 2; b++) {
+            const int tip = b ^ first;
+            e[tip] = tip ? add_wedge(m, b, at[1], a - radians(askew ? 60 : 20), a + radians(20))
+                         : add_wedge(m, b, at[0], a + PI - wide, a + PI + wide);
+        }
+        ck_ok(bbm_prepare(m), m);
+        const int moves = e[!other_moves];
+        set_velocity(m, moves, -2 * way / m->par.dt * cos(a), -2 * way / m->par.dt * sin(a));
+        bbm_contact *list = start_step(m, &n);
+        ck_assert_int_eq(look_at(m, moves, -2 * way * cos(a), -2 * way * sin(a)), 1);
+        for (int c = 0; c < n; c++)
+            if (list[c].state != BBM_OPEN) {
+                const bbm_vertex *p = start_of(m, list[c].edge), *q = end_of(m, list[c].edge);
+                ck_near((q->x - p->x) * sin(expected) - (q->y - p->y) * cos(expected), 0, 1, 1e-9);
+            }
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+enum { RIGHT, TOP };            /* sides of the square, by the vertex that starts them, less 1 */
+
+/* A unit square under the origin and to the left of it, and a narrow wedge whose tip, 1 mm to the
+ * right of its corner and above it, points down to the left, so that it can come in at both sides.
+ * The contact with one side is taken for closed in a step that ended 2 mm deep. Then the tip
+ * stands at (x, y), and a step begins; its list. */
+static bbm_model *tip_at(int side, double x, double y, bbm_contact *touched[2])
+{
+    const double tip[2] = { 1e-3, 1e-3 };
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -1, .w = 1, .h = 1 });
+    add_wedge(m, 1, tip, radians(25), radians(65));
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, -0.3, -0.3);
+    start_step(m, &n);
+    bbm_contact *c = find_listed(m, 1, 0, 0, 1 + side);
+    ck_assert_ptr_nonnull(c);
+    c->state = BBM_LOCK;
+    c->d_n = -2e-3;
+    c->N = 2e-3 * m->par.p_n;
+    ck_ok(bbm_keep_contacts(m), m);
+    shift_element(m, 1, x - tip[0], y - tip[1]);
+    set_velocity(m, 1, 0, 0);
+    start_step(m, &n);
+    for (int k = 0; k < 2; k++)
+        touched[k] = find_listed(m, 1, 0, 0, 1 + k);
+    return m;
+}
+
+/* The tip is inside both lines, 1 mm from each, or it is deep behind the one that is closed. The
+ * first solution lifts it out, the second puts it back: the contact that was closed closes again,
+ * and no other one, whichever line is flatter. */
+START_TEST(a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line)
+{
+    const int side = _i % 2, deep = _i / 2;
+    const double x = deep && side == RIGHT ? -6e-3 : -1e-3, y = deep && side == TOP ? -6e-3 : -1e-3;
+    bbm_contact *c[2];
+    bbm_model *m = tip_at(side, x, y, c);
+
+    ck_assert(c[side] && c[side]->state == BBM_LOCK && c[side]->before && c[side]->rest == 0);
+    ck_assert(c[!side] && c[!side]->state == BBM_OPEN && !c[!side]->before);
+    ck_assert_int_eq(look_at(m, 1, 0.01, 0.01), 0);
+    ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
+    ck_assert_int_eq(c[side]->state, BBM_LOCK);
+    ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
+    ck_relative(c[side]->N, (deep ? 6e-3 : 1e-3) * m->par.p_n, 1e-12);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Beyond the end of the side that was closed, and deeper under it than contacts are: nothing comes
+ * in there from behind. The tip comes in at the other side, which it crosses, whether it starts
+ * before that or, but for rounding, on it. */
+START_TEST(nothing_comes_in_from_behind)
+{
+    const int other = _i % 2, was = !other;
+    const double out = _i / 2 ? 1e-3 : 2e-8, deep = -6e-3;
+    bbm_contact *c[2];
+    bbm_model *m = tip_at(was, was == TOP ? out : deep, was == TOP ? deep : out, c);
+
+    ck_assert(c[was] && c[was]->state == BBM_OPEN && !c[was]->before);
+    ck_assert_int_eq(look_at(m, 1, -2e-3, -2e-3), 1);
+    ck_assert_int_eq(c[other]->state, BBM_LOCK);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A slab of two elements over a table, its three grid points there 1 mm above it; those at its
+ * ends are taken for closed in a step that ended so deep, in m, or for open. Then the slab stands
+ * at y, and a step begins. */
+static bbm_model *slab_at(const double depth[2], double y, int rotation)
+{
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    m->par.rotation = (bbm_rotation)rotation;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 1e-3, .w = 2, .h = 1, .nx = 2 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, 0, -0.3);
+    set_velocity(m, 2, 0, -0.3);
+    start_step(m, &n);
+    ck_assert_int_eq(n, 3);
+    for (int k = 0; k < 2; k++) {
+        bbm_contact *c = find_listed(m, 1 + k, k, 0, 2);
+        c->state = depth[k] > 0 ? BBM_LOCK : BBM_OPEN;
+        c->d_n = -fabs(depth[k]);
+        c->N = fmax(0, depth[k]) * m->par.p_n;
+    }
+    ck_ok(bbm_keep_contacts(m), m);
+    for (int k = 0; k < 2; k++) {
+        shift_element(m, 1 + k, 0, y - 1e-3);
+        set_velocity(m, 1 + k, 0, 0);
+    }
+    start_step(m, &n);
+    return m;
+}
+
+/* A point of a slab may lie twice as deep in the table as the deepest closed contact of the
+ * two, wherever on them that is, and no deeper; what lies deeper without being closed does not
+ * count. */
+static const double DEPTHS[][2] = {
+    { 1e-3, -5e-3 }, { -5e-3, 1e-3 }, { 1e-3, 2e-3 }, { 2e-3, 1e-3 },
+};
+
+START_TEST(a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks)
+{
+    const double *depth = DEPTHS[_i / 2], most = fmax(depth[0], depth[1]);
+    bbm_model *m = slab_at(depth, -2 * most * (_i % 2 ? 1.01 : 0.99), BBM_EXACT);
+    int listed = 0, n;
+    const bbm_contact *list = bbm_list_contacts(m, &n);
+
+    for (int k = 0; k < n; k++)
+        listed += corner_vertex(m, &list[k])->x == 0;
+    ck_assert_int_eq(listed, _i % 2 == 0);
+    ck_near(m->info.penetration, most, most, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A step in which nothing is closed ends that: then the points of the slab may not start inside. */
+START_TEST(what_contacts_are_deep_is_that_of_the_last_step)
+{
+    bbm_model *m = slab_at(DEPTHS[0], 1e-3, BBM_EXACT);
+    int n;
+    bbm_contact *list = bbm_list_contacts(m, &n);
+
+    ck_assert_int_eq(n, 3);
+    for (int k = 0; k < n; k++)
+        list[k].state = BBM_OPEN;
+    ck_ok(bbm_keep_contacts(m), m);
+    for (int k = 0; k < 2; k++)
+        shift_element(m, 1 + k, 0, -2.5e-3);
+    start_step(m, &n);
+    ck_assert_int_eq(n, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* The middle of the slab was open and starts 1 mm deep: it closes when it gets deeper, and its
+ * spring counts from there, also in the next step. With the paper's update it counts from the
+ * line. */
+START_TEST(a_contact_that_closes_inside_starts_without_force)
+{
+    const int linear = _i;
+    bbm_model *m = slab_at(DEPTHS[0], -1e-3, linear ? BBM_LINEAR : BBM_EXACT);
+    int n;
+
+    for (int again = 0; again < 2; again++) {
+        int found = 0;
+        look_at(m, 2, 0, again || linear ? 0 : -1e-4);
+        bbm_contact *list = bbm_list_contacts(m, &n);
+        for (int k = 0; k < n; k++) {
+            bbm_contact *c = &list[k];
+            if (corner_vertex(m, c)->x != 0)
+                continue;
+            ck_near(c->rest, linear ? 0 : -1e-3, 1e-3, ROUNDING);
+            ck_assert(c->state != BBM_OPEN);
+            look_at(m, 2, 0, linear ? 0 : -1e-4);
+            ck_near(c->N, (linear ? 1e-3 : 1e-4) * m->par.p_n, 1e-3 * m->par.p_n, ROUNDING);
+            found++;
+        }
+        ck_assert_int_eq(found, 1);
+        ck_ok(bbm_keep_contacts(m), m);
+        start_step(m, &n);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* The same where it does not get deeper: no force, whatever the depth. */
+START_TEST(a_point_that_stays_inside_has_no_force)
+{
+    bbm_model *m = slab_at(DEPTHS[0], -1e-3, BBM_EXACT);
+
+    ck_assert_int_eq(look_at(m, 1, 0, 0), 1);           /* the end that was closed */
+    ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A wedge with one side flat on a table of length l, and beside it another one of the same block.
+ * That one's contact is taken for 5 mm deep; then the end of the flat side dips into the table by
+ * the given sine. 5 mm twice over the length of the shorter of side and table is what it may dip,
+ * and a hundredth. Both ways round. */
+START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
+{
+    const int mirrored = _i % 2, way = mirrored ? -1 : 1;
+    const double l = _i / 4 ? 0.25 : 4, most = 0.01 + 2 * 5e-3 / fmin(l, 1);
+    const double sine = most + (_i / 2 % 2 ? 1e-4 : -1e-4);
+    const double flat[2] = { way * 0.5 * l, 0 }, beside[2] = { way * 0.1 * l, 0 };
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = mirrored ? -l : 0, .y = -1, .w = l, .h = 1 });
+    add_wedge(m, 1, beside, radians(mirrored ? 60 : 100), radians(mirrored ? 80 : 120));
+    add_wedge(m, 1, flat, radians(mirrored ? 120 : 0), radians(mirrored ? 180 : 60));
+    ck_ok(bbm_prepare(m), m);
+    start_step(m, &n);
+    bbm_contact *c = find_listed(m, 1, 0, 0, 2);
+    c->state = BBM_LOCK;
+    c->d_n = -5e-3;
+    ck_assert_ptr_nonnull(find_listed(m, 2, 0, 0, 2));
+    ck_ok(bbm_keep_contacts(m), m);
+    bbm_vertex *end = &m->vertex[m->element[2].first + (mirrored ? 2 : 1)];
+    end->x = flat[0] + way * sqrt(1 - sine * sine);
+    end->y = -sine;
+    start_step(m, &n);
+    ck_assert_int_eq(find_listed(m, 2, 0, 0, 2) != NULL, _i / 2 % 2 == 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A tip that slides on from one half of a table's top to the other one, which has come to lie
+ * higher: if its contact was closed it stays closed there, though deeper than others were; if it
+ * was open there is none. */
+START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
+{
+    const double at[2][2] = { { -1, 0 }, { -3, 0 } };
+    const int was_closed_here = _i == 0;
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -5, .y = -1, .w = 10, .h = 1, .nx = 2 });
+    for (int k = 0; k < 2; k++)
+        add_wedge(m, 1, at[k], radians(60), radians(120));
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 2, 1, 0);
+    start_step(m, &n);
+    bbm_contact *c = find_listed(m, 2 + !was_closed_here, 0, 0, 2);
+    c->state = BBM_LOCK;
+    c->d_n = -1e-4;
+    c->N = 1e-4 * m->par.p_n;
+    ck_ok(bbm_keep_contacts(m), m);
+    shift_element(m, 2, 1.5, -5e-4);
+    start_step(m, &n);
+    c = find_listed(m, 2, 0, 1, 2);
+    ck_assert_int_eq(c != NULL, was_closed_here);
+    ck_assert(!c || (c->state == BBM_LOCK && c->before));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Four unit squares, two for a floor and two above it. Of those above, one or both are on the
+ * floor; then they stand elsewhere in the same step. Only the same pairs of corners and edges, in
+ * the same step, are the same list; that keeps its states. */
+static const struct { double x[2], y[2]; int same; } MOVES[] = {
+    { { 0, 5 }, { 0, 5 }, 1 },          /* as it was                                         */
+    { { 3, 5 }, { 0, 5 }, 0 },          /* the same corners, the other half of the floor     */
+    { { 0, 0 }, { 5, 0 }, 0 },          /* the corners of the other block, the same edge     */
+    { { 0, 3 }, { 0, 0 }, 0 },          /* and another contact                               */
+    { { 5, 5 }, { 5, 5 }, 0 },          /* none                                              */
+};
+
+START_TEST(a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step)
+{
+    bbm_model *m = new_model();
+    int n, same = -1;
+
+    m->par.gravity[1] = 0;
+    for (int k = 0; k < 2; k++)
+        add_rectangle(m, k, BASE, (rectangle){ .x = 3 * k - 0.5, .y = -1, .w = 2, .h = 1 });
+    for (int k = 0; k < 2; k++)
+        add_rectangle(m, 2 + k, ROCK, (rectangle){ .x = 5.0 * k, .y = 5.0 * k, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    start_step(m, &n);
+    ck_assert_int_eq(look_at(m, 2, 0, -1e-3), 2);
+    for (int k = 0; k < 2; k++)
+        shift_element(m, 2 + k, MOVES[_i].x[k] - 5 * k, MOVES[_i].y[k] - 5 * k);
+    ck_ok(bbm_detect_contacts(m, &same), m);
+    ck_assert_int_eq(same, MOVES[_i].same);
+    const bbm_contact *list = bbm_list_contacts(m, &n);
+    for (int k = 0; k < n; k++)
+        ck_assert_int_eq(list[k].state, same ? BBM_LOCK : BBM_OPEN);
+    ck_ok(bbm_detect_contacts(m, &same), m);
+    ck_assert_int_eq(same, 1);
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m, &same), m);
+    ck_assert_int_eq(same, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Two blocks fly, the elements of both in turn in the model; one of them has an element that is
+ * fast, and that far all its corners are looked for, also those of the other element; but not
+ * those of the other block. */
+START_TEST(a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in_the_model)
+{
+    const double gap = 0.02;
+    const int fast = _i;
+    bbm_model *m = new_model();
+    int found[2] = { 0, 0 }, n;
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 7, BASE, (rectangle){ .x = -10, .y = -1, .w = 30, .h = 1 });
+    for (int k = 0; k < 4; k++) {
+        const double x = 5 * (k % 2) + 1.5 * (k / 2);
+        add_rectangle(m, 3 - k % 2, ROCK, (rectangle){ .x = x, .y = gap, .w = 1, .h = 1 });
+    }
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1 + fast, 0, 3);
+    const bbm_contact *list = start_step(m, &n);
+    for (int k = 0; k < n; k++)
+        found[corner_block(m, &list[k]) == 2]++;
+    ck_assert_int_eq(found[fast % 2], 4);
+    ck_assert_int_eq(found[!(fast % 2)], 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Unit squares one above the other, at rest: each may move by half of a millionth of an edge, and
+ * lie a millionth deep, so that gaps of two millionths are in reach, to the last bit. */
+START_TEST(two_blocks_at_rest_reach_two_millionths_of_an_edge)
+{
+    const double gap = _i ? nextafter(2e-6, 1) : 2e-6;
+    bbm_model *m = new_model();
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 0, BASE, (rectangle){ .x = 0, .y = -1, .w = 1, .h = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = gap, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    detect(m);
+    ck_assert_int_eq(m->contacts, _i ? 0 : 2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A glued pair of blocks that nothing loads has settled at the first look, though all forces are
+ * zero. */
+START_TEST(blocks_without_any_force_settle_at_once)
+{
+    bbm_model *m = new_model();
+
+    m->par.gravity[1] = 0;
+    m->par.cohesion = m->par.tension = 1e5;
+    for (int k = 0; k < 2; k++)
+        add_rectangle(m, k, ROCK, (rectangle){ .x = 0, .y = k, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    run_steps(m, 1);
+    ck_assert_int_eq(m->info.contacts, 2);
+    ck_assert_int_eq(m->info.passes, 1);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* One block moves on and another one less far than it seemed: in the detection that follows the
+ * first solution all are looked for as far as before. */
+START_TEST(a_step_foresees_no_less_than_it_did_before)
+{
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    for (int k = 0; k < 2; k++)
+        add_rectangle(m, k, ROCK, (rectangle){ .x = 5 * k, .y = 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 0, 1, 0);
+    start_step(m, &n);
+    m->D[6] = 0.01;
+    ck_assert(bbm_moved_too_far(m));                    /* block 1; and block 0 rests */
+    ck_ok(bbm_detect_contacts(m, NULL), m);
+    m->D[0] = m->D[6] = 0.0109;
+    ck_assert(!bbm_moved_too_far(m));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block that has sunk into a table is prepared again, and is held: deeper by as much again,
+ * since what closes inside starts without force; it does not fall through. */
+START_TEST(blocks_prepared_again_in_a_run_keep_holding_each_other)
+{
+    bbm_model *m = new_model();
+
+    m->par.p_n = 1e7;
+    m->par.p_s = 4e6;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    settle(m, 60);
+    const double deep = DENSITY * GRAVITY / 2 / m->par.p_n;
+    ck_near(m->info.penetration, deep, deep, 1e-3);
+    ck_ok(bbm_prepare(m), m);
+    settle(m, 60);
+    ck_assert_int_eq(m->info.contacts, 2);
+    ck_near(m->info.penetration, 2 * deep, deep, 1e-2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A quarter of its boundary is the size of a block. The smaller one counts, be it the one with the
+ * corners or the one with the edge; of two corners the deeper one, and none that is open. A block
+ * w x h comes down on a table from -5 to 5, or on one as small; it ends with its corners so deep,
+ * one of them twice. */
+static const struct { double table, w, h; } SIZES[] = {
+    { 10, 1, 1 }, { 10, 2, 0.5 }, { 1, 4, 1 }, { 0.5, 6, 2 },
+};
+
+START_TEST(the_depth_of_a_contact_is_told_against_the_smaller_block)
+{
+    const double l = SIZES[_i / 2].table, w = SIZES[_i / 2].w, h = SIZES[_i / 2].h, deep = 0.01;
+    const double size = fmin(l + 1, w + h) / 2, width = fmin(l, w);
+    const double turn = (_i % 2 ? 1 : -1) * deep / width;
+    bbm_model *m = new_model();
+    const bbm_contact *c = NULL;
+    bbm_pass pass;
+    int n;
+
+    m->par.gravity[1] = 0;
+    m->par.rotation = BBM_LINEAR;
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -l / 2, .y = -1, .w = l, .h = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -w / 2, .y = 0.01, .w = w, .h = h });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, 0, -10);
+    start_step(m, &n);
+    m->D[6 + 1] = -0.01 - 1.5 * deep;
+    m->D[6 + 2] = turn;
+    ck_assert(bbm_deepest_contact(m, &c) == 0 && c == NULL);
+    ck_ok(bbm_open_close(m, &pass), m);
+    const double share = bbm_deepest_contact(m, &c);
+    ck_assert_ptr_nonnull(c);
+    ck_near(share, 2 * deep / size, share, 1e-2);
+    ck_assert(corner_vertex(m, c)->x * turn < 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block of 1 m that meets its table at v m/s ends the step 0.09 or 0.11 m deep, by the momentum:
+ * with 2/dt^2 of its mass and two springs p_n, v dt = deep (1 + p_n dt^2/mass). More than a tenth
+ * is refused, and nothing has moved. */
+START_TEST(a_contact_deeper_than_a_tenth_of_its_block_is_refused)
+{
+    const double deep = _i % 2 ? 0.11 : 0.09, dt = _i / 2 ? 0.01 : 0.1, p_n = 1e5;
+    const double v = deep / dt * (1 + p_n * dt * dt / DENSITY);
+    bbm_model *m = new_model();
+
+    m->par.gravity[1] = 0;
+    m->par.dt = dt;
+    m->par.p_n = m->par.p_s = p_n;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, 0, -v);
+    ck_assert_int_eq(bbm_step(m), _i % 2 ? BBM_TOO_SOFT : BBM_OK);
+    if (_i % 2) {
+        ck_assert_msg(strstr(bbm_message(m), "a corner of block 1 is 0.11 m deep in block 0"), "%s",
+                      bbm_message(m));
+        ck_assert(m->element[1].V[1] == -v && vertex_of(m, 1, 0)->y == 0 && m->info.step == 0);
+    } else {
+        ck_near(m->info.penetration, deep, deep, 1e-3);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------------------------- the table */
 
 typedef struct { const TTest *test; int times; } entry;
@@ -3418,7 +3985,7 @@ static void add_detection(Suite *s)
         { the_detection_looks_as_far_as_a_block_falls_in_the_step, 4 },
         { a_joint_is_where_a_corner_lies_on_an_edge, 2 },
         { a_joint_may_gape_by_a_millionth_of_an_edge, 2 },
-        { sides_are_parallel_up_to_a_hundredth, 6 },
+        { sides_are_parallel_up_to_a_hundredth, 8 },
         { a_node_where_triangles_meet_on_a_straight_side_is_no_corner, 2 },
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
     };
@@ -3537,6 +4104,31 @@ static void add_redone(Suite *s)
     add_case(s, "redone", e, COUNT(e));
 }
 
+static void add_entrance(Suite *s)
+{
+    const entry e[] = {
+        { of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle, 8 },
+        { a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line, 4 },
+        { nothing_comes_in_from_behind, 4 },
+        { a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks, 2 * COUNT(DEPTHS) },
+        { what_contacts_are_deep_is_that_of_the_last_step, 1 },
+        { a_contact_that_closes_inside_starts_without_force, 2 },
+        { a_point_that_stays_inside_has_no_force, 1 },
+        { a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides, 8 },
+        { a_corner_that_slides_on_along_a_bent_side_keeps_its_contact, 2 },
+        { a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step, COUNT(MOVES) },
+        { a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in_the_model, 4 },
+        { two_blocks_at_rest_reach_two_millionths_of_an_edge, 2 },
+        { blocks_without_any_force_settle_at_once, 1 },
+        { a_step_foresees_no_less_than_it_did_before, 1 },
+        { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 },
+        { the_depth_of_a_contact_is_told_against_the_smaller_block, 2 * COUNT(SIZES) },
+        { a_contact_deeper_than_a_tenth_of_its_block_is_refused, 4 },
+    };
+
+    add_case(s, "entrance", e, COUNT(e));
+}
+
 Suite *contact_suite(void)
 {
     Suite *s = suite_create("contact");
@@ -3548,5 +4140,6 @@ Suite *contact_suite(void)
     add_rest(s);
     add_motion(s);
     add_redone(s);
+    add_entrance(s);
     return s;
 }
