@@ -172,6 +172,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     double gap;                 /* m        d_n at the start                                                    */
     double area;                /* m^2      of the joint that P1 stands for; 0 if it is not whole               */
     double share;               /* -        of the step after it hit, on which its shear spring acts            */
+    int    before;              /* closed at the start                                                          */
     int    off;                 /* the foot is not on the edge at the start                                     */
     double d_n, d_s;            /* m        normal distance and slip at the end                                 */
     double used;                /* N        the N that the friction of the last solution used                   */

@@ -640,17 +640,18 @@ static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
 }
 
 /* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the
- * edges coincide. When the sides are aligned, when both start in P and Q or both end there, just one of P and Q has
- * its foot on the other's edge. Whether P on f has to go. */
+ * edges coincide and P lies at Q. When the sides are aligned, when both start in P and Q or both end there, just one
+ * of P and Q has its foot on the other's edge. Whether P on f has to go. */
 static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
 {
     const bbm_contact_work *w = m->work;
 
     if (!coincide(w, mine.edge, other.edge) || !is_listed(w, other.corner, other.edge))
         return 0;
-    const double P = find_foot(m, mine.corner, mine.edge).off, Q = find_foot(m, other.corner, other.edge).off;
-    if (fmax(fabs(P), fabs(Q)) > w->touch)
-        return aligned && P > Q;
+    const foot P = find_foot(m, mine.corner, mine.edge), Q = find_foot(m, other.corner, other.edge);
+    const double beside = P.s - (other.corner == mine.edge ? 0 : w->along[mine.edge].length);
+    if (fmax(fabs(beside), fmax(fabs(P.off), fabs(Q.off))) > w->touch)
+        return aligned && P.off > Q.off;
     const int here = find_closed(m, mine.corner, mine.edge, 0) != NULL;
     const int there = find_closed(m, other.corner, other.edge, 0) != NULL;
     return here != there ? there : !faces_up(w->along[mine.edge], w->along[other.edge]);
@@ -796,6 +797,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     if (old) {
         c->state = old->state, c->sign = old->sign, c->anchor = old->anchor, c->whole = old->whole;
         c->N = c->used = old->N, c->T = old->T, c->rest = old->rest;
+        c->before = 1;
     } else if (start && fmax(fabs(f.d), f.off) <= w->touch) {
         c->whole = 1;
         c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
@@ -807,7 +809,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : end);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
     if (c->state != BBM_OPEN && has_left(m, c))
-        c->state = BBM_OPEN, c->N = c->T = 0;
+        c->state = BBM_OPEN, c->N = c->T = 0, c->before = 0;
     if (!old || c->state == BBM_OPEN || old->corner != p.corner || old->edge != p.edge) {
         place_anchor(m, c, c->T);
         c->rest = bbm_is_exact(m) ? fmin(0, c->gap + c->N / m->par.p_n) : 0;
@@ -1182,13 +1184,14 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
     return can_enter(m->work, c->corner, c->edge, r, PARALLEL);
 }
 
-/* Of two lines across each other that are crossed as deep, the flatter one counts; of two as steep, that which rises to
- * the right. */
+/* Of two lines across each other that are crossed at the same time, p counts and not q: the flatter one; of two as steep,
+ * that which rises to the right. */
 static int goes_first(direction p, direction q)
 {
     const double flatter = fabs(q.y) - fabs(p.y);
+    const int p_rises = (p.x > 0) == (p.y > 0), q_rises = (q.x > 0) == (q.y > 0);
 
-    return fabs(flatter) > PARALLEL ? flatter > 0 : (p.x > 0) == (p.y > 0);
+    return fabs(flatter) > PARALLEL || p_rises == q_rises ? flatter > 0 : p_rises;
 }
 
 /* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as contacts are. */
@@ -1205,7 +1208,7 @@ static int is_behind(const bbm_model *m, const bbm_contact *c)
 
 /* Whether an open contact, though crossed, may not close: from behind, off the edge from the start of the step to its end,
  * or a side points into the edge by then; or a rival line is closed, is not crossed, or is crossed later: the line
- * crossed last is where P comes in. */
+ * crossed last is where P comes in. At the same time: the one that was closed at the start of the step. */
 static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
@@ -1222,7 +1225,8 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
             continue;
         const double mine = crossed_at(w, c), other = crossed_at(w, r);
         const int tie = fabs(other - mine) <= TIE;
-        const int first = tie ? goes_first(w->along[r->edge], w->along[c->edge]) : other > mine;
+        const int first = !tie ? other > mine : r->before != c->before ? r->before
+                        : goes_first(w->along[r->edge], w->along[c->edge]);
         if (r->d_n >= 0 || (first && foot_on_edge(m, r) && !is_behind(m, r)))
             return 1;
     }
