@@ -553,12 +553,31 @@ static double approach(const bbm_contact_work *w, int c, int e)
 }
 
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of the two blocks do.
- * Nothing comes in from behind. What moves by T of the start of a step may also end it inside. */
+ * Nothing comes in from behind. What moves by T of the start of a step may also end it inside; and a corner that slides on
+ * along a straight side, which may be bent by now, keeps its contact. */
 static double behind(const bbm_model *m, int c, int e)
 {
     const bbm_contact_work *w = m->work;
 
     return 2 * fmin(w->depth[w->body[c]], w->depth[w->body[e]]) + w->touch + (bbm_is_exact(m) ? 0 : approach(w, c, e));
+}
+
+/* The closed contact of the last step between `corner` and the edge - or, if `all`, another one of its straight side -
+ * or NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
+{
+    const bbm_contact *found = NULL;
+
+    for (int k = m->work->old[corner]; k < m->work->old[corner + 1]; k++) {
+        const bbm_contact *c = &m->contact[k];
+        if (c->state == BBM_OPEN)
+            continue;
+        if (c->edge == edge)
+            return c;
+        if (all && m->work->side[c->edge] == m->work->side[edge])
+            found = c;
+    }
+    return found;
 }
 
 /* Whether the corner may come to touch the edge in this step. If it is still outside it may also turn there first, as
@@ -571,8 +590,10 @@ static int may_touch(const bbm_model *m, int corner, int e)
 
     if (fmax(fabs(f.d), f.off) > approach(w, corner, e) + behind(m, corner, e))
         return 0;
-    if (f.off <= w->touch && f.d < -behind(m, corner, e))
+    if (f.off <= w->touch && f.d < -behind(m, corner, e) && !find_closed(m, corner, e, 1))
         return 0;
+    if (find_closed(m, corner, e, 0))
+        return 1;
     return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * turns : PARALLEL);
 }
 
@@ -609,24 +630,6 @@ static int find_pair(const bbm_contact_work *w, int corner, int edge)
 }
 
 static int is_listed(const bbm_contact_work *w, int corner, int edge) { return find_pair(w, corner, edge) >= 0; }
-
-/* The closed contact of the last step between `corner` and the edge - or, if `all`, another one of its straight side -
- * or NULL. */
-static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
-{
-    const bbm_contact *found = NULL;
-
-    for (int k = m->work->old[corner]; k < m->work->old[corner + 1]; k++) {
-        const bbm_contact *c = &m->contact[k];
-        if (c->state == BBM_OPEN)
-            continue;
-        if (c->edge == edge)
-            return c;
-        if (all && m->work->side[c->edge] == m->work->side[edge])
-            found = c;
-    }
-    return found;
-}
 
 /* Of two neighbours e and f on one straight side, P touches the first if its foot comes before the end of that one. */
 static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
@@ -1203,7 +1206,7 @@ static double crossed_at(const bbm_contact_work *w, const bbm_contact *c)
 /* Whether P starts behind the line, so that it cannot come in there. */
 static int is_behind(const bbm_model *m, const bbm_contact *c)
 {
-    return c->gap < -behind(m, c->corner, c->edge);
+    return !c->before && c->gap < -behind(m, c->corner, c->edge);
 }
 
 /* Whether an open contact, though crossed, may not close: from behind, off the edge from the start of the step to its end,
