@@ -44,6 +44,8 @@ enum { SOLUTIONS = 5000, ITERATIONS = 10 };
  * turned over. */
 #define FAR_STRAIN 0.5
 #define FAR_TURN 1.0
+/* Depth of a contact against the size of its smaller block at which its springs do not keep the blocks apart any more. */
+#define DEEP 0.1
 
 /* ------------------------------------------------------------------------ 2.1 Displacement of an element */
 
@@ -528,6 +530,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_STEP_TOO_LONG] = "the step is too long",
         [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
         [BBM_STOPPED] = "stopped from outside",
+        [BBM_TOO_SOFT] = "the contacts are too soft",
         [BBM_ENERGY] = "the step makes energy",
     };
 
@@ -1875,6 +1878,17 @@ static bbm_status settle_contacts(bbm_model *m)
     return !status && pass == BBM_PASS_GIVE_UP ? unsettled(m) : status;
 }
 
+/* Whether the springs of all contacts keep their blocks apart. */
+static bbm_status check_depth(bbm_model *m)
+{
+    const bbm_contact *c = NULL;
+
+    if (!(bbm_deepest_contact(m, &c) > DEEP))
+        return BBM_OK;
+    return fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in block %d, a tenth of the smaller one; larger "
+                "stiffnesses p_n, p_s help", m->info.step + 1, m->edge[c->corner].block, -c->d_n, m->edge[c->edge].block);
+}
+
 /* Whether the equations, or the states of the contacts, had no end. */
 static int is_lost(bbm_status s)
 {
@@ -1952,6 +1966,8 @@ static bbm_status try_step(bbm_model *m)
     }
     if (!status)
         status = foreseen ? check_solution(m) : unsettled(m);
+    if (!status)
+        status = check_depth(m);
     if (status)
         return explain(m, status);
     const bbm_model end = move_model(m);

@@ -50,6 +50,7 @@ typedef enum {
     BBM_NO_EQUILIBRIUM,         /* statics, and a block slides, tips or falls: m->culprit on m->other             */
     BBM_STEP_TOO_LONG,          /* elements turn or strain too far in a step, even in the smallest one          */
     BBM_OPEN_CLOSE,             /* the open-close iteration does not settle, even in the smallest step    */
+    BBM_TOO_SOFT,               /* contacts are as deep as a tenth of a block                             */
     BBM_ENERGY,                 /* the smallest step still makes energy                                   */
     BBM_STOPPED,                /* watch said so                                                          */
     BBM_STATUS_COUNT
@@ -371,6 +372,7 @@ void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
 bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s);
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
+double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 bbm_status bbm_keep_contacts(bbm_model *m);
 /* When statics fails: a step in which inertia is small against stiffness, a push, and who goes far in its solution.  */

@@ -89,6 +89,7 @@ struct bbm_contact_work {
     /* --- what the step may do --- */
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
     int *body;                  /* [edges]  the first boundary edge of the same block                           */
+    double *girth;              /* [edges]  m, of a body: length of its boundary at the start                   */
     double *depth;              /* [edges]  m, of a body: |d_n| of its closed contacts, at most, before the step */
     double *now;                /* [edges]  m, the same of the solution, or of the start if that is deeper      */
     double *travel;             /* [edges]  m, of a body: how far its vertices may move in the step             */
@@ -362,6 +363,7 @@ void bbm_contact_free(bbm_contact_work *w)
     free(w->along);
     free(w->guess);
     free(w->body);
+    free(w->girth);
     free(w->depth);
     free(w->now);
     free(w->travel);
@@ -397,18 +399,21 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->head = calloc(PLACES * n, sizeof *w->head);
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
         w->body = calloc(n, sizeof *w->body);
+        w->girth = calloc(n, sizeof *w->girth);
         w->depth = calloc(n, sizeof *w->depth);
         w->now = calloc(n, sizeof *w->now);
         w->travel = calloc(n, sizeof *w->travel);
         w->moved = calloc(n, sizeof *w->moved);
     }
     const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
-                   && w->head && w->guess && w->body && w->depth && w->now && w->travel && w->moved
+                   && w->head && w->guess && w->body && w->girth && w->depth && w->now && w->travel && w->moved
                    && number_bodies(m);
     if (ok)
         link_edges(m, ends);
-    for (int e = 0; e < m->edges && ok; e++)        /* prepared again in a run: contacts may be as deep as they were */
-        w->depth[e] = m->info.penetration;
+    for (int e = 0; e < m->edges && ok; e++) {
+        w->girth[w->body[e]] += w->along[e].length;
+        w->depth[e] = m->info.penetration;          /* prepared again in a run: contacts may be as deep as they were */
+    }
     free(ends);
     return ok ? BBM_OK : BBM_NO_MEMORY;
 }
@@ -1064,13 +1069,15 @@ static double largest_force(const bbm_model *m)
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
- * of the largest one, or an open contact on the wrong side. */
+ * of the largest one on its two elements, or an open contact on the wrong side. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
-    const double slack = share * largest_force(m);
+    const double solved = AGREE * largest_force(m);
 
     for (int k = 0; k < m->work->pairs; k++) {
         const bbm_contact *c = &m->work->list[k];
+        const double *Fi = &m->F[6 * m->edge[c->corner].element], *Fj = &m->F[6 * m->edge[c->edge].element];
+        const double F = fmax(fabs(c->N), fmax(hypot(Fi[0], Fi[1]), hypot(Fj[0], Fj[1]))), slack = fmax(share * F, solved);
         double d[2];
         exact_distances(m, c, d);
         const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(c->share * d[1] - c->d_s);
@@ -1078,6 +1085,24 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
             return 1;
     }
     return 0;
+}
+
+/* The closed contact that is deepest against the size of its smaller block, a quarter of its boundary; returns that share,
+ * or 0 if none is closed. */
+double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
+{
+    const bbm_contact_work *w = m->work;
+    double most = 0;
+
+    for (int k = 0; k < w->pairs; k++) {
+        const bbm_contact *c = &w->list[k];
+        const double share = -c->d_n / (fmin(w->girth[w->body[c->corner]], w->girth[w->body[c->edge]]) / 4);
+        if (c->state != BBM_OPEN && share > most) {
+            most = share;
+            *deepest = c;
+        }
+    }
+    return most;
 }
 
 /* ------------------------------------------------------------------- the open-close iteration: friction */
