@@ -2004,7 +2004,8 @@ bbm_status bbm_step(bbm_model *m)
     while (!status && left > 0) {
         m->h = isinf(m->par.dt) ? m->par.dt : m->par.dt * part / PARTS;
         status = try_step(m);
-        const int again = status == BBM_OPEN_CLOSE || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG;
+        const int again = status == BBM_OPEN_CLOSE || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG
+                          || status == BBM_NOT_FINITE || status == BBM_NOT_POSITIVE_DEFINITE;
         if (again && part > 1 && !isinf(m->par.dt) && !is_spent(m)) {
             part /= 2;
             m->info.cuts++;

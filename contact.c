@@ -514,14 +514,15 @@ static foot find_foot(const bbm_model *m, int corner, int e)
 }
 
 /* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
- * and the block is convex there: it lies on the outside. The far end of a side may be as deep as closed contacts are. */
+ * and the block is convex there: it lies on the outside. Either end of a side may be as deep as closed contacts are. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
 {
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
-    const double deep = fmin(w->now[w->body[corner]], w->now[w->body[e]]);
+    const double deep = 2 * fmin(w->now[w->body[corner]], w->now[w->body[e]]);
 
-    return cross(q, s) >= -slack - deep / q.length && cross(s, p) >= -slack - deep / p.length && is_convex(w, corner);
+    return cross(q, s) >= -slack - deep / fmin(q.length, t.length)
+        && cross(s, p) >= -slack - deep / fmin(p.length, t.length) && is_convex(w, corner);
 }
 
 static int coincide(const bbm_contact_work *w, int e, int f)
