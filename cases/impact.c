@@ -14,11 +14,12 @@
  * (1+q)^(-pi/(2 th)) with q = W^2/2, cos th = (2-q)/(2 sqrt(1+q)), W = dt sqrt(2 * 2 p_n/m), as in drop.c: two springs
  * of p_n between the masses m, m.
  *
- * Angular momentum is not exact where there is friction. The normal forces of a contact lie on one line, but its shear
- * forces act on P1 and on P0, a point of the edge that P1 has crossed: a couple of the shear force and the penetration,
- * which the formulas (60)-(62) leave unbalanced. The deepest penetration falls as p_n^(-1/2), and so does the error;
- * the time step hardly changes it. What is left without friction comes from the strain of the blocks, for it falls as
- * 1/E. The table gives the error as a share of what the first block brings along, m v0 times the offset. */
+ * Angular momentum is kept up to the strain of the blocks, with friction and without. The forces of a contact act at
+ * the points of the middle of the step, where their moments sum to zero (beyond/middle.c). The paper's shear forces,
+ * (60)-(62) of the start, would leave a couple of the shear force and the penetration. What is left falls as 1/E and
+ * grows as the force of the impact does, as p_n^(1/2): strain changes the moment of inertia of what turns (turn_element
+ * in bbm.c). The time step hardly changes it. The table gives the error as a share of what the first block brings along,
+ * m v0 times the offset. */
 #include <math.h>
 
 #include "case.h"

@@ -11,13 +11,15 @@
  * A smaller step only helps in proportion: the area grows by w^2 dt t.
  *
  * A block of n x n bonded elements keeps its area, too, up to the stretch of a turning elastic block, of the order of
- * rho w^2/E = 2.5e-6 here. But it gains angular momentum. Its barycentres are held on their circles by bonds that pull
- * along a, the direction at the start of the step: x' = x + dt v + dt^2/2 a, v' = v + dt a, and with x cross a = 0,
+ * rho w^2/E = 2.5e-6 here. It keeps its angular momentum as well, up to that strain, 1.5e-8 at every dt, because its
+ * bonds pull along the directions of the middle of the step (beyond/middle.c). The paper's would not keep it: if the
+ * barycentres are held on their circles along a, the direction at the start of the step, x' = x + dt v + dt^2/2 a,
+ * v' = v + dt a, then with x cross a = 0
  *
  *     x' cross v' = x cross v + dt^2/2 v cross a = (1 + (w dt)^2/2) x cross v.
  *
- * Of the block's moment of inertia 1 - 1/n^2 is that of the barycentres, so that it gains the share
- * (1 - 1/n^2) w^2 dt t/2, of first order in dt. */
+ * Of the block's moment of inertia 1 - 1/n^2 is that of the barycentres, so that it would gain the share
+ * (1 - 1/n^2) w^2 dt t/2, of first order in dt: what the table calls theory is that of the paper's vectors. */
 #include <math.h>
 
 #include "case.h"
