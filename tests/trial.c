@@ -139,7 +139,7 @@ void scene_try(const test_scene *s, int verbose, scene_trial *t)
     bbm_status status = scene_build(s, &m);
     scene_memory *before = calloc(m ? (size_t)m->elements + 1 : 1, sizeof *before);
     scene_ledger first = { 0 }, start, end;
-    double left = 0, off = 0;
+    double left = 0, off = 0, deepest[SCENE_BLOCKS][SCENE_BLOCKS] = { { 0 } };
 
     memset(t, 0, sizeof *t);
     if (!status)
@@ -152,6 +152,7 @@ void scene_try(const test_scene *s, int verbose, scene_trial *t)
         if (status)
             break;
         scene_balance(m, &end);
+        scene_overlap(m, deepest, &end);
         const double gain = gain_of(m, before, &start, &end);
         note(t, RULE_GAIN, gain, m->info.step);
         note(t, RULE_OVERLAP, end.overlap, m->info.step);
