@@ -59,12 +59,14 @@
  *                 in length, relatively, are as long: rounding of a model file
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies on it: what
  *                 penetration and elastic bending turn
+ * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches: soft blocks bend more
  * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and feet closer to the end of
  *                 an edge are at the end: rounding of a model file, elastic strain
  * AGREE    [-]    forces that differ by less, against the largest force of the model, agree: what the solver can tell
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding                                */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
+#define BENT 0.1
 #define TOUCH 1e-6
 #define AGREE 1e-9
 #define TIE 1e-9
@@ -515,13 +517,16 @@ static foot find_foot(const bbm_model *m, int corner, int e)
 }
 
 /* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
- * and the block is convex there: it lies on the outside. Either end of a side may be as deep as closed contacts are. */
+ * and the block is convex there: it lies on the outside. Either end of a side may be as deep as closed contacts are.
+ * A grid point inside a straight side may come to lie in a hollow where that bends. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
 {
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
     const double deep = 2 * fmin(w->now[w->body[corner]], w->now[w->body[e]]);
 
+    if (!is_corner(w, corner))
+        return fmin(cross(q, s), cross(s, p)) >= -BENT;
     return cross(q, s) >= -slack - deep / fmin(q.length, t.length)
         && cross(s, p) >= -slack - deep / fmin(p.length, t.length) && is_convex(w, corner);
 }
