@@ -22,18 +22,19 @@
  *
  * Detection. The boundary edges, in boxes widened by the search distance, are entered into a uniform grid; each corner
  * looks up its own cell. `corner` c is the vertex that starts boundary edge c, so that (corner, edge) are two indices
- * of edges: the identity of a contact. A corner may touch an edge if neither of its two sides points into it.
+ * of edges: the identity of a contact. A corner may touch an edge if neither of its two sides points into it,
+ * and if it does not lie behind it from the start: blocks do not overlap then, but for the depth of closed contacts.
  *
  * Where two corners P and Q meet, several of these pairs describe one contact. The lines along which P can enter are
  *
  *          \  P  /              |   A                   the two edges of Q (left), or one edge of each block (right).
  *           \   /               P______                 Two lines that differ are rivals: the blocks overlap when both
- *            \ /                 Q_____                 are crossed, and the spring goes on the one with the least
- *      _______Q                  |                      penetration, the shortest way out. Two lines that coincide
+ *            \ /                 Q_____                 are crossed, and the spring goes on the one that is crossed
+ *      _______Q                  |                      last, where P comes in. Two lines that coincide
  *             |                  |   B                  are one contact: of P on Q's edge and Q on P's edge that one
  *        B    |                  |                      stays whose foot lies on its edge; at a tie, the one that it
  *                                                       was before, or else the edge that faces up.
- * Corner exactly on corner, the flatter line counts: the same in any order of the blocks.
+ * Both at the same time, the one that was closed or else the flatter line counts: the same in any order of the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N. For given states that map is
  * affine (but see friction_force): its fixed point is found by conjugate residuals (agree), in few more solutions
@@ -58,20 +59,22 @@
  *                 in length, relatively, are as long: rounding of a model file
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies on it: what
  *                 penetration and elastic bending turn
- * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, feet closer to the end of an edge
- *                 are at the end, and depths that differ less are a tie: rounding of a model file, elastic strain
+ * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches: soft blocks bend more
+ * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and feet closer to the end of
+ *                 an edge are at the end: rounding of a model file, elastic strain
  * AGREE    [-]    forces that differ by less, against the largest force of the model, agree: what the solver can tell
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding                                */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
+#define BENT 0.1
 #define TOUCH 1e-6
 #define AGREE 1e-9
 #define TIE 1e-9
 
 #define FAR 1e15        /* cells of the grid */
 
-/* Places of the grid for each edge, 4 x 4; directions that `agree` remembers; passes that change states or correct
- * distances, and that change forces between two of them. */
+/* Places of the grid for each edge, 4 x 4; directions that `agree` remembers; passes that change states or renew
+ * the vectors of the step, and that change forces between two of them. */
 enum { PLACES = 16, DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
 
 typedef struct { double x, y, length; } direction;              /* unit vector along an edge                     */
@@ -514,13 +517,16 @@ static foot find_foot(const bbm_model *m, int corner, int e)
 }
 
 /* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
- * and the block is convex there: it lies on the outside. Either end of a side may be as deep as closed contacts are. */
+ * and the block is convex there: it lies on the outside. Either end of a side may be as deep as closed contacts are.
+ * A grid point inside a straight side may come to lie in a hollow where that bends. */
 static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
 {
     const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
     const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
     const double deep = 2 * fmin(w->now[w->body[corner]], w->now[w->body[e]]);
 
+    if (!is_corner(w, corner))
+        return fmin(cross(q, s), cross(s, p)) >= -BENT;
     return cross(q, s) >= -slack - deep / fmin(q.length, t.length)
         && cross(s, p) >= -slack - deep / fmin(p.length, t.length) && is_convex(w, corner);
 }
@@ -1310,7 +1316,7 @@ static int change_states(bbm_model *m, double slack)
 }
 
 /* Notes the states of this pass as one number (FNV-1a); if they have been there before, the iteration cycles - but not
- * if they are those of the last pass, after which only distances were corrected. */
+ * if they are those of the last pass, after which only the vectors of the step were renewed. */
 static void watch_for_cycles(bbm_contact_work *w)
 {
     uint64_t hash = 14695981039346656037u;
@@ -1389,6 +1395,7 @@ bbm_status bbm_keep_contacts(bbm_model *m)
             note_depth(w, c, w->depth);
         }
     }
+    w->listed = -1;
     m->contact = w->list;
     m->contacts = w->pairs;
     m->contact_room = w->list_room;

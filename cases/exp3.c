@@ -9,9 +9,10 @@
  *                        u(t) = F t^2/(2 m), v(t) = 0 for the centre of mass, and for P, the lower right corner
  *
  *     without  no gravity, as in the text: the block touches the plate and carries nothing
- *     gravity  9.81 m/s^2; the plate gives way under the block, which slides on a slope of its own making
+ *     gravity  9.81 m/s^2; the plate gives way under the block, which slides on a slope of its own making: u is
+ *              wrong by 1e-8, and by 1e-7 with alpha = 100, whose springs give ten times as much
  *     rigid    the same on a plate of 1e13 Pa: what is left of the error is not the plate's
- *     held     beyond the paper: 10 GPa again, with multipliers, so that the fixed points of the plate do not give
+ *     held     beyond the paper: 10 GPa again, with multipliers, so that the fixed points of the plate hardly give
  *     line     the same, the traction as a line load
  *
  * The traction of 10 kN/m is given as the forces that do its work on the grid points of that side, 2.5, 5 and 2.5 kN.

@@ -11,13 +11,15 @@
  * A smaller step only helps in proportion: the area grows by w^2 dt t.
  *
  * A block of n x n bonded elements keeps its area, too, up to the stretch of a turning elastic block, of the order of
- * rho w^2/E = 2.5e-6 here. But it gains angular momentum. Its barycentres are held on their circles by bonds that pull
- * along a, the direction at the start of the step: x' = x + dt v + dt^2/2 a, v' = v + dt a, and with x cross a = 0,
+ * rho w^2/E = 2.5e-6 here. It keeps its angular momentum as well, up to that strain, 1.5e-8 at every dt, because its
+ * bonds pull along the directions of the middle of the step (beyond/middle.c). The paper's would not keep it: if the
+ * barycentres are held on their circles along a, the direction at the start of the step, x' = x + dt v + dt^2/2 a,
+ * v' = v + dt a, then with x cross a = 0
  *
  *     x' cross v' = x cross v + dt^2/2 v cross a = (1 + (w dt)^2/2) x cross v.
  *
- * Of the block's moment of inertia 1 - 1/n^2 is that of the barycentres, so that it gains the share
- * (1 - 1/n^2) w^2 dt t/2, of first order in dt. */
+ * Of the block's moment of inertia 1 - 1/n^2 is that of the barycentres, so that it would gain the share
+ * (1 - 1/n^2) w^2 dt t/2, of first order in dt: the last column. */
 #include <math.h>
 
 #include "case.h"
@@ -127,14 +129,14 @@ int main(void)
     case_compare(&r, "exact rotation, dt = 0.01 s", growth[0][STEPS], 0);
     case_compare(&r, "linear update, dt = 0.01 s", growth[1][STEPS], pow(1 + 1e-4, STEPS) - 1);
     case_compare(&r, "linear update, dt = 0.001 s", turn(BBM_LINEAR, 0.001, 1, NULL, &gain), pow(1 + 1e-6, 2000) - 1);
-    printf("\n| 3 x 3 bonded elements, exact rotation | area | angular momentum gained | theory | error |\n"
-           "|---|---|---|---|---|\n");
+    printf("\n| 3 x 3 bonded elements, exact rotation | area | angular momentum gained | with the paper's vectors it would be |\n"
+           "|---|---|---|---|\n");
     for (double dt = 0.01; dt > 0.001; dt /= 2) {
-        const double end = turn(BBM_EXACT, dt, 3, NULL, &gain), theory = (1 - 1.0 / 9) * dt;
+        const double end = turn(BBM_EXACT, dt, 3, NULL, &gain), paper = (1 - 1.0 / 9) * dt;
         char name[60];
         snprintf(name, sizeof name, "angular momentum gained at dt = %g s", dt);
-        const double error = case_row(&r, name, (double[]){ NAN, NAN }, gain, theory, "theory");
-        printf("| dt = %g s | %+.1e | %.4e | %.4e | %.1e |\n", dt, end, gain, theory, error);
+        case_row(&r, name, (double[]){ NAN, NAN }, gain, 0, "theory");
+        printf("| dt = %g s | %+.1e | %+.1e | %+.1e |\n", dt, end, gain, paper);
     }
     draw(&r, (const double (*)[STEPS + 1])growth);
     printf("\nNumbers and picture: %s/results.csv, area.csv, area.svg\n", r.folder);

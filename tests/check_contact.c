@@ -754,7 +754,7 @@ static int is_listed(const place *list, int n, const outline *a, int i, const ou
 
 /* Compares the list with the definition. What is nearer than the ways of both blocks must be in it; what is further than
  * 1.15 times that must not: the program may look a little further. What lies behind an edge, more than rounding (1e-5 m),
- * is not in it. Sides nearer to parallel than 0.012 are left to other tests, as one of two contacts is dropped there.
+ * is not in it. A point inside a straight side may touch, too, within 0.1 rad. Sides nearer to parallel than 0.012 are left to other tests, as one of two contacts is dropped there.
  * Beyond an end of an edge that is no corner, the next edge is the one to touch. */
 static void check_list(const bbm_model *m, const outline o[BLOCKS], const double way[BLOCKS])
 {
@@ -766,10 +766,11 @@ static void check_list(const bbm_model *m, const outline o[BLOCKS], const double
             for (int ik = 0; ik < o[a].n * o[b].n && a != b; ik++) {
                 const int i = ik / o[b].n, k = ik % o[b].n, listed = is_listed(list, m->contacts, &o[a], i, &o[b], k);
                 const sight s = look(&o[a], i, &o[b], k);
-                const int corner = s.bulge > 1e-3, here = s.beyond < 0 || bulge_at(&o[b], s.end) > 1e-3;
+                const int corner = s.bulge > 1e-3, inside = fabs(s.bulge) < 1e-3 && s.clear > -0.11;
+                const int here = s.beyond < 0 || bulge_at(&o[b], s.end) > 1e-3;
                 const double reach = way[a] + way[b], far = fmax(fabs(s.height), s.beyond);
                 may += listed;
-                ck_assert(!listed || (corner && s.clear > -0.011 && far < 1.15 * reach + 1e-5));
+                ck_assert(!listed || (((corner && s.clear > -0.011) || inside) && far < 1.15 * reach + 1e-5));
                 ck_assert(!listed || s.height > -1e-5 || s.beyond > 0);
                 if (!corner || s.clear < 0 || s.parallel < 0.012 || hypot(s.height, fmax(0, s.beyond)) > reach
                     || s.height < 0)

@@ -214,27 +214,35 @@ static void find_bending(const bbm_model *m, double bending[])
     }
 }
 
-/* The deepest overlap of two blocks less the depth of their deepest closed contact. */
-static void find_overlap(const bbm_model *m, scene_ledger *l)
+/* The deepest overlap of two blocks less the depth of their deepest contact that is closed, or was since they were last
+ * apart: a contact that opens leaves them where they are, and no spring starts loaded that closes there. */
+void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS], scene_ledger *l)
 {
-    double deepest[SCENE_BLOCKS][SCENE_BLOCKS] = { { 0 } }, bending[SCENE_BLOCKS] = { 0 };
+    double bending[SCENE_BLOCKS] = { 0 };
+    int apart[SCENE_BLOCKS][SCENE_BLOCKS];
 
     find_bending(m, bending);
+    memset(apart, 1, sizeof apart);
     for (int k = 0; k < m->contacts; k++) {
         const bbm_contact *c = &m->contact[k];
         const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
         if (c->state != BBM_OPEN)
-            deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], contact_depth(m, c));
+            deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], contact_depth(m, c)), apart[p][q] = apart[q][p] = 0;
     }
     for (int i = 0; i < m->elements; i++)
         for (int j = 0; j < i; j++) {
             const bbm_element *e = &m->element[i], *f = &m->element[j];
             const int p = e->block, q = f->block;
             const int held = m->node[corner(m, e, 0)->node].held && m->node[corner(m, f, 0)->node].held;
-            const double d = p == q || held ? 0 : element_overlap(m, e, f) - deepest[p][q] - bending[p] - bending[q];
-            if (d > l->overlap)
+            const double all = p == q || held ? 0 : element_overlap(m, e, f), d = all - deepest[p][q] - bending[p] - bending[q];
+            if (all > 0)
+                apart[p][q] = apart[q][p] = 0;
+            if (all > 0 && d > l->overlap)
                 l->overlap = d, l->pair[0] = p, l->pair[1] = q;
         }
+    for (int k = 0; k < SCENE_BLOCKS * SCENE_BLOCKS; k++)
+        if (apart[k / SCENE_BLOCKS][k % SCENE_BLOCKS])
+            deepest[k / SCENE_BLOCKS][k % SCENE_BLOCKS] = 0;
 }
 
 void scene_balance(const bbm_model *m, scene_ledger *l)
@@ -251,7 +259,6 @@ void scene_balance(const bbm_model *m, scene_ledger *l)
     }
     for (int k = 0; k < m->contacts; k++)
         l->springs += contact_energy(m, &m->contact[k]);
-    find_overlap(m, l);
 }
 
 void scene_remember(const bbm_model *m, scene_memory *before)

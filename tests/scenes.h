@@ -41,7 +41,7 @@ typedef struct {                /* what there is at one moment                  
     double P[2], L;             /* N s, N m s   momentum, and that about the origin                             */
     double P_size, L_size;      /* the same, all parts counted as positive: what a drift is small against       */
     double stiffness, speed;    /* N/m, m/s     of all bonds and fixed points; the largest                      */
-    double overlap;             /* m        of two blocks, at most, beyond their deepest closed contact         */
+    double overlap;             /* m        of two blocks, at most, beyond their deepest contact, scene_overlap */
     int pair[2];                /* those blocks                                                                 */
 } scene_ledger;
 
@@ -74,6 +74,7 @@ void scene_shuffle(test_scene *s, int place[]);                 /* block k becom
 void scene_add_far_stone(test_scene *s);                        /* the last block                               */
 
 void scene_balance(const bbm_model *m, scene_ledger *l);
+void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS], scene_ledger *l);
 void scene_remember(const bbm_model *m, scene_memory *before);  /* [elements]                                   */
 double scene_work(const bbm_model *m, const scene_memory *before, double *size);        /* of gravity since     */
 double scene_turning_off(const bbm_model *m, const scene_memory *before);
