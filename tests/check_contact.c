@@ -3698,6 +3698,29 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
 }
 END_TEST
 
+/* A slab of two elements a little above a table, bent so that from the grid point in the middle of its
+ * lower side one half, or the other, or both fall towards the table: by a tenth the point may still
+ * touch the table, by more it may not. */
+START_TEST(a_grid_point_in_a_hollow_may_touch_up_to_a_tenth)
+{
+    const int halves = 1 + _i / 2;
+    const double sine = _i % 2 ? 0.1001 : 0.0999, hollow = sine / sqrt(1 - sine * sine);
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 1e-3, .w = 2, .h = 1, .nx = 2 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, 0, -20);
+    for (int k = 0; k < 2; k++)
+        m->vertex[m->element[1 + k].first + 1 - k].y += halves & (1 << k) ? hollow : 0;
+    start_step(m, &n);
+    ck_assert_int_eq(n, _i % 2 ? 2 : 3);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* A tip that slides on from one half of a table's top to the other one, which has come to lie
  * higher: if its contact was closed it stays closed there, though deeper than others were; if it
  * was open there is none. */
@@ -4116,6 +4139,7 @@ static void add_entrance(Suite *s)
         { a_contact_that_closes_inside_starts_without_force, 2 },
         { a_point_that_stays_inside_has_no_force, 1 },
         { a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides, 8 },
+        { a_grid_point_in_a_hollow_may_touch_up_to_a_tenth, 6 },
         { a_corner_that_slides_on_along_a_bent_side_keeps_its_contact, 2 },
         { a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step, COUNT(MOVES) },
         { a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in_the_model, 4 },
