@@ -3698,9 +3698,9 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
 }
 END_TEST
 
-/* A slab of two elements a little above a table, bent so that from the grid point in the middle of its
- * lower side one half, or the other, or both fall towards the table: by a tenth the point may still
- * touch the table, by more it may not. */
+/* A slab of two elements a little above a table, bent so that from the grid point in the middle of
+ * its lower side one half, or the other, or both fall towards the table: by a tenth the point may
+ * still touch the table, by more it may not. */
 START_TEST(a_grid_point_in_a_hollow_may_touch_up_to_a_tenth)
 {
     const int halves = 1 + _i / 2;
