@@ -3381,7 +3381,7 @@ START_TEST(preparing_again_forgets_the_contacts)
 }
 END_TEST
 
-/* ---------------------------------------- who may touch whom, by the step before and in the step */
+/* --------------------------------------- who may touch whom, by the step before and in the step */
 
 /* Starts a step: what it foretells, and its list. */
 static bbm_contact *start_step(bbm_model *m, int *n)
@@ -3912,6 +3912,98 @@ START_TEST(a_grid_point_in_a_hollow_may_touch_up_to_a_tenth)
 }
 END_TEST
 
+/* Two wedges of one block. The one is on a table, and closes in the first look; in the second look
+ * it is so deep, and the other one's tip is 1 mm deep while its side dips into the table by 0.03.
+ * That tip closes if this solution is deep enough for such a dip, over sides of 1 m; the first
+ * one, which was, does not count. */
+START_TEST(a_side_may_dip_as_deep_as_contacts_of_the_solution)
+{
+    const double at[2][2] = { { -3, 0 }, { 3, 1e-3 } }, turn = -0.03;
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    add_table(m, 0);
+    add_wedge(m, 1, at[0], radians(60), radians(120));
+    add_wedge(m, 1, at[1], 0, radians(60));
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 2, 0, -1);
+    start_step(m, &n);
+    ck_assert_int_eq(look_at(m, 1, 0, -0.02), 1);
+    m->D[6 * 2] = turn * (at[1][1] - m->element[2].y);
+    m->D[6 * 2 + 1] = -2e-3 - turn * (at[1][0] - m->element[2].x);
+    m->D[6 * 2 + 2] = turn;
+    look_at(m, 1, 0, _i ? -0.02 : -1e-4);
+    ck_assert_int_eq(find_listed(m, 2, 0, 0, 2)->state != BBM_OPEN, _i);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A tip over a table, and what a solution says of their contact, in N of its springs: how far it
+ * is off the table, how far the vectors have it, and how wrong they have its slip. With the forces
+ * on the tip's element, the table and a third one, and N. A quarter of the largest of the first
+ * three, or a billionth of all, may be wrong; a shear spring only counts where it is, an open
+ * contact only on the wrong side. All to the last bit: the numbers are short ones in base 2. */
+static const struct {
+    bbm_contact_state state;
+    double tip[2], table[2], N, third, at, told, slip;
+    int off;
+} WRONG[] = {
+    { BBM_LOCK,  { 100, 0 }, { 0, 0 }, 0, 0, 64, 64 + 25, 0, 0 },
+    { BBM_LOCK,  { 100, 0 }, { 0, 0 }, 0, 0, 64, 64 + 25.125, 0, 1 },
+    { BBM_LOCK,  { 0, 100 }, { 0, 0 }, 0, 0, 64, 64 - 25, 0, 0 },
+    { BBM_LOCK,  { 0, 100 }, { 0, 0 }, 0, 0, 64, 64 - 25.125, 0, 1 },
+    { BBM_LOCK,  { 0, 0 }, { 100, 0 }, 0, 0, 64, 64 + 25, 25, 0 },
+    { BBM_LOCK,  { 0, 0 }, { 100, 0 }, 0, 0, 64, 64, 25.125, 1 },
+    { BBM_LOCK,  { 0, 0 }, { 0, -100 }, 0, 0, 64, 64, -25, 0 },
+    { BBM_LOCK,  { 0, 0 }, { 0, -100 }, 0, 0, 64, 64, -25.125, 1 },
+    { BBM_LOCK,  { 1, 0 }, { 0, 1 }, -100, 0, 64, 64 + 25, -25, 0 },
+    { BBM_LOCK,  { 1, 0 }, { 0, 1 }, 100, 1e6, 64, 64 + 25.125, 0, 1 },
+    { BBM_LOCK,  { 100, 0 }, { 0, 0 }, 0, 64e9, 64, 64 + 63, 63, 0 },
+    { BBM_LOCK,  { 100, 0 }, { 0, 0 }, 0, 64e9, 64, 64 + 65, 0, 1 },
+    { BBM_SLIDE, { 100, 0 }, { 0, 0 }, 0, 0, 64, 64 + 25, 99, 0 },
+    { BBM_SLIDE, { 100, 0 }, { 0, 0 }, 0, 0, 64, 64 + 25.125, 99, 1 },
+    { BBM_OPEN,  { 100, 0 }, { 0, 0 }, 0, 0, 64, 256, 99, 0 },
+    { BBM_OPEN,  { 100, 0 }, { 0, 0 }, 0, 0, 16, -9, 0, 0 },
+    { BBM_OPEN,  { 100, 0 }, { 0, 0 }, 0, 0, 16, -9.125, 0, 1 },
+    { BBM_OPEN,  { 100, 0 }, { 0, 0 }, 0, 0, -16, 9.125, 0, 1 },
+    { BBM_OPEN,  { 100, 0 }, { 0, 0 }, 0, 0, -16, -64, 0, 0 },
+    { BBM_LOCK,  { 0, 0 }, { 0, 0 }, 0, 0, 0, 0, 0, 0 },
+};
+
+START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
+{
+    const double p = ldexp(1, 30), tip[2] = { 1, 64 / p };
+    bbm_model *m = new_model();
+    int n;
+
+    m->par.gravity[1] = 0;
+    m->par.p_n = m->par.p_s = p;
+    add_table(m, 0);
+    add_wedge(m, 1, tip, radians(60), radians(120));
+    add_rectangle(m, 2, ROCK, (rectangle){ .x = 50, .y = 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, 0, -1);
+    bbm_contact *c = start_step(m, &n);
+    ck_assert_int_eq(n, 1);
+    memset(m->F, 0, 18 * sizeof *m->F);
+    for (int a = 0; a < 2; a++) {
+        m->F[a] = WRONG[_i].table[a];
+        m->F[6 + a] = WRONG[_i].tip[a];
+    }
+    m->F[12] = WRONG[_i].third;
+    m->vertex[m->element[1].first].y = WRONG[_i].at / p;
+    c->state = WRONG[_i].state;
+    c->N = WRONG[_i].N;
+    c->d_n = WRONG[_i].told / p;
+    c->anchor = 0.25;                                   /* 2.5 m from the table's end at x = 5 */
+    c->share = 0.5;
+    c->d_s = 0.5 * (1 - 2.5) + WRONG[_i].slip / p;
+    ck_assert_int_eq(bbm_contacts_are_off(m, 0.25), WRONG[_i].off);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* A tip that slides on from one half of a table's top to the other one, which has come to lie
  * higher: if its contact was closed it stays closed there, though deeper than others were; if it
  * was open there is none. */
@@ -4339,6 +4431,8 @@ static void add_entrance(Suite *s)
         { a_point_that_stays_inside_has_no_force, 1 },
         { a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides, 24 },
         { a_grid_point_in_a_hollow_may_touch_up_to_a_tenth, 6 },
+        { a_side_may_dip_as_deep_as_contacts_of_the_solution, 2 },
+        { vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks, COUNT(WRONG) },
         { a_corner_that_slides_on_along_a_bent_side_keeps_its_contact, 2 },
         { a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step, COUNT(MOVES) },
         { a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in_the_model, 4 },
