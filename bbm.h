@@ -167,6 +167,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     double rest;                /* m        d_n at which the normal spring carries nothing: 0, or where it was  */
                                 /*          when it closed inside, so that no spring starts loaded              */
     double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
+    int    inside;              /* opened though P1 is still inside: where it had closed inside, see rest       */
     int    whole;               /* closed since the start and not broken: has cohesion and tensile strength     */
     /* --- of the step --- */
     int    rival[4];            /* other lines of entrance, in the list, or -1: two at P3, two at P2            */
