@@ -139,13 +139,14 @@ typedef enum {                  /* how K D = F is solved                        
 typedef struct {
     double omega;               /* -        relaxation factor of SSOR, in (0, 2); with two levels it is 1       */
     double tolerance;           /* -        of the residual, in the norm of the preconditioner, against F      */
-    int    iterations;          /* at most                                                                      */
+    int    iterations;          /* at most; both for each connected component of K by itself                    */
     bbm_pcg_form form;
 } bbm_pcg;
 
 typedef struct {                /* what a solve did                                                             */
-    int    iterations;
-    double residual;            /* -        |F - K D| / |F|, computed afresh at the end                         */
+    int    iterations;          /* of the connected component of K that took most                               */
+    double residual;            /* -        |F - K D| / |F|, computed afresh at the end; of the component where
+                                   it is largest, without those where F is 0                                    */
     int    element;             /* block row where K is not positive definite, else -1                          */
     double seconds[2];          /* s        CPU time of the preconditioner and of the iteration                 */
 } bbm_pcg_info;
@@ -167,6 +168,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     double rest;                /* m        d_n at which the normal spring carries nothing: 0, or where it was  */
                                 /*          when it closed inside, so that no spring starts loaded              */
     double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
+    int    inside;              /* opened though P1 is still inside: where it had closed inside, see rest       */
     int    whole;               /* closed since the start and not broken: has cohesion and tensile strength     */
     /* --- of the step --- */
     int    rival[4];            /* other lines of entrance, in the list, or -1: two at P3, two at P2            */
@@ -389,7 +391,8 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, d
 
 /* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
  * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,
- * repeats allowed. Vectors have 6 n entries in the caller's order.                                             */
+ * repeats allowed. Vectors have 6 n entries in the caller's order. Rows that no pairs connect, however indirectly,
+ * are solved apart: neither changes a bit of the other's D.                                                    */
 
 bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                                             /* takes NULL            */
@@ -399,7 +402,8 @@ void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   
 void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y);       /* y = K x               */
 int        bbm_matrix_bandwidth(const bbm_matrix *K);                                  /* in block rows         */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node); /* for two levels:
-                                   block row i hangs on node[first[i]] .. node[first[i+1]-1], each with two unknowns */
+                                   block row i hangs on node[first[i]] .. node[first[i+1]-1], each with two unknowns;
+                                   rows that are solved apart have no node in common                            */
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);        /* by P on the k-th      */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info);
 

@@ -574,7 +574,7 @@ static double behind(const bbm_model *m, int c, int e)
     return 2 * fmin(w->depth[w->body[c]], w->depth[w->body[e]]) + w->touch + (bbm_is_exact(m) ? 0 : approach(w, c, e));
 }
 
-/* The closed contact of the last step between `corner` and the edge - or, if `all`, another one of its straight side -
+/* The contact of the last step, closed or open inside, between `corner` and the edge - or, if `all`, another one of its straight side -
  * or NULL. */
 static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
 {
@@ -582,7 +582,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
 
     for (int k = m->work->old[corner]; k < m->work->old[corner + 1]; k++) {
         const bbm_contact *c = &m->contact[k];
-        if (c->state == BBM_OPEN)
+        if (c->state == BBM_OPEN && !c->inside)
             continue;
         if (c->edge == edge)
             return c;
@@ -812,7 +812,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     if (old) {
         c->state = old->state, c->sign = old->sign, c->anchor = old->anchor, c->whole = old->whole;
         c->N = c->used = old->N, c->T = old->T, c->rest = old->rest;
-        c->before = 1;
+        c->before = old->state != BBM_OPEN, c->inside = old->inside;
     } else if (start && fmax(fabs(f.d), f.off) <= w->touch) {
         c->whole = 1;
         c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
@@ -825,6 +825,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->area = strong && c->whole ? joint_area(m, p) : 0;
     if (c->state != BBM_OPEN && has_left(m, c))
         c->state = BBM_OPEN, c->N = c->T = 0, c->before = 0;
+    c->inside = c->inside && !has_left(m, c);
     if (!old || c->state == BBM_OPEN || old->corner != p.corner || old->edge != p.edge) {
         place_anchor(m, c, c->T);
         c->rest = bbm_is_exact(m) ? fmin(0, c->gap + c->N / m->par.p_n) : 0;
@@ -1238,7 +1239,7 @@ static double crossed_at(const bbm_contact_work *w, const bbm_contact *c)
 /* Whether P starts behind the line, so that it cannot come in there. */
 static int is_behind(const bbm_model *m, const bbm_contact *c)
 {
-    return !c->before && c->gap < -behind(m, c->corner, c->edge);
+    return !c->before && !c->inside && c->gap < -behind(m, c->corner, c->edge);
 }
 
 /* Whether an open contact, though crossed, may not close: from behind, off the edge from the start of the step to its end,
@@ -1385,6 +1386,7 @@ bbm_status bbm_keep_contacts(bbm_model *m)
         bbm_contact *c = &w->list[k];
         const double strength = bbm_shear_strength(&m->par, c->N, c->area);
         c->whole = c->whole && (c->state == BBM_LOCK || (c->state == BBM_SLIDE && strength == 0));
+        c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->before || c->inside);
         if (c->state == BBM_SLIDE)
             c->T = c->sign * strength;
         if (c->state == BBM_SLIDE || c->share < 1)

@@ -7,12 +7,19 @@
  *     K = L + D + L^T,      D: the diagonal blocks,  L: the blocks left of them.
  *
  * Only D and those blocks of L that are not zero are stored, row by row: `first` says where the blocks of a row begin
- * and `column` which column each of them is in. The block rows are not in the caller's order but in the reverse
- * Cuthill-McKee order: number the elements from one end of the body to the other, breadth first, and turn the numbers
- * round. The blocks of L then lie in a narrow band below the diagonal, and what a sweep reads was written shortly
+ * and `back` how far left of the diagonal each of them is. The block rows are not in the caller's order but in the
+ * reverse Cuthill-McKee order: number the elements from one end of the body to the other, breadth first, and turn the
+ * numbers round. The blocks of L then lie in a narrow band below the diagonal, and what a sweep reads was written shortly
  * before. The band itself is not stored: an element has three or four neighbours and a band has sqrt(n) places, all
  * but those few zero for ever, because an iteration, unlike a factorisation, fills nothing in.
  * The pattern is made once (bbm_matrix_new); each time step clears K and adds the submatrices anew.
+ *
+ * Nothing far away matters. Blocks that no bond and no contact joins, however indirectly, are different components of
+ * K: no row of one has a block in a column of another. Each component is solved by itself, with its own scale of F,
+ * its own steps and its own end of the iteration. In one iteration for all, a stone that flies past would count the
+ * forces in a pile at rest as nothing against its own, and leave them unsolved. The order puts the rows of a component
+ * one after the other, and `back` tells the same wherever they begin: a component is a matrix like K, with fewer rows.
+ * Its D is the same to the last bit whatever else there is.
  *
  * SSOR-PCG as in the textbooks, with a relaxation factor w, 0 < w < 2:
  *
@@ -81,6 +88,7 @@ typedef struct {                /* the coarse space; its nodes are numbered by t
     matrix62 *P, *Q;            /* [first[rows]]  P as given, and C_i^T P                                       */
     matrix2 *A;                 /* [blocks]  Kc, then its factor, with inverted diagonal blocks                 */
     double *size, *c;           /* [2 n]     what a pivot is measured by; the coarse vector                     */
+    int from, to;               /* in a component: its nodes are from .. to-1                                   */
 } coarse_space;
 
 /* Block rows are numbered in two ways: by the caller, and by their place in the reverse Cuthill-McKee order.    */
@@ -88,7 +96,8 @@ struct bbm_matrix {
     int n, blocks;              /* block rows, blocks in L                                                      */
     int *place, *caller;        /* [n]       place[caller's row], and back                                      */
     int *first;                 /* [n+1]     the blocks of row i of L are first[i] .. first[i+1]-1              */
-    int *column;                /* [blocks]                                                                     */
+    int *back;                  /* [blocks]  row less column                                                    */
+    int components, *start;     /* [n+1]     the rows of component c are start[c] .. start[c+1]-1               */
     matrix6 *D, *L;             /* [n], [blocks]                                                                */
     /* --- scratch of bbm_solve; vectors have 6 n entries in the order of the places --- */
     matrix6 *C, *S;             /* [n], [blocks]  C_i^-1 and -w S_ij; in the textbook form C is -w D_i^-1       */
@@ -217,7 +226,7 @@ static void reverse_cuthill_mckee(graph *g, int *order, int *place)
         order[place[i]] = i;
 }
 
-/* first and column: the neighbours left of the diagonal. */
+/* first and back: the neighbours left of the diagonal. A component ends with the row where the search began. */
 static void lay_out_rows(const graph *g, bbm_matrix *K)
 {
     int count = 0, i, j, k;
@@ -226,9 +235,11 @@ static void lay_out_rows(const graph *g, bbm_matrix *K)
         for (k = g->first[K->caller[i]]; k < g->end[K->caller[i]]; k++) {
             j = K->place[g->list[k]];
             if (j < i)
-                K->column[count++] = j;
+                K->back[count++] = i - j;
         }
         K->first[i + 1] = count;
+        if (g->level[K->caller[i]] == 0)
+            K->start[++K->components] = i + 1;
     }
 }
 
@@ -246,13 +257,14 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
         K->blocks += degree(g, i);
     K->blocks /= 2;
     blocks = (size_t)K->blocks;
-    if (!(K->place = calloc(3 * n + 1 + blocks, sizeof *K->place))
+    if (!(K->place = calloc(4 * n + 2 + blocks, sizeof *K->place))
         || !(K->D = calloc(2 * (n + blocks), sizeof *K->D))
         || !(K->p = calloc(7 * 6 * n, sizeof *K->p)))
         return BBM_NO_MEMORY;
     K->caller = K->place + n;
     K->first = K->caller + n;
-    K->column = K->first + n + 1;
+    K->start = K->first + n + 1;
+    K->back = K->start + n + 1;
     K->L = K->D + n;
     K->C = K->L + blocks;
     K->S = K->C + n;
@@ -330,7 +342,7 @@ static matrix6 *find_block(const bbm_matrix *K, int i, int j)
     int k;
 
     for (k = K->first[i]; k < K->first[i + 1]; k++)
-        if (K->column[k] == j)
+        if (i - K->back[k] == j)
             return &K->L[k];
     return i == j ? &K->D[i] : NULL;
 }
@@ -374,8 +386,8 @@ int bbm_matrix_bandwidth(const bbm_matrix *K)
 
     for (i = 0; i < K->n; i++)
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            if (i - K->column[k] > width)
-                width = i - K->column[k];
+            if (K->back[k] > width)
+                width = K->back[k];
     return width;
 }
 
@@ -451,7 +463,7 @@ static void multiply(const bbm_matrix *K, const int *row, const double *x, doubl
         set_zero(1, y + to);
         add_transposed(&K->D[i], x + to, y + to);
         for (k = K->first[i]; k < K->first[i + 1]; k++) {
-            const int from = 6 * (row ? row[K->column[k]] : K->column[k]);
+            const int from = 6 * (row ? row[i - K->back[k]] : i - K->back[k]);
 
             add_product(&K->L[k], x + from, y + to);
             add_transposed(&K->L[k], x + to, y + from);
@@ -547,7 +559,7 @@ static void apply_ssor(const bbm_matrix *K, const double *r, double *z)
         for (a = 0; a < 6; a++)
             s[a] = -r[6 * i + a];
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_product(&K->L[k], y + 6 * K->column[k], s);
+            add_product(&K->L[k], y + 6 * i - 6 * K->back[k], s);
         add_transposed(&K->C[i], s, y + 6 * i);
     }
     for (i = K->n - 1; i >= 0; i--) {
@@ -555,7 +567,7 @@ static void apply_ssor(const bbm_matrix *K, const double *r, double *z)
         copy(1, y + 6 * i, z + 6 * i);
         add_transposed(&K->C[i], s, z + 6 * i);
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_transposed(&K->L[k], z + 6 * i, z + 6 * K->column[k]);
+            add_transposed(&K->L[k], z + 6 * i, z + 6 * i - 6 * K->back[k]);
     }
 }
 
@@ -596,7 +608,7 @@ static void scale_blocks(bbm_matrix *K, double w)
 
     for (i = 0; i < K->n; i++)
         for (k = K->first[i]; k < K->first[i + 1]; k++) {
-            const matrix6 *Gi = &K->C[i], *Gj = &K->C[K->column[k]], *L = &K->L[k];
+            const matrix6 *Gi = &K->C[i], *Gj = &K->C[i - K->back[k]], *L = &K->L[k];
             matrix6 *S = &K->S[k];
 
             memset(S, 0, sizeof *S);
@@ -618,7 +630,7 @@ static void backward(const bbm_matrix *K, double *t)
 
     for (i = K->n - 1; i >= 0; i--)
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_transposed(&K->S[k], t + 6 * i, t + 6 * K->column[k]);
+            add_transposed(&K->S[k], t + 6 * i, t + 6 * i - 6 * K->back[k]);
 }
 
 /* y = E^-1 (p - (2-w) t) */
@@ -630,7 +642,7 @@ static void forward(const bbm_matrix *K, double w, const double *p, const double
         for (a = 6 * i; a < 6 * i + 6; a++)
             y[a] = p[a] - (2.0 - w) * t[a];
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_product(&K->S[k], y + 6 * K->column[k], y + 6 * i);
+            add_product(&K->S[k], y + 6 * i - 6 * K->back[k], y + 6 * i);
     }
 }
 
@@ -760,7 +772,7 @@ static int list_coarse_pairs(const bbm_matrix *K, const coarse_space *c, int (*p
 
     for (i = 0; i < K->n; i++)
         for (k = K->first[i]; k <= K->first[i + 1]; k++) {
-            j = k < K->first[i + 1] ? K->column[k] : i;
+            j = k < K->first[i + 1] ? i - K->back[k] : i;
             if (i != j && share_a_side(c, i, j))
                 continue;
             for (a = c->first[i]; a < c->first[i + 1]; a++)
@@ -825,14 +837,55 @@ static bbm_status allocate_coarse(coarse_space *c, int rows, int corners, int no
     return BBM_OK;
 }
 
+/* The nodes as given, and in left[] the component of each, from 1; 0: no row hangs on it. */
+static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *node, coarse_space *c)
+{
+    int component = 1, i, k = 0;
+
+    for (i = 0; i < K->n; i++) {
+        const int *from = node + first[K->caller[i]], *end = node + first[K->caller[i] + 1];
+
+        component += i == K->start[component];
+        for (; from < end; from++) {
+            if (c->left[*from] != 0 && c->left[*from] != component)
+                return BBM_BAD_INDEX;
+            c->left[*from] = component;
+            c->node[k++] = *from;
+        }
+        c->first[i + 1] = k;
+    }
+    return BBM_OK;
+}
+
+/* Numbers the nodes one component after the other, those of each in the order that they have: the solution of one need
+ * not look at the nodes of others.                                                                                */
+static bbm_status sort_nodes(const bbm_matrix *K, coarse_space *c)
+{
+    int *next = calloc((size_t)K->components + 2, sizeof *next), i;
+
+    if (!next)
+        return BBM_NO_MEMORY;
+    for (i = 0; i < c->n; i++)
+        next[c->left[i] + 1]++;
+    for (i = 0; i <= K->components; i++)
+        next[i + 1] += next[i];
+    for (i = 0; i < c->n; i++)
+        c->left[i] = next[c->left[i]]++;
+    for (i = 0; i < c->first[K->n]; i++)
+        c->node[i] = c->left[c->node[i]];
+    free(next);
+    return BBM_OK;
+}
+
 /* Gives K a coarse space in place of the one it had: block row i hangs on node[first[i]] .. node[first[i+1]-1], all
- * different, or on none. Rows of three nodes that share two of them must be triangles bonded along that side.    */
+ * different, or on none, and no two components on the same node. Rows of three nodes that share two of them must be
+ * triangles bonded along that side.                                                                              */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node)
 {
     const int corners = first[K->n];
     coarse_space *c;
     bbm_status status;
-    int i, k;
+    int k;
 
     for (k = 0; k < corners; k++)
         if (node[k] < 0 || node[k] >= nodes)
@@ -844,13 +897,10 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
         return BBM_OK;
     c = calloc(1, sizeof *c);
     status = c ? allocate_coarse(c, K->n, corners, nodes) : BBM_NO_MEMORY;
-    for (i = 0; i < K->n && status == BBM_OK; i++) {
-        const int *from = node + first[K->caller[i]], *end = node + first[K->caller[i] + 1];
-
-        for (k = c->first[i]; from < end; k++, from++)
-            c->node[k] = *from;
-        c->first[i + 1] = k;
-    }
+    if (status == BBM_OK)
+        status = list_nodes(K, first, node, c);
+    if (status == BBM_OK)
+        status = sort_nodes(K, c);
     if (status == BBM_OK)
         status = lay_out_envelope(K, c);
     if (status == BBM_OK && !(c->A = calloc(c->blocks, sizeof *c->A)))
@@ -955,7 +1005,7 @@ static void sum_coarse(const bbm_matrix *K, coarse_space *c)
         c->size[i] = c->A[c->diagonal[i / 2]].a[i % 2][i % 2];
     for (i = 0; i < K->n; i++)
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_coarse_block(c, i, K->column[k], &K->S[k]);
+            add_coarse_block(c, i, i - K->back[k], &K->S[k]);
 }
 
 /* s -= sum_k A_k B_k^T over n blocks, in partial sums of the even and of the odd columns. */
@@ -1038,12 +1088,12 @@ static void subtract_column(int n, const matrix2 *restrict A, const double y[2],
     }
 }
 
-/* c = Kc^-1 c = C^-T C^-1 c */
+/* c = Kc^-1 c = C^-T C^-1 c for the nodes of a component */
 static void solve_coarse(const coarse_space *c)
 {
     int i;
 
-    for (i = 0; i < c->n; i++) {
+    for (i = c->from; i < c->to; i++) {
         const int count = i - c->left[i];
         const matrix2 *G = &c->A[c->diagonal[i]];
         double *y = c->c + 2 * i;
@@ -1052,7 +1102,7 @@ static void solve_coarse(const coarse_space *c)
         y[1] = G->a[1][0] * y[0] + G->a[1][1] * y[1];
         y[0] = G->a[0][0] * y[0];
     }
-    for (i = c->n - 1; i >= 0; i--) {
+    for (i = c->to - 1; i >= c->from; i--) {
         const int count = i - c->left[i];
         const matrix2 *G = &c->A[c->diagonal[i]];
         double *y = c->c + 2 * i;
@@ -1069,7 +1119,7 @@ static void correct(const bbm_matrix *K, const double *g, double *z)
     const coarse_space *c = K->coarse;
     int i, k, a;
 
-    memset(c->c, 0, 2 * (size_t)c->n * sizeof *c->c);
+    memset(c->c + 2 * c->from, 0, 2 * (size_t)(c->to - c->from) * sizeof *c->c);
     for (i = 0; i < K->n; i++, g += 6)
         for (k = c->first[i]; k < c->first[i + 1]; k++) {
             double *to = c->c + 2 * c->node[k];
@@ -1099,17 +1149,17 @@ static double precondition(const bbm_matrix *K)
     set_zero(K->n, u);
     for (i = 0; i < K->n; i++) {                /* y = E^-1 r; u = -S^T y */
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_product(&K->S[k], y + 6 * K->column[k], y + 6 * i);
+            add_product(&K->S[k], y + 6 * i - 6 * K->back[k], y + 6 * i);
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_transposed(&K->S[k], y + 6 * i, u + 6 * K->column[k]);
+            add_transposed(&K->S[k], y + 6 * i, u + 6 * i - 6 * K->back[k]);
     }
     correct(K, u, y);
     copy(K->n, K->r, u);
     for (i = K->n - 1; i >= 0; i--) {           /* u = E^-T (r - S y) */
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_product(&K->S[k], y + 6 * K->column[k], u + 6 * i);
+            add_product(&K->S[k], y + 6 * i - 6 * K->back[k], u + 6 * i);
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_transposed(&K->S[k], u + 6 * i, u + 6 * K->column[k]);
+            add_transposed(&K->S[k], u + 6 * i, u + 6 * i - 6 * K->back[k]);
     }
     return dot(K->n, K->r, u);
 }
@@ -1125,7 +1175,7 @@ static double new_direction(const bbm_matrix *K, double b)
     for (i = 0; i < K->n; i++) {
         combine(1, y + 6 * i, -1.0, K->z + 6 * i, y + 6 * i);
         for (k = K->first[i]; k < K->first[i + 1]; k++)
-            add_product(&K->S[k], y + 6 * K->column[k], q + 6 * i);
+            add_product(&K->S[k], y + 6 * i - 6 * K->back[k], q + 6 * i);
     }
     return dot(K->n, K->p, q);
 }
@@ -1175,14 +1225,14 @@ static int all_finite(size_t count, const double *x)
     return 1;
 }
 
-/* The power of two below the largest entry: to divide by it rounds nothing. */
-static double magnitude(int n, const double *x)
+/* The power of two below the largest entry of F in the rows of K: to divide by it rounds nothing. */
+static double magnitude(const bbm_matrix *K, const double *F)
 {
     double m = 0.0;
     int i, exponent;
 
-    for (i = 0; i < 6 * n; i++)
-        m = fmax(m, fabs(x[i]));
+    for (i = 0; i < 6 * K->n; i++)
+        m = fmax(m, fabs(F[6 * K->caller[i / 6] + i % 6]));
     (void)frexp(m, &exponent);
     return m == 0.0 ? 0.0 : ldexp(1.0, exponent - 1);
 }
@@ -1190,16 +1240,13 @@ static double magnitude(int n, const double *x)
 /* f = F / scale, so that its largest entry is in [1, 2). NEGLIGIBLE in place of 0 keeps denormals away. */
 static void scale_load(bbm_matrix *K, const double *F, double scale)
 {
-    int i, a;
+    int i;
 
-    for (i = 0; i < K->n; i++)
-        for (a = 0; a < 6; a++) {
-            double *f = &K->f[6 * K->place[i] + a];
-
-            *f = F[6 * i + a] / scale;
-            if (*f == 0.0)
-                *f = NEGLIGIBLE;
-        }
+    for (i = 0; i < 6 * K->n; i++) {
+        K->f[i] = F[6 * K->caller[i / 6] + i % 6] / scale;
+        if (K->f[i] == 0.0)
+            K->f[i] = NEGLIGIBLE;
+    }
 }
 
 static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
@@ -1248,17 +1295,83 @@ static double true_residual(bbm_matrix *K)
     return sqrt(dot(K->n, K->r, K->r) / dot(K->n, K->f, K->f));
 }
 
+/* A = the component of K with the rows from .. to-1; c: room for its coarse space. Its vectors are those of K. */
+static void take_component(const bbm_matrix *K, int from, int to, bbm_matrix *A, coarse_space *c)
+{
+    int k;
+
+    *A = *K;
+    A->n = to - from;
+    A->caller += from;
+    A->first += from;
+    A->D += from;
+    A->C += from;
+    if (!K->coarse)
+        return;
+    *c = *K->coarse;
+    c->first += from;
+    for (k = c->first[0]; k < c->first[A->n]; k++) {
+        if (k == c->first[0] || c->node[k] < c->from)
+            c->from = c->node[k];
+        if (c->node[k] >= c->to)
+            c->to = c->node[k] + 1;
+    }
+    A->coarse = c;
+}
+
+/* The rows of D that belong to the component K. */
+static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    const double scale = magnitude(K, F);
+    bbm_status status;
+    int i;
+
+    if (scale == 0.0)
+        return BBM_OK;
+    scale_load(K, F, scale);
+    if (K->form == BBM_TWO_LEVEL)
+        status = two_level(K, pcg, info);
+    else
+        status = K->form == BBM_TEXTBOOK ? textbook(K, pcg, info) : eisenstat(K, pcg, info);
+    info->residual = true_residual(K);
+    for (i = 0; i < 6 * K->n; i++)
+        D[6 * K->caller[i / 6] + i % 6] = scale * K->x[i];
+    return status;
+}
+
+static bbm_status solve_components(const bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
+                                   bbm_pcg_info *info)
+{
+    bbm_status status = BBM_OK, s;
+    bbm_matrix A;
+    coarse_space c;
+    int k;
+
+    info->residual = 0.0;
+    for (k = 0; k < K->components; k++) {
+        bbm_pcg_info one = { 0, 0.0, -1, { 0, 0 } };
+
+        take_component(K, K->start[k], K->start[k + 1], &A, &c);
+        s = solve_component(&A, F, D, pcg, &one);
+        status = status == BBM_OK ? s : status;
+        if (one.iterations > info->iterations)
+            info->iterations = one.iterations;
+        if (!(one.residual <= info->residual))
+            info->residual = one.residual;
+    }
+    return status;
+}
+
 static double seconds_since(clock_t start) { return (double)(clock() - start) / CLOCKS_PER_SEC; }
 
-/* If the iteration ends early, D is its last iterate; if it did not begin, D is 0, iterations 0 and residual 1. */
+/* Where the iteration ends early, D is its last iterate; if it did not begin, D is 0, iterations 0 and residual 1.
+ * One component that fails does not keep the others from being solved.                                           */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     const bbm_pcg_info none = { 0, 1.0, -1, { 0, 0 } };
     clock_t start = clock();
     const bbm_pcg_form form = pcg->form == BBM_TWO_LEVEL && !K->coarse ? BBM_EISENSTAT : pcg->form;
     bbm_status status = check(F, K->n, pcg);
-    double scale;
-    int i, a;
 
     *info = none;
     set_zero(K->n, D);
@@ -1268,20 +1381,7 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
     start = clock();
     if (status != BBM_OK)
         return status;
-    scale = magnitude(K->n, F);
-    if (scale == 0.0) {
-        info->residual = 0.0;
-        return BBM_OK;
-    }
-    scale_load(K, F, scale);
-    if (form == BBM_TWO_LEVEL)
-        status = two_level(K, pcg, info);
-    else
-        status = form == BBM_TEXTBOOK ? textbook(K, pcg, info) : eisenstat(K, pcg, info);
-    info->residual = true_residual(K);
+    status = solve_components(K, F, D, pcg, info);
     info->seconds[1] = seconds_since(start);
-    for (i = 0; i < K->n; i++)
-        for (a = 0; a < 6; a++)
-            D[6 * i + a] = scale * K->x[6 * K->place[i] + a];
     return status == BBM_OK && !all_finite(6 * (size_t)K->n, D) ? BBM_NOT_FINITE : status;
 }

@@ -29,7 +29,7 @@
  *               their lever, and a bonded block that spins by 0.2 rad a step keeps its energy to 1e-9 of it
  * SHARE [-]     force of a contact that comes from T_m of another D, against the largest one on its elements: what it
  *               makes of energy is this share of the energy of the contact's spring */
-#define TURN 1e-7
+#define TURN 1e-8
 #define SHARE 1e-5
 
 /* Whether points move by the exact rotation. */
