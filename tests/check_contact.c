@@ -3912,6 +3912,64 @@ START_TEST(a_grid_point_in_a_hollow_may_touch_up_to_a_tenth)
 }
 END_TEST
 
+/* A slab's end was closed 1 mm deep; it has opened inside, or outside, or was not closed. When it
+ * then stands 3 mm deep, in this step and also in the one after, it may only close if it was
+ * closed once and has been inside ever since; its spring counts from there. */
+START_TEST(a_corner_that_opens_inside_may_close_again)
+{
+    const int inside = _i == 0;
+    bbm_model *m = slab_at(DEPTHS[0], -3e-3, BBM_EXACT);
+    int n;
+    bbm_contact *c = bbm_list_contacts(m, &n);
+
+    ck_assert_int_eq(n, 1);
+    ck_assert(c->state == BBM_LOCK && c->before && !c->inside);
+    c->before = _i != 1;
+    for (int again = 0; again < 2; again++) {
+        c->state = BBM_OPEN;
+        c->N = 0;
+        c->d_n = _i == 2 ? 0 : -3e-3;
+        ck_ok(bbm_keep_contacts(m), m);
+        ck_assert_int_eq(m->contact[0].inside, inside);
+        for (int k = 1; k < 3; k++)
+            set_velocity(m, k, 0, -1);
+        c = start_step(m, &n);
+        ck_assert_int_eq(n, inside);
+        if (!inside)
+            break;
+        ck_assert(c->state == BBM_OPEN && !c->before && c->inside);
+        ck_near(c->rest, -3e-3, 3e-3, ROUNDING);
+        ck_assert_int_eq(look_at(m, 1, 0, -1e-4), 1);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* The tip that opened inside goes out beyond the end of the side, and comes in from there: at the
+ * other side. */
+START_TEST(a_corner_that_left_after_it_opened_inside_comes_in_anew)
+{
+    const int was = _i, other = !was;
+    const double out = 1e-3, deep = -6e-3;
+    bbm_contact *c[2];
+    bbm_model *m = tip_at(was, -1e-3, -1e-3, c);
+    int n;
+
+    c[was]->state = BBM_OPEN;
+    c[was]->d_n = -1e-3;
+    ck_ok(bbm_keep_contacts(m), m);
+    shift_element(m, 1, (was == TOP ? out : deep) + 1e-3, (was == TOP ? deep : out) + 1e-3);
+    set_velocity(m, 1, -0.5, -0.5);
+    start_step(m, &n);
+    for (int k = 0; k < 2; k++)
+        c[k] = find_listed(m, 1, 0, 0, 1 + k);
+    ck_assert(c[was] && !c[was]->inside && c[other]);
+    ck_assert_int_eq(look_at(m, 1, -2e-3, -2e-3), 1);
+    ck_assert_int_eq(c[other]->state, BBM_LOCK);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* Two wedges of one block. The one is on a table, and closes in the first look; in the second look
  * it is so deep, and the other one's tip is 1 mm deep while its side dips into the table by 0.03.
  * That tip closes if this solution is deep enough for such a dip, over sides of 1 m; the first
@@ -4431,6 +4489,8 @@ static void add_entrance(Suite *s)
         { a_point_that_stays_inside_has_no_force, 1 },
         { a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides, 24 },
         { a_grid_point_in_a_hollow_may_touch_up_to_a_tenth, 6 },
+        { a_corner_that_opens_inside_may_close_again, 3 },
+        { a_corner_that_left_after_it_opened_inside_comes_in_anew, 2 },
         { a_side_may_dip_as_deep_as_contacts_of_the_solution, 2 },
         { vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks, COUNT(WRONG) },
         { a_corner_that_slides_on_along_a_bent_side_keeps_its_contact, 2 },
