@@ -985,7 +985,7 @@ bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pr
 /* ------------------------------------------------------------- preparing: what holds a body in statics */
 
 /* The root of element e in the forest up[], with the path halved on the way. */
-static int root_of(int up[], int e)
+int bbm_root_of(int up[], int e)
 {
     while (up[e] != e)
         e = up[e] = up[up[e]];
@@ -1022,17 +1022,19 @@ static int regular(double G[3][3])
 
 /* Joins what bonds and contacts connect to bodies, known by their root in up[]. That a contact holds in each direction
  * is too kind to it: a block on a slope passes. */
-static void join_bodies(const bbm_model *m, int up[])
+void bbm_join_elements(const bbm_model *m, int up[])
 {
     for (int e = 0; e < m->elements; e++)
         up[e] = e;
     for (int b = 0; b < m->bonds; b++)
-        up[root_of(up, m->bond[b].j)] = root_of(up, m->bond[b].i);
+        up[bbm_root_of(up, m->bond[b].j)] = bbm_root_of(up, m->bond[b].i);
     for (int c = 0; c < bbm_contact_count(m); c++) {
         int pair[2];
         bbm_contact_pair(m, c, pair);
-        up[root_of(up, pair[1])] = root_of(up, pair[0]);
+        up[bbm_root_of(up, pair[1])] = bbm_root_of(up, pair[0]);
     }
+    for (int e = 0; e < m->elements; e++)
+        up[e] = bbm_root_of(up, e);
 }
 
 /* Sums up the fixed points of each body. */
@@ -1040,17 +1042,17 @@ static void sum_holds(const bbm_model *m, int up[], hold h[])
 {
     for (int v = 0; v < m->vertices; v++) {
         const bbm_node *n = &m->node[m->vertex[v].node];
-        hold *body = &h[root_of(up, m->vertex[v].element)];
+        hold *body = &h[bbm_root_of(up, m->vertex[v].element)];
         if (n->held && !body->fixed)
             body->fixed = 1, body->x = n->x, body->y = n->y;
     }
     for (int v = 0; v < m->vertices; v++) {
         const bbm_node *n = &m->node[m->vertex[v].node];
-        hold *body = &h[root_of(up, m->vertex[v].element)];
+        hold *body = &h[bbm_root_of(up, m->vertex[v].element)];
         body->reach = fmax(body->reach, hypot(n->x - body->x, n->y - body->y));
     }
     for (int v = 0; v < m->vertices; v++)
-        add_hold(&h[root_of(up, m->vertex[v].element)], &m->node[m->vertex[v].node]);
+        add_hold(&h[bbm_root_of(up, m->vertex[v].element)], &m->node[m->vertex[v].node]);
 }
 
 /* Statics needs bodies that fixed points hold, by themselves or through contacts. */
@@ -1063,10 +1065,10 @@ static bbm_status check_held(bbm_model *m)
     if (!up || !h) {
         status = out_of_memory(m);
     } else {
-        join_bodies(m, up);
+        bbm_join_elements(m, up);
         sum_holds(m, up, h);
         for (int i = 0; i < m->elements && !status; i++)
-            if (root_of(up, i) == i && !regular(h[i].G)) {
+            if (bbm_root_of(up, i) == i && !regular(h[i].G)) {
                 m->culprit = i;
                 status = fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)", m->element[i].block,
                               i, m->element[i].x, m->element[i].y);
@@ -1097,7 +1099,7 @@ static void join_corners(const bbm_model *m, int up[], int corners[])
     for (int b = 0; b < m->bonds; b++) {
         const bbm_bond *k = &m->bond[b];
         for (int end = 0; end < 2; end++)
-            up[root_of(up, k->q[end])] = root_of(up, k->p[end]);
+            up[bbm_root_of(up, k->q[end])] = bbm_root_of(up, k->p[end]);
         corners[k->i] = held_all_round(m, &m->element[k->i]) ? 0 : m->element[k->i].n;
         corners[k->j] = held_all_round(m, &m->element[k->j]) ? 0 : m->element[k->j].n;
     }
@@ -1116,7 +1118,7 @@ static bbm_status lay_out_coarse(const bbm_model *m, bbm_matrix *K)
     for (int e = 0; e < m->elements; e++) {
         const int corners = first[e + 1];
         for (int k = 0; k < corners; k++) {
-            int *n = &number[root_of(up, m->element[e].first + k)];
+            int *n = &number[bbm_root_of(up, m->element[e].first + k)];
             if (*n == 0)
                 *n = ++nodes;
             node[first[e] + k] = *n - 1;

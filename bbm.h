@@ -363,6 +363,8 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
 /* ------------------------------------------------------------ the parts of a step with contacts, for bbm_step    */
 bbm_status bbm_contact_new(bbm_model *m);
 void       bbm_contact_free(bbm_contact_work *w);
+int        bbm_root_of(int up[], int e);           /* of a forest: up[e] leads from e towards its root          */
+void       bbm_join_elements(const bbm_model *m, int up[]);  /* what bonds and listed contacts connect, by roots */
 void       bbm_guess_step(bbm_model *m);
 int        bbm_moved_too_far(bbm_model *m);
 const double *bbm_guess(const bbm_model *m);

@@ -62,7 +62,8 @@
  * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches: soft blocks bend more
  * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and feet closer to the end of
  *                 an edge are at the end: rounding of a model file, elastic strain
- * AGREE    [-]    forces that differ by less, against the largest force of the model, agree: what the solver can tell
+ * AGREE    [-]    forces that differ by less, against the largest force of what K connects, agree: what the solver can
+ *                 tell
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding                                */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
@@ -91,6 +92,8 @@ struct bbm_contact_work {
     double touch;               /* m        TOUCH times that of the start                                       */
     /* --- what the step may do --- */
     double *guess;              /* [6 elements] D, as far as known before the solution                          */
+    int *part;                  /* [elements] an element of what K connects with it                             */
+    double *force;              /* [elements] N, of a part: the largest force on its elements and in its contacts */
     int *body;                  /* [edges]  the first boundary edge of the same block                           */
     double *girth;              /* [edges]  m, of a body: length of its boundary at the start                   */
     double *depth;              /* [edges]  m, of a body: |d_n| of its closed contacts, at most, before the step */
@@ -365,6 +368,8 @@ void bbm_contact_free(bbm_contact_work *w)
     free(w->span);
     free(w->along);
     free(w->guess);
+    free(w->part);
+    free(w->force);
     free(w->body);
     free(w->girth);
     free(w->depth);
@@ -401,6 +406,8 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->old = calloc(n + 1, sizeof *w->old);
         w->head = calloc(PLACES * n, sizeof *w->head);
         w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
+        w->part = calloc((size_t)m->elements, sizeof *w->part);
+        w->force = calloc((size_t)m->elements, sizeof *w->force);
         w->body = calloc(n, sizeof *w->body);
         w->girth = calloc(n, sizeof *w->girth);
         w->depth = calloc(n, sizeof *w->depth);
@@ -409,7 +416,7 @@ bbm_status bbm_contact_new(bbm_model *m)
         w->moved = calloc(n, sizeof *w->moved);
     }
     const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
-                   && w->head && w->guess && w->body && w->girth && w->depth && w->now && w->travel && w->moved
+                   && w->head && w->guess && w->part && w->force && w->body && w->girth && w->depth && w->now && w->travel && w->moved
                    && number_bodies(m);
     if (ok)
         link_edges(m, ends);
@@ -907,6 +914,9 @@ static int list_fits(bbm_contact_work *w)
     return w->list_room > 0;
 }
 
+/* The element of a contact's corner. */
+static int element_of(const bbm_model *m, const bbm_contact *c) { return m->edge[c->corner].element; }
+
 /* Whether the list of this step has the pairs that were found once more. */
 static int is_same_list(const bbm_contact_work *w)
 {
@@ -940,6 +950,7 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
     for (int k = 0; k < w->pairs; k++)
         make_contact(m, w->pairs_of[k], &w->list[k]);
     w->listed = w->pairs;
+    bbm_join_elements(m, w->part);
     w->passes = w->forces = w->single = w->directions = 0;
     return BBM_OK;
 }
@@ -1062,30 +1073,35 @@ static void measure(const bbm_model *m, bbm_contact *c)
     c->T = c->state == BBM_OPEN ? 0 : m->par.p_s * c->d_s;
 }
 
-/* The largest force in the model: on an element, inertia included, or in a contact. What the solver leaves as its
- * residual, and so in every N, is small against this and nothing else. */
-static double largest_force(const bbm_model *m)
+/* The largest force in each part: on an element, inertia included, or in a contact. What the solver leaves as its residual,
+ * and so in every N of the part, is small against this and nothing else. */
+static void find_forces(const bbm_model *m)
 {
     const bbm_contact_work *w = m->work;
-    double F = 0;
 
+    memset(w->force, 0, (size_t)m->elements * sizeof *w->force);
     for (int i = 0; i < m->elements; i++)
-        F = fmax(F, hypot(m->F[6 * i], m->F[6 * i + 1]));
-    for (int k = 0; k < w->pairs; k++)
-        F = fmax(F, fabs(w->list[k].N));
-    return F;
+        w->force[w->part[i]] = fmax(w->force[w->part[i]], hypot(m->F[6 * i], m->F[6 * i + 1]));
+    for (int k = 0; k < w->pairs; k++) {
+        double *F = &w->force[w->part[element_of(m, &w->list[k])]];
+        *F = fmax(*F, fabs(w->list[k].N));
+    }
+}
+
+/* Forces of a contact that differ by less agree. */
+static double slack_of(const bbm_model *m, const bbm_contact *c)
+{
+    return AGREE * m->work->force[m->work->part[element_of(m, c)]];
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
  * of the largest one on its two elements, or an open contact on the wrong side. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
-    const double solved = AGREE * largest_force(m);
-
     for (int k = 0; k < m->work->pairs; k++) {
         const bbm_contact *c = &m->work->list[k];
         const double *Fi = &m->F[6 * m->edge[c->corner].element], *Fj = &m->F[6 * m->edge[c->edge].element];
-        const double F = fmax(fabs(c->N), fmax(hypot(Fi[0], Fi[1]), hypot(Fj[0], Fj[1]))), slack = fmax(share * F, solved);
+        const double F = fmax(fabs(c->N), fmax(hypot(Fi[0], Fi[1]), hypot(Fj[0], Fj[1]))), slack = fmax(share * F, slack_of(m, c));
         double d[2];
         exact_distances(m, c, d);
         const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(c->share * d[1] - c->d_s);
@@ -1195,13 +1211,15 @@ static bbm_status agree(bbm_contact_work *w)
 }
 
 /* Whether every friction force belongs to its N. */
-static int forces_agree(const bbm_model *m, double slack)
+static int forces_agree(const bbm_model *m)
 {
     const bbm_contact_work *w = m->work;
 
-    for (int k = 0; k < w->pairs && m->par.friction > 0; k++)
-        if (w->list[k].state == BBM_SLIDE && fabs(w->list[k].N - w->list[k].used) > slack)
+    for (int k = 0; k < w->pairs && m->par.friction > 0; k++) {
+        const bbm_contact *c = &w->list[k];
+        if (c->state == BBM_SLIDE && fabs(c->N - c->used) > slack_of(m, c))
             return 0;
+    }
     return 1;
 }
 
@@ -1297,14 +1315,14 @@ static void change_state(const bbm_model *m, bbm_contact *c)
 }
 
 /* Changes the states that do not fit the solution, all or the first of them; the number of changes. */
-static int change_states(bbm_model *m, double slack)
+static int change_states(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
     int changes = 0;
 
     for (int k = 0; k < w->pairs; k++) {
         bbm_contact *c = &w->list[k];
-        c->next = bbm_next_state(&m->par, c, slack);
+        c->next = bbm_next_state(&m->par, c, slack_of(m, c));
         if (c->state == BBM_OPEN && c->next != BBM_OPEN && is_blocked(m, c))
             c->next = BBM_OPEN;
     }
@@ -1351,14 +1369,14 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
         measure(m, &w->list[k]);
         note_depth(w, &w->list[k], w->now);
     }
-    const double scale = largest_force(m);
-    if (!forces_agree(m, AGREE * scale)) {
+    find_forces(m);
+    if (!forces_agree(m)) {
         *pass = w->forces < FORCES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
         return agree(w);
     }
     w->forces = w->directions = 0;
     watch_for_cycles(w);
-    const int changes = change_states(m, AGREE * scale), off = !m->keep_K && bbm_middle_is_off(m);
+    const int changes = change_states(m), off = !m->keep_K && bbm_middle_is_off(m);
     if (off)
         bbm_set_middle(m, m->D);
     if (!changes && !off)

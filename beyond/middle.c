@@ -66,15 +66,28 @@ void bbm_set_middle(bbm_model *m, const double D[])
             m->element[i].mid[a] = bbm_is_exact(m) ? D[6 * i + a] : 0;
 }
 
-/* Whether the vectors belong to another step than the solution, by more than can be left. */
+/* Whether the turn of element i is another one than that of its T_m, by more than can be left. */
+static int is_off(const bbm_model *m, int i)
+{
+    const double r = m->D[6 * i + 2], off = fabs(r - m->element[i].mid[2]);
+
+    return off * (fabs(r) + off) > TURN;
+}
+
+/* Whether the vectors of bonds, fixed points, loads or contacts belong to another step than the solution. */
 int bbm_middle_is_off(const bbm_model *m)
 {
+    int off = 0;
+
     if (!bbm_is_exact(m))
         return 0;
-    for (int i = 0; i < m->elements; i++) {
-        const double r = m->D[6 * i + 2], off = fabs(r - m->element[i].mid[2]);
-        if (off * (fabs(r) + off) > TURN)
-            return 1;
+    for (int b = 0; b < m->bonds && !off; b++)
+        off = is_off(m, m->bond[b].i) || is_off(m, m->bond[b].j);
+    for (int v = 0; v < m->vertices && !off; v++) {
+        const bbm_node *n = &m->node[m->vertex[v].node];
+        off = (n->held || n->load[0] != 0 || n->load[1] != 0) && is_off(m, m->vertex[v].element);
     }
-    return bbm_contacts_are_off(m, SHARE);
+    for (int l = 0; l < m->line_loads && !off; l++)
+        off = is_off(m, m->vertex[m->line_load[l].a].element);
+    return off || bbm_contacts_are_off(m, SHARE);
 }

@@ -8,14 +8,6 @@
  */
 #include "../bbm.h"
 
-/* The root of element e in the forest up[], with the path halved on the way. */
-static int root_of(int up[], int e)
-{
-    while (up[e] != e)
-        e = up[e] = up[up[e]];
-    return e;
-}
-
 /* For each element the first one of its piece, the elements that bonds join to it; piece[elements] of the caller. Returns
  * the number of pieces: as many as blocks, if each holds together. */
 int bbm_find_pieces(const bbm_model *m, int piece[])
@@ -25,7 +17,7 @@ int bbm_find_pieces(const bbm_model *m, int piece[])
     for (int e = 0; e < m->elements; e++)
         piece[e] = e;
     for (int b = 0; b < m->bonds; b++) {
-        const int i = root_of(piece, m->bond[b].i), j = root_of(piece, m->bond[b].j);
+        const int i = bbm_root_of(piece, m->bond[b].i), j = bbm_root_of(piece, m->bond[b].j);
         pieces -= i != j;
         piece[i > j ? i : j] = i > j ? j : i;           /* the root is the first element */
     }
