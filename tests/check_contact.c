@@ -3999,11 +3999,12 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_of_the_solution)
 }
 END_TEST
 
-/* A tip over a table, and what a solution says of their contact, in N of its springs: how far it
- * is off the table, how far the vectors have it, and how wrong they have its slip. With the forces
- * on the tip's element, the table and a third one, and N. A quarter of the largest of the first
- * three, or a billionth of all, may be wrong; a shear spring only counts where it is, an open
- * contact only on the wrong side. All to the last bit: the numbers are short ones in base 2. */
+/* A tip over a table, and what a solution says of their contact, in N of its springs: how far
+ * it is off the table, how far the vectors have it, and how wrong they have its slip. With the
+ * forces on the tip's element, the table and what else touches that, and N. A quarter of the
+ * largest of the first three, or a billionth of all, may be wrong; a shear spring only counts
+ * where it is, an open contact only on the wrong side. All to the last bit: the numbers are
+ * short ones in base 2. */
 static const struct {
     bbm_contact_state state;
     double tip[2], table[2], N, third, at, told, slip;
@@ -4033,26 +4034,33 @@ static const struct {
 
 START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
 {
-    const double p = ldexp(1, 30), tip[2] = { 1, 64 / p };
+    const double p = ldexp(1, 30), tip[2] = { 1, 64 / p }, beside[2] = { -1, 64 / p };
     bbm_model *m = new_model();
+    bbm_pass pass;
     int n;
 
     m->par.gravity[1] = 0;
     m->par.p_n = m->par.p_s = p;
     add_table(m, 0);
     add_wedge(m, 1, tip, radians(60), radians(120));
-    add_rectangle(m, 2, ROCK, (rectangle){ .x = 50, .y = 0, .w = 1, .h = 1 });
+    add_wedge(m, 2, beside, radians(60), radians(120));
+    add_rectangle(m, 3, ROCK, (rectangle){ .x = 50, .y = 0, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, 0, -1);
-    bbm_contact *c = start_step(m, &n);
-    ck_assert_int_eq(n, 1);
-    memset(m->F, 0, 18 * sizeof *m->F);
+    set_velocity(m, 2, 0, -1);
+    start_step(m, &n);
+    ck_assert_int_eq(n, 2);
+    memset(m->F, 0, 24 * sizeof *m->F);
     for (int a = 0; a < 2; a++) {
         m->F[a] = WRONG[_i].table[a];
         m->F[6 + a] = WRONG[_i].tip[a];
     }
-    m->F[12] = WRONG[_i].third;
+    m->F[12 + _i % 2] = WRONG[_i].third;
+    m->F[18] = 1e30;                                    /* K does not connect it */
+    ck_ok(bbm_open_close(m, &pass), m);
+    ck_assert_int_eq(bbm_contacts_are_off(m, 0.25), 0);
     m->vertex[m->element[1].first].y = WRONG[_i].at / p;
+    bbm_contact *c = find_listed(m, 1, 0, 0, 2);
     c->state = WRONG[_i].state;
     c->N = WRONG[_i].N;
     c->d_n = WRONG[_i].told / p;
