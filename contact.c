@@ -64,6 +64,7 @@
  *                 an edge are at the end: rounding of a model file, elastic strain
  * AGREE    [-]    forces that differ by less, against the largest force of what K connects, agree: what the solver can
  *                 tell
+ * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is 1e-5 of that
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding                                */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
@@ -71,6 +72,7 @@
 #define TOUCH 1e-6
 #define AGREE 1e-9
 #define TIE 1e-9
+#define DIRECTION 1e-4
 
 #define FAR 1e15        /* cells of the grid */
 
@@ -1094,17 +1096,26 @@ static double slack_of(const bbm_model *m, const bbm_contact *c)
     return AGREE * m->work->force[m->work->part[element_of(m, c)]];
 }
 
+/* Whether element i turns by another angle than that of its vectors, by more than the direction of a force may be wrong. */
+static int turns_otherwise(const bbm_model *m, int i)
+{
+    return bbm_is_exact(m) && fabs(m->D[6 * i + 2] - m->element[i].mid[2]) > DIRECTION;
+}
+
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
- * of the largest one on its two elements, or an open contact on the wrong side. */
+ * of the largest one on its two elements, or in direction, or an open contact on the wrong side. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
     for (int k = 0; k < m->work->pairs; k++) {
         const bbm_contact *c = &m->work->list[k];
-        const double *Fi = &m->F[6 * m->edge[c->corner].element], *Fj = &m->F[6 * m->edge[c->edge].element];
+        const int i = element_of(m, c), j = m->edge[c->edge].element;
+        const double *Fi = &m->F[6 * i], *Fj = &m->F[6 * j];
         const double F = fmax(fabs(c->N), fmax(hypot(Fi[0], Fi[1]), hypot(Fj[0], Fj[1]))), slack = fmax(share * F, slack_of(m, c));
         double d[2];
         exact_distances(m, c, d);
         const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(c->share * d[1] - c->d_s);
+        if (c->state != BBM_OPEN && (turns_otherwise(m, i) || turns_otherwise(m, j)))
+            return 1;
         if (c->state == BBM_OPEN ? n > slack && (d[0] < 0) != (c->d_n < 0) : n > slack || (c->state == BBM_LOCK && s > slack))
             return 1;
     }
