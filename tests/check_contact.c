@@ -3684,7 +3684,9 @@ START_TEST(a_millionth_of_an_edge_is_allowed_for_to_the_last_bit)
 }
 END_TEST
 
-/* Half a millionth of an edge, to the last bit, is what a step that foretells nothing may move. */
+/* Half a millionth of an edge, to the last bit, is what a step that foretells nothing may move;
+ * and half of a hundredth what one that foretells no turn, but a way that is long enough, may
+ * turn. */
 START_TEST(a_solution_may_move_as_far_as_foreseen_to_the_last_bit)
 {
     bbm_model *m = new_model();
@@ -3697,6 +3699,12 @@ START_TEST(a_solution_may_move_as_far_as_foreseen_to_the_last_bit)
     m->D[0] = 1e-6 / 2;
     ck_assert(!bbm_moved_too_far(m));
     m->D[0] = nextafter(1e-6 / 2, 1);
+    ck_assert(bbm_moved_too_far(m));
+    set_velocity(m, 0, 10, 0);
+    start_step(m, &n);
+    m->D[2] = 0.01 / 2;
+    ck_assert(!bbm_moved_too_far(m));
+    m->D[2] = nextafter(0.01 / 2, 1);
     ck_assert(bbm_moved_too_far(m));
     bbm_model_free(m);
 }
