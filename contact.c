@@ -1271,14 +1271,15 @@ static int is_behind(const bbm_model *m, const bbm_contact *c)
     return !c->before && !c->inside && c->gap < -behind(m, c->corner, c->edge);
 }
 
-/* Whether an open contact, though crossed, may not close: from behind, off the edge from the start of the step to its end,
- * or a side points into the edge by then; or a rival line is closed, is not crossed, or is crossed later: the line
- * crossed last is where P comes in. At the same time: the one that was closed at the start of the step. */
+/* Whether an open contact, though crossed, may not close: from behind; off the edge from the start of the step to its end,
+ * unless it was closed and has not left; if a side points into the edge by then; or a rival line is closed, is not
+ * crossed, or is crossed later: the line crossed last is where P comes in. At the same time: the one that was closed at
+ * the start of the step. */
 static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
 
-    if (!foot_on_edge(m, c) || !enters_at_end(m, c) || is_behind(m, c))
+    if (!(c->before || foot_on_edge(m, c)) || !enters_at_end(m, c) || is_behind(m, c))
         return 1;
     for (int k = 0; k < 4; k++) {
         if (c->rival[k] < 0)
