@@ -1236,10 +1236,26 @@ static int forces_agree(const bbm_model *m)
 
 /* --------------------------------------------------------------------- the open-close iteration: states */
 
-/* Whether the foot of an open contact is on the edge, at the start of the step or at its end. */
+/* The length of an edge at the end of the step. */
+static double end_length(const bbm_model *m, int edge)
+{
+    const bbm_vertex *a = start_of(m, edge), *b = end_of(m, edge);
+    const double *D = &m->D[6 * m->edge[edge].element];
+    double ua[2], ub[2];
+
+    bbm_move(m, &m->element[a->element], D, a->x, a->y, ua);
+    bbm_move(m, &m->element[b->element], D, b->x, b->y, ub);
+    return hypot(b->x - a->x + ub[0] - ua[0], b->y - a->y + ub[1] - ua[1]);
+}
+
+/* Whether the foot of an open contact is on the edge, at the start of the step or at its end, where the way along it is
+ * -d_s times the length at the start over that at the end. */
 static int foot_on_edge(const bbm_model *m, const bbm_contact *c)
 {
-    return !c->off || (c->d_s <= 0 && -c->d_s <= m->work->along[c->edge].length);
+    if (!c->off)
+        return 1;
+    const double l = end_length(m, c->edge);
+    return c->d_s <= 0 && -c->d_s * m->work->along[c->edge].length <= l * l;
 }
 
 static int enters_at_end(const bbm_model *m, const bbm_contact *c)
