@@ -1236,10 +1236,26 @@ static int forces_agree(const bbm_model *m)
 
 /* --------------------------------------------------------------------- the open-close iteration: states */
 
-/* Whether the foot of an open contact is on the edge, at the start of the step or at its end. */
+/* The length of an edge at the end of the step. */
+static double end_length(const bbm_model *m, int edge)
+{
+    const bbm_vertex *a = start_of(m, edge), *b = end_of(m, edge);
+    const double *D = &m->D[6 * m->edge[edge].element];
+    double ua[2], ub[2];
+
+    bbm_move(m, &m->element[a->element], D, a->x, a->y, ua);
+    bbm_move(m, &m->element[b->element], D, b->x, b->y, ub);
+    return hypot(b->x - a->x + ub[0] - ua[0], b->y - a->y + ub[1] - ua[1]);
+}
+
+/* Whether the foot of an open contact is on the edge, at the start of the step or at its end, where the way along it is
+ * -d_s times the length at the start over that at the end. */
 static int foot_on_edge(const bbm_model *m, const bbm_contact *c)
 {
-    return !c->off || (c->d_s <= 0 && -c->d_s <= m->work->along[c->edge].length);
+    if (!c->off)
+        return 1;
+    const double l = end_length(m, c->edge);
+    return c->d_s <= 0 && -c->d_s * m->work->along[c->edge].length <= l * l;
 }
 
 static int enters_at_end(const bbm_model *m, const bbm_contact *c)
@@ -1271,14 +1287,15 @@ static int is_behind(const bbm_model *m, const bbm_contact *c)
     return !c->before && !c->inside && c->gap < -behind(m, c->corner, c->edge);
 }
 
-/* Whether an open contact, though crossed, may not close: from behind, off the edge from the start of the step to its end,
- * or a side points into the edge by then; or a rival line is closed, is not crossed, or is crossed later: the line
- * crossed last is where P comes in. At the same time: the one that was closed at the start of the step. */
+/* Whether an open contact, though crossed, may not close: from behind; off the edge from the start of the step to its end,
+ * unless it was closed and has not left; if a side points into the edge by then; or a rival line is closed, is not
+ * crossed, or is crossed later: the line crossed last is where P comes in. At the same time: the one that was closed at
+ * the start of the step. */
 static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_work *w = m->work;
 
-    if (!foot_on_edge(m, c) || !enters_at_end(m, c) || is_behind(m, c))
+    if (!(c->before || foot_on_edge(m, c)) || !enters_at_end(m, c) || is_behind(m, c))
         return 1;
     for (int k = 0; k < 4; k++) {
         if (c->rival[k] < 0)
