@@ -270,11 +270,16 @@ static int before_solution(const bbm_model *m, void *results)
     return stopped != 0;
 }
 
-/* The first signal is noted, the second one ends the program at once. */
+/* The first signal is noted; another one, or the same more than a second later, ends the program at once. (timeout(1)
+ * sends the same to the program and to its group.) */
 static void stop(int number)
 {
-    if (stopped)
+    static volatile time_t first;
+
+    if (stopped && (number != stopped || time(NULL) > first + 1))
         _Exit(128 + number);
+    if (!stopped)
+        first = time(NULL);
     stopped = number;
     signal(number, stop);                       /* some systems forget it */
 }
