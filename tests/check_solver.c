@@ -906,7 +906,7 @@ enum { MOST_CORNERS = 4 * MOST };
 
 typedef struct {                /* a coarse space: P takes all its unknowns to all rows                          */
     int nodes, first[MOST + 1], node[MOST_CORNERS];
-    double P[MOST_6][2 * MOST_CORNERS];
+    double P[MOST_6][4 * MOST_CORNERS];                     /* twice, for a test that doubles the nodes */
 } dense_coarse;
 
 static void hang(dense_system *s, dense_coarse *c)
