@@ -17,7 +17,7 @@
 
 #include "../bbm.h"
 
-/* GAIN [-]      a step that makes more than this share of what is there is wrong; one that is right makes less than 1e-5,
+/* GAIN [-]      a step that makes more than this share of what is there is wrong; one that is right makes some 1e-5 at most,
  *               what the solution and the vectors of the step are off
  * ROUNDING [-]  of positions, in which forces do work: some dozens of the last digit of a coordinate */
 #define GAIN 1e-3
