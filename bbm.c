@@ -606,7 +606,7 @@ static void free_prepared(bbm_model *m)
     free(m->pair);
     m->work = NULL;
     m->contact = NULL;
-    m->contacts = m->contact_room = 0;
+    m->contacts = 0;
     m->pair = NULL;
     m->pairs = 0;
     m->bond = NULL;

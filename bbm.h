@@ -102,8 +102,16 @@ typedef struct {                /* an internal edge: two bonding springs between
     int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j                      */
 } bbm_bond;
 
+typedef struct { double x, y, length; } bbm_direction;          /* unit vector, m                               */
+
 typedef struct {                /* a boundary edge from vertex a to vertex b, its element on the left           */
     int element, a, b, block;
+    /* --- contact.c --- */
+    int    before, after;       /* its neighbours along the boundary                                            */
+    int    side;                /* the first edge of the straight side that it belongs to                       */
+    double span;                /* m        length of that side at the start, if it is the first                */
+    bbm_direction along;        /* of the present positions                                                     */
+    int    contact;             /* the first one of its corner, a, in model.contact                             */
 } bbm_edge;
 
 typedef enum {                  /* how quadrilaterals are bonded along an edge; all others are at its vertices  */
@@ -280,7 +288,7 @@ struct bbm_model {
     double *force, *force_before;   /* N    [4 (bonds + vertices)] multipliers of bonds and fixed points: forces
                                    from i on j, from element on wall; and those of the start of the step       */
     double h;                   /* s        the step in hand: dt, or a part of it                               */
-    int contacts, contact_room;
+    int contacts;
     bbm_contact *contact;       /* [contacts] at the end of the last step, sorted by corner and edge            */
     bbm_contact_work *work;
     int keep_K;                 /* F alone is assembled                      */

@@ -49,79 +49,11 @@
  */
 #include "bbm.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* --- tolerances; none depends on the size of the domain ---
- * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and sides that differ less
- *                 in length, relatively, are as long: rounding of a model file
- * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies on it: what
- *                 penetration and elastic bending turn
- * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches: soft blocks bend more
- * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and feet closer to the end of
- *                 an edge are at the end: rounding of a model file, elastic strain
- * AGREE    [-]    forces that differ by less, against the largest force of what K connects, agree: what the solver can
- *                 tell
- * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is 1e-5 of that
- * TIE      [-]    fractions of a step that differ less are the same moment: rounding                                */
-#define STRAIGHT 1e-4
-#define PARALLEL 1e-2
-#define BENT 0.1
-#define TOUCH 1e-6
-#define AGREE 1e-9
-#define TIE 1e-9
-#define DIRECTION 1e-4
-
-#define FAR 1e15        /* cells of the grid */
-
-/* Places of the grid for each edge, 4 x 4; directions that `agree` remembers; passes that change states or renew
- * the vectors of the step, and that change forces between two of them. */
-enum { PLACES = 16, DIRECTIONS = 16, PASSES = 60, FORCES = 100 };
-
-typedef struct { double x, y, length; } direction;              /* unit vector along an edge                     */
-typedef struct { int corner, edge; } pair;
-typedef struct { int edge, next; } entry;
-
-struct bbm_contact_work {
-    /* --- the boundary, [edges]; the block lies on the left of an edge --- */
-    int *before, *after;        /* neighbours along the boundary                                                */
-    int *side, *last;           /* first and last edge of the straight side that the edge belongs to            */
-    double *span;               /* m        length of that side at the start                                    */
-    direction *along;           /* of the present positions                                                     */
-    double mean;                /* m        their mean length                                                   */
-    double touch;               /* m        TOUCH times that of the start                                       */
-    /* --- what the step may do --- */
-    double *guess;              /* [6 elements] D, as far as known before the solution                          */
-    int *part;                  /* [elements] an element of what K connects with it                             */
-    double *force;              /* [elements] N, of a part: the largest force on its elements and in its contacts */
-    int *body;                  /* [edges]  the first boundary edge of the same block                           */
-    double *girth;              /* [edges]  m, of a body: length of its boundary at the start                   */
-    double *depth;              /* [edges]  m, of a body: |d_n| of its closed contacts, at most, before the step */
-    double *now;                /* [edges]  m, the same of the solution, or of the start if that is deeper      */
-    double *travel;             /* [edges]  m, of a body: how far its vertices may move in the step             */
-    double *moved;              /* [edges]  m, the same of the solution                                         */
-    double search;              /* m        vertices further from an edge do not reach it, in any block         */
-    /* --- the grid --- */
-    double cell;                /* m        width of its cells                                                  */
-    int *head;                  /* [PLACES edges] the last entry of each place, or -1                           */
-    entry *entries;
-    int entered, entry_room;
-    /* --- the list in the making, sorted by corner and edge --- */
-    int pairs, pair_room, list_room;
-    pair *pairs_of;             /* [pairs]                                                                      */
-    int *first, *old;           /* [edges+1] those of corner c are pairs_of[first[c] ..]; in the model's list,  */
-                                /*           of the last step, contact[old[c] ..]                               */
-    bbm_contact *list;          /* [listed]                                                                     */
-    int listed;                 /* -1: no list of this step yet                                                 */
-    /* --- the iteration --- */
-    int passes, forces, single;
-    uint64_t seen[PASSES + 1];  /* the states of each pass                                                      */
-    int directions, vector_room;
-    double *x, *r;              /* [pairs]  the N that friction used; what the solution adds to it              */
-    double *dx, *dr;            /* [(DIRECTIONS+1) pairs] changes of x, and the orthonormal changes of r        */
-};
 
 /* ------------------------------------------------------------------------------- 3.7.1 Normal submatrices */
 
@@ -246,144 +178,192 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
     return c->sign * c->T < strength - slack ? BBM_LOCK : BBM_SLIDE;
 }
 
-/* ------------------------------------------------------------------------- the boundary of the blocks, once */
+/* ------------------------------------------------------------------------------------------ the data
+ *
+ * Tolerances; none depends on the size of the domain.
+ * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and sides
+ *                 that differ less in length, relatively, are as long: rounding of a model file
+ * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies
+ *                 on it: what penetration and elastic bending turn
+ * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches: soft
+ *                 blocks bend more
+ * TOUCH    [-]    gaps below this, in mean edge lengths, are closed at the start, and projections
+ *                 closer to the end of an edge are at the end: rounding of a model file, elastic strain
+ * AGREE    [-]    forces that differ by less, against the largest force of what K connects, agree:
+ *                 what the solver can tell
+ * TIE      [-]    fractions of a step that differ less are the same moment: rounding               */
+#define STRAIGHT 1e-4
+#define PARALLEL 1e-2
+#define BENT 0.1
+#define TOUCH 1e-6
+#define AGREE 1e-9
+#define TIE 1e-9
+#define DIRECTION 1e-4
+
+/* Passes that change states or renew the vectors of the step, and that change friction forces between
+ * two of them; directions that `agree` remembers. */
+enum { PASSES = 60, FORCES = 100, DIRECTIONS = 16 };
+
+typedef struct { int corner, edge, dropped; } pair;             /* what may touch                   */
+
+typedef struct {                /* around an edge, as wide as the search distance, and its corner   */
+    double low[2], high[2], at[2];      /* m        [0] along the axis of the sweep                 */
+    int edge;
+} box;
+
+typedef struct {                /* a block, with the number of its first element                    */
+    double girth;               /* m        length of its boundary at the start                     */
+    double depth;               /* m        |d_n| of its closed contacts, at most, before the step  */
+    double depth_now;           /* m        the same of the solution, or before it if that was more */
+    double travel;              /* m        how far its vertices may move in the step               */
+    double moved;               /* m        how far they do                                         */
+} body;
+
+struct bbm_contact_work {
+    double mean;                /* m        mean length of the boundary edges                       */
+    double touch;               /* m        TOUCH times that of the start                           */
+    int *body_of;               /* [elements]                                                       */
+    body *body;                 /* [elements]                                                       */
+    /* --- what may touch, in the making --- */
+    double *guess;              /* [6 elements] D, as far as known before the solution              */
+    box *box;                   /* [edges]                                                          */
+    int pairs, pair_room;
+    pair *pair;                 /* [pairs]  sorted by corner and edge                               */
+    /* --- the contacts of the step --- */
+    int listed;                 /* 0: not yet                                                       */
+    int contacts;
+    bbm_contact *contact;       /* [contacts], sorted like the pairs                                */
+    int *part;                  /* [elements] an element of what K connects with it                 */
+    double *force;              /* [elements] N, of a part: the largest one in it                   */
+    /* --- the iteration --- */
+    int passes, forces, single;
+    uint64_t seen[PASSES + 1];  /* the states of each pass                                          */
+    int directions, vector_room;
+    double *x, *r;              /* [pairs]  the N that friction used; what the solution adds to it  */
+    double *dx, *dr;            /* [(DIRECTIONS+1) pairs] changes of x, orthonormal changes of r    */
+};
+
+/* ---------------------------------------------------------------------- the boundary of the blocks */
 
 static const bbm_vertex *start_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].a]; }
 static const bbm_vertex *end_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].b]; }
-static double cross(direction p, direction q) { return p.x * q.y - p.y * q.x; }
+static double cross(bbm_direction p, bbm_direction q) { return p.x * q.y - p.y * q.x; }
+
+static body *body_of(const bbm_model *m, int e)
+{
+    return &m->work->body[m->work->body_of[m->edge[e].element]];
+}
 
 /* A vertex inside a straight side is no corner. */
-static int is_corner(const bbm_contact_work *w, int c) { return w->side[c] == c; }
+static int is_corner(const bbm_model *m, int c) { return m->edge[c].side == c; }
 
 /* Less than 180 degrees inside, or straight. */
-static int is_convex(const bbm_contact_work *w, int c)
+static int is_convex(const bbm_model *m, int c)
 {
-    return cross(w->along[w->before[c]], w->along[c]) > -PARALLEL;
+    return cross(m->edge[m->edge[c].before].along, m->edge[c].along) > -PARALLEL;
+}
+
+static int coincide(const bbm_model *m, int e, int f)
+{
+    return fabs(cross(m->edge[e].along, m->edge[f].along)) <= PARALLEL;
 }
 
 /* Directions and mean length of the present edges. */
 static void find_directions(bbm_model *m)
 {
-    bbm_contact_work *w = m->work;
-
-    w->mean = 0;
+    m->work->mean = 0;
     for (int e = 0; e < m->edges; e++) {
-        const double x = end_of(m, e)->x - start_of(m, e)->x, y = end_of(m, e)->y - start_of(m, e)->y, l = hypot(x, y);
-        w->along[e] = (direction){ x / l, y / l, l };
-        w->mean += l / m->edges;
+        const bbm_vertex *a = start_of(m, e), *b = end_of(m, e);
+        const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
+        m->edge[e].along = (bbm_direction){ x / l, y / l, l };
+        m->work->mean += l / m->edges;
     }
 }
 
-/* The boundary edge that ends where e starts; ends[v] is that which ends in vertex v, or -1. Where the boundary of a
- * block touches itself there are several: the right one leaves the smallest angle inside, it turns the most. */
-static int find_before(const bbm_model *m, const int ends[], int e)
+/* Links each edge with the one that starts where it ends: from element to element round that node,
+ * over the bonds, as far as they go. */
+static bbm_status link_edges(bbm_model *m)
 {
-    const int node = start_of(m, e)->node;
-    const direction q = m->work->along[e];
-    double most = -INFINITY;
-    int found = e;
+    int *across = malloc((size_t)m->vertices * sizeof *across);
 
-    for (int a = m->meet_first[node]; a < m->meet_first[node + 1]; a++) {
-        const int f = ends[m->meet[a]];
-        if (f < 0 || m->edge[f].block != m->edge[e].block)
-            continue;
-        const direction p = m->work->along[f];
-        const double turn = atan2(cross(p, q), p.x * q.x + p.y * q.y);
-        if (turn > most) {
-            most = turn;
-            found = f;
-        }
+    if (!across)
+        return BBM_NO_MEMORY;
+    for (int b = 0; b < m->bonds; b++) {            /* the side from a vertex on: its vertex beyond */
+        across[m->bond[b].p[0]] = m->bond[b].q[0];
+        across[m->bond[b].q[1]] = m->bond[b].p[1];
     }
-    return found;
+    for (int e = 0; e < m->edges; e++)
+        across[m->edge[e].a] = -1 - e;              /* or, negative, the edge that it is            */
+    for (int e = 0; e < m->edges; e++) {
+        int v = m->edge[e].b;
+        while (across[v] >= 0)
+            v = across[v];
+        m->edge[e].after = -1 - across[v];
+        m->edge[m->edge[e].after].before = e;
+    }
+    free(across);
+    return BBM_OK;
 }
 
 /* Whether edge e goes straight on from the one before it. */
-static int goes_on(const bbm_contact_work *w, int e)
+static int goes_on(const bbm_model *m, int e)
 {
-    const direction p = w->along[w->before[e]], q = w->along[e];
+    const bbm_direction p = m->edge[m->edge[e].before].along, q = m->edge[e].along;
 
     return hypot(q.x - p.x, q.y - p.y) < STRAIGHT;
 }
 
-static void link_edges(bbm_model *m, int ends[])
+/* The straight sides that the edges belong to. */
+static void find_sides(bbm_model *m)
+{
+    for (int first = 0; first < m->edges; first++) {
+        int e = first;
+        if (goes_on(m, first))
+            continue;
+        do {
+            m->edge[e].side = first;
+            e = m->edge[e].after;
+        } while (goes_on(m, e));
+        const bbm_vertex *a = start_of(m, first), *b = start_of(m, e);
+        m->edge[first].span = hypot(b->x - a->x, b->y - a->y);
+    }
+}
+
+static int compare_pairs(const void *p, const void *q)
+{
+    const pair *a = p, *b = q;
+    const int d = (a->corner > b->corner) - (a->corner < b->corner);
+
+    return d ? d : (a->edge > b->edge) - (a->edge < b->edge);
+}
+
+/* Finds the first element of each block. */
+static void number_bodies(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
+    pair *of = w->pair;                             /* block and element                            */
 
-    find_directions(m);
-    for (int v = 0; v < m->vertices; v++)
-        ends[v] = -1;
-    for (int e = 0; e < m->edges; e++)
-        ends[m->edge[e].b] = e;
-    for (int e = 0; e < m->edges; e++) {
-        w->before[e] = find_before(m, ends, e);
-        w->after[w->before[e]] = e;
-    }
-    w->touch = TOUCH * w->mean;
-    for (int e = 0; e < m->edges; e++)
-        w->side[e] = w->last[e] = e;
-    for (int e = 0; e < m->edges; e++) {
-        for (int f = w->after[e]; !goes_on(w, e) && f != e && goes_on(w, f); f = w->after[f])
-            w->side[f] = e, w->last[e] = f;
-    }
-    for (int e = 0; e < m->edges; e++)
-        w->last[e] = w->last[w->side[e]];
-    for (int e = 0; e < m->edges; e++) {
-        const bbm_vertex *a = start_of(m, w->side[e]), *b = end_of(m, w->last[e]);
-        w->span[e] = hypot(b->x - a->x, b->y - a->y);
-    }
-}
-
-static int compare_pairs(const void *a, const void *b)
-{
-    const pair *p = a, *q = b;
-    const int d = (p->corner > q->corner) - (p->corner < q->corner);
-
-    return d ? d : (p->edge > q->edge) - (p->edge < q->edge);
-}
-
-/* Finds the first boundary edge of each block; 0: no memory. */
-static int number_bodies(bbm_model *m)
-{
-    pair *of = calloc((size_t)m->edges, sizeof *of);                        /* block and edge */
-
-    if (!of)
-        return 0;
-    for (int e = 0; e < m->edges; e++)
-        of[e] = (pair){ m->edge[e].block, e };
-    qsort(of, (size_t)m->edges, sizeof *of, compare_pairs);
-    for (int k = 0, first = 0; k < m->edges; k++) {
+    for (int i = 0; i < m->elements; i++)
+        of[i] = (pair){ m->element[i].block, i, 0 };
+    qsort(of, (size_t)m->elements, sizeof *of, compare_pairs);
+    for (int k = 0, first = 0; k < m->elements; k++) {
         first = of[k].corner == of[first].corner ? first : k;
-        m->work->body[of[k].edge] = of[first].edge;
+        w->body_of[of[k].edge] = of[first].edge;
     }
-    free(of);
-    return 1;
 }
 
 void bbm_contact_free(bbm_contact_work *w)
 {
     if (!w)
         return;
-    free(w->before);
-    free(w->after);
-    free(w->side);
-    free(w->last);
-    free(w->span);
-    free(w->along);
+    free(w->body_of);
+    free(w->body);
     free(w->guess);
+    free(w->box);
+    free(w->pair);
+    free(w->contact);
     free(w->part);
     free(w->force);
-    free(w->body);
-    free(w->girth);
-    free(w->depth);
-    free(w->now);
-    free(w->travel);
-    free(w->moved);
-    free(w->head);
-    free(w->entries);
-    free(w->pairs_of);
-    free(w->first);
-    free(w->old);
-    free(w->list);
     free(w->x);
     free(w->r);
     free(w->dx);
@@ -393,428 +373,445 @@ void bbm_contact_free(bbm_contact_work *w)
 
 bbm_status bbm_contact_new(bbm_model *m)
 {
-    const size_t n = (size_t)m->edges;
-    int *ends = calloc((size_t)m->vertices, sizeof *ends);
+    const size_t n = (size_t)m->elements;
     bbm_contact_work *w = m->work = calloc(1, sizeof *w);
 
-    if (w) {
-        w->before = calloc(n, sizeof *w->before);
-        w->after = calloc(n, sizeof *w->after);
-        w->side = calloc(n, sizeof *w->side);
-        w->last = calloc(n, sizeof *w->last);
-        w->span = calloc(n, sizeof *w->span);
-        w->along = calloc(n, sizeof *w->along);
-        w->first = calloc(n + 1, sizeof *w->first);
-        w->old = calloc(n + 1, sizeof *w->old);
-        w->head = calloc(PLACES * n, sizeof *w->head);
-        w->guess = calloc(6 * (size_t)m->elements, sizeof *w->guess);
-        w->part = calloc((size_t)m->elements, sizeof *w->part);
-        w->force = calloc((size_t)m->elements, sizeof *w->force);
-        w->body = calloc(n, sizeof *w->body);
-        w->girth = calloc(n, sizeof *w->girth);
-        w->depth = calloc(n, sizeof *w->depth);
-        w->now = calloc(n, sizeof *w->now);
-        w->travel = calloc(n, sizeof *w->travel);
-        w->moved = calloc(n, sizeof *w->moved);
-    }
-    const int ok = ends && w && w->before && w->after && w->side && w->last && w->span && w->along && w->first && w->old
-                   && w->head && w->guess && w->part && w->force && w->body && w->girth && w->depth && w->now && w->travel && w->moved
-                   && number_bodies(m);
-    if (ok)
-        link_edges(m, ends);
-    for (int e = 0; e < m->edges && ok; e++) {
-        w->girth[w->body[e]] += w->along[e].length;
-        w->depth[e] = m->info.penetration;          /* prepared again in a run: contacts may be as deep as they were */
-    }
-    free(ends);
-    return ok ? BBM_OK : BBM_NO_MEMORY;
-}
-
-/* -------------------------------------------------------------------------------- detection: the grid */
-
-/* Makes room for one more entry in an array: twice the room when it is full. */
-static int grow(void **array, int count, int *room, size_t size)
-{
-    const int more = 2 * count + 64;
-
-    if (count < *room)
-        return 1;
-    void *larger = realloc(*array, (size_t)more * size);
-    if (!larger)
-        return 0;
-    *array = larger;
-    *room = more;
-    return 1;
-}
-
-/* A cell is as wide as a mean edge's box. */
-static void lay_out_grid(bbm_model *m)
-{
-    bbm_contact_work *w = m->work;
-
-    w->cell = 1.01 * w->mean + 2 * w->search;
-    w->entered = 0;
-    for (int i = 0; i < PLACES * m->edges; i++)
-        w->head[i] = -1;
-}
-
-/* The column of x, or the row of y; FAR cells away, where only a model that has blown up gets, all are one. */
-static int64_t cell_of(const bbm_contact_work *w, double x)
-{
-    return (int64_t)fmax(-FAR, fmin(FAR, floor(x / w->cell)));
-}
-
-/* The place of a cell in the table. A square of 4 x 4 cells lies together in memory, since neighbours are looked up one
- * after the other; two odd 64-bit numbers and the high half spread the squares, one for each edge. Cells that share a
- * place only cost a comparison. */
-static int *place_of(const bbm_model *m, int64_t column, int64_t row)
-{
-    const uint64_t i = (uint64_t)column, j = (uint64_t)row;
-    const uint64_t square = ((i >> 2) * 0xC2B2AE3D27D4EB4Fu ^ (j >> 2) * 0x9E3779B97F4A7C15u) >> 32;
-
-    return &m->work->head[square % (uint64_t)m->edges << 4 | (j & 3) << 2 | (i & 3)];
-}
-
-/* Enters the box of the piece (x, y) to (x + dx, y + dy) of edge e, widened by the search distance. */
-static int enter_piece(bbm_model *m, int e, double x, double y, double dx, double dy)
-{
-    bbm_contact_work *w = m->work;
-    const int64_t left = cell_of(w, fmin(x, x + dx) - w->search), right = cell_of(w, fmax(x, x + dx) + w->search);
-    const int64_t low = cell_of(w, fmin(y, y + dy) - w->search), high = cell_of(w, fmax(y, y + dy) + w->search);
-
-    for (int64_t row = low; row <= high; row++)
-        for (int64_t column = left; column <= right; column++) {
-            int *head = place_of(m, column, row);
-            if (*head >= 0 && w->entries[*head].edge == e)
-                continue;
-            if (!grow((void **)&w->entries, w->entered, &w->entry_room, sizeof *w->entries))
-                return 0;
-            w->entries[w->entered] = (entry){ e, *head };
-            *head = w->entered++;
-        }
-    return 1;
-}
-
-/* Enters all edges, the last first so that the lists ascend; long ones in pieces no longer than a cell. */
-static bbm_status fill_grid(bbm_model *m)
-{
-    bbm_contact_work *w = m->work;
-
-    lay_out_grid(m);
-    for (int e = m->edges - 1; e >= 0; e--) {
-        const bbm_vertex *a = start_of(m, e), *b = end_of(m, e);
-        const double pieces = floor(w->along[e].length / w->cell) + 1;
-        const double dx = (b->x - a->x) / pieces, dy = (b->y - a->y) / pieces;
-        for (int p = 0; p < pieces; p++)
-            if (!enter_piece(m, e, a->x + p * dx, a->y + p * dy, dx, dy))
-                return BBM_NO_MEMORY;
+    if (!w)
+        return BBM_NO_MEMORY;
+    w->body_of = calloc(n, sizeof *w->body_of);
+    w->body = calloc(n, sizeof *w->body);
+    w->guess = calloc(6 * n, sizeof *w->guess);
+    w->box = calloc((size_t)m->edges, sizeof *w->box);
+    w->pair = calloc(n, sizeof *w->pair);
+    w->part = calloc(n, sizeof *w->part);
+    w->force = calloc(n, sizeof *w->force);
+    if (!w->body_of || !w->body || !w->guess || !w->box || !w->pair || !w->part || !w->force
+        || link_edges(m))
+        return BBM_NO_MEMORY;
+    w->pair_room = m->elements;
+    number_bodies(m);
+    find_directions(m);
+    find_sides(m);
+    w->touch = TOUCH * w->mean;
+    for (int e = 0; e < m->edges; e++) {
+        body_of(m, e)->girth += m->edge[e].along.length;
+        body_of(m, e)->depth = m->info.penetration;     /* in a run contacts may be as deep as that */
     }
     return BBM_OK;
 }
 
-/* --------------------------------------------------------------------- detection: who may touch whom */
+/* ---------------------------------------------------------------- detection: how far blocks may move */
 
-typedef struct { double d, s, off; } foot;  /* of P1 on an edge: distance, way along it, how far beyond its ends */
+/* What the velocities and gravity foretell of the step; in statics a step is as long as the last one
+ * at most. */
+void bbm_guess_step(bbm_model *m)
+{
+    const double h = m->h, fall[6] = { m->gravity[0] * h * h / 2, m->gravity[1] * h * h / 2 };
 
-static foot find_foot(const bbm_model *m, int corner, int e)
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 0; a < 6; a++)
+            m->work->guess[6 * i + a] = isinf(h) ? m->element[i].D[a] : m->element[i].V[a] * h + fall[a];
+    m->work->listed = 0;
+}
+
+/* D as far as known before the solution, [6 elements]. */
+const double *bbm_guess(const bbm_model *m)
+{
+    return m->work->guess;
+}
+
+/* How far the boundary of each body moves by D. */
+static void find_moved(const bbm_model *m, const double D[])
+{
+    double u[2];
+
+    for (int b = 0; b < m->elements; b++)
+        m->work->body[b].moved = 0;
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *p = start_of(m, e);
+        body *b = body_of(m, e);
+        bbm_move(m, &m->element[p->element], &D[6 * p->element], p->x, p->y, u);
+        b->moved = fmax(b->moved, hypot(u[0], u[1]));
+    }
+}
+
+/* Whether the solution moves further than the detection has foreseen; it then is the next guess. */
+int bbm_moved_too_far(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+    int too_far = 0;
+
+    find_moved(m, m->D);
+    for (int i = 0; i < m->elements; i++) {
+        const double turn = fabs(w->guess[6 * i + 2]);
+        too_far |= w->body[i].moved > w->body[i].travel;
+        too_far |= fabs(m->D[6 * i + 2]) > 2 * turn + PARALLEL / 2;
+    }
+    if (too_far)
+        memcpy(w->guess, m->D, 6 * (size_t)m->elements * sizeof *w->guess);
+    return too_far;
+}
+
+/* How far the bodies may move: a tenth more than the guess, or what rounding and a closed contact
+ * give; and no less than what this step has foreseen before. Returns the largest way. */
+static double foresee(bbm_model *m)
+{
+    double most = 0;
+
+    find_moved(m, m->work->guess);
+    for (int i = 0; i < m->elements; i++) {
+        body *b = &m->work->body[i];
+        const double way = 1.1 * b->moved + b->depth + m->work->touch / 2;
+        b->depth_now = b->depth;
+        b->travel = m->work->listed ? fmax(way, b->travel) : way;
+        most = fmax(most, b->travel);
+    }
+    return most;
+}
+
+/* How far two blocks may approach each other in this step. */
+static double approach(const bbm_model *m, int c, int e)
+{
+    return body_of(m, c)->travel + body_of(m, e)->travel;
+}
+
+/* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of the
+ * two blocks do. Nothing comes in from behind. What moves by T of the start of a step may also end it
+ * inside; and a corner that slides on along a straight side, which may be bent by now, keeps its
+ * contact. */
+static double behind(const bbm_model *m, int c, int e)
+{
+    const double depth = fmin(body_of(m, c)->depth, body_of(m, e)->depth);
+
+    return 2 * depth + m->work->touch + (bbm_is_exact(m) ? 0 : approach(m, c, e));
+}
+
+/* ------------------------------------------------------------------ detection: who may touch whom */
+
+typedef struct { double d, s, off; } projection;    /* of P1 on an edge: distance, way along it, how */
+                                                    /* far beyond its ends                           */
+static projection project(const bbm_model *m, int corner, int e)
 {
     const bbm_vertex *P = start_of(m, corner), *a = start_of(m, e);
-    const direction t = m->work->along[e];
+    const bbm_direction t = m->edge[e].along;
     const double x = P->x - a->x, y = P->y - a->y, s = x * t.x + y * t.y;
 
-    return (foot){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
+    return (projection){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
 }
 
-/* Neither side of the corner points into the edge, up to a slack, after its block has turned by r against the edge's,
- * and the block is convex there: it lies on the outside. Either end of a side may be as deep as closed contacts are.
- * A grid point inside a straight side may come to lie in a hollow where that bends. */
-static int can_enter(const bbm_contact_work *w, int corner, int e, double r, double slack)
+/* Neither side of the corner points into the edge, up to a slack, after its block has turned by r
+ * against the edge's, and the block is convex there: it lies on the outside. Either end of a side may
+ * be as deep as closed contacts are. A grid point inside a straight side may come to lie in a hollow
+ * where that bends. */
+static int can_enter(const bbm_model *m, int corner, int e, double r, double slack)
 {
-    const direction t = w->along[e], q = w->along[corner], p = w->along[w->before[corner]];
-    const direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
-    const double deep = 2 * fmin(w->now[w->body[corner]], w->now[w->body[e]]);
+    const bbm_direction t = m->edge[e].along, q = m->edge[corner].along;
+    const bbm_direction p = m->edge[m->edge[corner].before].along;
+    const bbm_direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
+    const double deep = 2 * fmin(body_of(m, corner)->depth_now, body_of(m, e)->depth_now);
 
-    if (!is_corner(w, corner))
+    if (!is_corner(m, corner))
         return fmin(cross(q, s), cross(s, p)) >= -BENT;
     return cross(q, s) >= -slack - deep / fmin(q.length, t.length)
-        && cross(s, p) >= -slack - deep / fmin(p.length, t.length) && is_convex(w, corner);
+        && cross(s, p) >= -slack - deep / fmin(p.length, t.length) && is_convex(m, corner);
 }
 
-static int coincide(const bbm_contact_work *w, int e, int f)
-{
-    return fabs(cross(w->along[e], w->along[f])) <= PARALLEL;
-}
-
-/* Of two edges along p and q that face each other, whether the outward normal of the first, (p.y, -p.x), is the one
- * that points up, or if both are upright, to the right. */
-static int faces_up(direction p, direction q)
+/* Of two edges along p and q that face each other, whether the outward normal of the first,
+ * (p.y, -p.x), is the one that points up, or if both are upright, to the right. */
+static int faces_up(bbm_direction p, bbm_direction q)
 {
     return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
 }
 
-/* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of the shorter side
- * do, of equal sides those of the upper one. They carry all of it; none comes or goes while it slides on the longer.
- * Deviation: with `faces` = 0 corners alone touch, and a block of many elements sags between them. */
+/* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those of
+ * the shorter side do, of equal sides those of the upper one. They carry all of it; none comes or
+ * goes while it slides on the longer. Deviation: with `faces` = 0 corners alone touch, and a block of
+ * many elements sags between them. */
 static int carries(const bbm_model *m, int c, int e)
 {
-    const bbm_contact_work *w = m->work;
-    const direction p = w->along[c], q = w->along[e];
+    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
+    const double mine = m->edge[m->edge[c].side].span, other = m->edge[m->edge[e].side].span;
 
     if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)           /* they do not face each other */
         return 0;
-    if (fabs(w->span[c] - w->span[e]) > STRAIGHT * w->span[e])
-        return w->span[c] < w->span[e];
-    return faces_up(q, p);
+    return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
 }
 
-/* How far two blocks may approach each other in this step. */
-static double approach(const bbm_contact_work *w, int c, int e)
-{
-    return w->travel[w->body[c]] + w->travel[w->body[e]];
-}
-
-/* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of the two blocks do.
- * Nothing comes in from behind. What moves by T of the start of a step may also end it inside; and a corner that slides on
- * along a straight side, which may be bent by now, keeps its contact. */
-static double behind(const bbm_model *m, int c, int e)
-{
-    const bbm_contact_work *w = m->work;
-
-    return 2 * fmin(w->depth[w->body[c]], w->depth[w->body[e]]) + w->touch + (bbm_is_exact(m) ? 0 : approach(w, c, e));
-}
-
-/* The contact of the last step, closed or open inside, between `corner` and the edge - or, if `all`, another one of its straight side -
- * or NULL. */
+/* The contact of the last step, closed or open inside, between `corner` and the edge - or, if `all`,
+ * another one of its straight side - or NULL. */
 static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
 {
     const bbm_contact *found = NULL;
 
-    for (int k = m->work->old[corner]; k < m->work->old[corner + 1]; k++) {
+    for (int k = m->edge[corner].contact; k < m->contacts && m->contact[k].corner == corner; k++) {
         const bbm_contact *c = &m->contact[k];
         if (c->state == BBM_OPEN && !c->inside)
             continue;
         if (c->edge == edge)
             return c;
-        if (all && m->work->side[c->edge] == m->work->side[edge])
+        if (all && m->edge[c->edge].side == m->edge[edge].side)
             found = c;
     }
     return found;
 }
 
-/* Whether the corner may come to touch the edge in this step. If it is still outside it may also turn there first, as
- * when a side falls flat on an edge. */
+/* Whether the corner may come to touch the edge in this step. If it is still outside it may also turn
+ * there first, as when a side falls flat on an edge. */
 static int may_touch(const bbm_model *m, int corner, int e)
 {
-    const bbm_contact_work *w = m->work;
-    const double turns = fabs(w->guess[6 * m->edge[corner].element + 2]) + fabs(w->guess[6 * m->edge[e].element + 2]);
-    const foot f = find_foot(m, corner, e);
+    const double *D = m->work->guess;
+    const double turns = fabs(D[6 * m->edge[corner].element + 2]) + fabs(D[6 * m->edge[e].element + 2]);
+    const projection f = project(m, corner, e);
 
-    if (fmax(fabs(f.d), f.off) > approach(w, corner, e) + behind(m, corner, e))
+    if (m->edge[e].block == m->edge[corner].block || !(is_corner(m, corner) || carries(m, corner, e)))
         return 0;
-    if (f.off <= w->touch && f.d < -behind(m, corner, e) && !find_closed(m, corner, e, 1))
+    if (fmax(fabs(f.d), f.off) > approach(m, corner, e) + behind(m, corner, e))
+        return 0;
+    if (f.off <= m->work->touch && f.d < -behind(m, corner, e) && !find_closed(m, corner, e, 1))
         return 0;
     if (find_closed(m, corner, e, 0))
         return 1;
-    return can_enter(w, corner, e, 0, f.d > 0 ? PARALLEL + 2 * turns : PARALLEL);
+    return can_enter(m, corner, e, 0, f.d > 0 ? PARALLEL + 2 * turns : PARALLEL);
 }
 
-/* All pairs that may touch. */
-static bbm_status list_pairs(bbm_model *m)
+static int compare_boxes(const void *p, const void *q)
 {
-    bbm_contact_work *w = m->work;
+    const double a = ((const box *)p)->low[0], b = ((const box *)q)->low[0];
 
-    w->pairs = m->info.candidates = 0;
-    for (int c = 0; c < m->edges; c++) {
-        const bbm_vertex *P = start_of(m, c);
-        w->first[c] = w->pairs;
-        for (int k = *place_of(m, cell_of(w, P->x), cell_of(w, P->y)); k >= 0; k = w->entries[k].next) {
-            const int e = w->entries[k].edge;
-            m->info.candidates++;
-            if (m->edge[e].block == m->edge[c].block || !(is_corner(w, c) || carries(m, c, e)) || !may_touch(m, c, e))
-                continue;
-            if (!grow((void **)&w->pairs_of, w->pairs, &w->pair_room, sizeof *w->pairs_of))
-                return BBM_NO_MEMORY;
-            w->pairs_of[w->pairs++] = (pair){ c, e };
+    return (a > b) - (a < b);
+}
+
+/* Lays the boxes round the edges and sorts them along the axis in which the model is longer. In one
+ * that has blown up a place that is no number is far away. */
+static void sort_boxes(bbm_model *m, double search)
+{
+    double least[2] = { DBL_MAX, DBL_MAX }, most[2] = { -DBL_MAX, -DBL_MAX };
+
+    for (int v = 0; v < m->vertices; v++) {
+        const double x[2] = { m->vertex[v].x, m->vertex[v].y };
+        for (int k = 0; k < 2; k++) {
+            least[k] = fmin(least[k], x[k]);
+            most[k] = fmax(most[k], x[k]);
         }
     }
-    w->first[m->edges] = w->pairs;
-    return BBM_OK;
-}
-
-/* The place of (corner, edge) in the list in the making, or -1. */
-static int find_pair(const bbm_contact_work *w, int corner, int edge)
-{
-    for (int k = w->first[corner]; k < w->first[corner + 1]; k++)
-        if (w->pairs_of[k].edge == edge)
-            return k;
-    return -1;
-}
-
-static int is_listed(const bbm_contact_work *w, int corner, int edge) { return find_pair(w, corner, edge) >= 0; }
-
-/* Of two neighbours e and f on one straight side, P touches the first if its foot comes before the end of that one. */
-static int belongs_to_neighbour(const bbm_model *m, int corner, int e)
-{
-    const bbm_contact_work *w = m->work;
-    const int f = w->after[e], d = w->before[e];
-
-    if (!is_corner(w, f) && is_listed(w, corner, f) && find_foot(m, corner, e).s >= w->along[e].length)
-        return 1;
-    return !is_corner(w, e) && is_listed(w, corner, d) && find_foot(m, corner, d).s < w->along[d].length;
-}
-
-/* P on edge f against Q, an end of f, on edge e, where P is an end of e: one contact seen from both sides, if the
- * edges coincide and P lies at Q. When the sides are aligned, when both start in P and Q or both end there, just one
- * of P and Q has its foot on the other's edge. Whether P on f has to go. */
-static int loses_to(const bbm_model *m, pair mine, pair other, int aligned)
-{
-    const bbm_contact_work *w = m->work;
-
-    if (!coincide(w, mine.edge, other.edge) || !is_listed(w, other.corner, other.edge))
-        return 0;
-    const foot P = find_foot(m, mine.corner, mine.edge), Q = find_foot(m, other.corner, other.edge);
-    const double beside = P.s - (other.corner == mine.edge ? 0 : w->along[mine.edge].length);
-    if (fmax(fabs(beside), fmax(fabs(P.off), fabs(Q.off))) > w->touch)
-        return aligned && P.off > Q.off;
-    const int here = find_closed(m, mine.corner, mine.edge, 0) != NULL;
-    const int there = find_closed(m, other.corner, other.edge, 0) != NULL;
-    return here != there ? there : !faces_up(w->along[mine.edge], w->along[other.edge]);
-}
-
-/* The four pairs of an end Q of P's edge with an edge of which P is an end: 0 and 3 have aligned sides. */
-static pair reversed_pair(const bbm_contact_work *w, pair p, int k)
-{
-    return (pair){ k < 2 ? p.edge : w->after[p.edge], k % 2 ? p.corner : w->before[p.corner] };
-}
-
-static int is_duplicate(const bbm_model *m, pair p)
-{
-    const bbm_contact_work *w = m->work;
-
-    for (int k = 0; k < 4; k++) {
-        const pair q = reversed_pair(w, p, k);
-        if (loses_to(m, p, q, k % 3 == 0 && is_corner(w, p.corner) && is_corner(w, q.corner)))
-            return 1;
+    const int axis = most[1] - least[1] > most[0] - least[0];
+    for (int e = 0; e < m->edges; e++) {
+        const double a[2] = { start_of(m, e)->x, start_of(m, e)->y };
+        const double b[2] = { end_of(m, e)->x, end_of(m, e)->y };
+        box *edge = &m->work->box[e];
+        edge->edge = e;
+        for (int k = 0; k < 2; k++) {
+            edge->at[k] = a[k ^ axis];
+            edge->low[k] = fmax(-DBL_MAX, fmin(a[k ^ axis], b[k ^ axis]) - search);
+            edge->high[k] = fmin(DBL_MAX, fmax(a[k ^ axis], b[k ^ axis]) + search);
+        }
     }
-    return belongs_to_neighbour(m, p.corner, p.edge);
+    qsort(m->work->box, (size_t)m->edges, sizeof *m->work->box, compare_boxes);
 }
 
-/* Drops the pairs that another one stands for; all are judged on the full list before the first one goes. */
-static bbm_status drop_duplicates(bbm_model *m)
+/* Adds the corner of one box and the edge of another to the pairs, if they may touch. */
+static bbm_status add_pair(bbm_model *m, const box *c, const box *e)
 {
     bbm_contact_work *w = m->work;
-    char *drop = malloc((size_t)w->pairs + 1);
-    int kept = 0;
 
-    if (!drop)
-        return BBM_NO_MEMORY;
-    for (int k = 0; k < w->pairs; k++)
-        drop[k] = (char)is_duplicate(m, w->pairs_of[k]);
-    for (int c = 0, k = 0; c <= m->edges; c++) {
-        w->first[c] = kept;
-        for (; k < w->pairs && w->pairs_of[k].corner == c; k++)
-            if (!drop[k])
-                w->pairs_of[kept++] = w->pairs_of[k];
+    if (c->at[0] < e->low[0] || c->at[0] > e->high[0] || c->at[1] < e->low[1] || c->at[1] > e->high[1])
+        return BBM_OK;
+    m->info.candidates++;
+    if (!may_touch(m, c->edge, e->edge))
+        return BBM_OK;
+    if (w->pairs == w->pair_room) {
+        pair *larger = realloc(w->pair, (2 * (size_t)w->pairs + 64) * sizeof *larger);
+        if (!larger)
+            return BBM_NO_MEMORY;
+        w->pair = larger;
+        w->pair_room = 2 * w->pairs + 64;
     }
-    w->pairs = kept;
-    free(drop);
+    w->pair[w->pairs++] = (pair){ c->edge, e->edge, 0 };
     return BBM_OK;
 }
 
-/* The contact `other`, on another line along which P and an end Q of its edge can enter each other, if both are convex
- * corners that may meet in this step and it is in the list; else -1. In a notch Q both edges hold P at once. */
-static int find_rival(const bbm_model *m, pair p, int Q, pair other)
+/* All pairs that may touch: a sweep over the boxes meets each other one that begins before it ends. */
+static bbm_status list_pairs(bbm_model *m, double search)
 {
-    const bbm_contact_work *w = m->work;
-    const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
+    const box *b = m->work->box;
+    bbm_status status = BBM_OK;
 
-    if (!is_convex(w, Q) || coincide(w, p.edge, other.edge))
-        return -1;
-    const double reach = approach(w, p.corner, p.edge) + behind(m, p.corner, p.edge);
-    return hypot(a->x - b->x, a->y - b->y) > 2 * reach ? -1 : find_pair(w, other.corner, other.edge);
+    m->work->pairs = m->info.candidates = 0;
+    sort_boxes(m, search);
+    for (int i = 0; i < m->edges; i++)
+        for (int j = i + 1; j < m->edges && !status && b[j].low[0] <= b[i].high[0]; j++)
+            if (b[j].low[1] <= b[i].high[1] && b[j].high[1] >= b[i].low[1]) {
+                status = add_pair(m, &b[i], &b[j]);
+                status = status ? status : add_pair(m, &b[j], &b[i]);
+            }
+    qsort(m->work->pair, (size_t)m->work->pairs, sizeof *m->work->pair, compare_pairs);
+    return status;
 }
 
-/* ------------------------------------------------------------- detection: what carries over from step to step */
+/* ----------------------------------------------------------------------- detection: where corners meet */
+
+/* The place of a pair in the list in the making, or -1. */
+static int find_pair(const bbm_contact_work *w, pair p)
+{
+    const pair *found = bsearch(&p, w->pair, (size_t)w->pairs, sizeof p, compare_pairs);
+
+    return found ? (int)(found - w->pair) : -1;
+}
+
+/* What else there can be where the corner P of a pair meets an end Q of its edge: P on the next edge;
+ * Q on that edge of P that lies on this one when the blocks are flush; Q on the other edge of P. */
+typedef enum { NEXT, FLUSH, OTHER } meeting;
+
+static pair meet(const bbm_model *m, pair p, int end, meeting kind)
+{
+    const int Q = end ? m->edge[p.edge].after : p.edge;
+
+    if (kind == NEXT)
+        return (pair){ p.corner, end ? Q : m->edge[Q].before, 0 };
+    return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
+}
+
+/* Whether of two pairs that are one contact, p and what it meets, the other one stays. On a straight
+ * side: if P comes before the end of that edge. Seen from both sides, when the edges coincide and P lies
+ * at Q: the one that was closed, or else whose edge faces up. Of two corners, flush, just one has its
+ * projection on the other's edge: the one stays. */
+static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
+{
+    const pair q = meet(m, p, end, kind);
+    const int Q = end ? m->edge[p.edge].after : p.edge;
+
+    if ((kind == NEXT ? is_corner(m, Q) : !coincide(m, p.edge, q.edge)) || find_pair(m->work, q) < 0)
+        return 0;
+    const projection f = project(m, p.corner, p.edge), g = project(m, q.corner, q.edge);
+    const double lf = m->edge[p.edge].along.length, lg = m->edge[q.edge].along.length;
+    if (kind == NEXT)
+        return end ? f.s >= lf : g.s < lg;
+    if (fmax(fabs(f.s - (end ? lf : 0)), fmax(fabs(f.off), fabs(g.off))) > m->work->touch)
+        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.off > g.off;
+    const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
+    const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
+    return here != there ? there : !faces_up(m->edge[p.edge].along, m->edge[q.edge].along);
+}
+
+/* Drops the pairs that another one stands for; all are judged on the full list. */
+static void drop_duplicates(bbm_model *m)
+{
+    bbm_contact_work *w = m->work;
+    int kept = 0;
+
+    for (int k = 0; k < w->pairs; k++)
+        for (int way = 0; way < 6; way++)
+            w->pair[k].dropped |= gives_way(m, w->pair[k], way / 3, (meeting)(way % 3));
+    for (int k = 0; k < w->pairs; k++)
+        if (!w->pair[k].dropped)
+            w->pair[kept++] = w->pair[k];
+    w->pairs = kept;
+}
+
+/* Another line on which P and an end Q of its edge can enter each other, if both are convex corners
+ * that may meet in this step and it is in the list; else -1. In a notch Q both edges hold P at once. */
+static int find_rival(const bbm_model *m, pair p, int end, meeting kind)
+{
+    const pair other = meet(m, p, end, kind);
+    const int Q = end ? m->edge[p.edge].after : p.edge;
+    const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
+
+    if (!is_convex(m, Q) || coincide(m, p.edge, other.edge))
+        return -1;
+    const double reach = approach(m, p.corner, p.edge) + behind(m, p.corner, p.edge);
+    return hypot(a->x - b->x, a->y - b->y) > 2 * reach ? -1 : find_pair(m->work, other);
+}
+
+/* -------------------------------------------------------- detection: what carries over from step to step */
 
 static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P1 = start_of(m, c->corner), *P2 = end_of(m, c->edge), *P3 = start_of(m, c->edge);
 
-    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3, bbm_is_exact(m), c->rest };
+    return (bbm_touch){ &m->element[P1->element], &m->element[P2->element], P1, P2, P3, bbm_is_exact(m),
+                        c->rest };
 }
 
 /* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s, m from P2 to P3. */
 static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
 {
-    c->anchor = (find_foot(m, c->corner, c->edge).s + T / m->par.p_s) / m->work->along[c->edge].length;
+    const double s = project(m, c->corner, c->edge).s;
+
+    c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
-/* The closed contact of the last step that lives on in p: the same; one of the same corner with the same straight side;
- * or, where two corners have passed each other, that of the other corner if it is no longer in the list. */
+/* The closed contact of the last step that lives on in p: the same; one of the same corner with the
+ * same straight side; or, where two corners have passed each other, that of the other corner if it is
+ * no longer in the list. */
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
-    const bbm_contact_work *w = m->work;
     const bbm_contact *old = find_closed(m, p.corner, p.edge, 1);
 
     for (int k = 0; k < 4 && !old; k++) {
-        const pair q = reversed_pair(w, p, k);
-        if (coincide(w, p.edge, q.edge) && !is_listed(w, q.corner, q.edge))
+        const pair q = meet(m, p, k / 2, k == 0 || k == 3 ? FLUSH : OTHER);
+        if (coincide(m, p.edge, q.edge) && find_pair(m->work, q) < 0)
             old = find_closed(m, q.corner, q.edge, 0);
     }
     return old;
 }
 
-/* Area of the joint that P stands for, on which cohesion and tensile strength act: to both sides, as far as its own
- * side lies on the edge, half the way to the next point that touches - the next grid point of the side that `carries`,
- * or the end of either side. */
+/* The last edge of the straight side of e. */
+static int last_of(const bbm_model *m, int e)
+{
+    while (!is_corner(m, m->edge[e].after))
+        e = m->edge[e].after;
+    return e;
+}
+
+/* Area of the joint that P stands for, on which cohesion and tensile strength act: to both sides, as
+ * far as its own side lies on the edge, half the way to the next point that touches - the next grid
+ * point of the side that `carries`, or the end of either side. */
 static double joint_area(const bbm_model *m, pair p)
 {
-    const bbm_contact_work *w = m->work;
-    const double s = find_foot(m, p.corner, p.edge).s;
+    const bbm_edge *edge = m->edge;
+    const double s = project(m, p.corner, p.edge).s;
     double length = 0;
 
     for (int k = 0; k < 2; k++) {
-        const int mine = k ? p.corner : w->before[p.corner];
+        const int mine = k ? p.corner : edge[p.corner].before;
         const int i = carries(m, mine, p.edge), j = carries(m, p.edge, mine);
-        int a = k ? w->after[i ? mine : w->last[mine]] : i ? mine : w->side[mine];
-        int b = k ? (j ? p.edge : w->side[p.edge]) : w->after[j ? p.edge : w->last[p.edge]];
-        if (!coincide(w, mine, p.edge))
+        int a = k ? edge[i ? mine : last_of(m, mine)].after : i ? mine : edge[mine].side;
+        int b = k ? (j ? p.edge : edge[p.edge].side) : edge[j ? p.edge : last_of(m, p.edge)].after;
+        if (!coincide(m, mine, p.edge))
             continue;
-        if (!is_corner(w, b) && fabs(find_foot(m, b, p.edge).s - s) <= w->touch)
-            b = k ? w->before[b] : w->after[b];
-        length += fmin(fabs(find_foot(m, a, p.edge).s - s), fabs(find_foot(m, b, p.edge).s - s)) / 2;
+        if (!is_corner(m, b) && fabs(project(m, b, p.edge).s - s) <= m->work->touch)
+            b = k ? edge[b].before : edge[b].after;
+        length += fmin(fabs(project(m, a, p.edge).s - s), fabs(project(m, b, p.edge).s - s)) / 2;
     }
-    return length * fmin(m->element[m->edge[p.corner].element].material.thickness,
-                         m->element[m->edge[p.edge].element].material.thickness);
+    return length * fmin(m->element[edge[p.corner].element].material.thickness,
+                         m->element[edge[p.edge].element].material.thickness);
 }
 
-/* A closed contact is free when P has left past a corner Q: a rival line on which they can enter each other is open, or
- * there is none and the foot is off the edge. */
+/* A closed contact is free when P has left past a corner Q: a rival line on which they can enter each
+ * other is open, or there is none and the projection is off the edge. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_contact_work *w = m->work;
     int rivals = 0;
 
     for (int k = 0; k < 4; k++) {
         if (c->rival[k] < 0)
             continue;
-        const pair r = w->pairs_of[c->rival[k]];
-        if (find_foot(m, r.corner, r.edge).d > 0 && can_enter(w, r.corner, r.edge, 0, PARALLEL))
+        const pair r = m->work->pair[c->rival[k]];
+        if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, 0, PARALLEL))
             return 1;
         rivals++;
     }
     return c->off && rivals == 0;
 }
 
-/* Makes a pair a contact, with the state of the one that it continues. A foot beyond the end of the edge is off it,
- * but not in a notch, where it lies inside the block. A joint that touches at the start is closed from the start in
- * statics, or if it has a strength. */
+/* Makes a pair a contact, with the state of the one that it continues. A projection beyond the end of
+ * the edge is off it, but not in a notch, where it lies inside the block. A joint that touches at the
+ * start is closed from the start in statics, or if it has a strength. */
 static void make_contact(bbm_model *m, pair p, bbm_contact *c)
 {
-    const bbm_contact_work *w = m->work;
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
-    const foot f = find_foot(m, p.corner, p.edge);
-    const int strong = m->par.cohesion > 0 || m->par.tension > 0, end = w->after[p.edge];
+    const projection f = project(m, p.corner, p.edge);
+    const int strong = m->par.cohesion > 0 || m->par.tension > 0;
     const int start = m->info.step == 0 && m->info.t == 0;
 
     *c = (bbm_contact){ .corner = p.corner, .edge = p.edge, .gap = f.d, .share = 1 };
@@ -822,15 +819,13 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
         c->state = old->state, c->sign = old->sign, c->anchor = old->anchor, c->whole = old->whole;
         c->N = c->used = old->N, c->T = old->T, c->rest = old->rest;
         c->before = old->state != BBM_OPEN, c->inside = old->inside;
-    } else if (start && fmax(fabs(f.d), f.off) <= w->touch) {
+    } else if (start && fmax(fabs(f.d), f.off) <= m->work->touch) {
         c->whole = 1;
         c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
     }
-    c->rival[0] = find_rival(m, p, p.edge, (pair){ p.corner, w->before[p.edge] });
-    c->rival[1] = find_rival(m, p, p.edge, (pair){ p.edge, w->before[p.corner] });
-    c->rival[2] = find_rival(m, p, end, (pair){ p.corner, end });
-    c->rival[3] = find_rival(m, p, end, (pair){ end, p.corner });
-    c->off = f.off > w->touch && is_convex(w, f.s < 0 ? p.edge : end);
+    for (int k = 0; k < 4; k++)
+        c->rival[k] = find_rival(m, p, k / 2, k % 2 ? FLUSH : NEXT);
+    c->off = f.off > m->work->touch && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
     c->area = strong && c->whole ? joint_area(m, p) : 0;
     if (c->state != BBM_OPEN && has_left(m, c))
         c->state = BBM_OPEN, c->N = c->T = 0, c->before = 0;
@@ -841,133 +836,60 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     }
 }
 
-/* How far the boundary of each body moves by D; of a body, at its first edge. */
-static void find_travel(const bbm_model *m, const double D[], double travel[])
-{
-    double u[2];
-
-    memset(travel, 0, (size_t)m->edges * sizeof *travel);
-    for (int e = 0; e < m->edges; e++) {
-        const bbm_vertex *p = start_of(m, e);
-        double *most = &travel[m->work->body[e]];
-        bbm_move(m, &m->element[p->element], &D[6 * p->element], p->x, p->y, u);
-        *most = fmax(*most, hypot(u[0], u[1]));
-    }
-}
-
-/* What the velocities and gravity foretell of the step; in statics a step is as long as the last one at most. */
-void bbm_guess_step(bbm_model *m)
-{
-    const double fall[6] = { m->gravity[0] * m->h * m->h / 2, m->gravity[1] * m->h * m->h / 2 };
-
-    for (int i = 0; i < m->elements; i++)
-        for (int a = 0; a < 6; a++)
-            m->work->guess[6 * i + a] = isinf(m->h) ? m->element[i].D[a] : m->element[i].V[a] * m->h + fall[a];
-    m->work->listed = -1;
-}
-
-/* D as far as known before the solution, [6 elements]. */
-const double *bbm_guess(const bbm_model *m)
-{
-    return m->work->guess;
-}
-
-/* Whether the solution moves further than the detection has foreseen; it then is the next guess. */
-int bbm_moved_too_far(bbm_model *m)
-{
-    bbm_contact_work *w = m->work;
-    int too_far = 0;
-
-    find_travel(m, m->D, w->moved);
-    for (int e = 0; e < m->edges; e++)
-        too_far |= w->moved[e] > w->travel[e];
-    for (int i = 0; i < m->elements && !too_far; i++)
-        too_far = fabs(m->D[6 * i + 2]) > 2 * fabs(w->guess[6 * i + 2]) + PARALLEL / 2;
-    if (too_far)
-        memcpy(w->guess, m->D, 6 * (size_t)m->elements * sizeof *w->guess);
-    return too_far;
-}
-
-/* How far the bodies may move: a tenth more than the guess, or what rounding and a closed contact give; and no less than
- * what this step has foreseen before. */
-static void foresee(bbm_model *m)
-{
-    bbm_contact_work *w = m->work;
-
-    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
-    find_travel(m, w->guess, w->moved);
-    w->search = 0;
-    for (int e = 0; e < m->edges; e++) {
-        const double way = 1.1 * w->moved[e] + w->depth[e] + w->touch / 2;
-        w->travel[e] = w->listed < 0 ? way : fmax(way, w->travel[e]);
-        w->search = fmax(w->search, w->travel[e]);
-    }
-    w->search = 4 * w->search + w->touch;
-}
-
-/* Room for the pairs as contacts. */
-static int list_fits(bbm_contact_work *w)
-{
-    if (w->pairs <= w->list_room)
-        return 1;
-    free(w->list);
-    w->list = calloc((size_t)w->pairs, sizeof *w->list);
-    w->list_room = w->list ? w->pairs : 0;
-    return w->list_room > 0;
-}
-
-/* The element of a contact's corner. */
-static int element_of(const bbm_model *m, const bbm_contact *c) { return m->edge[c->corner].element; }
-
 /* Whether the list of this step has the pairs that were found once more. */
 static int is_same_list(const bbm_contact_work *w)
 {
-    int same = w->listed == w->pairs;
+    int same = w->listed && w->contacts == w->pairs;
 
     for (int k = 0; k < w->pairs && same; k++)
-        same = w->list[k].corner == w->pairs_of[k].corner && w->list[k].edge == w->pairs_of[k].edge;
+        same = w->contact[k].corner == w->pair[k].corner && w->contact[k].edge == w->pair[k].edge;
     return same;
 }
 
-/* Lists the contacts that may be closed in this step, from the present positions and the contacts of the last step,
- * which stay as they are; `same` (may be NULL): the list of this step had these pairs already. */
+/* Lists the contacts that may be closed in this step, from the present positions and the contacts of
+ * the last step, which stay as they are; `same` (may be NULL): the list of this step had these pairs
+ * already. */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same)
 {
     bbm_contact_work *w = m->work;
 
     find_directions(m);
-    foresee(m);
-    bbm_status status = fill_grid(m);
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].contact = m->contacts;
+    for (int k = m->contacts - 1; k >= 0; k--)
+        m->edge[m->contact[k].corner].contact = k;
+    const bbm_status status = list_pairs(m, 9 * foresee(m));
     if (!status)
-        status = list_pairs(m);
-    if (!status)
-        status = drop_duplicates(m);
+        drop_duplicates(m);
     const int known = !status && is_same_list(w);
     if (same)
         *same = known;
     if (status || known)
         return status;
-    if (!list_fits(w))
+    bbm_contact *list = realloc(w->contact, ((size_t)w->pairs + 1) * sizeof *list);
+    if (!list)
         return BBM_NO_MEMORY;
+    w->contact = list;
+    w->contacts = w->pairs;
     for (int k = 0; k < w->pairs; k++)
-        make_contact(m, w->pairs_of[k], &w->list[k]);
-    w->listed = w->pairs;
+        make_contact(m, w->pair[k], &list[k]);
+    w->listed = 1;
     bbm_join_elements(m, w->part);
     w->passes = w->forces = w->single = w->directions = 0;
     return BBM_OK;
 }
 
-/* Detects them again, with those locked that slid, by the force that their friction had; from now on one state changes in
- * each pass. */
+/* Detects them again, with those locked that slid, by the force that their friction had; from now on
+ * one state changes in each pass. */
 bbm_status bbm_start_again(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
-    m->work->listed = -1;
+    w->listed = 0;
     const bbm_status status = bbm_detect_contacts(m, NULL);
 
-    for (int k = 0; k < w->pairs && !status; k++)
-        if (w->list[k].state == BBM_SLIDE)
-            w->list[k].state = BBM_LOCK;
+    for (int k = 0; k < w->contacts && !status; k++)
+        if (w->contact[k].state == BBM_SLIDE)
+            w->contact[k].state = BBM_LOCK;
     w->single = 1;
     return status;
 }
@@ -977,21 +899,24 @@ bbm_status bbm_start_again(bbm_model *m)
 /* The contacts of the step in hand. */
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
 {
-    *contacts = m->work->pairs;
-    return m->work->list;
+    *contacts = m->work->contacts;
+    return m->work->contact;
 }
 
 int bbm_contact_count(const bbm_model *m)
 {
-    return m->work->pairs;
+    return m->work->contacts;
 }
 
 /* The elements of contact k. */
 void bbm_contact_pair(const bbm_model *m, int k, int elements[2])
 {
-    elements[0] = m->edge[m->work->pairs_of[k].corner].element;
-    elements[1] = m->edge[m->work->pairs_of[k].edge].element;
+    elements[0] = m->edge[m->work->contact[k].corner].element;
+    elements[1] = m->edge[m->work->contact[k].edge].element;
 }
+
+/* The element of a contact's corner. */
+static int element_of(const bbm_model *m, const bbm_contact *c) { return m->edge[c->corner].element; }
 
 /* The friction of a sliding contact under the N of the last solution. It goes on below N = 0, where the strength ends,
  * unless the joint is whole and may be in tension: such a contact opens when it is judged, and until then N depends on
@@ -1020,9 +945,9 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
 {
     bbm_status status = BBM_OK;
 
-    for (int k = 0; k < m->work->pairs && !status; k++)
-        if (m->work->list[k].state != BBM_OPEN)
-            status = assemble_contact(m, &m->work->list[k]);
+    for (int k = 0; k < m->work->contacts && !status; k++)
+        if (m->work->contact[k].state != BBM_OPEN)
+            status = assemble_contact(m, &m->work->contact[k]);
     return status;
 }
 
@@ -1084,9 +1009,9 @@ static void find_forces(const bbm_model *m)
     memset(w->force, 0, (size_t)m->elements * sizeof *w->force);
     for (int i = 0; i < m->elements; i++)
         w->force[w->part[i]] = fmax(w->force[w->part[i]], hypot(m->F[6 * i], m->F[6 * i + 1]));
-    for (int k = 0; k < w->pairs; k++) {
-        double *F = &w->force[w->part[element_of(m, &w->list[k])]];
-        *F = fmax(*F, fabs(w->list[k].N));
+    for (int k = 0; k < w->contacts; k++) {
+        double *F = &w->force[w->part[element_of(m, &w->contact[k])]];
+        *F = fmax(*F, fabs(w->contact[k].N));
     }
 }
 
@@ -1106,8 +1031,8 @@ static int turns_otherwise(const bbm_model *m, int i)
  * of the largest one on its two elements, or in direction, or an open contact on the wrong side. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
-    for (int k = 0; k < m->work->pairs; k++) {
-        const bbm_contact *c = &m->work->list[k];
+    for (int k = 0; k < m->work->contacts; k++) {
+        const bbm_contact *c = &m->work->contact[k];
         const int i = element_of(m, c), j = m->edge[c->edge].element;
         const double *Fi = &m->F[6 * i], *Fj = &m->F[6 * j];
         const double F = fmax(fabs(c->N), fmax(hypot(Fi[0], Fi[1]), hypot(Fj[0], Fj[1]))), slack = fmax(share * F, slack_of(m, c));
@@ -1129,9 +1054,9 @@ double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
     const bbm_contact_work *w = m->work;
     double most = 0;
 
-    for (int k = 0; k < w->pairs; k++) {
-        const bbm_contact *c = &w->list[k];
-        const double share = -c->d_n / (fmin(w->girth[w->body[c->corner]], w->girth[w->body[c->edge]]) / 4);
+    for (int k = 0; k < w->contacts; k++) {
+        const bbm_contact *c = &w->contact[k];
+        const double share = -c->d_n / (fmin(body_of(m, c->corner)->girth, body_of(m, c->edge)->girth) / 4);
         if (c->state != BBM_OPEN && share > most) {
             most = share;
             *deepest = c;
@@ -1145,16 +1070,16 @@ double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
 /* Room for the vectors of `agree`. */
 static int vectors_fit(bbm_contact_work *w)
 {
-    const size_t n = (size_t)w->pairs;
+    const size_t n = (size_t)w->contacts;
 
-    if (w->pairs <= w->vector_room)
+    if (w->contacts <= w->vector_room)
         return 1;
     free(w->x), free(w->r), free(w->dx), free(w->dr);
     w->x = calloc(n, sizeof *w->x);
     w->r = calloc(n, sizeof *w->r);
     w->dx = calloc(n * (DIRECTIONS + 1), sizeof *w->dx);
     w->dr = calloc(n * (DIRECTIONS + 1), sizeof *w->dr);
-    w->vector_room = w->x && w->r && w->dx && w->dr ? w->pairs : 0;
+    w->vector_room = w->x && w->r && w->dx && w->dr ? w->contacts : 0;
     return w->vector_room > 0;
 }
 
@@ -1163,11 +1088,11 @@ static void remove_directions(const bbm_contact_work *w, int d, double dr[], dou
 {
     for (int q = 0; q < d; q++) {
         double a = 0;
-        for (int k = 0; k < w->pairs; k++)
-            a += dr[k] * w->dr[q * w->pairs + k];
-        for (int k = 0; k < w->pairs; k++) {
-            dr[k] -= a * w->dr[q * w->pairs + k];
-            dx[k] -= a * w->dx[q * w->pairs + k];
+        for (int k = 0; k < w->contacts; k++)
+            a += dr[k] * w->dr[q * w->contacts + k];
+        for (int k = 0; k < w->contacts; k++) {
+            dr[k] -= a * w->dr[q * w->contacts + k];
+            dx[k] -= a * w->dx[q * w->contacts + k];
         }
     }
 }
@@ -1175,20 +1100,20 @@ static void remove_directions(const bbm_contact_work *w, int d, double dr[], dou
 /* The last change of x, and the change of r that it made, become a direction: in r orthonormal to the others. */
 static void learn_direction(bbm_contact_work *w)
 {
-    double *dx = &w->dx[w->directions * w->pairs], *dr = &w->dr[w->directions * w->pairs], size = 0;
+    double *dx = &w->dx[w->directions * w->contacts], *dr = &w->dr[w->directions * w->contacts], size = 0;
 
-    for (int k = 0; k < w->pairs; k++) {
-        const bbm_contact *c = &w->list[k];
+    for (int k = 0; k < w->contacts; k++) {
+        const bbm_contact *c = &w->contact[k];
         const int slides = c->state == BBM_SLIDE;
         dx[k] = slides ? c->used - w->x[k] : 0;
         dr[k] = slides ? c->N - c->used - w->r[k] : 0;
     }
     remove_directions(w, w->directions, dr, dx);
-    for (int k = 0; k < w->pairs; k++)
+    for (int k = 0; k < w->contacts; k++)
         size += dr[k] * dr[k];
     if (size == 0)
         return;
-    for (int k = 0; k < w->pairs; k++) {
+    for (int k = 0; k < w->contacts; k++) {
         dx[k] /= sqrt(size);
         dr[k] /= sqrt(size);
     }
@@ -1206,18 +1131,18 @@ static bbm_status agree(bbm_contact_work *w)
         w->directions = 0;
     if (w->forces++ > 0)
         learn_direction(w);
-    for (int k = 0; k < w->pairs; k++) {
-        const bbm_contact *c = &w->list[k];
+    for (int k = 0; k < w->contacts; k++) {
+        const bbm_contact *c = &w->contact[k];
         w->x[k] = c->used;
         w->r[k] = c->state == BBM_SLIDE ? c->N - c->used : 0;
     }
-    double *dr = &w->dr[w->directions * w->pairs], *dx = &w->dx[w->directions * w->pairs];
-    memcpy(dr, w->r, (size_t)w->pairs * sizeof *dr);
-    memset(dx, 0, (size_t)w->pairs * sizeof *dx);
+    double *dr = &w->dr[w->directions * w->contacts], *dx = &w->dx[w->directions * w->contacts];
+    memcpy(dr, w->r, (size_t)w->contacts * sizeof *dr);
+    memset(dx, 0, (size_t)w->contacts * sizeof *dx);
     remove_directions(w, w->directions, dr, dx);
-    for (int k = 0; k < w->pairs; k++)
-        if (w->list[k].state == BBM_SLIDE)
-            w->list[k].used = w->x[k] + dx[k] + dr[k];
+    for (int k = 0; k < w->contacts; k++)
+        if (w->contact[k].state == BBM_SLIDE)
+            w->contact[k].used = w->x[k] + dx[k] + dr[k];
     return BBM_OK;
 }
 
@@ -1226,8 +1151,8 @@ static int forces_agree(const bbm_model *m)
 {
     const bbm_contact_work *w = m->work;
 
-    for (int k = 0; k < w->pairs && m->par.friction > 0; k++) {
-        const bbm_contact *c = &w->list[k];
+    for (int k = 0; k < w->contacts && m->par.friction > 0; k++) {
+        const bbm_contact *c = &w->contact[k];
         if (c->state == BBM_SLIDE && fabs(c->N - c->used) > slack_of(m, c))
             return 0;
     }
@@ -1255,19 +1180,19 @@ static int foot_on_edge(const bbm_model *m, const bbm_contact *c)
     if (!c->off)
         return 1;
     const double l = end_length(m, c->edge);
-    return c->d_s <= 0 && -c->d_s * m->work->along[c->edge].length <= l * l;
+    return c->d_s <= 0 && -c->d_s * m->edge[c->edge].along.length <= l * l;
 }
 
 static int enters_at_end(const bbm_model *m, const bbm_contact *c)
 {
     const double r = m->D[6 * m->edge[c->corner].element + 2] - m->D[6 * m->edge[c->edge].element + 2];
 
-    return can_enter(m->work, c->corner, c->edge, r, PARALLEL);
+    return can_enter(m, c->corner, c->edge, r, PARALLEL);
 }
 
 /* Of two lines across each other that are crossed at the same time, p counts and not q: the flatter one; of two as steep,
  * that which rises to the right. */
-static int goes_first(direction p, direction q)
+static int goes_first(bbm_direction p, bbm_direction q)
 {
     const double flatter = fabs(q.y) - fabs(p.y);
     const int p_rises = (p.x > 0) == (p.y > 0), q_rises = (q.x > 0) == (q.y > 0);
@@ -1300,7 +1225,7 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
     for (int k = 0; k < 4; k++) {
         if (c->rival[k] < 0)
             continue;
-        const bbm_contact *r = &w->list[c->rival[k]];
+        const bbm_contact *r = &w->contact[c->rival[k]];
         if (r->state != BBM_OPEN)
             return 1;
         if (!enters_at_end(m, r))
@@ -1308,7 +1233,7 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
         const double mine = crossed_at(w, c), other = crossed_at(w, r);
         const int tie = fabs(other - mine) <= TIE;
         const int first = !tie ? other > mine : r->before != c->before ? r->before
-                        : goes_first(w->along[r->edge], w->along[c->edge]);
+                        : goes_first(m->edge[r->edge].along, m->edge[c->edge].along);
         if (r->d_n >= 0 || (first && foot_on_edge(m, r) && !is_behind(m, r)))
             return 1;
     }
@@ -1320,10 +1245,10 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
  * the step, towards P3. */
 static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
 {
-    const double gap = fmax(0, c->gap), s = find_foot(m, c->corner, c->edge).s;
+    const double gap = fmax(0, c->gap), s = project(m, c->corner, c->edge).s;
 
     c->share = 1 - gap / (gap - c->d_n);
-    c->anchor = s / m->work->along[c->edge].length;
+    c->anchor = s / m->edge[c->edge].along.length;
     return c->d_s + s;
 }
 
@@ -1348,15 +1273,15 @@ static int change_states(bbm_model *m)
     bbm_contact_work *w = m->work;
     int changes = 0;
 
-    for (int k = 0; k < w->pairs; k++) {
-        bbm_contact *c = &w->list[k];
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
         c->next = bbm_next_state(&m->par, c, slack_of(m, c));
         if (c->state == BBM_OPEN && c->next != BBM_OPEN && is_blocked(m, c))
             c->next = BBM_OPEN;
     }
-    for (int k = 0; k < w->pairs && !(w->single && changes); k++)
-        if (w->list[k].next != w->list[k].state) {
-            change_state(m, &w->list[k]);
+    for (int k = 0; k < w->contacts && !(w->single && changes); k++)
+        if (w->contact[k].next != w->contact[k].state) {
+            change_state(m, &w->contact[k]);
             changes++;
         }
     return changes;
@@ -1368,21 +1293,18 @@ static void watch_for_cycles(bbm_contact_work *w)
 {
     uint64_t hash = 14695981039346656037u;
 
-    for (int k = 0; k < w->pairs; k++)
-        hash = (hash ^ ((uint64_t)(int64_t)copysign(w->list[k].state, w->list[k].sign))) * 1099511628211u;
+    for (int k = 0; k < w->contacts; k++)
+        hash = (hash ^ ((uint64_t)(int64_t)copysign(w->contact[k].state, w->contact[k].sign))) * 1099511628211u;
     for (int p = 0; p < w->passes; p++)
         if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)
             w->single = 1;
     w->seen[w->passes] = hash;
 }
 
-/* The depth of a closed contact counts for both its bodies. */
-static void note_depth(const bbm_contact_work *w, const bbm_contact *c, double depth[])
+/* How deep a contact is. */
+static double depth_of(const bbm_contact *c)
 {
-    const double deep = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
-
-    depth[w->body[c->corner]] = fmax(depth[w->body[c->corner]], deep);
-    depth[w->body[c->edge]] = fmax(depth[w->body[c->edge]], deep);
+    return c->state == BBM_OPEN ? 0 : fabs(c->d_n);
 }
 
 /* One look at the solution: whether the friction forces belong to their N, then the states to the forces, and the vectors
@@ -1392,10 +1314,14 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     bbm_contact_work *w = m->work;
 
     m->info.passes++;
-    memcpy(w->now, w->depth, (size_t)m->edges * sizeof *w->now);
-    for (int k = 0; k < w->pairs; k++) {
-        measure(m, &w->list[k]);
-        note_depth(w, &w->list[k], w->now);
+    for (int b = 0; b < m->elements; b++)
+        w->body[b].depth_now = w->body[b].depth;
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
+        body *i = body_of(m, c->corner), *j = body_of(m, c->edge);
+        measure(m, c);
+        i->depth_now = fmax(i->depth_now, depth_of(c));
+        j->depth_now = fmax(j->depth_now, depth_of(c));
     }
     find_forces(m);
     if (!forces_agree(m)) {
@@ -1422,14 +1348,16 @@ bbm_status bbm_keep_contacts(bbm_model *m)
 {
     bbm_contact_work *w = m->work;
     bbm_contact *last = m->contact;
-    int *first = w->old, room = m->contact_room;
+    const int last_contacts = m->contacts;
 
     find_directions(m);
     m->info.contacts = 0;
     m->info.penetration = 0;
-    memset(w->depth, 0, (size_t)m->edges * sizeof *w->depth);
-    for (int k = 0; k < w->pairs; k++) {
-        bbm_contact *c = &w->list[k];
+    for (int b = 0; b < m->elements; b++)
+        w->body[b].depth = 0;
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
+        body *i = body_of(m, c->corner), *j = body_of(m, c->edge);
         const double strength = bbm_shear_strength(&m->par, c->N, c->area);
         c->whole = c->whole && (c->state == BBM_LOCK || (c->state == BBM_SLIDE && strength == 0));
         c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->before || c->inside);
@@ -1437,19 +1365,17 @@ bbm_status bbm_keep_contacts(bbm_model *m)
             c->T = c->sign * strength;
         if (c->state == BBM_SLIDE || c->share < 1)
             place_anchor(m, c, c->T);
+        i->depth = fmax(i->depth, depth_of(c));
+        j->depth = fmax(j->depth, depth_of(c));
         if (c->state != BBM_OPEN) {
             m->info.contacts++;
             m->info.penetration = fmax(m->info.penetration, -c->d_n);
-            note_depth(w, c, w->depth);
         }
     }
-    w->listed = -1;
-    m->contact = w->list;
-    m->contacts = w->pairs;
-    m->contact_room = w->list_room;
-    w->old = w->first;
-    w->list = last;
-    w->list_room = room;
-    w->first = first;
+    m->contact = w->contact;
+    m->contacts = w->contacts;
+    w->contact = last;
+    w->contacts = last_contacts;
+    w->listed = 0;
     return BBM_OK;
 }
