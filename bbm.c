@@ -901,7 +901,8 @@ static bbm_status sort_edges(bbm_model *m, const side s[])
                 break;
         const side *i = &s[v], *j = &s[v + 1];
         if (same == 1)
-            m->edge[m->edges++] = (bbm_edge){ i->element, i->a, i->b, i->block };
+            m->edge[m->edges++] = (bbm_edge){ .element = i->element, .a = i->a, .b = i->b,
+                                                .block = i->block };
         else if (same > 2 || m->vertex[i->a].node == m->vertex[j->a].node)
             return m->culprit = j->element, m->other = i->element,
                    fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d", i->element,

@@ -187,6 +187,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
     int    off;                 /* the foot is not on the edge at the start                                     */
     double d_n, d_s;            /* m        normal distance and slip at the end                                 */
     double used;                /* N        the N that the friction of the last solution used                   */
+    double tolerance;           /* N        forces of it that differ by less agree                              */
     bbm_contact_state next;
     int    closings;            /* in this step                                                                 */
 } bbm_contact;

@@ -198,7 +198,6 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
 #define TOUCH 1e-6
 #define AGREE 1e-9
 #define TIE 1e-9
-#define DIRECTION 1e-4
 
 /* Passes that change states or renew the vectors of the step, and that change friction forces between
  * two of them; directions that `agree` remembers. */
@@ -953,25 +952,6 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
 
 /* ---------------------------------------------------------------- the open-close iteration: distances */
 
-/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone is the start's. */
-static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
-{
-    const bbm_touch t = touch_of(m, c);
-    const double *Di = &m->D[6 * m->edge[c->corner].element], *Dj = &m->D[6 * m->edge[c->edge].element];
-    const double x0 = t.P3->x + c->anchor * (t.P2->x - t.P3->x), y0 = t.P3->y + c->anchor * (t.P2->y - t.P3->y);
-    double u1[2], u2[2], u3[2], u0[2];
-
-    bbm_move(m, t.i, Di, t.P1->x, t.P1->y, u1);
-    bbm_move(m, t.j, Dj, t.P2->x, t.P2->y, u2);
-    bbm_move(m, t.j, Dj, t.P3->x, t.P3->y, u3);
-    bbm_move(m, t.j, Dj, x0, y0, u0);
-    const double x = t.P3->x - t.P2->x + u3[0] - u2[0], y = t.P3->y - t.P2->y + u3[1] - u2[1];
-    const double l = hypot(t.P3->x - t.P2->x, t.P3->y - t.P2->y);
-    const double px = t.P1->x - t.P2->x + u1[0] - u2[0], py = t.P1->y - t.P2->y + u1[1] - u2[1];
-    d[0] = (x * py - y * px) / l;
-    d[1] = ((t.P1->x - x0 + u1[0] - u0[0]) * x + (t.P1->y - y0 + u1[1] - u0[1]) * y) / l;
-}
-
 /* d = d0 + e.D_i + g.D_j of the solution, Eq. (57), (61). */
 static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
 {
@@ -983,7 +963,7 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
     return d;
 }
 
-/* d_n, d_s, N and T of the solution, Eq. (57) and (61). An open contact has its anchor at P3, so that -d_s is the way
+/* d_n, d_s, N and T of the solution. An open contact has its anchor at P3, so that -d_s is the way
  * along the edge. */
 static void measure(const bbm_model *m, bbm_contact *c)
 {
@@ -1000,8 +980,8 @@ static void measure(const bbm_model *m, bbm_contact *c)
     c->T = c->state == BBM_OPEN ? 0 : m->par.p_s * c->d_s;
 }
 
-/* The largest force in each part: on an element, inertia included, or in a contact. What the solver leaves as its residual,
- * and so in every N of the part, is small against this and nothing else. */
+/* The largest force in each part of K: on an element, inertia included, or in a contact. What the
+ * solver leaves as its residual, and so in every N of the part, is small against this and nothing else. */
 static void find_forces(const bbm_model *m)
 {
     const bbm_contact_work *w = m->work;
@@ -1013,38 +993,8 @@ static void find_forces(const bbm_model *m)
         double *F = &w->force[w->part[element_of(m, &w->contact[k])]];
         *F = fmax(*F, fabs(w->contact[k].N));
     }
-}
-
-/* Forces of a contact that differ by less agree. */
-static double slack_of(const bbm_model *m, const bbm_contact *c)
-{
-    return AGREE * m->work->force[m->work->part[element_of(m, c)]];
-}
-
-/* Whether element i turns by another angle than that of its vectors, by more than the direction of a force may be wrong. */
-static int turns_otherwise(const bbm_model *m, int i)
-{
-    return bbm_is_exact(m) && fabs(m->D[6 * i + 2] - m->element[i].mid[2]) > DIRECTION;
-}
-
-/* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
- * of the largest one on its two elements, or in direction, or an open contact on the wrong side. */
-int bbm_contacts_are_off(const bbm_model *m, double share)
-{
-    for (int k = 0; k < m->work->contacts; k++) {
-        const bbm_contact *c = &m->work->contact[k];
-        const int i = element_of(m, c), j = m->edge[c->edge].element;
-        const double *Fi = &m->F[6 * i], *Fj = &m->F[6 * j];
-        const double F = fmax(fabs(c->N), fmax(hypot(Fi[0], Fi[1]), hypot(Fj[0], Fj[1]))), slack = fmax(share * F, slack_of(m, c));
-        double d[2];
-        exact_distances(m, c, d);
-        const double n = m->par.p_n * fabs(d[0] - c->d_n), s = m->par.p_s * fabs(c->share * d[1] - c->d_s);
-        if (c->state != BBM_OPEN && (turns_otherwise(m, i) || turns_otherwise(m, j)))
-            return 1;
-        if (c->state == BBM_OPEN ? n > slack && (d[0] < 0) != (c->d_n < 0) : n > slack || (c->state == BBM_LOCK && s > slack))
-            return 1;
-    }
-    return 0;
+    for (int k = 0; k < w->contacts; k++)
+        w->contact[k].tolerance = AGREE * w->force[w->part[element_of(m, &w->contact[k])]];
 }
 
 /* The closed contact that is deepest against the size of its smaller block, a quarter of its boundary; returns that share,
@@ -1153,7 +1103,7 @@ static int forces_agree(const bbm_model *m)
 
     for (int k = 0; k < w->contacts && m->par.friction > 0; k++) {
         const bbm_contact *c = &w->contact[k];
-        if (c->state == BBM_SLIDE && fabs(c->N - c->used) > slack_of(m, c))
+        if (c->state == BBM_SLIDE && fabs(c->N - c->used) > c->tolerance)
             return 0;
     }
     return 1;
@@ -1161,83 +1111,72 @@ static int forces_agree(const bbm_model *m)
 
 /* --------------------------------------------------------------------- the open-close iteration: states */
 
-/* The length of an edge at the end of the step. */
-static double end_length(const bbm_model *m, int edge)
+/* Whether the projection of an open contact is on the edge, at the start of the step or at its end:
+ * there the way from P3 is -d_s, and that from P2 the d_s of an anchor in P2. */
+static int is_on_edge(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_vertex *a = start_of(m, edge), *b = end_of(m, edge);
-    const double *D = &m->D[6 * m->edge[edge].element];
-    double ua[2], ub[2];
+    const bbm_touch t = touch_of(m, c);
+    bbm_spring s;
 
-    bbm_move(m, &m->element[a->element], D, a->x, a->y, ua);
-    bbm_move(m, &m->element[b->element], D, b->x, b->y, ub);
-    return hypot(b->x - a->x + ub[0] - ua[0], b->y - a->y + ub[1] - ua[1]);
+    bbm_shear_vectors(&t, 1, &s);
+    return !c->off || (c->d_s <= 0 && spring_length(m, c, &s) >= 0);
 }
 
-/* Whether the foot of an open contact is on the edge, at the start of the step or at its end, where the way along it is
- * -d_s times the length at the start over that at the end. */
-static int foot_on_edge(const bbm_model *m, const bbm_contact *c)
-{
-    if (!c->off)
-        return 1;
-    const double l = end_length(m, c->edge);
-    return c->d_s <= 0 && -c->d_s * m->edge[c->edge].along.length <= l * l;
-}
-
+/* Whether the corner, as it is turned at the end of the step, can enter there. */
 static int enters_at_end(const bbm_model *m, const bbm_contact *c)
 {
-    const double r = m->D[6 * m->edge[c->corner].element + 2] - m->D[6 * m->edge[c->edge].element + 2];
+    const double *Di = &m->D[6 * m->edge[c->corner].element], *Dj = &m->D[6 * m->edge[c->edge].element];
 
-    return can_enter(m, c->corner, c->edge, r, PARALLEL);
+    return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
 }
 
-/* Of two lines across each other that are crossed at the same time, p counts and not q: the flatter one; of two as steep,
- * that which rises to the right. */
-static int goes_first(bbm_direction p, bbm_direction q)
+/* Whether P may come in over its line, if it is crossed: not from behind; not beyond the end of the
+ * edge from the start of the step to its end, unless it was closed and has not left. */
+static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    const double flatter = fabs(q.y) - fabs(p.y);
-    const int p_rises = (p.x > 0) == (p.y > 0), q_rises = (q.x > 0) == (q.y > 0);
-
-    return fabs(flatter) > PARALLEL || p_rises == q_rises ? flatter > 0 : p_rises;
+    return (c->before || c->inside || c->gap >= -behind(m, c->corner, c->edge))
+        && (c->before || is_on_edge(m, c)) && enters_at_end(m, c);
 }
 
-/* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as contacts are. */
-static double crossed_at(const bbm_contact_work *w, const bbm_contact *c)
+/* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
+ * contacts are. */
+static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    return c->gap <= w->touch ? 0 : c->gap / (c->gap - c->d_n);
+    return c->gap <= m->work->touch ? 0 : c->gap / (c->gap - c->d_n);
 }
 
-/* Whether P starts behind the line, so that it cannot come in there. */
-static int is_behind(const bbm_model *m, const bbm_contact *c)
+/* The sine by which a line is steep; one that rises to the right passes for flatter. */
+static double steepness(bbm_direction p)
 {
-    return !c->before && !c->inside && c->gap < -behind(m, c->corner, c->edge);
+    return fabs(p.y) - ((p.x > 0) == (p.y > 0) ? PARALLEL : 0);
 }
 
-/* Whether an open contact, though crossed, may not close: from behind; off the edge from the start of the step to its end,
- * unless it was closed and has not left; if a side points into the edge by then; or a rival line is closed, is not
- * crossed, or is crossed later: the line crossed last is where P comes in. At the same time: the one that was closed at
- * the start of the step. */
+/* Which of two lines counts, of an open contact c and an entrance line r of it: r, if it is closed, is
+ * not crossed, or is crossed later: the line crossed last is where P comes in. At the same time: the one
+ * that was closed at the start of the step, or else the flatter one. */
+static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
+{
+    const double later = crossed_at(m, r) - crossed_at(m, c);
+
+    if (r->state != BBM_OPEN)
+        return 1;
+    if (r->d_n >= 0)
+        return enters_at_end(m, r);
+    if (fabs(later) > TIE)
+        return later > 0 && admits(m, r);
+    if (r->before != c->before)
+        return r->before && admits(m, r);
+    return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
+}
+
+/* Whether an open contact, though crossed, may not close. */
 static int is_blocked(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_contact_work *w = m->work;
+    int blocked = !admits(m, c);
 
-    if (!(c->before || foot_on_edge(m, c)) || !enters_at_end(m, c) || is_behind(m, c))
-        return 1;
-    for (int k = 0; k < 4; k++) {
-        if (c->rival[k] < 0)
-            continue;
-        const bbm_contact *r = &w->contact[c->rival[k]];
-        if (r->state != BBM_OPEN)
-            return 1;
-        if (!enters_at_end(m, r))
-            continue;
-        const double mine = crossed_at(w, c), other = crossed_at(w, r);
-        const int tie = fabs(other - mine) <= TIE;
-        const int first = !tie ? other > mine : r->before != c->before ? r->before
-                        : goes_first(m->edge[r->edge].along, m->edge[c->edge].along);
-        if (r->d_n >= 0 || (first && foot_on_edge(m, r) && !is_behind(m, r)))
-            return 1;
-    }
-    return 0;
+    for (int k = 0; k < 4 && !blocked; k++)
+        blocked = c->rival[k] >= 0 && counts(m, &m->work->contact[c->rival[k]], c);
+    return blocked;
 }
 
 /* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the gap d0 has closed. Its shear
@@ -1275,7 +1214,7 @@ static int change_states(bbm_model *m)
 
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        c->next = bbm_next_state(&m->par, c, slack_of(m, c));
+        c->next = bbm_next_state(&m->par, c, c->tolerance);
         if (c->state == BBM_OPEN && c->next != BBM_OPEN && is_blocked(m, c))
             c->next = BBM_OPEN;
     }
