@@ -136,9 +136,9 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
     const double l = hypot(x3 - x2, y3 - y2);
     double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2];
 
-    bbm_middle_matrix(c->i, x1, y1, T1, p1);
-    bbm_middle_matrix(c->j, x2, y2, T2, p2);
-    bbm_middle_matrix(c->j, x3, y3, T3, p3);
+    bbm_step_matrix(c->i, x1, y1, T1, p1);
+    bbm_step_matrix(c->j, x2, y2, T2, p2);
+    bbm_step_matrix(c->j, x3, y3, T3, p3);
     n->d = ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) / l;
     for (int a = 0; a < 6; a++) {
         n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
@@ -184,10 +184,10 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     const double l = hypot(c->P3->x - c->P2->x, c->P3->y - c->P2->y);
     double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
 
-    bbm_middle_matrix(c->i, c->P1->x, c->P1->y, T1, p1);
-    bbm_middle_matrix(c->j, x0, y0, T0, p0);
-    bbm_middle_matrix(c->j, c->P2->x, c->P2->y, T2, p2);
-    bbm_middle_matrix(c->j, c->P3->x, c->P3->y, T3, p3);
+    bbm_step_matrix(c->i, c->P1->x, c->P1->y, T1, p1);
+    bbm_step_matrix(c->j, x0, y0, T0, p0);
+    bbm_step_matrix(c->j, c->P2->x, c->P2->y, T2, p2);
+    bbm_step_matrix(c->j, c->P3->x, c->P3->y, T3, p3);
     const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
     const double ax = c->exact ? (p1[0] - p0[0]) / l : 0, ay = c->exact ? (p1[1] - p0[1]) / l : 0;
     s->d = ((c->P1->x - x0) * (c->P3->x - c->P2->x) + (c->P1->y - y0) * (c->P3->y - c->P2->y)) / l;
@@ -283,8 +283,8 @@ static int find_before(const bbm_model *m, const int ends[], int e)
     double most = -INFINITY;
     int found = e;
 
-    for (int a = m->meet_first[node]; a < m->meet_first[node + 1]; a++) {
-        const int f = ends[m->meet[a]];
+    for (int a = m->adjacent_first[node]; a < m->adjacent_first[node + 1]; a++) {
+        const int f = ends[m->adjacent[a]];
         if (f < 0 || m->edge[f].block != m->edge[e].block)
             continue;
         const direction p = m->work->along[f];
@@ -858,7 +858,7 @@ static void find_travel(const bbm_model *m, const double D[], double travel[])
 /* What the velocities and gravity foretell of the step; in statics a step is as long as the last one at most. */
 void bbm_guess_step(bbm_model *m)
 {
-    const double fall[6] = { m->gravity[0] * m->h * m->h / 2, m->gravity[1] * m->h * m->h / 2 };
+    const double fall[6] = { m->acceleration[0] * m->h * m->h / 2, m->acceleration[1] * m->h * m->h / 2 };
 
     for (int i = 0; i < m->elements; i++)
         for (int a = 0; a < 6; a++)
@@ -1099,7 +1099,7 @@ static double slack_of(const bbm_model *m, const bbm_contact *c)
 /* Whether element i turns by another angle than that of its vectors, by more than the direction of a force may be wrong. */
 static int turns_otherwise(const bbm_model *m, int i)
 {
-    return bbm_is_exact(m) && fabs(m->D[6 * i + 2] - m->element[i].mid[2]) > DIRECTION;
+    return bbm_is_exact(m) && fabs(m->D[6 * i + 2] - m->element[i].mode_D[2]) > DIRECTION;
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
@@ -1404,9 +1404,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     }
     w->forces = w->directions = 0;
     watch_for_cycles(w);
-    const int changes = change_states(m), off = !m->keep_K && bbm_middle_is_off(m);
-    if (off)
-        bbm_set_middle(m, m->D);
+    const int changes = change_states(m), off = !m->K_is_kept && m->hook.renew && m->hook.renew(m);
     if (!changes && !off)
         *pass = BBM_PASS_DONE;
     else
