@@ -34,9 +34,9 @@
     } while (0)
 
 /* check_main.c: a test and how often it is run, with _i = 0, 1, ...; adds a group of them. */
-typedef struct { const TTest *test; int times; } entry;
+typedef struct { const TTest *test; int times; } loop_test;
 
-void add_case(Suite *s, const char *name, const entry e[], int count);
+void add_case(Suite *s, const char *name, const loop_test e[], int count);
 
 /* In the order in which check_main.c runs them. */
 Suite *formulas_suite(void);

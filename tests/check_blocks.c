@@ -366,7 +366,7 @@ END_TEST
 Suite *blocks_suite(void)
 {
     Suite *s = suite_create("blocks");
-    const entry at_rest[] = {
+    const loop_test at_rest[] = {
         { blocks_of_a_column_carry_the_weight_above_and_do_not_drift, 1 },
         { statics_balances_a_block_on_its_contacts, 2 },
         { a_block_in_a_notch_leans_on_its_floor_and_its_wall, 1 },
@@ -375,7 +375,7 @@ Suite *blocks_suite(void)
         { an_overhang_stands_short_of_the_harmonic_limit_and_falls_beyond, 2 },
         { blocks_that_turn_alike_may_come_to_turn_against_each_other, 2 },
     };
-    const entry in_motion[] = {
+    const loop_test in_motion[] = {
         { a_dropped_block_never_rebounds_faster_than_it_came, 2 * COUNT(DROP_STEPS) },
         { momentum_is_kept_in_an_impact, COUNT(IMPACTS) },
         { angular_momentum_is_kept_in_an_impact_up_to_the_strain_of_what_turns, COUNT(IMPACTS) },

@@ -811,7 +811,7 @@ END_TEST
 Suite *coarse_suite(void)
 {
     Suite *s = suite_create("coarse");
-    const entry two_levels[] = {
+    const loop_test two_levels[] = {
         { two_levels_reach_the_solution_of_the_dense_matrix, PATTERNS },
         { two_level_iterates_are_those_with_dense_matrices, 1 },
         { coarse_space_of_all_unknowns_solves_in_one_iteration, PATTERNS },
@@ -823,18 +823,18 @@ Suite *coarse_suite(void)
         { coarse_space_that_finds_no_memory_is_none, 1 },
         { matrix_that_is_not_positive_definite_is_found_out_on_two_levels, 1 },
     };
-    const entry components[] = {
+    const loop_test components[] = {
         { what_is_not_connected_is_solved_as_if_it_were_alone, 3 * ARRANGEMENTS },
         { order_of_the_rows_does_not_matter_to_the_time, 1 },
         { kc_has_room_for_corners_of_one_element_and_no_others, 1 },
     };
-    const entry meshes[] = {
+    const loop_test meshes[] = {
         { iterations_on_two_levels_are_few_and_do_not_grow_with_the_mesh, 11 },
         { two_levels_and_one_reach_the_same_displacements, MESHES },
         { corners_that_a_bond_ties_together_are_one_coarse_node, 1 },
         { one_level_is_used_where_two_do_not_pay, 6 },
     };
-    const entry interpolation[] = {
+    const loop_test interpolation[] = {
         { linear_displacements_of_the_corners_are_those_of_the_element, 6 },
         { corner_of_a_triangle_moves_without_the_others, 1 },
         { interpolation_is_the_nearest_linear_displacement, 6 },

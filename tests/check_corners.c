@@ -548,7 +548,7 @@ END_TEST
 Suite *corners_suite(void)
 {
     Suite *s = suite_create("corners");
-    const entry corners[] = {
+    const loop_test corners[] = {
         { two_corners_that_meet_leave_by_the_line_crossed_last, 2 },
         { corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whichever_block_comes_first, 1 },
         { of_two_lines_as_steep_the_one_that_rises_to_the_right_counts, 2 },
@@ -561,7 +561,7 @@ Suite *corners_suite(void)
         { of_two_closed_contacts_that_meet_corner_on_corner_one_stays, 1 },
         { corners_that_turn_past_each_other_close_one_contact, 4 },
     };
-    const entry entrance_lines[] = {
+    const loop_test entrance_lines[] = {
         { of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle, 8 },
         { a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line, 4 },
         { nothing_comes_in_from_behind, 4 },

@@ -745,7 +745,7 @@ END_TEST
 Suite *detection_suite(void)
 {
     Suite *s = suite_create("detection");
-    const entry outlines[] = {
+    const loop_test outlines[] = {
         { the_grid_finds_the_pairs_that_comparing_all_with_all_finds, 6 },
         { the_detection_compares_a_corner_with_the_few_edges_around_it, 4 },
         { a_block_does_not_touch_itself, 1 },
@@ -755,7 +755,7 @@ Suite *detection_suite(void)
         { random_blocks_in_reversed_order_have_the_same_contacts, 1 },
         { a_block_far_away_changes_nothing, 1 },
     };
-    const entry grid_points[] = {
+    const loop_test grid_points[] = {
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
         { of_two_sides_the_grid_points_of_the_shorter_one_touch, 2 },
@@ -766,7 +766,7 @@ Suite *detection_suite(void)
         { a_grid_point_in_a_hollow_may_touch_up_to_a_tenth, 6 },
         { grid_points_beyond_the_end_of_a_table_are_not_held, 2 },
     };
-    const entry reach[] = {
+    const loop_test reach[] = {
         { the_detection_looks_as_far_as_a_block_falls_in_the_step, 8 },
         { a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step, COUNT(MOVES) },
         { a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in_the_model, 4 },

@@ -25,7 +25,7 @@ END_TEST
 Suite *eisenstat_suite(void)
 {
     Suite *s = suite_create("eisenstat");
-    const entry e[] = {
+    const loop_test e[] = {
         { eisenstat_takes_the_textbook_iterations_to_the_same_solution, PATTERNS },
     };
 

@@ -507,32 +507,32 @@ END_TEST
 Suite *elastic_suite(void)
 {
     Suite *s = suite_create("elastic");
-    const entry K[] = {
+    const loop_test K[] = {
         { K_is_symmetric_and_positive_definite_when_the_body_is_held, 2 },
         { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 },
         { a_rigid_motion_of_bonded_elements_costs_nothing, 2 },
     };
-    const entry patches[] = {
+    const loop_test patches[] = {
         { a_strip_under_uniform_traction_has_that_stress_in_every_element, COUNT(STRESSES) },
         { an_irregular_patch_under_uniform_traction_has_that_stress_in_every_element,
           COUNT(STRESSES) },
         { a_body_under_pressure_all_round_has_that_stress, COUNT(SHAPES) },
         { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 },
     };
-    const entry bars[] = {
+    const loop_test bars[] = {
         { a_bonded_bar_stretches_by_its_strain_and_its_springs, 1 },
         { a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_parts, 1 },
         { displacements_fall_as_one_over_the_thickness, 1 },
         { a_displaced_wall_takes_the_body_along, 1 },
         { a_node_may_be_held_in_x_and_y_by_separate_calls, 1 },
     };
-    const entry loads[] = {
+    const loop_test loads[] = {
         { a_load_that_varies_is_asked_for_at_the_gauss_points_alone, 1 },
         { a_load_that_varies_reaches_the_element_whichever_end_is_named_first, 2 },
         { loads_of_one_node_and_of_one_edge_add_up, 1 },
         { gravity_pulls_at_the_mass_of_each_element, 1 },
     };
-    const entry finite_element[] = {
+    const loop_test finite_element[] = {
         { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 },
     };
 

@@ -668,7 +668,7 @@ END_TEST
 Suite *entrance_suite(void)
 {
     Suite *s = suite_create("entrance");
-    const entry hits[] = {
+    const loop_test hits[] = {
         { what_hits_an_edge_is_a_corner_with_its_foot_on_it, 4 },
         { a_block_that_falls_past_the_end_of_a_table_does_not_notice_it, 2 },
         { a_corner_that_turns_towards_an_edge_in_the_step_is_stopped_by_it, 2 * COUNT(ANGLES) },
@@ -679,7 +679,7 @@ Suite *entrance_suite(void)
         { the_end_of_an_edge_belongs_to_it, 4 },
         { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
     };
-    const entry depth[] = {
+    const loop_test depth[] = {
         { a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks, 2 * COUNT(DEPTHS) },
         { a_point_may_start_as_deep_as_the_contacts_of_both_blocks, 4 },
         { a_millionth_of_an_edge_is_allowed_for_to_the_last_bit, 4 },
@@ -689,7 +689,7 @@ Suite *entrance_suite(void)
         { the_depth_of_a_contact_is_told_against_the_smaller_block, 2 * COUNT(SIZES) },
         { a_contact_deeper_than_a_tenth_of_its_block_is_refused, 4 },
     };
-    const entry inside[] = {
+    const loop_test inside[] = {
         { a_contact_that_closes_inside_starts_without_force, 2 },
         { a_point_that_stays_inside_has_no_force, 1 },
         { a_corner_that_opens_inside_may_close_again, 3 },

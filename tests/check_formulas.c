@@ -1030,53 +1030,53 @@ Suite *formulas_suite(void)
 {
     Suite *s = suite_create("formulas");
     const int shapes = COUNT(SHAPES);
-    const entry displacements[] = {
+    const loop_test displacements[] = {
         { the_mode_matrix_moves_points_by_translation_rotation_and_strain, shapes },
     };
-    const entry stiffness[] = {
+    const loop_test stiffness[] = {
         { the_bonding_stiffness_is_alpha_G_t_times_the_ratio_of_the_areas_either_way_round, 1 },
     };
-    const entry elastic[] = {
+    const loop_test elastic[] = {
         { hookes_law_gives_uniaxial_tension_and_pure_shear_their_strains, 1 },
         { the_elastic_submatrix_is_the_derivative_of_the_strain_energy, shapes },
     };
-    const entry inertia[] = {
+    const loop_test inertia[] = {
         { moments_of_polygons_have_their_closed_forms_also_far_from_the_origin, COUNT(AREAS) },
         { the_mode_integral_is_the_brute_force_integral, shapes },
         { the_inertia_submatrix_is_the_derivative_of_its_energy, shapes },
         { newmark_carries_a_constant_acceleration_without_error, 1 },
         { a_step_hands_on_the_share_of_the_velocity_that_is_kept, 1 },
     };
-    const entry bonding[] = {
+    const loop_test bonding[] = {
         { the_bonding_submatrices_are_derivatives_of_the_springs_energy, shapes },
     };
-    const entry fixed[] = {
+    const loop_test fixed[] = {
         { the_fixed_submatrix_is_the_derivative_of_the_energy_of_the_held_directions, shapes },
         { a_point_that_is_not_held_adds_nothing, 1 },
     };
-    const entry loads[] = {
+    const loop_test loads[] = {
         { a_concentrated_load_is_the_derivative_of_its_potential, shapes },
         { gauss_points_integrate_polynomials_to_degree_seven, 1 },
         { a_load_that_varies_along_a_line_is_the_derivative_of_its_potential, shapes },
         { a_load_constant_along_a_line_is_the_derivative_of_its_potential, shapes },
     };
-    const entry volume[] = {
+    const loop_test volume[] = {
         { a_volume_force_linear_in_x_and_y_is_the_derivative_of_its_potential, shapes },
         { a_constant_volume_force_is_the_derivative_of_its_potential, shapes },
     };
-    const entry contact[] = {
+    const loop_test contact[] = {
         { the_normal_submatrices_are_derivatives_of_the_normal_springs_energy, 4 },
         { the_shear_submatrices_are_derivatives_of_the_shear_springs_energy, 4 },
         { the_normal_distance_is_negative_inside_and_the_slip_positive_towards_P3, 2 },
         { contact_forces_are_equal_and_opposite_and_their_moment_is_that_of_the_gap, 4 },
         { each_cell_of_the_table_of_states_is_as_written, COUNT(CELLS) },
     };
-    const entry friction[] = {
+    const loop_test friction[] = {
         { the_shear_strength_is_that_of_mohr_and_coulomb, 4 },
         { the_friction_submatrices_are_derivatives_of_the_work_against_friction, 4 },
         { friction_opposes_the_slip_on_both_sides, 1 },
     };
-    const entry results[] = {
+    const loop_test results[] = {
         { positions_follow_the_exact_rotation_in_dynamics_and_the_modes_otherwise, shapes },
         { von_mises_stress_is_that_of_its_principal_stresses, 1 },
     };

@@ -646,7 +646,7 @@ END_TEST
 Suite *input_suite(void)
 {
     Suite *s = suite_create("input");
-    const entry bad_models[] = {
+    const loop_test bad_models[] = {
         { bad_materials_are_refused, COUNT(BAD_MATERIALS) },
         { materials_up_to_the_limits_are_taken, 1 },
         { polygons_are_judged_by_their_shape, COUNT(POLYGONS) },
@@ -661,19 +661,19 @@ Suite *input_suite(void)
         { statics_refuses_a_body_that_is_free_to_move_and_names_it, COUNT(HOLDS) },
         { fixed_points_close_together_hold_a_body_within_reason, 1 },
     };
-    const entry bad_parameters[] = {
+    const loop_test bad_parameters[] = {
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_step_before_bbm_prepare_is_refused, 1 },
     };
-    const entry failing_steps[] = {
+    const loop_test failing_steps[] = {
         { a_negative_stiffness_is_found, 1 },
         { a_step_that_fails_leaves_the_model_as_it_was, 1 },
         { every_status_has_a_text_of_its_own, 1 },
         { nothing_may_be_freed, 1 },
     };
-    const entry memory[] = {
+    const loop_test memory[] = {
         { whichever_allocation_fails_the_status_is_no_memory_and_nothing_leaks, 2 },
         { an_array_grows_by_doubling_when_it_is_full, 1 },
         { two_runs_agree_bit_for_bit, 1 },

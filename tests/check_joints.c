@@ -229,7 +229,7 @@ END_TEST
 Suite *joints_suite(void)
 {
     Suite *s = suite_create("joints");
-    const entry e[] = {
+    const loop_test e[] = {
         { a_joint_is_where_a_corner_lies_on_an_edge, 2 },
         { a_joint_may_gape_by_a_millionth_of_an_edge, 2 },
         { a_joint_is_there_at_the_start_or_never, 2 },

@@ -60,7 +60,7 @@ static void run_tests(SRunner *runner) { srunner_run_all(runner, CK_ENV); }
 
 #endif
 
-void add_case(Suite *s, const char *name, const entry e[], int count)
+void add_case(Suite *s, const char *name, const loop_test e[], int count)
 {
     TCase *c = tcase_create(name);
 

@@ -191,7 +191,7 @@ END_TEST
 Suite *mesh_suite(void)
 {
     Suite *s = suite_create("mesh");
-    const entry e[] = {
+    const loop_test e[] = {
         { every_side_is_a_boundary_edge_or_a_bond, 2 },
         { boundary_edges_have_their_element_on_the_left, 2 },
         { elements_of_different_blocks_are_not_bonded, 1 },

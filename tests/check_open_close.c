@@ -463,7 +463,7 @@ END_TEST
 Suite *open_close_suite(void)
 {
     Suite *s = suite_create("open-close");
-    const entry passes[] = {
+    const loop_test passes[] = {
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
@@ -473,13 +473,13 @@ Suite *open_close_suite(void)
         { blocks_without_any_force_settle_at_once, 1 },
         { contacts_that_never_settle_end_with_a_status_and_the_numbers, 1 },
     };
-    const entry foreseen[] = {
+    const loop_test foreseen[] = {
         { a_solution_that_moves_further_than_foreseen_is_noticed, 4 },
         { a_solution_may_move_as_far_as_foreseen_to_the_last_bit, 1 },
         { a_step_foresees_no_less_than_it_did_before, 1 },
         { a_step_that_starts_again_begins_from_the_last_one, 2 },
     };
-    const entry vectors[] = {
+    const loop_test vectors[] = {
         { vectors_of_the_step_are_off_by_the_force_that_they_make, 4 },
         { vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks, COUNT(WRONG) },
         { the_direction_of_a_contacts_force_may_be_wrong_by_1e_4, 2 },

@@ -351,13 +351,13 @@ END_TEST
 Suite *repeat_suite(void)
 {
     Suite *s = suite_create("repeat");
-    const entry again[] = {
+    const loop_test again[] = {
         { a_step_done_again_in_halves_is_the_two_half_steps_to_the_last_bit, 1 },
         { a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were, 1 },
         { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
     };
-    const entry repeat[] = {
+    const loop_test repeat[] = {
         { a_pile_falls_the_same_way_twice_to_the_last_bit, 1 },
         { a_pile_falls_the_same_way_whichever_block_comes_first, 1 },
         { a_step_depends_on_the_state_and_not_on_what_is_left_in_memory, 1 },
@@ -365,7 +365,7 @@ Suite *repeat_suite(void)
         { preparing_again_forgets_the_contacts, 1 },
         { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 },
     };
-    const entry units[] = {
+    const loop_test units[] = {
         { the_result_does_not_depend_on_the_units_to_the_last_bit, 2 * COUNT(UNITS) },
     };
 

@@ -376,14 +376,14 @@ END_TEST
 Suite *sliding_suite(void)
 {
     Suite *s = suite_create("sliding");
-    const entry friction[] = {
+    const loop_test friction[] = {
         { a_block_slides_down_an_incline_as_the_closed_form_says, 2 * COUNT(SLIDING) },
         { a_block_that_slides_from_the_start_keeps_the_initial_velocity, 1 },
         { a_block_thrown_uphill_stops_where_it_should_and_stays_there, 1 },
         { a_block_whose_friction_angle_is_above_the_slope_stays, 4 },
         { a_block_on_a_slope_slides_or_topples_as_the_chart_says, COUNT(CHART) },
     };
-    const entry anchors[] = {
+    const loop_test anchors[] = {
         { a_locked_contact_keeps_its_anchor, 1 },
         { a_sliding_contact_takes_its_anchor_along, 1 },
         { a_contact_is_anchored_where_it_hit, 2 },

@@ -752,7 +752,7 @@ END_TEST
 Suite *solver_suite(void)
 {
     Suite *s = suite_create("solver");
-    const entry matrix[] = {
+    const loop_test matrix[] = {
         { product_is_that_of_the_dense_matrix, PATTERNS },
         { product_is_symmetric, PATTERNS },
         { order_direction_and_repetition_of_the_pairs_change_no_bit, PATTERNS },
@@ -763,12 +763,12 @@ Suite *solver_suite(void)
         { running_out_of_memory_at_any_call_is_reported, 1 },
         { blocks_come_out_as_they_went_in, PATTERNS },
     };
-    const entry order[] = {
+    const loop_test order[] = {
         { long_strips_in_any_numbering_get_a_narrow_band, 5 },
         { neighbours_of_low_degree_come_first, 5 },
         { bandwidths_of_small_patterns_are_those_of_theory, 1 },
     };
-    const entry solution[] = {
+    const loop_test solution[] = {
         { solution_is_that_of_the_dense_matrix, PATTERNS },
         { iterates_are_those_of_ssor_pcg_with_dense_matrices, 1 },
         { iterations_are_as_many_as_with_dense_matrices, COUNT(OMEGA) },
@@ -779,7 +779,7 @@ Suite *solver_suite(void)
         { no_load_gives_no_displacement_in_no_iteration, COUNT(FORM) },
         { load_on_one_of_many_rows_makes_no_denormals, COUNT(FORM) },
     };
-    const entry failure[] = {
+    const loop_test failure[] = {
         { parameter_outside_its_range_is_refused, 1 },
         { entry_of_the_load_that_is_not_finite_is_refused, 1 },
         { entry_of_the_matrix_that_is_not_finite_is_refused, 36 },
@@ -789,7 +789,7 @@ Suite *solver_suite(void)
         { solution_too_large_for_a_number_is_not_returned_in_silence, COUNT(FORM) },
         { least_tolerance_is_met_by_an_exact_solution, COUNT(FORM) },
     };
-    const entry components[] = {
+    const loop_test components[] = {
         { component_without_load_stays_where_it_is, COUNT(FORM) },
         { rows_that_are_not_connected_take_one_iteration, COUNT(FORM) * COUNT(OMEGA) },
         { component_that_fails_is_reported_and_the_others_are_solved, COUNT(FORM) },
