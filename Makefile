@@ -11,7 +11,7 @@ CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 LIBRARY  = bbm contact solver $(BEYOND:%=beyond/%)
-BEYOND   = middle balance overlap pieces mechanism loose
+BEYOND   = beyond middle balance overlap pieces mechanism loose
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)

@@ -623,6 +623,8 @@ void bbm_model_free(bbm_model *m)
     if (!m)
         return;
     free_prepared(m);
+    if (m->hook.release)
+        m->hook.release(m);
     free(m->node);
     free(m->element);
     free(m->vertex);

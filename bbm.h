@@ -236,10 +236,27 @@ typedef struct {                /* elements i < j that overlap                  
     double x, y;                /* m        the middle of what they share                                       */
 } bbm_overlap;
 
+typedef struct bbm_model bbm_model;
+typedef struct bbm_beyond bbm_beyond;           /* beyond/beyond.h                                              */
+/* Where what the paper does not have comes in (beyond/); NULL: the paper's way. */
+typedef struct {
+    void (*release)(bbm_model *m);                      /* frees m->beyond                              */
+    bbm_status (*check)(bbm_model *m);                  /* of a prepared model                          */
+    bbm_status (*check_step)(bbm_model *m);             /* before each step                             */
+    bbm_status (*check_contacts)(bbm_model *m);         /* of a step in statics: is all held?           */
+    bbm_status (*explain)(bbm_model *m, bbm_status s);  /* of a step in statics that failed             */
+    void (*find_gravity)(bbm_model *m);                 /* m->gravity of the step                       */
+    bbm_status (*lay_out)(bbm_model *m);                /* K is new                                     */
+    void (*before_solution)(bbm_model *m);              /* K and F are assembled                        */
+    bbm_status (*friction)(bbm_model *m, int *agree);   /* the next N for the friction forces           */
+    int (*settled)(bbm_model *m);                       /* contacts are; 1: solve with this K again     */
+    bbm_status (*accept)(bbm_model *m, const bbm_model *end);   /* before anything moves                */
+} bbm_hooks;
+
 typedef struct bbm_matrix bbm_matrix;           /* K, in solver.c                                               */
 typedef struct bbm_contact_work bbm_contact_work;       /* scratch of contact.c                                 */
 
-typedef struct bbm_model {
+struct bbm_model {
     /* --- input --- */
     bbm_parameters par;
     int nodes, elements, vertices, line_loads, materials;
@@ -273,9 +290,12 @@ typedef struct bbm_model {
     char message[200];          /* what the last error was about             */
     int  culprit, other;        /* the element of BBM_OVERLAP, BBM_FREE_TO_MOVE, BBM_MECHANISM; another one, or -1  */
     /* --- for whoever wants to see K and F, or to stop: called before each solution, which not 0 prevents --- */
-    int (*watch)(const struct bbm_model *m, void *context);
+    int (*watch)(const bbm_model *m, void *context);
     void *watch_context;
-} bbm_model;
+    /* --- beyond the paper --- */
+    bbm_hooks hook;
+    bbm_beyond *beyond;
+};
 
 typedef struct {                /* at a grid point                                                              */
     double u, v;                /* m                                         */
