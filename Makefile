@@ -19,9 +19,9 @@ SHARED   = case output plot scene theory
 PROGRAM  = bbm model msh write
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
-PAPER    = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners check_entrance \
-           check_open_close check_sliding check_joints check_blocks check_repeat check_solver
-SUITES   = $(PAPER) check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
+SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
+           check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
+           check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
            check_theory check_equations
 SHARING  = models systems
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)

@@ -283,8 +283,9 @@ int add_rectangle(bbm_model *m, int block, int material, rectangle r)
 
 int add_polygon(bbm_model *m, int block, int n, const double p[][2])
 {
-    int node[12], e = -1;
+    int node[40], e = -1;
 
+    ck_assert_int_le(n, COUNT(node));
     for (int k = 0; k < n; k++)
         ck_ok(bbm_add_node(m, p[k][0], p[k][1], &node[k]), m);
     ck_ok(bbm_add_element(m, block, ROCK, n, node, &e), m);

@@ -88,10 +88,11 @@ bbm_model *two_squares(int block0, int block1);
  * given blocks. */
 bbm_model *fan(int triangles, const double top[][2], const int block[]);
 
-static const double PI = 3.14159265358979323846, GRAVITY = 9.81, DENSITY = 2500;
-double radians(double degrees);
-
 /* ---------------------------------------------------------------------------- blocks that touch */
+
+static const double PI = 3.14159265358979323846, GRAVITY = 9.81, DENSITY = 2500;
+
+double radians(double degrees);
 
 enum { ROCK, BASE };            /* materials */
 
