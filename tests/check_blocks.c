@@ -338,7 +338,7 @@ static double area_after_turning(bbm_rotation rotation)
     bbm_model *m = new_blocks();
 
     m->par.gravity[1] = 0;
-    m->par.rotation = rotation;
+    m->beyond->rotation = rotation;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
     m->element[0].V[2] = 1;

@@ -575,7 +575,7 @@ static bbm_model *new_mesh(int mesh, int n, double alpha)
     unsigned seed = 47;
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
     for (int j = 0; j <= n; j++)
         for (int i = 0; i <= nx; i++)
@@ -597,7 +597,7 @@ static bbm_model *new_mesh(int mesh, int n, double alpha)
         bbm_add_load(m, j * across + nx, 0, -1000);
     }
     m->par.alpha = alpha;
-    m->par.bonding = BBM_VERTICES;
+    m->beyond->bonding = BBM_VERTICES;
     m->par.pcg.iterations = 200;  /* several times what is needed: an error ends at once */
     ck_ok(bbm_prepare(m), m);
     for (int b = m->bonds - 1; b >= 0 && mesh == CRACKED; b--) {
@@ -664,7 +664,7 @@ START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
     bbm_pcg_info info;
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
     for (int i = 0; i < 4; i++)
         bbm_add_node(m, xy[i][0], xy[i][1], NULL);
@@ -713,7 +713,7 @@ START_TEST(one_level_is_used_where_two_do_not_pay)
     bbm_model *m[2];
 
     for (int k = 0; k < 2; k++) {
-        ck_assert_int_eq(bbm_model_new(&m[k]), BBM_OK);
+        ck_assert_int_eq(bbm_beyond_new(&m[k]), BBM_OK);
         m[k]->par.dt = table[_i].dt;
         m[k]->par.pcg.form = k ? BBM_EISENSTAT : BBM_TWO_LEVEL;
         mesh_of_blocks(m[k], table[_i].bonded, table[_i].held);

@@ -650,7 +650,7 @@ START_TEST(the_detection_looks_as_far_as_a_block_falls_in_the_step)
     add_rectangle(m, 1, ROCK, (rectangle){ .x = level ? 5 + gap : 0, .y = level ? -0.75 : gap,
                                            .w = 1, .h = 0.5 });
     ck_ok(bbm_prepare(m), m);
-    m->gravity[level ? 0 : 1] = -GRAVITY;
+    m->acceleration[level ? 0 : 1] = -GRAVITY;
     set_velocity(m, 1, level ? -v : 0, level ? 0 : -v);
     detect(m);
     ck_assert_int_eq(m->contacts, _i % 2 ? 0 : 2);

@@ -444,7 +444,7 @@ START_TEST(loads_of_one_node_and_of_one_edge_add_up)
     ck_relative(total[0], 5 + 3, ROUNDING);
     ck_relative(total[1], 4 + 0.75, ROUNDING);
     ck_relative(total[2], (4 - 5) + (3 * 0.75 - 1.5 * 3), ROUNDING);
-    const int n = node_at(&g, 1, 1), meeting = m->meet_first[n + 1] - m->meet_first[n];
+    const int n = node_at(&g, 1, 1), meeting = m->adjacent_first[n + 1] - m->adjacent_first[n];
     for (int v = 0; v < m->vertices; v++)
         if (m->vertex[v].node == n)
             ck_relative(m->F[6 * m->vertex[v].element], 5.0 / meeting, ROUNDING);

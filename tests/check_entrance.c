@@ -300,7 +300,7 @@ static bbm_model *slab_at(const double depth[2], double y, int rotation)
     int n;
 
     m->par.gravity[1] = 0;
-    m->par.rotation = (bbm_rotation)rotation;
+    m->beyond->rotation = (bbm_rotation)rotation;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 1e-3, .w = 2, .h = 1, .nx = 2 });
     ck_ok(bbm_prepare(m), m);
@@ -517,7 +517,7 @@ START_TEST(the_depth_of_a_contact_is_told_against_the_smaller_block)
     int n;
 
     m->par.gravity[1] = 0;
-    m->par.rotation = BBM_LINEAR;
+    m->beyond->rotation = BBM_LINEAR;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -l / 2, .y = -1, .w = l, .h = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -w / 2, .y = 0.01, .w = w, .h = h });
     ck_ok(bbm_prepare(m), m);

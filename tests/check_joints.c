@@ -63,7 +63,7 @@ static bbm_model *joined(double fx, double fy)
     m->par.friction = 30;
     m->par.cohesion = 5000;
     m->par.tension = 3000;
-    m->par.keep = 0;
+    m->par.velocity_factor = 0;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 2, .h = 1 });
     for (int c = 0; c < 2; c++)  /* the shear acts at the joint, the pull at the top */
@@ -210,7 +210,7 @@ START_TEST(blocks_that_come_to_touch_have_no_tensile_strength)
     m->par.gravity[1] = 0;
     m->par.friction = 30;
     m->par.tension = 3000;
-    m->par.keep = 0;
+    m->par.velocity_factor = 0;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 1e-3, .w = 2, .h = 1 });
     ck_ok(bbm_add_load(m, vertex_of(m, 1, 2)->node, 0, -3000), m);

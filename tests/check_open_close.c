@@ -219,7 +219,7 @@ START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
 
     set_velocity(m, 1, _i < 2 ? 1 : 10, 0);
     m->element[1].V[2] = _i < 2 ? 0 : 1;
-    m->gravity[1] = 0;
+    m->acceleration[1] = 0;
     bbm_guess_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
@@ -340,7 +340,7 @@ START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
     if (_i >= 2)
         ck_ok(bbm_add_load(m, m->vertex[m->element[1].first].node, 1, 0), m);
     for (int k = 0; k < 3; k++) {
-        m->keep_K = k == 2 && _i == 3;
+        m->K_is_kept = k == 2 && _i == 3;
         m->D[6] = k < 2 ? 0 : -turn / 2;
         m->D[7] = -0.01;
         m->D[8] = k < 2 ? 0 : turn;
@@ -451,9 +451,9 @@ START_TEST(the_direction_of_a_contacts_force_may_be_wrong_by_1e_4)
             ck_assert(!bbm_contacts_are_off(m, 1));
             m->D[6 * k + 2] = nextafter(m->D[6 * k + 2], _i ? -1 : 1);
             ck_assert_int_eq(bbm_contacts_are_off(m, 1), c->state != BBM_OPEN);
-            m->par.rotation = BBM_LINEAR;
+            m->beyond->rotation = BBM_LINEAR;
             ck_assert(!bbm_contacts_are_off(m, 1));
-            m->par.rotation = BBM_EXACT;
+            m->beyond->rotation = BBM_EXACT;
             m->D[6 * k + 2] = 0;
         }
     bbm_model_free(m);

@@ -19,7 +19,7 @@ static bbm_model *flyer(int triangles)
     ck_ok(bbm_prepare(m), m);
     m->par.dt = 0.01;
     m->par.steps = 100;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     return m;
 }
 
@@ -60,8 +60,8 @@ START_TEST(the_acceleration_of_the_base_acts_like_gravity_the_other_way)
     const double a[2] = { 3, -2 }, g[2] = { 0.5, -9.81 };
 
     memcpy(m->par.gravity, g, sizeof g);
-    memcpy(m->par.shake, a, sizeof a);
-    m->par.omega = acos(-1) / 2 / 0.01;
+    memcpy(m->beyond->shake, a, sizeof a);
+    m->beyond->shake_omega = acos(-1) / 2 / 0.01;
     for (int step = 1; step <= 2; step++) {
         ck_ok(bbm_step(m), m);
         for (int e = 0; e < m->elements; e++)
@@ -76,11 +76,11 @@ START_TEST(a_spinning_element_keeps_its_angular_velocity_and_its_mass)
 {
     bbm_model *m = unit_square(&SOLID);
 
-    m->par.rotation = _i == 0 ? BBM_LINEAR : BBM_EXACT;
+    m->beyond->rotation = _i == 0 ? BBM_LINEAR : BBM_EXACT;
     ck_ok(bbm_prepare(m), m);
     m->par.dt = 0.01;
     m->par.steps = 50;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->element[0].V[2] = 3;
     ck_ok(bbm_run(m), m);
     for (int a = 0; a < 6; a++)
@@ -102,7 +102,7 @@ START_TEST(stress_turns_with_the_element)
     double after[2][2] = { { 0 } };
 
     ck_ok(bbm_prepare(m), m);
-    m->par.rotation = _i == 0 ? BBM_LINEAR : BBM_EXACT;
+    m->beyond->rotation = _i == 0 ? BBM_LINEAR : BBM_EXACT;
     m->par.dt = 0.5;
     m->element[0].V[2] = 0.7 / 0.5;
     memcpy(m->element[0].stress, s, sizeof s);
@@ -156,7 +156,7 @@ START_TEST(a_vibrating_element_is_damped_as_newmarks_recurrence_says)
 
     ck_ok(bbm_prepare(m), m);
     m->par.dt = sqrt(W2 * CORK.density / (12 * CORK.E));
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->element[0].stress[0] = CORK.E * q0;
     m->element[0].V[3] = p0 / m->par.dt;
     for (int n = 1; n <= 40; n++) {
@@ -202,7 +202,7 @@ static void out_of_balance(const bbm_model *m, double f[3])
         const bbm_node *n = &m->node[p->node];
         const bbm_material *s = &m->element[p->element].material;
         const double k = m->par.alpha * s->E / 2 / (1 + s->nu) * s->thickness;
-        const int meeting = m->meet_first[p->node + 1] - m->meet_first[p->node];
+        const int meeting = m->adjacent_first[p->node + 1] - m->adjacent_first[p->node];
         const double fx = n->load[0] / meeting + (n->held & BBM_X ? k * (n->wall[0] - p->u) : 0);
         const double fy = n->load[1] / meeting + (n->held & BBM_Y ? k * (n->wall[1] - p->v) : 0);
         f[0] += fx;

@@ -24,8 +24,8 @@ bbm_model *new_model(const bbm_material *material)
 {
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
-    m->par.bonding = BBM_VERTICES;         /* the paper's bonds; check_beyond.c has the others */
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
+    m->beyond->bonding = BBM_VERTICES;         /* the paper's bonds; check_beyond.c has the others */
     ck_ok(bbm_add_material(m, material, NULL), m);
     m->par.pcg.tolerance = 1e-15;
     m->par.pcg.iterations = 1000; /* several times what is needed: an error ends at once */
@@ -249,9 +249,9 @@ bbm_model *new_blocks(void)
     const bbm_material rock = { 1e10, 0.25, 2500, 1 }, base = { 1e14, 0.25, 2500, 1 };
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     m->par.dt = 0.01;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->par.gravity[1] = -GRAVITY;
     m->par.pcg.tolerance = 1e-14;
     m->par.pcg.iterations = 1000; /* several times what is needed: an error ends at once */
@@ -316,11 +316,11 @@ void run_steps(bbm_model *m, int steps)
 
 void settle(bbm_model *m, int steps)
 {
-    const double keep = m->par.keep;
+    const double keep = m->par.velocity_factor;
 
-    m->par.keep = 0;
+    m->par.velocity_factor = 0;
     run_steps(m, steps);
-    m->par.keep = keep;
+    m->par.velocity_factor = keep;
 }
 
 void set_velocity(bbm_model *m, int element, double vx, double vy)
