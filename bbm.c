@@ -447,12 +447,14 @@ bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions)
     return BBM_OK;
 }
 
-/* What glues in the paper. */
+/* Lists what glues, with T of the step: in the paper bonds and fixed points. */
 bbm_status bbm_list_gaps(bbm_model *m)
 {
     bbm_status status = BBM_OK;
 
     m->gaps = 0;
+    if (m->hook.list_gaps)
+        return m->hook.list_gaps(m);
     for (int b = 0; b < m->bonds && !status; b++)
         status = bbm_list_bond(m, &m->bond[b]);
     for (int v = 0; v < m->vertices && !status; v++)
@@ -555,7 +557,6 @@ bbm_status bbm_assemble(bbm_model *m)
     if (!m->K_is_kept) {
         gather_loads(m);
         bbm_matrix_clear(m->K);
-        status = m->hook.list_gaps ? m->hook.list_gaps(m) : bbm_list_gaps(m);
     }
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     for (int i = 0; i < m->elements && !status; i++)
@@ -573,21 +574,24 @@ static void count_time(bbm_model *m, int phase, clock_t since)
     m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
 }
 
-/* Lays out K: a submatrix for each element, each bond and each contact, Eq. (5). Without memory the
- * old one stays. */
+/* Lays out K: a submatrix for each element, each gap between two of them and each contact, Eq. (5).
+ * Without memory the old one stays. */
 static bbm_status lay_out_matrix(bbm_model *m)
 {
-    const int contacts = m->work ? bbm_contact_count(m) : 0, n = contacts + m->bonds;
-    int (*pair)[2] = calloc((size_t)n + 1, sizeof *pair);
+    const int contacts = m->work ? bbm_contact_count(m) : 0;
+    int (*pair)[2] = calloc((size_t)(contacts + m->gaps) + 1, sizeof *pair), n = 0;
     bbm_matrix *K;
 
     if (!pair)
         return BBM_NO_MEMORY;
-    for (int k = 0; k < contacts; k++)
-        bbm_contact_pair(m, k, pair[k]);
-    for (int b = 0; b < m->bonds; b++) {
-        pair[contacts + b][0] = m->bond[b].i;
-        pair[contacts + b][1] = m->bond[b].j;
+    for (; n < contacts; n++)
+        bbm_contact_pair(m, n, pair[n]);
+    for (int g = 0; g < m->gaps; g++) {
+        const int repeated = g > 0 && m->gap[g].i == m->gap[g - 1].i && m->gap[g].j == m->gap[g - 1].j;
+        if (m->gap[g].j < 0 || repeated)
+            continue;
+        pair[n][0] = m->gap[g].i;
+        pair[n++][1] = m->gap[g].j;
     }
     if (m->K && n == m->pairs && memcmp(pair, m->pair, (size_t)n * sizeof *pair) == 0) {
         free(pair);
@@ -656,8 +660,12 @@ static bbm_status detect(bbm_model *m, int *other)
     if (status || same)
         return status;
     *other = 1;
-    status = lay_out_matrix(m);
-    return status || !m->hook.begin ? status : m->hook.begin(m);
+    if (m->hook.begin)
+        m->hook.begin(m);
+    status = bbm_list_gaps(m);
+    if (!status)
+        status = lay_out_matrix(m);
+    return status || !m->hook.check_listed ? status : m->hook.check_listed(m);
 }
 
 static bbm_status assemble(bbm_model *m)
@@ -1384,13 +1392,14 @@ int bbm_root_of(int up[], int e)
     return e;
 }
 
-/* Joins what bonds and contacts connect to bodies, known by their root in up[]. */
+/* Joins what gaps and contacts connect to bodies, known by their root in up[]. */
 void bbm_join_elements(const bbm_model *m, int up[])
 {
     for (int e = 0; e < m->elements; e++)
         up[e] = e;
-    for (int b = 0; b < m->bonds; b++)
-        up[bbm_root_of(up, m->bond[b].j)] = bbm_root_of(up, m->bond[b].i);
+    for (int g = 0; g < m->gaps; g++)
+        if (m->gap[g].j >= 0)
+            up[bbm_root_of(up, m->gap[g].j)] = bbm_root_of(up, m->gap[g].i);
     for (int c = 0; c < bbm_contact_count(m); c++) {
         int pair[2];
         bbm_contact_pair(m, c, pair);
@@ -1410,7 +1419,7 @@ static bbm_status allocate(bbm_model *m)
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;
     m->load = m->D + 6 * (size_t)m->elements;
-    return lay_out_matrix(m) || bbm_contact_new(m) ? BBM_NO_MEMORY : BBM_OK;
+    return bbm_list_gaps(m) || lay_out_matrix(m) || bbm_contact_new(m) ? BBM_NO_MEMORY : BBM_OK;
 }
 
 /* Checks the model and makes all that the steps need. */
