@@ -11,7 +11,7 @@ CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 LIBRARY  = bbm contact solver $(BEYOND:%=beyond/%)
-BEYOND   = beyond middle balance overlap pieces mechanism loose
+BEYOND   = beyond bending energy mechanism multipliers overlap pieces refuse rotation statics
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)
@@ -19,8 +19,11 @@ SHARED   = case output plot scene theory
 PROGRAM  = bbm model msh write
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
-SUITES   = check_bbm check_contact check_solver check_beyond check_motion check_bars check_limits check_refused \
+SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
+           check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
+           check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
            check_theory check_equations
+SHARING  = models systems
 HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
@@ -84,7 +87,7 @@ $O/tests/check_all.o: tests/check_main.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) -DCASES $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-TESTED = $(SUITES:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
+TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
@@ -92,7 +95,7 @@ $O/quick: $O/tests/check_main.o $(TESTED)
 $O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$(SUITES:%=$O/tests/%.o) $(PROGRAMS:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/test_alloc.o: | libcheck
+$(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $(PROGRAMS:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/test_alloc.o: | libcheck
 
 libcheck:
 	@echo '#include <check.h>' | $(CC) $(CPPFLAGS) -E - >/dev/null 2>&1 || \

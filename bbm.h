@@ -1,14 +1,30 @@
 /* bbm.h - the bonding block model (BBM), an enrichment of discontinuous deformation analysis (DDA).
  *
  * Sun, Chen, Feng, Wang: "Discontinuous Deformation Analysis Enriched by the Bonding Block Model",
- * Mathematical Problems in Engineering 2015, 723263, doi:10.1155/2015/723263. Eq. (n) and Fig. n mean that paper.
+ * Mathematical Problems in Engineering 2015, 723263, doi:10.1155/2015/723263. Eq. (n) and Fig. n
+ * mean that paper.
  *
  * A block of a jointed rock mass is subdivided into elements, polygons with the six unknowns
- * D = (u0, v0, r0, ex, ey, gxy) each. Elements of one block that share an edge are glued there by bonding springs;
- * different blocks only touch. Each time step minimises the potential energy, K D = F, and moves the elements by D.
+ * D = (u0, v0, r0, ex, ey, gxy) each. Elements of one block that share an edge are glued there by
+ * bonding springs; different blocks only touch. Each time step minimises the potential energy,
+ * K D = F, and moves the elements by D. A program builds a model, runs it and reads the results:
  *
- * Read the structs from small to large, then the functions in three tiers: run a model, build one, single formulas.
- * SI units, plane stress, indices from 0, elements counter-clockwise. What can fail returns a bbm_status.
+ *     bbm_model *m;
+ *     bbm_model_new(&m);
+ *     bbm_add_material(m, &(bbm_material){ .E = 1e9, .density = 2500, .thickness = 1 }, NULL);
+ *     for (int k = 0; k < 4; k++)
+ *         bbm_add_node(m, x[k], y[k], NULL);
+ *     bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL);
+ *     bbm_fix_node(m, 0, BBM_XY, 0, 0), bbm_fix_node(m, 1, BBM_Y, 0, 0);
+ *     m->par.gravity[1] = -9.81;
+ *     if (bbm_prepare(m) || bbm_run(m))
+ *         puts(bbm_message(m));
+ *     bbm_nodal_result(m, 2, -1, &result);
+ *     bbm_model_free(m);
+ *
+ * Read the structs from small to large, then the functions in four tiers: run a model, build one,
+ * single formulas, and what the files of the library share. SI units, plane stress, indices from 0,
+ * elements counter-clockwise. What can fail returns a bbm_status.
  */
 #ifndef BBM_H
 #define BBM_H
@@ -16,47 +32,43 @@
 #define BBM_VERSION "0.1"
 
 #if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
-#error "bbm needs IEEE arithmetic with infinity and NaN: compile without -Ofast, -ffast-math, -ffinite-math-only"
+#error "bbm needs infinity and NaN: compile without -Ofast, -ffast-math, -ffinite-math-only"
 #endif
 
-enum { BBM_GAUSS = 4 };                         /* Gauss points of a line load: exact to degree 7              */
-enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };      /* directions in which a point is held; they add up            */
+enum { BBM_GAUSS = 4 };                     /* Gauss points of a line load: exact to degree 7   */
+enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };  /* directions in which a point is held; they add up */
 
 typedef enum {
     BBM_OK,
     BBM_NO_MEMORY,
     /* --- the model is wrong: bbm_message() names the element, node or parameter --- */
-    BBM_NO_ELEMENT,             /* the model is empty                                                     */
-    BBM_NOT_FINITE,             /* a coordinate, load or parameter is NaN or infinite                     */
-    BBM_BAD_INDEX,              /* a node, element or material that does not exist                        */
-    BBM_BAD_MODULUS,            /* E <= 0                                                                 */
-    BBM_BAD_POISSON,            /* nu outside (-1, 0.5)                                                   */
-    BBM_BAD_DENSITY,            /* density <= 0                                                           */
-    BBM_BAD_THICKNESS,          /* thickness <= 0                                                         */
-    BBM_BAD_PARAMETER,          /* dt, alpha, omega, ... outside its range                                */
-    BBM_FEW_VERTICES,           /* an element of fewer than three vertices                                */
-    BBM_ZERO_AREA,              /* an element without area                                                */
-    BBM_SELF_CROSSING,          /* an element whose boundary meets itself                                 */
-    BBM_OVERLAP,                /* elements of one block that lie on the same side of an edge             */
-    BBM_BLOCKS_OVERLAP,         /* blocks that overlap at the start                                       */
-    BBM_UNUSED_NODE,            /* a node that no element has                                             */
-    BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                                */
-    BBM_FREE_TO_MOVE,           /* statics, and the fixed points do not hold a body against rigid motion  */
-    BBM_MECHANISM,              /* elements bonded at midpoints alone turn against each other at no energy  */
+    BBM_NO_ELEMENT,             /* the model is empty                                       */
+    BBM_NOT_FINITE,             /* a coordinate, load or parameter is NaN or infinite       */
+    BBM_BAD_INDEX,              /* a node, element or material that does not exist          */
+    BBM_BAD_MATERIAL,           /* E, nu, density or thickness outside its range            */
+    BBM_BAD_PARAMETER,          /* dt, alpha, omega, ... outside its range                  */
+    BBM_BAD_ELEMENT,            /* fewer than three vertices, or without area               */
+    BBM_SELF_CROSSING,          /* an element whose boundary meets itself                   */
+    BBM_OVERLAP,                /* elements of one block overlap                            */
+    BBM_BLOCKS_OVERLAP,         /* blocks that overlap at the start                         */
+    BBM_UNUSED_NODE,            /* a node that no element has                               */
+    BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                  */
+    BBM_FREE_TO_MOVE,           /* statics, and nothing holds a body                        */
+    BBM_MECHANISM,              /* bonded elements that turn against each other for nothing */
     /* --- the solution failed: the numbers are in bbm_info --- */
-    BBM_NOT_POSITIVE_DEFINITE,  /* K is not; info.element is the row, or -1 if the iteration found out    */
-    BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                                */
-    BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps                       */
-    BBM_NO_EQUILIBRIUM,         /* statics, and a block slides, tips or falls: m->culprit on m->other             */
-    BBM_STEP_TOO_LONG,          /* elements turn or strain too far in a step, even in the smallest one          */
-    BBM_OPEN_CLOSE,             /* the open-close iteration does not settle, even in the smallest step    */
-    BBM_TOO_SOFT,               /* contacts are as deep as a tenth of a block                             */
-    BBM_ENERGY,                 /* the smallest step still makes energy                                   */
-    BBM_STOPPED,                /* watch said so                                                          */
+    BBM_NOT_POSITIVE_DEFINITE,  /* K; info.pcg.element is the row, -1: found by iteration   */
+    BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                  */
+    BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps         */
+    BBM_NO_EQUILIBRIUM,         /* statics, and a block slides, tips or falls               */
+    BBM_STEP_TOO_LONG,          /* elements turn or strain too far, even in the least step  */
+    BBM_OPEN_CLOSE,             /* contacts do not settle, even in the least step           */
+    BBM_TOO_SOFT,               /* contacts are as deep as a tenth of a block               */
+    BBM_ENERGY,                 /* even the least step makes energy                         */
+    BBM_STOPPED,                /* the monitor said so                                      */
     BBM_STATUS_COUNT
 } bbm_status;
 
-/* ------------------------------------------------------------------------------------------------ the data */
+/* ------------------------------------------------------------------------------------ the data */
 
 typedef struct {
     double E;                   /* Pa       Young's modulus                  */
@@ -65,78 +77,89 @@ typedef struct {
     double thickness;           /* m        out of the plane                 */
 } bbm_material;
 
-typedef struct {                /* a grid point of the mesh; the elements that meet there have a vertex each    */
+typedef struct {                /* a grid point; the elements that meet there have a vertex each */
     double x, y;                /* m        starting position                */
     int    held;                /* BBM_X, BBM_Y or both: a fixed point       */
-    double wall[2];             /* m        displacement of the wall point W that it is held to                 */
+    double wall[2];             /* m        displacement of the wall point W that it is held to */
     double load[2];             /* N        concentrated load                */
 } bbm_node;
 
-typedef struct {                /* a corner of one element                                                      */
+typedef struct {                /* a corner of one element                                      */
     int    node, element;
     double x, y;                /* m        present position                 */
-    double u, v;                /* m        displacement since the start: x = node.x + u                        */
+    double u, v;                /* m        displacement since the start: x = node.x + u        */
+    int    edge;                /* the boundary edge that starts here, or -1; by bbm_prepare    */
 } bbm_vertex;
 
-typedef struct {                /* an element: triangle, quadrilateral, any simple polygon, or a whole block    */
+typedef struct bbm_element bbm_element;
+
+/* The displacement mode matrix of a step at the point that starts it in (x, y), and where the point
+ * is then: `at`. */
+typedef void bbm_mode(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+
+struct bbm_element {            /* triangle, quadrilateral, simple polygon, or a whole block    */
     /* --- input --- */
     int    block;
-    int    first, n;            /* its vertices are model.vertex[first .. first+n-1]                            */
+    int    first, n;            /* its vertices are model.vertex[first .. first+n-1]            */
     bbm_material material;
     /* --- geometry of the step, by bbm_element_geometry --- */
     double x, y;                /* m        barycentre                       */
     double A;                   /* m^2      area                             */
-    double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre                         */
+    double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre         */
     /* --- state --- */
-    double A0;                  /* m^2      starting area: mass = density * thickness * A0                      */
+    double A0;                  /* m^2      starting area: mass = density * thickness * A0      */
     double V[6];                /* D/s      velocity of D                    */
-    double stress[3];           /* Pa       sx, sy, sxy, carried from step to step                              */
-    double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps                            */
-    /* --- solution of the last step --- */
-    double D[6];                /* u0, v0 [m], r0 [rad], ex, ey, gxy [-]                                        */
-    double mid[6];              /* the D in whose middle its vectors are taken, beyond/middle.c; 0: the paper   */
-} bbm_element;
+    double stress[3];           /* Pa       sx, sy, sxy, carried from step to step              */
+    double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
+    double D[6];                /* of the last step: u0, v0 [m], r0 [rad], ex, ey, gxy [-]      */
+    /* --- T of the step, NULL: (2); and the D for which that was made --- */
+    bbm_mode *mode;
+    double mode_D[6];
+};
 
-typedef struct {                /* an internal edge: two bonding springs between elements i and j               */
+typedef struct {                /* an internal edge: two bonding springs, elements i and j      */
     int i, j;
-    int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j                      */
+    int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j      */
 } bbm_bond;
 
-typedef struct { double x, y, length; } bbm_direction;          /* unit vector, m                               */
+typedef struct { double x, y, length; } bbm_direction;          /* unit vector, m           */
 
-typedef struct {                /* a boundary edge from vertex a to vertex b, its element on the left           */
+typedef struct {                /* a boundary edge from vertex a to b, its element on the left  */
     int element, a, b, block;
     /* --- contact.c --- */
-    int    before, after;       /* its neighbours along the boundary                                            */
-    int    side;                /* the first edge of the straight side that it belongs to                       */
-    double span;                /* m        length of that side at the start, if it is the first                */
-    bbm_direction along;        /* of the present positions                                                     */
-    int    contact;             /* the first one of its corner, a, in model.contact                             */
+    int    before, after;       /* its neighbours along the boundary                            */
+    int    side;                /* the first edge of the straight side that it belongs to       */
+    double span;                /* m        length of that side at the start, if it is the first */
+    bbm_direction along;        /* of the present positions                                     */
+    int    contact;             /* the first one of its corner, a, in model.contact             */
 } bbm_edge;
 
-typedef enum {                  /* how quadrilaterals are bonded along an edge; all others are at its vertices  */
-    BBM_MOMENT,                 /* in its middle, with the resistance to opening that bending needs             */
-    BBM_MIDPOINTS,              /* in its middle alone                                                          */
-    BBM_VERTICES                /* at both ends: the paper                                                      */
-} bbm_bonding;
+/* What glues: the gap d = d0 + T_i D_i - T_j D_j, with the energy 1/2 d.W d + f.d. */
+typedef struct {
+    int    i, j;                /* elements; j = -1: the wall, which does not move: T_j = 0     */
+    int    penalty;             /* 1: W stands for a rigid joint; 0: it is a stiffness          */
+    double d0[2];               /* m        at the start of the step         */
+    double Ti[2][6], Tj[2][6];
+    double W[2][2];             /* N/m      weight: k I for a spring k       */
+    double f[2];                /* N        multiplier: what it carries besides W d; 0: paper   */
+    double f_before[2];         /* N        the same at the end of the last step                */
+} bbm_gap;
 
-/* A bond of a whole edge. With d1, d2 the gaps at its ends, d = (d1 + d2)/2, dd = (d1 - d2)/2:
- * Pi = 1/2 d.K d + 1/2 dd.M dd. Two springs k at the ends are K = M = 2 k I.                                     */
-typedef struct { double K[2][2], M[2][2]; } bbm_hinge;
-
-typedef struct {                /* a load along a boundary edge                                                 */
+typedef struct {                /* a load along a boundary edge                                 */
     int    node[2];             /* its ends                                  */
     int    constant;            /* then f[0] is all of it, Eq. (43)          */
-    double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to node[1], Eq. (42)               */
-    double pressure;            /* N/m      against the outward normal, turning with the edge; on top of f[0]   */
+    double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to [1], Eq. (42)   */
+    double pressure;            /* N/m      against the outward normal, besides f[0]; turns with */
+                                /*          the edge         */
     int    a, b;                /* the vertices at its ends, by bbm_prepare  */
 } bbm_line_load;
 
 /* A load that varies from place to place: writes f(x, y) [N/m or N/m^2] into f. */
 typedef void bbm_field(double x, double y, const void *context, double f[2]);
 
-typedef struct { double K[6][6], F[6]; } bbm_submatrix;                                 /* what one element adds */
-typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices; /* two; Kji = Kij^T    */
+/* What one element adds to K and F, and what two add; K_ji = K_ij^T. */
+typedef struct { double K[6][6], F[6]; } bbm_submatrix;
+typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
 
 typedef enum {                  /* how K D = F is solved                                                        */
     BBM_EISENSTAT,              /* the paper's SSOR-PCG in half the time of the next, with the same iterates    */
@@ -159,9 +182,8 @@ typedef struct {                /* what a solve did                             
     double seconds[2];          /* s        CPU time of the preconditioner and of the iteration                 */
 } bbm_pcg_info;
 
-enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };   /* what CPU time is counted for  */
-
-typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X, or the paper's x + T D           */
+/* What CPU time is counted for. */
+enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
 typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
@@ -202,198 +224,219 @@ typedef struct {                /* what the formulas of 3.7 take                
 typedef struct { double d, e[6], g[6]; } bbm_spring;    /* its length is d + e.D_i + g.D_j                      */
 
 typedef struct {
-    double dt;                  /* s        time step; INFINITY: no inertia                                     */
-    int    steps;               /* time steps, in statics load steps (Newton-Raphson iterations)                */
-    double tolerance;           /* -        of (71), ends the steps; 0: do all steps                            */
-    double keep;                /* -        share of its velocity that a step hands on: 1 dynamics, 0 statics   */
-    double alpha;               /* -        of the bonding stiffness, (4) and (29)                              */
-    int    augment;             /* further solutions of a step that take the give out of the springs; 0: paper  */
-    bbm_bonding bonding;        /* of quadrilaterals; BBM_VERTICES: paper                                       */
+    double dt;                  /* s        time step; INFINITY: statics, without inertia        */
+    int    steps;               /* time steps; in statics load steps (Newton-Raphson iterations) */
+    double tolerance;           /* -        of (71), ends the steps; 0: do all steps            */
+    double velocity_factor;     /* -        share of V with which the next step begins: 1       */
+                                /*          dynamics, 0 a step from rest                        */
+    double alpha;               /* -        of the bonding stiffness, (4) and (29)              */
     double gravity[2];          /* m/s^2    */
-    double shake[2], omega;     /* m/s^2, 1/s   acceleration of the base, shake sin(omega t)                    */
-    double p_n, p_s;            /* N/m      stiffness of the normal and of the shear spring of a contact        */
-    double friction;            /* degree   friction angle                                                      */
-    double cohesion, tension;   /* Pa       shear and tensile strength of unbroken joints, see bbm_contact      */
-    bbm_rotation rotation;      /* how positions are updated                                                    */
-    int    faces;               /* 1: grid points inside a straight side touch other blocks, too, so that a     */
-                                /* deformable block rests on its whole side; 0: on its two corners, as a bridge */
+    double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
+    double friction;            /* degree   friction angle                                      */
+    double cohesion, tension;   /* Pa       shear and tensile strength of unbroken joints       */
+    int    faces;               /* 1: grid points inside a straight side touch other blocks,    */
+                                /* too: a deformable block rests on its whole side; 0: on its   */
+                                /* two corners, as a bridge                                     */
     bbm_pcg pcg;
 } bbm_parameters;
 
-typedef struct {                /* what the last step did                                                       */
-    int    step;                /* steps done                                                                   */
-    double t;                   /* s        time at their end; statics takes none                                */
-    double change;              /* -        left side of (71) over its right side without the tolerance         */
+typedef struct {                /* what the last step did                                       */
+    int    step;                /* steps done                                                   */
+    double t;                   /* s        time at their end; statics takes none                */
+    double change;              /* -        left side of (71) over its right side / tolerance   */
     bbm_pcg_info pcg;
-    int    passes;              /* solutions of the open-close iteration                                        */
-    int    cuts;                /* how often dt was halved                                                      */
-    int candidates;             /* pairs of a boundary vertex and a boundary edge that the detection compared   */
-    int    contacts;            /* closed                                                                       */
-    double penetration;         /* m        the deepest                                                         */
-    int    iterations;          /* of SSOR-PCG, in all solutions of the step                                    */
-    double work;                /* J        of loads and gravity, in all steps                                  */
-    double gained;              /* J        what dynamic steps have made beyond the balance, beyond/balance.c   */
-    double gain;                /* -        the most that one of them made, against what was there              */
-    double seconds[BBM_PHASES]; /* s        CPU time, in all steps                                              */
+    int    passes;              /* solutions of the open-close iteration                        */
+    int    cuts;                /* how often dt was halved                                      */
+    int    candidates;          /* pairs of a vertex and an edge that the detection compared    */
+    int    contacts;            /* closed                                                       */
+    double penetration;         /* m        the deepest                                         */
+    int    iterations;          /* of SSOR-PCG, in all solutions of the step                    */
+    double seconds[BBM_PHASES]; /* s        CPU time, in all steps                              */
 } bbm_info;
 
-typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
-
-typedef struct {                /* elements i < j that overlap                                                  */
-    int    i, j;
-    double depth;               /* m        the shortest way that parts them                                    */
-    double x, y;                /* m        the middle of what they share                                       */
-} bbm_overlap;
-
 typedef struct bbm_model bbm_model;
-typedef struct bbm_beyond bbm_beyond;           /* beyond/beyond.h                                              */
-/* Where what the paper does not have comes in (beyond/); NULL: the paper's way. */
-typedef struct {
-    void (*release)(bbm_model *m);                      /* frees m->beyond                              */
-    bbm_status (*check)(bbm_model *m);                  /* of a prepared model                          */
-    bbm_status (*check_step)(bbm_model *m);             /* before each step                             */
-    bbm_status (*check_contacts)(bbm_model *m);         /* of a step in statics: is all held?           */
-    bbm_status (*explain)(bbm_model *m, bbm_status s);  /* of a step in statics that failed             */
-    void (*find_gravity)(bbm_model *m);                 /* m->gravity of the step                       */
-    bbm_status (*lay_out)(bbm_model *m);                /* K is new                                     */
-    void (*before_solution)(bbm_model *m);              /* K and F are assembled                        */
-    bbm_status (*friction)(bbm_model *m, int *agree);   /* the next N for the friction forces           */
-    int (*settled)(bbm_model *m);                       /* contacts are; 1: solve with this K again     */
-    bbm_status (*accept)(bbm_model *m, const bbm_model *end);   /* before anything moves                */
-} bbm_hooks;
+typedef struct bbm_matrix bbm_matrix;               /* K, in solver.c                           */
+typedef struct bbm_contact_work bbm_contact_work;   /* scratch of contact.c                     */
+typedef struct bbm_beyond bbm_beyond;               /* of the hooks                             */
 
-typedef struct bbm_matrix bbm_matrix;           /* K, in solver.c                                               */
-typedef struct bbm_contact_work bbm_contact_work;       /* scratch of contact.c                                 */
+/* Where what the paper does not have comes in; NULL: the paper's way. */
+typedef struct {
+    /* --- building --- */
+    void (*release)(bbm_model *m);                          /* frees m->beyond                  */
+    bbm_status (*check_polygon)(bbm_model *m, int n, const int node[]);     /* of a new element */
+    bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
+    /* --- a step begins --- */
+    bbm_status (*check_step)(bbm_model *m);
+    void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
+    void (*begin)(bbm_model *m);                            /* the contacts are listed          */
+    bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
+    /* --- K D = F --- */
+    bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bonds, fixed points  */
+    bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
+    void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
+    /* --- open-close --- */
+    bbm_status (*friction)(bbm_model *m, int *agree);       /* the next N of friction forces    */
+    int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */
+    int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
+    int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
+    /* --- the end of the step --- */
+    void (*move)(const bbm_model *m, const bbm_element *e, const double D[6], double X, double Y,
+                 double u[2]);                              /* in place of u = T D              */
+    void (*turn)(const bbm_model *m, const bbm_element *start, bbm_element *e,
+                 const bbm_vertex vertex[]);                /* an element that has moved        */
+    bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
+    bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why statics failed               */
+} bbm_hooks;
 
 struct bbm_model {
     /* --- input --- */
     bbm_parameters par;
     int nodes, elements, vertices, line_loads, materials;
-    bbm_node      *node;        /* [nodes]                                   */
-    bbm_element   *element;     /* [elements]                                */
-    bbm_vertex    *vertex;      /* [vertices], element by element            */
-    bbm_line_load *line_load;   /* [line_loads]                              */
-    bbm_material  *material;    /* [materials]                               */
+    bbm_node      *node;        /* [nodes]                                                      */
+    bbm_element   *element;     /* [elements]                                                   */
+    bbm_vertex    *vertex;      /* [vertices], element by element                               */
+    bbm_line_load *line_load;   /* [line_loads]                                                 */
+    bbm_material  *material;    /* [materials]                                                  */
     /* --- made by bbm_prepare --- */
     int bonds, edges;
-    bbm_bond *bond;             /* [bonds]   the internal edges              */
-    bbm_edge *edge;             /* [edges]   the boundary edges              */
-    int *meet_first, *meet;     /* [nodes+1], [vertices]: meet[meet_first[n] ..] are the vertices at node n     */
-    /* --- state and scratch --- */
+    bbm_bond *bond;             /* [bonds]   the internal edges                                 */
+    bbm_edge *edge;             /* [edges]   the boundary edges                                 */
+    int *adjacent_first;        /* [nodes+1] the vertices at node n are                         */
+    int *adjacent;              /* [vertices]    adjacent[adjacent_first[n] ..]                 */
+    /* --- the step in hand --- */
+    double h;                   /* s        dt, or a part of it                                 */
+    double acceleration[2];     /* m/s^2    of gravity                                          */
+    int detections;             /* of contacts                                                  */
+    int one_by_one;             /* one contact changes its state in a pass                      */
+    int K_is_kept;              /* F alone is assembled                                         */
     bbm_matrix *K;
-    double *F, *D;              /* [6 elements]                              */
-    double *load;               /* [6 elements] the part of F that comes from outside: loads, gravity           */
-    double gravity[2];          /* m/s^2    of the step in hand: gravity less the acceleration of the base      */
-    bbm_element *end_element;   /* [elements] the end of the step in hand, see move_model                       */
-    bbm_vertex *end_vertex;     /* [vertices]                                                                   */
-    double *force, *force_before;   /* N    [4 (bonds + vertices)] multipliers of bonds and fixed points: forces
-                                   from i on j, from element on wall; and those of the start of the step       */
-    double h;                   /* s        the step in hand: dt, or a part of it                               */
+    double *F, *D;              /* [6 elements]                                                 */
+    double *load;               /* [6 elements] the part of F from outside: loads, gravity      */
+    int gaps, gap_room;
+    bbm_gap *gap;               /* [gaps]    bonds and fixed points                             */
+    bbm_element *end_element;   /* [elements] the end of the step, see move_model               */
+    bbm_vertex *end_vertex;     /* [vertices]                                                   */
+    /* --- contacts --- */
     int contacts;
-    bbm_contact *contact;       /* [contacts] at the end of the last step, sorted by corner and edge            */
+    bbm_contact *contact;       /* [contacts] at the end of the last step, by corner and edge   */
     bbm_contact_work *work;
-    int keep_K;                 /* F alone is assembled                      */
-    int pairs, (*pair)[2];      /* elements of the contacts and bonds that K has room for                       */
+    int pairs, (*pair)[2];      /* elements of the contacts and bonds that K has room for       */
+    /* --- results --- */
     bbm_info info;
-    bbm_status status;          /* the first error while building            */
-    char message[200];          /* what the last error was about             */
-    int  culprit, other;        /* the element of BBM_OVERLAP, BBM_FREE_TO_MOVE, BBM_MECHANISM; another one, or -1  */
-    /* --- for whoever wants to see K and F, or to stop: called before each solution, which not 0 prevents --- */
-    int (*watch)(const bbm_model *m, void *context);
-    void *watch_context;
-    /* --- beyond the paper --- */
+    bbm_status status;          /* the first error while building                               */
+    char message[200];          /* what the last error was about                                */
+    int  blamed[2];             /* elements that it names; -1: none                             */
+    /* --- called before each solution, to see K and F, or to stop: by a result that is not 0 --- */
+    int (*monitor)(const bbm_model *m, void *context);
+    void *monitor_context;
+    /* --- what the paper does not have --- */
     bbm_hooks hook;
     bbm_beyond *beyond;
 };
 
-typedef struct {                /* at a grid point                                                              */
-    double u, v;                /* m                                         */
-    double stress[3];           /* Pa       sx, sy, sxy                      */
-    double mises;               /* Pa       von Mises                        */
+typedef struct {                /* at a grid point                                              */
+    double u, v;                /* m                                                            */
+    double stress[3];           /* Pa       sx, sy, sxy                                         */
+    double mises;               /* Pa       von Mises                                           */
 } bbm_result;
 
-/* -------------------------------------------------------------------------------------------- 1. run a model */
+/* ----------------------------------------------------------------------------- 1. run a model */
 
-bbm_status  bbm_run(bbm_model *m);                      /* all steps, Fig. 8                                    */
-bbm_status  bbm_step(bbm_model *m);                     /* one step                                             */
-bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);  /* block -1: all of them */
-void        bbm_displacement(const bbm_element *e, double x, double y, double u[2]);   /* (1), of the last step */
+bbm_status  bbm_run(bbm_model *m);                          /* all steps                        */
+bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8                 */
+/* The mean over the elements of a block (-1: of all) at a node. */
+bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
+void        bbm_displacement(const bbm_element *e, double x, double y, double u[2]);    /* (1)  */
 double      bbm_mises(const double stress[3]);
-void        bbm_energies(const bbm_model *m, bbm_energy *e);    /* kinetic: before the velocity is damped        */
 const char *bbm_status_text(bbm_status s);
-const char *bbm_message(const bbm_model *m);            /* the last error in a sentence, with names and numbers */
+const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */
 
-/* ------------------------------------------------------------------------------------------ 2. build a model
- * Every bbm_add and bbm_set returns the status of the first one that failed and then does nothing more, so that a
- * program may check bbm_prepare alone. The index goes through the last pointer, which may be NULL.              */
+/* --------------------------------------------------------------------------- 2. build a model
+ * Every bbm_add and bbm_set returns the status of the first one that failed and then does nothing
+ * more, so that a program may check bbm_prepare alone. The index goes through the last pointer,
+ * which may be NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);
-void       bbm_model_free(bbm_model *m);                /* takes NULL                                           */
+void       bbm_model_free(bbm_model *m);                    /* takes NULL                       */
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *material, int *index);
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index);
-bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const int node[], int *index);
-bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v);   /* u, v of the wall point */
-bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);                 /* N, adds up            */
-bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy);/* N/m, constant         */
-bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f, const void *context);
-bbm_status bbm_prepare(bbm_model *m);                   /* checks, sorts the edges (2.2), lays out K            */
-int        bbm_find_pieces(const bbm_model *m, int piece[]);       /* what bonds join, by its first element    */
-bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest at the start; i = -1: none   */
-bbm_status bbm_find_mechanism(const bbm_model *m, int *element);    /* of BBM_MIDPOINTS; -1: none               */
-/* After bbm_prepare: on a boundary edge; whether all is held against rigid motion, as statics needs.            */
-bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);           /* N/m       */
-bbm_status bbm_check_held(bbm_model *m);
+bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const int node[],
+                           int *index);                     /* the nodes in either sense        */
+bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v);    /* wall */
+bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);      /* N, adds up       */
+bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy); /* N/m  */
+bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
+                                     const void *context);
+bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
+/* After bbm_prepare: on a boundary edge, N/m. */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
 
-/* ----------------------------------------------------------------------------- 3. single formulas, each alone
- * A submatrix function adds to what it is given.                                                               */
+/* ---------------------------------------------------------------- 3. single formulas, each alone
+ * A submatrix function adds to what it is given. */
 
 /* 2.1, 2.2 */
-void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]);                /* of its n vertices     */
-void   bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6]);      /* (2)                   */
-double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_element *j);/* (4)                   */
+void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]);         /* n vertices   */
+void   bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6]);       /* (2)  */
+double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_element *j); /* (4)  */
 /* 3.1, 3.2 */
-void   bbm_elastic_matrix(const bbm_material *m, double E[3][3]);                      /* (7)                   */
-void   bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s);                  /* (10)                  */
-void   bbm_mode_integral(const bbm_element *e, double M[6][6]);                        /* int T^T T dA          */
-void   bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s);       /* (16), (17)            */
-void   bbm_newmark_velocity(bbm_element *e, double dt, double keep);                   /* (14)                  */
+void   bbm_elastic_matrix(const bbm_material *m, double E[3][3]);               /* (7)          */
+void   bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s);           /* (10)         */
+void   bbm_mode_integral(const bbm_element *e, double M[6][6]);                 /* int T^T T dA */
+void   bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s);    /* (16), (17) */
+void   bbm_newmark_velocity(bbm_element *e, double dt, double factor);          /* (14)         */
 /* 3.3, 3.4 */
-void   bbm_bonding_submatrices(const bbm_element *i, const bbm_vertex *P, const bbm_element *j, const bbm_vertex *Q,
-                               double k, bbm_submatrices *s);                          /* (27), (28)            */
-void   bbm_hinge_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
-void   bbm_hinge_submatrices(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
-                             const bbm_vertex *const Q[2], const bbm_hinge *h, bbm_submatrices *s);
-double bbm_fixed_stiffness(double alpha, const bbm_element *e);                        /* (29)                  */
-void   bbm_fixed_submatrix(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
-                           double k, bbm_submatrix *s);                                /* (37)                  */
-void   bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int middles, int a,
-                         double P[6][2]);                                              /* for two levels        */
+void   bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+void   bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
+                       const bbm_vertex *Q, double k, bbm_gap *g);              /* (18)-(23)    */
+void   bbm_bonding_submatrices(bbm_gap *g, bbm_submatrices *s);                 /* (27), (28)   */
+double bbm_fixed_stiffness(double alpha, const bbm_element *e);                 /* (29)         */
+void   bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k,
+                     bbm_gap *g);                                               /* (30)-(36)    */
 /* 3.5, 3.6 */
 void   bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6]);
-void   bbm_gauss_point(int g, double *s, double *weight);                              /* on 0 <= s <= 1       */
+void   bbm_gauss_point(int g, double *s, double *weight);                       /* 0 <= s <= 1  */
 void   bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
-                                  const double f[BBM_GAUSS][2], double F[6]);          /* (42)                  */
+                                  const double f[BBM_GAUSS][2], double F[6]);   /* (42)         */
 void   bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
-                                   const double f[2], double F[6]);                    /* (43)                  */
+                                   const double f[2], double F[6]);             /* (43)         */
 void   bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex vertex[], bbm_field *f,
-                                    const void *context, double F[6]);                 /* (46)                  */
-void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]);     /* (47)                  */
+                                    const void *context, double F[6]);          /* (46)         */
+void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]);      /* (47) */
+void   bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6]);     /* (47) */
 
 /* 3.7, 3.8 */
 void   bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);                          /* (52)-(57)             */
 void   bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s);     /* (58a-f)               */
 void   bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s);            /* (53), (60)-(62)       */
 void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s, bbm_submatrices *s);  /* (63), (64) */
-void   bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y, double u[2]);
 void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s); /* (65)-(69) */
 double bbm_shear_strength(const bbm_parameters *p, double N, double area);
 bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, double slack);    /* the table */
 
-/* ------------------------------------------------------------ the parts of a step with contacts, for bbm_step    */
+/* ------------------------------------------------------ 4. what the files of the library share */
+
+/* bbm.c */
+bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...);
+int        bbm_is_static(const bbm_model *m);
+int        bbm_is_exact(const bbm_model *m);                    /* see bbm_hooks                */
+double     bbm_mass_per_area(const bbm_element *e);             /* M of (11)                    */
+int        bbm_next_vertex(const bbm_element *e, int v);
+bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);             /* NULL: no memory              */
+bbm_status bbm_list_gaps(bbm_model *m);
+bbm_status bbm_list_bond(bbm_model *m, const bbm_bond *b);
+bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions);
+void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */
+bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's    */
+bbm_status bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
+bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
+void       bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
+                    double u[2]);
+int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
+void       bbm_join_elements(const bbm_model *m, int up[]);     /* by bonds and contacts        */
+
+/* contact.c: the parts of a step with contacts, for bbm_step */
 bbm_status bbm_contact_new(bbm_model *m);
 void       bbm_contact_free(bbm_contact_work *w);
-int        bbm_root_of(int up[], int e);           /* of a forest: up[e] leads from e towards its root          */
-void       bbm_join_elements(const bbm_model *m, int up[]);  /* what bonds and listed contacts connect, by roots */
 void       bbm_guess_step(bbm_model *m);
 int        bbm_moved_too_far(bbm_model *m);
 const double *bbm_guess(const bbm_model *m);
@@ -402,24 +445,10 @@ bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);
 bbm_status bbm_start_again(bbm_model *m);
 int        bbm_contact_count(const bbm_model *m);
 void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
-bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s);
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
-int        bbm_contacts_are_off(const bbm_model *m, double share);
 bbm_status bbm_keep_contacts(bbm_model *m);
-/* When statics fails: a step in which inertia is small against stiffness, a push, and who goes far in its solution.  */
-double     bbm_long_step(const bbm_model *m);
-void       bbm_push_all(bbm_model *m);
-int        bbm_find_loose(const bbm_model *m, double h, int pair[2]);
-
-/* ------------------------------------------------ beyond the paper: beyond/middle.c, beyond/balance.c             */
-int        bbm_is_exact(const bbm_model *m);
-void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
-void       bbm_set_middle(bbm_model *m, const double D[]);
-int        bbm_middle_is_off(const bbm_model *m);
-bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there);
-
 /* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
  * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,
  * repeats allowed. Vectors have 6 n entries in the caller's order. Rows that no pairs connect, however indirectly,

@@ -68,9 +68,9 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
     const double l = hypot(x3 - x2, y3 - y2);
     double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2];
 
-    bbm_middle_matrix(c->i, x1, y1, T1, p1);
-    bbm_middle_matrix(c->j, x2, y2, T2, p2);
-    bbm_middle_matrix(c->j, x3, y3, T3, p3);
+    bbm_step_matrix(c->i, x1, y1, T1, p1);
+    bbm_step_matrix(c->j, x2, y2, T2, p2);
+    bbm_step_matrix(c->j, x3, y3, T3, p3);
     n->d = ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) / l;
     for (int a = 0; a < 6; a++) {
         n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
@@ -116,10 +116,10 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     const double l = hypot(c->P3->x - c->P2->x, c->P3->y - c->P2->y);
     double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
 
-    bbm_middle_matrix(c->i, c->P1->x, c->P1->y, T1, p1);
-    bbm_middle_matrix(c->j, x0, y0, T0, p0);
-    bbm_middle_matrix(c->j, c->P2->x, c->P2->y, T2, p2);
-    bbm_middle_matrix(c->j, c->P3->x, c->P3->y, T3, p3);
+    bbm_step_matrix(c->i, c->P1->x, c->P1->y, T1, p1);
+    bbm_step_matrix(c->j, x0, y0, T0, p0);
+    bbm_step_matrix(c->j, c->P2->x, c->P2->y, T2, p2);
+    bbm_step_matrix(c->j, c->P3->x, c->P3->y, T3, p3);
     const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
     const double ax = c->exact ? (p1[0] - p0[0]) / l : 0, ay = c->exact ? (p1[1] - p0[1]) / l : 0;
     s->d = ((c->P1->x - x0) * (c->P3->x - c->P2->x) + (c->P1->y - y0) * (c->P3->y - c->P2->y)) / l;
@@ -291,13 +291,11 @@ static bbm_status link_edges(bbm_model *m)
         across[m->bond[b].p[0]] = m->bond[b].q[0];
         across[m->bond[b].q[1]] = m->bond[b].p[1];
     }
-    for (int e = 0; e < m->edges; e++)
-        across[m->edge[e].a] = -1 - e;              /* or, negative, the edge that it is            */
     for (int e = 0; e < m->edges; e++) {
         int v = m->edge[e].b;
-        while (across[v] >= 0)
+        while (m->vertex[v].edge < 0)
             v = across[v];
-        m->edge[e].after = -1 - across[v];
+        m->edge[e].after = m->vertex[v].edge;
         m->edge[m->edge[e].after].before = e;
     }
     free(across);
@@ -405,11 +403,11 @@ bbm_status bbm_contact_new(bbm_model *m)
  * at most. */
 void bbm_guess_step(bbm_model *m)
 {
-    const double h = m->h, fall[6] = { m->gravity[0] * h * h / 2, m->gravity[1] * h * h / 2 };
+    const double h = m->h, fall[6] = { m->acceleration[0] * h * h / 2, m->acceleration[1] * h * h / 2 };
 
     for (int i = 0; i < m->elements; i++)
         for (int a = 0; a < 6; a++)
-            m->work->guess[6 * i + a] = isinf(h) ? m->element[i].D[a] : m->element[i].V[a] * h + fall[a];
+            m->work->guess[6 * i + a] = bbm_is_static(m) ? m->element[i].D[a] : m->element[i].V[a] * h + fall[a];
     m->work->listed = 0;
 }
 
@@ -820,7 +818,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
         c->before = old->state != BBM_OPEN, c->inside = old->inside;
     } else if (start && fmax(fabs(f.d), f.off) <= m->work->touch) {
         c->whole = 1;
-        c->state = strong || isinf(m->h) ? BBM_LOCK : BBM_OPEN;
+        c->state = strong || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
     }
     for (int k = 0; k < 4; k++)
         c->rival[k] = find_rival(m, p, k / 2, k % 2 ? FLUSH : NEXT);
@@ -1269,9 +1267,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     }
     w->forces = w->directions = 0;
     watch_for_cycles(w);
-    const int changes = change_states(m), off = !m->keep_K && bbm_middle_is_off(m);
-    if (off)
-        bbm_set_middle(m, m->D);
+    const int changes = change_states(m), off = !m->K_is_kept && m->hook.renew && m->hook.renew(m);
     if (!changes && !off)
         *pass = BBM_PASS_DONE;
     else

@@ -1,17 +1,86 @@
 /* beyond.h - what stands beside the paper: its settings, and the model that has it all.
  *
- * The core, the four files on top, knows nothing of this. bbm_beyond_new makes a model as bbm_model_new does and hooks
- * everything into it; what it takes to run is in m->beyond. Each subject is a file of its own with an essay.
+ * The core, the four files on top, knows nothing of this. bbm_beyond_new makes a model as
+ * bbm_model_new does and hooks everything into it; what it takes to run is in m->beyond. Each
+ * subject is a file of its own with an essay.
  */
 #ifndef BBM_BEYOND_H
 #define BBM_BEYOND_H
 
 #include "../bbm.h"
 
+typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X, or the paper's x + T D */
+
+typedef enum {                  /* how quadrilaterals are bonded along an edge; all others are at its vertices */
+    BBM_MOMENT,                 /* in its middle, with the resistance to opening that bending needs */
+    BBM_MIDPOINTS,              /* in its middle alone                                          */
+    BBM_VERTICES                /* at both ends: the paper                                      */
+} bbm_bonding;
+
 struct bbm_beyond {
-    int placeholder;
+    /* --- settings --- */
+    bbm_bonding  bonding;       /* bending.c                                                    */
+    bbm_rotation rotation;      /* rotation.c                                                   */
+    int multiplier_rounds;      /* multipliers.c: further solutions of a step; 0: the paper     */
+    double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
+    double shake_omega;         /* 1/s      */
+    int rounds_done;            /* in this step                                                 */
+    /* --- results, energy.c --- */
+    double work;                /* J        of loads and gravity, in all steps                  */
+    double springs;             /* J        in bonds, fixed points and closed contacts          */
+    double gained;              /* J        what dynamic steps have made beyond the balance     */
+    double gain;                /* -        the most that one of them made, against what was there */
 };
 
-bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it */
+bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
+
+/* energy.c. The energies after the last step; kinetic: with the velocity before its factor. */
+typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
+void       bbm_energies(const bbm_model *m, bbm_energy *e);
+double     bbm_spring_energy(const bbm_model *m);        /* J, of the solution in hand          */
+bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there);
+double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
+
+/* rotation.c */
+int        bbm_moves_exactly(const bbm_model *m);
+bbm_mode   bbm_middle_matrix;
+void       bbm_set_middle(bbm_model *m, const double D[]);
+int        bbm_middle_is_off(const bbm_model *m);
+int        bbm_contacts_are_off(const bbm_model *m, double share);
+int        bbm_renew_middle(bbm_model *m);
+void       bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6], double X,
+                            double Y, double u[2]);
+void       bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_element *e,
+                            const bbm_vertex vertex[]);
+
+/* bending.c */
+void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
+void       bbm_edge_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
+                        const bbm_vertex *const Q[2], double W[2][2], double sign, bbm_gap *g);
+bbm_status bbm_list_edge_gaps(bbm_model *m);
+
+/* multipliers.c */
+void       bbm_start_multipliers(bbm_model *m);
+int        bbm_take_over(bbm_model *m);
+void       bbm_store_multipliers(bbm_model *m);
+
+/* refuse.c, statics.c */
+bbm_status bbm_check_solution(bbm_model *m);
+bbm_status bbm_check_depth(bbm_model *m);
+bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
+bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */
+bbm_status bbm_explain(bbm_model *m, bbm_status s);
+
+/* overlap.c, mechanism.c, pieces.c */
+typedef struct {                /* elements i < j that overlap                                  */
+    int    i, j;
+    double depth;               /* m        the shortest way that parts them                    */
+    double x, y;                /* m        the middle of what they share                       */
+} bbm_overlap;
+bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
+bbm_status bbm_check_overlap(bbm_model *m);
+bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
+bbm_status bbm_find_mechanism(const bbm_model *m, int *element);    /* of BBM_MIDPOINTS; or -1  */
+int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
 
 #endif

@@ -18,7 +18,7 @@
  * factorisation shows the first. Of that only a window as wide as the band is kept: elements are sorted along the body,
  * block by block.
  */
-#include "../bbm.h"
+#include "beyond.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -242,7 +242,7 @@ bbm_status bbm_find_mechanism(const bbm_model *m, int *element)
     bbm_status status = p && w.place && w.element && w.held && w.bond ? BBM_OK : BBM_NO_MEMORY;
 
     *element = -1;
-    if (!status && m->par.bonding == BBM_MIDPOINTS) {
+    if (!status && m->beyond->bonding == BBM_MIDPOINTS) {
         sort_elements(m, &w, p);
         measure_blocks(m, &w);
         w.row = calloc(9 * (size_t)w.band, (size_t)w.band * sizeof *w.row);

@@ -9,11 +9,11 @@
  * (separating axes). Bars that cross, or a block within another, are found like a corner in a side.
  * The candidates are pieces whose boxes overlap: sorted along the axis on which fewer boxes lie side by side.
  */
-#include "../bbm.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "beyond.h"
 
 /* Overlaps up to this, in mean boundary edges, are rounding of a model file, as in contact.c (TOUCH). */
 #define TOUCH 1e-6
@@ -27,6 +27,47 @@ typedef struct {                /* a convex part of an element                  
 
 /* Twice the signed area of the triangle a b c. */
 static double turn(point a, point b, point c) { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
+
+/* ------------------------------------------------------------------------- polygons that meet themselves */
+
+static point at(const bbm_model *m, int node) { return (point){ m->node[node].x, m->node[node].y }; }
+
+/* Whether r, on the line through p and q, lies between them. */
+static int between(point p, point q, point r)
+{
+    return (r.x - p.x) * (r.x - q.x) + (r.y - p.y) * (r.y - q.y) <= 0;
+}
+
+/* Whether the segments ab and cd have a point in common. */
+static int segments_meet(point a, point b, point c, point d)
+{
+    const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
+
+    if (!signbit(abc) != !signbit(abd) && !signbit(cda) != !signbit(cdb))
+        return 1;
+    return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
+           (cdb == 0 && between(c, d, b));
+}
+
+/* Whether the closed polygon through the nodes meets itself: two edges that are not neighbours have a point in
+ * common, or an edge folds back on its neighbour (an edge without length does). */
+static int meets_itself(const bbm_model *m, int n, const int node[])
+{
+    for (int i = 0; i < n; i++) {
+        const point a = at(m, node[i]), b = at(m, node[(i + 1) % n]);
+        for (int j = i + 2; j < n && (j + 1) % n != i; j++)
+            if (segments_meet(a, b, at(m, node[j]), at(m, node[(j + 1) % n])))
+                return 1;
+    }
+    return 0;
+}
+
+/* Refuses a new element whose boundary meets itself. */
+bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[])
+{
+    return meets_itself(m, n, node) ? bbm_fail(m, BBM_SELF_CROSSING, "element %d", m->elements)
+                                    : BBM_OK;
+}
 
 /* ---------------------------------------------------------------------------------------- convex pieces */
 
@@ -260,4 +301,20 @@ bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
     free(left);
     free(s);
     return ok ? BBM_OK : BBM_NO_MEMORY;
+}
+
+/* Refuses elements that lie in each other. */
+bbm_status bbm_check_overlap(bbm_model *m)
+{
+    bbm_overlap o;
+
+    if (bbm_find_overlap(m, &o))
+        return BBM_NO_MEMORY;
+    if (o.i < 0)
+        return BBM_OK;
+    const int p = m->element[o.i].block, q = m->element[o.j].block;
+    m->blamed[0] = o.j;
+    m->blamed[1] = o.i;
+    return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d with element %d, block %d "
+                "with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
 }

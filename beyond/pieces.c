@@ -6,7 +6,7 @@
  * the pieces then move through each other. It may be meant - several stones under one name - so it is no error; but
  * whoever runs a model should hear of it.
  */
-#include "../bbm.h"
+#include "beyond.h"
 
 /* For each element the first one of its piece, the elements that bonds join to it; piece[elements] of the caller. Returns
  * the number of pieces: as many as blocks, if each holds together. */

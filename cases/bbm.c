@@ -154,7 +154,7 @@ static void summarise(const model *p, const char *folder)
     printf("%d step%s, t = %g s, %d contacts closed, residual %.1e\n", m->info.step, m->info.step == 1 ? "" : "s",
            m->info.t, m->info.contacts, m->info.pcg.residual);
     if (p->dynamic)
-        printf("no step made more than %.1e of its energy beyond the work of loads\n", m->info.gain);
+        printf("no step made more than %.1e of its energy beyond the work of loads\n", m->beyond->gain);
     printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element %s\nresults in %s\n", far,
            p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
 }
@@ -193,12 +193,14 @@ static bbm_status settle(model *p)
 {
     bbm_model *m = p->m;
     const bbm_parameters par = m->par;
+    const bbm_beyond beyond = *m->beyond;
     bbm_status status = BBM_OK;
 
-    m->par.keep = m->par.shake[0] = m->par.shake[1] = 0;
+    m->par.velocity_factor = m->beyond->shake[0] = m->beyond->shake[1] = 0;
     for (int k = 0; k < p->settle && !status && !stopped; k++)
         status = bbm_step(m);
     m->par = par;
+    memcpy(m->beyond->shake, beyond.shake, sizeof beyond.shake);
     return status;
 }
 
@@ -228,7 +230,7 @@ static bbm_status run_steps(write_results *w, progress *s)
 static void report_loose(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
-    const int i = m->culprit, j = m->other;
+    const int i = m->blamed[0], j = m->blamed[1];
 
     fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path, m->info.step + 1,
             p->block[m->element[i].block], p->element[i]);
@@ -309,8 +311,8 @@ static int run(model *p, const arguments *a, clock_t start)
     catch_signals();
     warn(p, a->model);
     warn_of_pieces(p, a->model);
-    p->m->watch = before_solution;
-    p->m->watch_context = &w;
+    p->m->monitor = before_solution;
+    p->m->monitor_context = &w;
     if (!a->quiet)
         describe(p, a->model);
     if (write_open(&w)) {

@@ -24,7 +24,7 @@ bbm_model *case_model(void)
 {
     bbm_model *m;
 
-    case_must(NULL, bbm_model_new(&m));
+    case_must(NULL, bbm_beyond_new(&m));
     return m;
 }
 
@@ -186,7 +186,7 @@ bbm_model *case_block_on_slope(const case_slope *s)
     case_fix_block(m, 0);
     case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = s->w, .h = s->h, .turn = turn });
     m->par.dt = s->dt;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->par.gravity[1] = -9.81;
     m->par.p_n = s->p_n;
     m->par.p_s = 0.4 * s->p_n;
@@ -216,10 +216,10 @@ void case_step(bbm_model *m, case_effort *e, scene *s)
 
 void case_settle(bbm_model *m, int steps)
 {
-    m->par.keep = 0;
+    m->par.velocity_factor = 0;
     for (int i = 0; i < steps; i++)
         case_step(m, NULL, NULL);
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
 }
 
 /* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's block; turned

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "../bbm.h"
+#include "../beyond/beyond.h"
 #include "plot.h"
 #include "scene.h"
 

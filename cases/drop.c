@@ -37,7 +37,7 @@ static bbm_model *build_drop(double step, int tilted)
     case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .x = -0.5, .y = c, .w = 1, .h = 1,
                                  .turn = tilted ? acos(-1) / 18 : 0 });
     m->par.dt = step;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->par.gravity[1] = -9.81;
     m->par.p_n = p_n;
     m->par.p_s = 0.4 * p_n;

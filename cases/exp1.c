@@ -70,7 +70,7 @@ static bbm_model *solve_beam(char variant, int k, double alpha, int augment)
     case_add_grid(m, &g);
     load(m, variant, g.first, g.first + g.nx, g.nx + 1, g.ny);
     m->par.alpha = alpha;
-    m->par.augment = augment;
+    m->beyond->multiplier_rounds = augment;
     m->par.pcg.form = augment ? BBM_TWO_LEVEL : BBM_EISENSTAT;         /* the paper's unless beyond it */
     if (variant == 'a')
         m->par.steps = 10, m->par.tolerance = 1e-8;
@@ -234,8 +234,8 @@ static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
     bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
     case_add_grid(m, &g);
     load(m, 'b', g.first, g.first + g.nx, g.nx + 1, g.ny);
-    m->par.augment = 2;
-    m->par.bonding = bonding;
+    m->beyond->multiplier_rounds = 2;
+    m->beyond->bonding = bonding;
     case_must(m, bbm_prepare(m));
     case_must(m, bbm_run(m));
     return m;

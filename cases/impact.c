@@ -38,7 +38,7 @@ static bbm_model *build_row(int n, double gap, double offset, double friction, d
         case_add_box(m, &(case_box){ .block = k, .nx = 1, .ny = 1, .x = k * (1 + gap) - 0.5, .y = offset * k - 0.5,
                                      .w = 1, .h = 1 });
     m->par.dt = dt;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->par.p_n = p_n;
     m->par.p_s = 0.4 * p_n;
     m->par.friction = friction;

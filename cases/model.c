@@ -426,9 +426,9 @@ static int read_gravity(model_reader *r)
 
 static int read_shake(model_reader *r)
 {
-    bbm_parameters *p = &r->p->m->par;
+    bbm_beyond *b = r->p->m->beyond;
 
-    return number(r, &p->shake[0]) && number(r, &p->shake[1]) && number(r, &p->omega) && at_end(r);
+    return number(r, &b->shake[0]) && number(r, &b->shake[1]) && number(r, &b->shake_omega) && at_end(r);
 }
 
 static int read_contact(model_reader *r)
@@ -458,11 +458,11 @@ static int read_dynamic(model_reader *r)
     bbm_parameters *p = &r->p->m->par;
     option o[] = {
         ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1), COUNT("settle", &r->p->settle, 0),
-        { .name = "damping", .x = &p->keep, .low = 0, .high = 1, .rim = "[]", .expected = "0 to 1" },
+        { .name = "damping", .x = &p->velocity_factor, .low = 0, .high = 1, .rim = "[]", .expected = "0 to 1" },
     };
 
     o[0].needed = o[1].needed = 1;
-    p->keep = 1;
+    p->velocity_factor = 1;
     r->p->dynamic = 1;
     return options(r, LENGTH(o), o);
 }
@@ -470,14 +470,14 @@ static int read_dynamic(model_reader *r)
 static int read_bond(model_reader *r)
 {
     static const bbm_bonding bonding[] = { BBM_VERTICES, BBM_MIDPOINTS, BBM_MOMENT, BBM_MOMENT };
-    bbm_parameters *p = &r->p->m->par;
+    bbm_beyond *b = r->p->m->beyond;
     int kind = 3;
-    option o[] = { ABOVE_ZERO("alpha", &p->alpha), COUNT("augment", &p->augment, 0),
+    option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha), COUNT("augment", &b->multiplier_rounds, 0),
                    CHOICE("at", &kind, "vertices|midpoints|moment|auto") };
 
     if (!options(r, LENGTH(o), o))
         return 0;
-    p->bonding = bonding[kind];
+    b->bonding = bonding[kind];
     return 1;
 }
 
@@ -505,7 +505,7 @@ static int read_rotation(model_reader *r)
 
     if (!choice(r, "exact|linear", &kind) || !at_end(r))
         return 0;
-    r->p->m->par.rotation = kind == 0 ? BBM_EXACT : BBM_LINEAR;
+    r->p->m->beyond->rotation = kind == 0 ? BBM_EXACT : BBM_LINEAR;
     return 1;
 }
 
@@ -793,7 +793,7 @@ static int build(model_reader *r)
         return 0;
     measure_box(r);
     const bbm_status status = bbm_prepare(p->m);
-    const model_element *e = &r->element[status == BBM_OVERLAP ? p->m->culprit : 0];
+    const model_element *e = &r->element[status == BBM_OVERLAP ? p->m->blamed[0] : 0];
     if (status == BBM_OVERLAP)
         return model_fail(r, e->at, "element %s lies on another one of its block, expected elements side by side",
                           e->id);
@@ -905,7 +905,7 @@ static int read_fix(model_reader *r)
 }
 
 /* What meets at a library node. */
-static int meeting(const bbm_model *m, int node) { return m->meet_first[node + 1] - m->meet_first[node]; }
+static int meeting(const bbm_model *m, int node) { return m->adjacent_first[node + 1] - m->adjacent_first[node]; }
 
 /* Each node of WHERE has the same share, and of that each element there. */
 static int read_load(model_reader *r)
@@ -1161,7 +1161,7 @@ static int finish(model_reader *r)
     const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return model_fail(r, (model_place){ r->path, 0 }, "block '%s' is free to move, expected fix, fixblock or a "
-                          "contact that holds it in statics", p->block[p->m->element[p->m->culprit].block]);
+                          "contact that holds it in statics", p->block[p->m->element[p->m->blamed[0]].block]);
     if (status)
         return refused(r, status);
     return !p->status;
@@ -1199,12 +1199,12 @@ int model_read(const char *path, model *p)
     model_reader r = { .p = p, .path = path, .other_material = -1 };
 
     *p = (model){ 0 };
-    if (bbm_model_new(&p->m)) {
+    if (bbm_beyond_new(&p->m)) {
         out_of_memory(&r);
     } else {
         p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
-        p->m->par.augment = 2;
-        p->m->par.bonding = BBM_MOMENT;
+        p->m->beyond->multiplier_rounds = 2;
+        p->m->beyond->bonding = BBM_MOMENT;
         p->m->par.faces = 1;
         p->m->par.pcg.form = BBM_TWO_LEVEL;
         read_all(&r);

@@ -11,7 +11,7 @@
 #ifndef MODEL_H
 #define MODEL_H
 
-#include "../bbm.h"
+#include "../beyond/beyond.h"
 
 typedef struct { const char *name; int nodes, *node; } model_monitor;      /* the mean of u, v over library nodes   */
 typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s                       */

@@ -73,7 +73,7 @@ static bbm_model *build_block(const rocker *k)
     case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = width,
                                  .h = k->height, .turn = k->share * slope(k) });
     m->par.dt = dt;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->par.gravity[1] = -g;
     m->par.p_n = 1e11;
     m->par.p_s = 4e10;

@@ -20,7 +20,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include "../bbm.h"
+#include "../beyond/beyond.h"
 
 enum { SCENE_OPEN, SCENE_LOCK, SCENE_SLIDE };   /* state of a contact, in the library's order                   */
 

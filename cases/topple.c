@@ -225,7 +225,7 @@ static void draw_film(case_results *r)
                                      .w = 1.6 * at[i].k, .h = 1.6, .turn = turn });
     }
     m->par.dt = 0.005;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->par.gravity[1] = -9.81;
     m->par.p_n = 1e10;
     m->par.p_s = 4e9;

@@ -33,8 +33,8 @@ static bbm_model *build_turning(bbm_rotation rotation, double dt, int n)
     bbm_add_material(m, &(bbm_material){ 1e9, 0.25, 2500, 1 }, NULL);
     case_add_box(m, &(case_box){ .nx = n, .ny = n, .x = -0.5, .y = -0.5, .w = 1, .h = 1 });
     m->par.dt = dt;
-    m->par.keep = 1;
-    m->par.rotation = rotation;
+    m->par.velocity_factor = 1;
+    m->beyond->rotation = rotation;
     m->par.pcg.tolerance = 1e-14;
     case_must(m, bbm_prepare(m));
     for (int i = 0; i < m->elements; i++) {

@@ -101,12 +101,13 @@ static void put_history(const write_results *w, int step)
 static void put_summary(const write_results *w, int step)
 {
     const bbm_info *i = &w->p->m->info;
+    const bbm_beyond *b = w->p->m->beyond;
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
     fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes, i->iterations,
             i->pcg.residual, i->contacts);
-    put_numbers(w->summary.file, 5, (double[]){ e.kinetic, e.elastic, e.springs, i->work, i->gained });
+    put_numbers(w->summary.file, 5, (double[]){ e.kinetic, e.elastic, e.springs, b->work, b->gained });
     fputc('\n', w->summary.file);
 }
 

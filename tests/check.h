@@ -1,4 +1,5 @@
-/* check.h - what the test suites share: comparing numbers, the suites, an allocator that fails on demand. */
+/* check.h - what the test suites share: comparing numbers, the suites, an allocator that fails on
+ * demand. */
 #ifndef BBM_TESTS_CHECK_H
 #define BBM_TESTS_CHECK_H
 
@@ -7,38 +8,60 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../bbm.h"
+#include "../beyond/beyond.h"
 
-/* `got` differs from `expected` by at most `tolerance` times |size|: the size says what the difference is small
- * against, because zero has no relative error. NaN is near nothing. */
-#define ck_near(got, expected, size, tolerance)                                                              \
-    do {                                                                                                     \
-        const double ck_got = (got), ck_expected = (expected), ck_size = (size);                             \
-        const double ck_bound = (tolerance) * fabs(ck_size);                                                 \
-        ck_assert_msg(fabs(ck_got - ck_expected) <= ck_bound, "%s = %.17g, expected %.17g within %.2g", #got, \
-                      ck_got, ck_expected, ck_bound);                                                        \
+#define COUNT(array) ((int)(sizeof (array) / sizeof (array)[0]))
+
+/* `got` differs from `expected` by at most `tolerance` times |size|: the size says what the
+ * difference is small against, because zero has no relative error. NaN is near nothing. */
+#define ck_near(got, expected, size, tolerance)                                                    \
+    do {                                                                                           \
+        const double ck_got = (got), ck_expected = (expected), ck_size = (size);                   \
+        const double ck_bound = (tolerance) * fabs(ck_size);                                       \
+        ck_assert_msg(fabs(ck_got - ck_expected) <= ck_bound,                                      \
+                      "%s = %.17g, expected %.17g within %.2g", #got, ck_got, ck_expected,         \
+                      ck_bound);                                                                   \
     } while (0)
 
 /* The same against the expected number's own size. */
 #define ck_relative(got, expected, tolerance) ck_near(got, expected, expected, tolerance)
 
 /* A call that returns BBM_OK; if not, the model's message is shown. */
-#define ck_ok(call, model)                                                                                   \
-    do {                                                                                                     \
-        const bbm_status ck_status = (call);                                                                 \
-        ck_assert_msg(ck_status == BBM_OK, "%s: %s", #call, bbm_message(model));                             \
+#define ck_ok(call, model)                                                                         \
+    do {                                                                                           \
+        const bbm_status ck_status = (call);                                                       \
+        ck_assert_msg(ck_status == BBM_OK, "%s: %s", #call, bbm_message(model));                   \
     } while (0)
 
+/* check_main.c: a test and how often it is run, with _i = 0, 1, ...; adds a group of them. */
+typedef struct { const TTest *test; int times; } loop_test;
+
+void add_case(Suite *s, const char *name, const loop_test e[], int count);
+
+/* In the order in which check_main.c runs them. */
+Suite *formulas_suite(void);
+Suite *elastic_suite(void);
+Suite *steps_suite(void);
+Suite *mesh_suite(void);
+Suite *input_suite(void);
+Suite *detection_suite(void);
+Suite *corners_suite(void);
+Suite *entrance_suite(void);
+Suite *open_close_suite(void);
+Suite *sliding_suite(void);
+Suite *joints_suite(void);
+Suite *blocks_suite(void);
+Suite *repeat_suite(void);
 Suite *solver_suite(void);
-Suite *bbm_suite(void);
+Suite *eisenstat_suite(void);
+Suite *coarse_suite(void);
 Suite *beyond_suite(void);
-Suite *bars_suite(void);
-Suite *theory_suite(void);
-Suite *equations_suite(void);
-Suite *contact_suite(void);
 Suite *motion_suite(void);
+Suite *bars_suite(void);
 Suite *limits_suite(void);
 Suite *refused_suite(void);
+Suite *theory_suite(void);
+Suite *equations_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
 Suite *scenes_suite(void);
@@ -46,8 +69,8 @@ Suite *files_suite(void);
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX
-extern int test_allocations_left;       /* k >= 0: k calls succeed, then none; -k < 0: only call k fails */
-extern size_t test_bytes;               /* asked for so far */
+extern int test_allocations_left;   /* k >= 0: k calls succeed, then none; -k < 0: call k fails */
+extern size_t test_bytes;           /* asked for so far */
 void *test_malloc(size_t size);
 void *test_calloc(size_t count, size_t size);
 void *test_realloc(void *old, size_t size);

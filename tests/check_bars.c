@@ -99,7 +99,7 @@ static bbm_model *make(const bar *b, const double x[COLUMNS + 1])
     const double lateral = nu_of(b, kind(b, 0, 0)) * curvature(b, 0) / 2;
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     m->par.pcg.tolerance = 1e-14;
     m->par.pcg.iterations = 1000;       /* several times what is needed: an error ends at once */
     for (int k = 0; k < 2; k++)
@@ -134,8 +134,8 @@ static double bar_error(const bar *b, double alpha, int augment, bbm_bonding bon
     deflect(b, x, w);
     bbm_model *m = make(b, x);
     m->par.alpha = alpha;
-    m->par.augment = augment;
-    m->par.bonding = bonding;
+    m->beyond->multiplier_rounds = augment;
+    m->beyond->bonding = bonding;
     ck_ok(bbm_prepare(m), m);
     ck_ok(bbm_run(m), m);
     for (int n = 0; n < m->nodes; n++) {
@@ -170,7 +170,7 @@ static bbm_model *make_twins(const double ratio[2])
                               { -0.2, -0.4 }, { 4.1, -1.5 }, { 4.6, 0.6 } };
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     for (int k = 0; k < 2; k++)
         bbm_add_material(m, &(bbm_material){ 1e7 * ratio[k], 0.3, 1000, 0.5 }, NULL);
     for (int n = 0; n < 6; n++)
@@ -191,7 +191,7 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
     const double r[] = { 0.5, 0.1, 0.75 }, ratio[2] = { r[_i], 1 - r[_i] };
     bbm_model *m = make_twins(ratio);
     bbm_element unit = m->element[0];
-    bbm_hinge h = { { { 0 } }, { { 0 } } };
+    double W[2][2][2];
     bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
     double own[2][2][2], K[6][6];
 
@@ -205,18 +205,22 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
     for (int e = 0; e < 2; e++)
         bbm_element_geometry(&m->element[e], &start[4 * e]);
     unit.material.E = 1e7;
-    bbm_hinge_moments(&unit, start, own);
+    bbm_bending_moments(&unit, start, own);
     const double k = bbm_bonding_stiffness(m->par.alpha, &m->element[0], &m->element[1]);
     for (int a = 0; a < 4; a++) {
-        h.K[a / 2][a % 2] = a % 3 == 0 ? 2 * k : 0;
-        h.M[a / 2][a % 2] = 2 * ratio[0] * ratio[1] * own[b->p[0] % 2][a / 2][a % 2];
+        W[0][a / 2][a % 2] = a % 3 == 0 ? 2 * k : 0;
+        W[1][a / 2][a % 2] = 2 * ratio[0] * ratio[1] * own[b->p[0] % 2][a / 2][a % 2];
     }
     const bbm_vertex *const P[2] = { &start[b->p[0]], &start[b->p[1]] };
     const bbm_vertex *const Q[2] = { &start[b->q[0]], &start[b->q[1]] };
-    bbm_hinge_submatrices(&m->element[b->i], P, &m->element[b->j], Q, &h, &s);
+    for (int g = 0; g < 2; g++) {
+        bbm_gap gap = { .i = b->i, .j = b->j };
+        bbm_edge_gap(&m->element[b->i], P, &m->element[b->j], Q, W[g], g == 0 ? 1 : -1, &gap);
+        bbm_bonding_submatrices(&gap, &s);
+    }
     bbm_matrix_get(m->K, b->i, b->j, K);
     for (int a = 0; a < 36; a++)        /* K of its middle is 100 times larger: 1e-13 of it */
-        ck_near(K[a / 6][a % 6], s.Kij[a / 6][a % 6], h.M[0][0] + h.M[1][1], 1e-11);
+        ck_near(K[a / 6][a % 6], s.Kij[a / 6][a % 6], W[1][0][0] + W[1][1][1], 1e-11);
     bbm_model_free(m);
 }
 END_TEST

@@ -615,7 +615,7 @@ static bbm_model *square(void)
     static const int corner[4] = { 0, 1, 2, 3 };
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &(bbm_material){ 1e9, 0.2, 2000, 1 }, NULL);
     for (int k = 0; k < 4; k++)
         bbm_add_node(m, xy[k][0], xy[k][1], NULL);
@@ -631,7 +631,7 @@ START_TEST(a_model_that_is_not_prepared_has_no_energy)
     bbm_model *m = square();
     bbm_energy e = { 1, 1, 1 };
 
-    m->par.bonding = BBM_VERTICES;          /* vertices that are held by themselves, one by one */
+    m->beyond->bonding = BBM_VERTICES;          /* vertices that are held by themselves, one by one */
     m->element[0].stress[0] = 1e6;          /* it would have one */
     bbm_energies(m, &e);
     ck_assert(e.kinetic == 0 && e.elastic == 0 && e.springs == 0);
@@ -650,9 +650,9 @@ START_TEST(watch_stops_a_step_before_its_next_solution)
     bbm_model *m = square();
     int solutions = 0;
 
-    m->par.augment = 2;                         /* three solutions in the step */
-    m->watch = stop_at_the_second;
-    m->watch_context = &solutions;
+    m->beyond->multiplier_rounds = 2;                         /* three solutions in the step */
+    m->monitor = stop_at_the_second;
+    m->monitor_context = &solutions;
     ck_ok(bbm_prepare(m), m);
     ck_assert_int_eq(bbm_step(m), BBM_STOPPED);
     ck_assert_int_eq(solutions, 2);

@@ -37,11 +37,11 @@ static bbm_model *new_model(double E, double nu, double dt, double p_n, double f
 {
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     ck_ok(bbm_add_material(m, &(bbm_material){ 1000 * E, nu, DENSITY, 1 }, NULL), m);
     ck_ok(bbm_add_material(m, &(bbm_material){ E, nu, DENSITY, 1 }, NULL), m);
     m->par.dt = dt;
-    m->par.keep = 1;
+    m->par.velocity_factor = 1;
     m->par.p_n = p_n;
     m->par.p_s = 0.4 * p_n;
     m->par.friction = friction;
@@ -51,7 +51,7 @@ static bbm_model *new_model(double E, double nu, double dt, double p_n, double f
 
 static void run(bbm_model *m, double keep, int steps)
 {
-    m->par.keep = keep;
+    m->par.velocity_factor = keep;
     for (int i = 0; i < steps; i++)
         ck_ok(bbm_step(m), m);
 }

@@ -60,25 +60,33 @@ static void run_tests(SRunner *runner) { srunner_run_all(runner, CK_ENV); }
 
 #endif
 
+void add_case(Suite *s, const char *name, const loop_test e[], int count)
+{
+    TCase *c = tcase_create(name);
+
+    for (int i = 0; i < count; i++)
+        tcase_add_loop_test(c, e[i].test, 0, e[i].times);
+    suite_add_tcase(s, c);
+}
+
+static Suite *(*const SUITES[])(void) = {
+    formulas_suite, elastic_suite, steps_suite, mesh_suite, input_suite,
+    detection_suite, corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite,
+    blocks_suite, repeat_suite,
+    solver_suite, eisenstat_suite, coarse_suite,
+    beyond_suite, motion_suite, bars_suite, limits_suite, refused_suite,
+    theory_suite, equations_suite,
+#ifdef CASES
+    cases_suite, model_suite, scenes_suite, files_suite,
+#endif
+};
+
 int main(void)
 {
-    SRunner *runner = srunner_create(solver_suite());
+    SRunner *runner = srunner_create(SUITES[0]());
 
-    srunner_add_suite(runner, bbm_suite());
-    srunner_add_suite(runner, contact_suite());
-    srunner_add_suite(runner, beyond_suite());
-    srunner_add_suite(runner, motion_suite());
-    srunner_add_suite(runner, bars_suite());
-    srunner_add_suite(runner, theory_suite());
-    srunner_add_suite(runner, equations_suite());
-    srunner_add_suite(runner, limits_suite());
-    srunner_add_suite(runner, refused_suite());
-#ifdef CASES
-    srunner_add_suite(runner, cases_suite());
-    srunner_add_suite(runner, model_suite());
-    srunner_add_suite(runner, scenes_suite());
-    srunner_add_suite(runner, files_suite());
-#endif
+    for (int k = 1; k < COUNT(SUITES); k++)
+        srunner_add_suite(runner, SUITES[k]());
     run_tests(runner);
     const int failed = srunner_ntests_failed(runner), run = srunner_ntests_run(runner);
     srunner_free(runner);

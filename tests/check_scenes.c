@@ -27,7 +27,7 @@ static bbm_model *plate(double w, double h, double x, double y)
     const bbm_material rock = { 1e9, 0.25, 2000, 0.5 };
     bbm_model *m;
 
-    ck_assert_int_eq(bbm_model_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &rock, NULL);
     for (int k = 0; k < 4; k++)
         bbm_add_node(m, x + (k == 1 || k == 2 ? w : 0), y + (k > 1 ? h : 0), NULL);
@@ -66,8 +66,8 @@ START_TEST(the_ledger_and_the_library_agree)
     scene_ledger l;
 
     scene_make(100 + (uint64_t)_i, SCENE_BONDED, &s);
-    s.par.augment = 0;
-    s.par.bonding = (bbm_bonding)_i;
+    s.multiplier_rounds = 0;
+    s.bonding = (bbm_bonding)_i;
     ck_ok(scene_build(&s, &m), m);
     for (int k = 0; k < 20; k++)
         ck_ok(bbm_step(m), m);

@@ -83,7 +83,7 @@ static double bond_stiffness(const bbm_model *m, const bbm_element *i, const bbm
     return m->par.alpha * G * (i->material.thickness + j->material.thickness) / 2 * fmax(i->A0 / j->A0, j->A0 / i->A0);
 }
 
-static int hinged(const bbm_model *m, const bbm_element *e) { return e->n == 4 && m->par.bonding != BBM_VERTICES; }
+static int hinged(const bbm_model *m, const bbm_element *e) { return e->n == 4 && m->beyond->bonding != BBM_VERTICES; }
 
 /* k |d|^2/2 at both ends of an edge with the gaps p, q; of an edge bonded in its middle 2 k |(p + q)/2|^2/2, and its
  * moment 1/2 dd.M dd, dd = (p - q)/2. */
@@ -103,9 +103,9 @@ static void side_moment(const bbm_model *m, const bbm_element *e, int k, double 
     double both[2][2][2];
 
     memset(M, 0, 4 * sizeof M[0][0]);
-    if (m->par.bonding != BBM_MOMENT || e->n != 4)
+    if (m->beyond->bonding != BBM_MOMENT || e->n != 4)
         return;
-    bbm_hinge_moments(e, &m->vertex[e->first], both);
+    bbm_bending_moments(e, &m->vertex[e->first], both);
     memcpy(M, both[k % 2], 4 * sizeof M[0][0]);
 }
 

@@ -376,14 +376,14 @@ static void choose_parameters(test_scene *s, uint64_t *r)
     static const double alpha[] = { 10, 30, 100 };
 
     s->par.dt = pick(r, dt, 5);
-    s->par.keep = 1;
+    s->par.velocity_factor = 1;
     s->par.p_n = pick(r, p_n, 10);
     s->par.p_s = s->par.p_n * between(r, 0.3, 1);
     s->par.friction = pick(r, friction, 6);
     s->par.gravity[1] = -9.81;
     s->par.alpha = pick(r, alpha, 3);
-    s->par.bonding = one_of(r, 2) ? BBM_VERTICES : BBM_MOMENT;      /* in the middle alone: hinges, a mechanism */
-    s->par.augment = one_of(r, 4) ? 0 : 2;
+    s->bonding = one_of(r, 2) ? BBM_VERTICES : BBM_MOMENT;      /* in the middle alone: hinges, a mechanism */
+    s->multiplier_rounds = one_of(r, 4) ? 0 : 2;
     s->par.pcg.tolerance = 1e-13;
     s->par.steps = 100 + one_of(r, 200);
 }
@@ -398,7 +398,7 @@ void scene_make(uint64_t seed, int kind, test_scene *s)
     memset(s, 0, sizeof *s);
     s->seed = seed;
     s->kind = (scene_kind)(kind < 0 ? chosen : kind);
-    if (bbm_model_new(&defaults) == BBM_OK)
+    if (bbm_beyond_new(&defaults) == BBM_OK)
         s->par = defaults->par;
     bbm_model_free(defaults);
     choose_parameters(s, &r);
@@ -526,9 +526,11 @@ static void add_block(bbm_model *m, int number, const scene_block *b)
 
 bbm_status scene_build(const test_scene *s, bbm_model **m)
 {
-    if (bbm_model_new(m))
+    if (bbm_beyond_new(m))
         return BBM_NO_MEMORY;
     (*m)->par = s->par;
+    (*m)->beyond->bonding = s->bonding;
+    (*m)->beyond->multiplier_rounds = s->multiplier_rounds;
     for (int k = 0; k < s->blocks; k++)
         add_block(*m, k, &s->block[k]);
     return bbm_prepare(*m);

@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-#include "../bbm.h"
+#include "../beyond/beyond.h"
 
 enum { SCENE_CORNERS = 8, SCENE_NODES = 32, SCENE_ELEMENTS = 32, SCENE_BLOCKS = 40 };
 
@@ -32,6 +32,8 @@ typedef struct {
     uint64_t seed;
     scene_kind kind;
     bbm_parameters par;         /* with par.steps: how many are of interest                                     */
+    bbm_bonding bonding;
+    int multiplier_rounds;
     int blocks;
     scene_block block[SCENE_BLOCKS];
 } test_scene;

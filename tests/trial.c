@@ -70,7 +70,7 @@ static double gain_of(const bbm_model *m, const scene_memory *before, const scen
     double size;
     const double work = scene_work(m, before, &size);
     const double had = start->kinetic + start->elastic + start->springs;
-    const double kept = m->par.augment > 0 && m->bonds > 0 ? 1e-2 * end->springs : 0;
+    const double kept = m->beyond->multiplier_rounds > 0 && m->bonds > 0 ? 1e-2 * end->springs : 0;
     const double all = end->kinetic + end->elastic + end->springs - had - work, gain = all > 0 ? beyond(all, kept) : all;
 
     return had + size > 0 ? gain / (had + size) : gain;

@@ -1,0 +1,228 @@
+/* bending.c - bonds with which quadrilaterals bend.
+ *
+ * Beyond the paper. Two quadrilaterals that bend open, at the ends of their edge, the gaps d1 and
+ * d2 = -d1, for no D bends. Springs at the ends forbid that: the mesh locks. Seen as one bond of the
+ * whole edge the two springs k are two gaps of their own, the mean d = (d1 + d2)/2 and the opening
+ * dd = (d1 - d2)/2, with the energy
+ *
+ *     Pi = 1/2 d.K d + 1/2 dd.M dd,      K = M = 2 k I.
+ *
+ * K stands for a rigid joint and stays. M is made only as large as the bending stiffness that the
+ * elements lack: the bond is rigid in its middle and bends as the material would. A fixed edge is
+ * a bond with the wall, whose mirror image bends alike.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "beyond.h"
+
+/* ------------------------------------------------------------------------ the moment of an edge */
+
+/* Condenses the symmetric 6x6 W, rows (h, a, b), to its first two rows: minimises the energy over a and b. */
+static void condense(double W[6][6], double S[2][2])
+{
+    for (int p = 5; p > 1; p--)
+        for (int a = 0; a < p; a++)
+            for (int b = 0; b < p; b++)
+                W[a][b] -= W[a][p] * W[p][b] / W[p][p];
+    memcpy(S[0], W[0], sizeof S[0]);
+    memcpy(S[1], W[1], sizeof S[1]);
+}
+
+/* The stiffness of a quadrilateral x = c + xi p + eta q, -1/2 <= xi, eta <= 1/2, against the bending that D lacks,
+ * u = h xi eta + a xi^2/2 + b eta^2/2 with h, a, b vectors (Wilson's incompatible modes: Taylor, Beresford, Wilson, Int. J.
+ * Num. Meth. Eng. 10, 1976). Its gradient is xi (a gx + h gy) + eta (h gx + b gy) with gx, gy the gradients of xi and
+ * eta, its strain xi Ex + eta Ey; W = t A/12 (Ex^T E Ex + Ey^T E Ey). What the two bonds that p crosses and the two that
+ * q crosses feel is dd = h/2, therefore S = 4 (W condensed to h). */
+static void bending_stiffness(const bbm_element *e, const double p[2], const double q[2], double S[2][2])
+{
+    const double det = p[0] * q[1] - p[1] * q[0], tA = e->material.thickness * e->A;
+    const double gx[2] = { q[1] / det, -q[0] / det }, gy[2] = { -p[1] / det, p[0] / det };
+    const double strain[2][3][6] = {
+        /*  hx     hy       ax     ay       bx     by */
+        { { gy[0], 0,       gx[0], 0,       0,     0     },             /* Ex: strain ex                            */
+          { 0,     gy[1],   0,     gx[1],   0,     0     },             /*     ey                                   */
+          { gy[1], gy[0],   gx[1], gx[0],   0,     0     } },           /*     gxy                                  */
+        { { gx[0], 0,       0,     0,       gy[0], 0     },             /* Ey                                       */
+          { 0,     gx[1],   0,     0,       0,     gy[1] },
+          { gx[1], gx[0],   0,     0,       gy[1], gy[0] } },
+    };
+    double E[3][3], W[6][6] = { { 0 } };
+
+    bbm_elastic_matrix(&e->material, E);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            for (int r = 0; r < 9; r++)
+                for (int x = 0; x < 2; x++)
+                    W[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3] * strain[x][r % 3][b];
+    condense(W, S);
+}
+
+/* S s s^T S / (s^T S s) */
+static void project(double S[2][2], const double s[2], double P[2][2])
+{
+    const double f[2] = { S[0][0] * s[0] + S[0][1] * s[1], S[1][0] * s[0] + S[1][1] * s[1] };
+    const double sSs = f[0] * s[0] + f[1] * s[1];
+
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++)
+            P[a][b] = f[a] * f[b] / sSs;
+}
+
+/* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0 to 1, from 2 to 3), which q
+ * crosses, M[1] for 1 and 3, which p crosses. M[1] = 1/2 [S p p^T S/(p.S p) + S - S q q^T S/(q.S q)], M[0] = S - M[1]: for
+ * a rectangle the bending stiffness of the edge as a beam's section, E t l^3/12 over the distance w of the centres. */
+void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2][2][2])
+{
+    const double p[2] = { (v[1].x + v[2].x - v[0].x - v[3].x) / 2, (v[1].y + v[2].y - v[0].y - v[3].y) / 2 };
+    const double q[2] = { (v[2].x + v[3].x - v[0].x - v[1].x) / 2, (v[2].y + v[3].y - v[0].y - v[1].y) / 2 };
+    double S[2][2], P[2][2], Q[2][2];
+
+    bending_stiffness(e, p, q, S);
+    project(S, p, P);
+    project(S, q, Q);
+    for (int a = 0; a < 2; a++)
+        for (int b = 0; b < 2; b++) {
+            M[1][a][b] = (P[a][b] + S[a][b] - Q[a][b]) / 2;
+            M[0][a][b] = S[a][b] - M[1][a][b];
+        }
+}
+
+/* ------------------------------------------------------------------------- the gaps of an edge */
+
+/* Of the edge between P[0], P[1] of i and Q[0], Q[1] of j the gap (d1 + sign d2)/2 with the weight W;
+ * j = NULL: Q are points of the wall. */
+void bbm_edge_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
+                  const bbm_vertex *const Q[2], double W[2][2], double sign, bbm_gap *g)
+{
+    double T[2][6], at[2];
+
+    memcpy(g->W, W, sizeof g->W);
+    g->penalty = sign > 0;
+    for (int end = 0; end < 2; end++) {
+        const double share = end == 0 ? 0.5 : sign / 2;
+        g->d0[0] += share * (P[end]->u - Q[end]->u);
+        g->d0[1] += share * (P[end]->v - Q[end]->v);
+        bbm_step_matrix(i, P[end]->x, P[end]->y, T, at);
+        for (int a = 0; a < 12; a++)
+            g->Ti[a / 6][a % 6] += share * T[a / 6][a % 6];
+        if (!j)
+            continue;
+        bbm_step_matrix(j, Q[end]->x, Q[end]->y, T, at);
+        for (int a = 0; a < 12; a++)
+            g->Tj[a / 6][a % 6] += share * T[a / 6][a % 6];
+    }
+}
+
+/* Lists both gaps of an edge; j = -1: a fixed edge, held in the given directions. */
+static bbm_status list_edge(bbm_model *m, int i, const bbm_vertex *const P[2], int j,
+                            const bbm_vertex *const Q[2], int directions, double k, double M[2][2])
+{
+    double W[2][2][2] = { { { 2 * k, 0 }, { 0, 2 * k } } };
+
+    memcpy(W[1], M, sizeof W[1]);
+    for (int which = 0; which < 2; which++) {
+        bbm_gap *g = bbm_add_gap(m, i, j);
+        if (!g)
+            return BBM_NO_MEMORY;
+        for (int a = 0; a < 4; a++)
+            if (!(directions & BBM_X && directions & BBM_Y)
+                && (a != 0 || !(directions & BBM_X)) && (a != 3 || !(directions & BBM_Y)))
+                W[which][a / 2][a % 2] = 0;
+        bbm_edge_gap(&m->element[i], P, j < 0 ? NULL : &m->element[j], Q, W[which],
+                     which == 0 ? 1 : -1, g);
+    }
+    return BBM_OK;
+}
+
+/* The moment M that a quadrilateral asks for on its edge from vertex v on. */
+static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
+{
+    double own[2][2][2];
+
+    memset(M, 0, 4 * sizeof M[0][0]);
+    if (m->beyond->bonding != BBM_MOMENT)
+        return;
+    bbm_bending_moments(e, &m->vertex[e->first], own);
+    memcpy(M, own[(v - e->first) % 2], 4 * sizeof M[0][0]);
+}
+
+/* The moment M of a bond. The halves of its two elements bend one after the other, so their moments act in series: with
+ * n the normal of the edge and mi = n.Mi n, M = (Mi + Mj)/2 4 mi mj/(mi + mj)^2, whose n.M n is the harmonic mean. */
+static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
+{
+    const bbm_vertex *P = &m->vertex[b->p[0]], *R = &m->vertex[b->p[1]];
+    const double nx = R->y - P->y, ny = P->x - R->x;
+    double Mi[2][2], Mj[2][2];
+
+    own_moment(m, &m->element[b->i], b->p[0], Mi);
+    own_moment(m, &m->element[b->j], b->q[1], Mj);              /* the edge runs the other way in j */
+    const double mi = nx * nx * Mi[0][0] + nx * ny * (Mi[0][1] + Mi[1][0]) + ny * ny * Mi[1][1];
+    const double mj = nx * nx * Mj[0][0] + nx * ny * (Mj[0][1] + Mj[1][0]) + ny * ny * Mj[1][1];
+    const double sum = mi + mj, series = sum > 0 ? 4 * (mi / sum) * (mj / sum) : 0;
+    for (int a = 0; a < 4; a++)
+        M[a / 2][a % 2] = series * (Mi[a / 2][a % 2] + Mj[a / 2][a % 2]) / 2;
+}
+
+/* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. */
+static bbm_status list_bond(bbm_model *m, const bbm_bond *b)
+{
+    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+    const bbm_vertex *const P[2] = { &m->vertex[b->p[0]], &m->vertex[b->p[1]] };
+    const bbm_vertex *const Q[2] = { &m->vertex[b->q[0]], &m->vertex[b->q[1]] };
+    double M[2][2];
+
+    if (m->beyond->bonding == BBM_VERTICES || i->n != 4 || j->n != 4)
+        return bbm_list_bond(m, b);
+    bond_moment(m, b, M);
+    return list_edge(m, b->i, P, b->j, Q, BBM_XY, bbm_bonding_stiffness(m->par.alpha, i, j), M);
+}
+
+/* The directions in which the edge of a quadrilateral from vertex v on is held: those of both its
+ * ends. Held at its vertices, such an edge locks like a bond. */
+static int held_edge(const bbm_model *m, const bbm_element *e, int v)
+{
+    const int next = m->vertex[bbm_next_vertex(e, v)].node;
+
+    return m->beyond->bonding == BBM_VERTICES || e->n != 4
+         ? 0 : m->node[m->vertex[v].node].held & m->node[next].held;
+}
+
+/* Lists vertex v in the directions in which no edge holds it, and the edge from v on as a bond with
+ * the wall: its moment is twice the element's own. */
+static bbm_status list_fixed(bbm_model *m, int v)
+{
+    const int number = m->vertex[v].element, node = m->vertex[v].node;
+    const bbm_element *e = &m->element[number];
+    const int next = bbm_next_vertex(e, v), last = v > e->first ? v - 1 : e->first + e->n - 1;
+    const int edge = held_edge(m, e, v);
+    bbm_vertex W[2] = { m->vertex[v], m->vertex[next] };
+    const bbm_vertex *const P[2] = { &m->vertex[v], &m->vertex[next] };
+    const bbm_vertex *const Q[2] = { &W[0], &W[1] };
+    double M[2][2];
+
+    const bbm_status status
+        = bbm_list_fixed_point(m, v, m->node[node].held & ~(edge | held_edge(m, e, last)));
+    if (!edge || status)
+        return status;
+    for (int end = 0; end < 2; end++) {
+        W[end].u = m->node[W[end].node].wall[0];
+        W[end].v = m->node[W[end].node].wall[1];
+    }
+    own_moment(m, e, v, M);
+    for (int a = 0; a < 4; a++)
+        M[a / 2][a % 2] *= 2;
+    return list_edge(m, number, P, -1, Q, edge, bbm_fixed_stiffness(m->par.alpha, e), M);
+}
+
+/* What glues, with whole edges where quadrilaterals meet. */
+bbm_status bbm_list_edge_gaps(bbm_model *m)
+{
+    bbm_status status = BBM_OK;
+
+    for (int b = 0; b < m->bonds && !status; b++)
+        status = list_bond(m, &m->bond[b]);
+    for (int v = 0; v < m->vertices && !status; v++)
+        status = list_fixed(m, v);
+    return status;
+}

@@ -1,0 +1,44 @@
+/* multipliers.c - bonds and fixed points that do not open.
+ *
+ * Beyond the paper. A penalty spring opens under the force that it carries. With a multiplier that
+ * carries the force in its place it need not: solve, add to each multiplier the force of its spring,
+ * f += W d, which goes to the right of K D = F in place of the spring's force, solve again (the
+ * augmented Lagrangian of Hestenes, J. Optim. Theory Appl. 4, 1969, and Powell, in: Optimization,
+ * 1969; the paper names it for contacts). K stays, and so does all that was made of it.
+ *
+ * In statics multipliers go on from step to step. In dynamics each step starts them from zero: kept,
+ * they would be an integral controller, and in short steps unstable (doc/limits.md).
+ */
+#include "beyond.h"
+
+void bbm_start_multipliers(bbm_model *m)
+{
+    for (int k = 0; k < m->gap_room; k++)
+        for (int r = 0; r < 2; r++)
+            m->gap[k].f[r] = bbm_is_static(m) ? m->gap[k].f_before[r] : 0;
+    m->beyond->rounds_done = 0;
+}
+
+/* The contacts have settled: f += W d, as often as was asked for. Returns 1 if it has done so. */
+int bbm_take_over(bbm_model *m)
+{
+    double d[2];
+
+    if (m->beyond->rounds_done++ >= m->beyond->multiplier_rounds)
+        return 0;
+    for (int k = 0; k < m->gaps; k++) {
+        bbm_gap *g = &m->gap[k];
+        bbm_gap_length(m, g, d);
+        for (int r = 0; r < 2 && g->penalty; r++)
+            g->f[r] += g->W[r][0] * d[0] + g->W[r][1] * d[1];
+    }
+    return 1;
+}
+
+/* At the end of a step. */
+void bbm_store_multipliers(bbm_model *m)
+{
+    for (int k = 0; k < m->gaps; k++)
+        for (int r = 0; r < 2; r++)
+            m->gap[k].f_before[r] = m->gap[k].f[r];
+}

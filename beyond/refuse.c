@@ -1,0 +1,64 @@
+/* refuse.c - solutions that are none.
+ *
+ * A step of which the equations were not solved, whose elements go too far for what is linear in it, or
+ * whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and the model
+ * stays as it was.
+ */
+#include <math.h>
+#include <stddef.h>
+
+#include "beyond.h"
+
+/* UNSOLVED [-]    a residual |F - K D|/|F| above this is no solution, though the iteration ended:
+ *                 stiffnesses too far apart for doubles
+ * FAR_STRAIN [-]  what an element may strain in a step of dynamics; in a static step, which is linear
+ *                 elasticity for loads of any size, it is 1: the element has turned over
+ * FAR_TURN [rad]  what a bonded element may turn in a step of dynamics: T of the middle of a step grows
+ *                 without bound towards half a turn
+ * DEEP [-]        depth of a contact against the size of its smaller block at which its springs do not
+ *                 keep the blocks apart any more */
+#define UNSOLVED 1e-3
+#define FAR_STRAIN 0.5
+#define FAR_TURN 1.0
+#define DEEP 0.1
+
+/* Whether the solution solves the equations, and turns and strains no element too far; a comparison
+ * with NaN is false. */
+bbm_status bbm_check_solution(bbm_model *m)
+{
+    const bbm_pcg_info *pcg = &m->info.pcg;
+    const double most = bbm_is_static(m) ? 1 : FAR_STRAIN;
+    int far = -1;
+
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 3; a < 6; a++)
+            if (!(fabs(m->D[6 * i + a]) < most))
+                far = i;
+    for (int b = 0; b < m->bonds && !bbm_is_static(m); b++)
+        if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN)
+            || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
+            far = m->bond[b].i;
+    if (far < 0 && (m->par.pcg.tolerance > UNSOLVED || pcg->residual <= UNSOLVED))
+        return BBM_OK;
+    if (far < 0)
+        return bbm_fail(m, BBM_NOT_CONVERGED, "step %d, residual %.2g: the stiffnesses of "
+                        "materials, bonds and contacts are too far apart", m->info.step + 1,
+                        pcg->residual);
+    const double *D = &m->D[6 * far], strain = fmax(fmax(fabs(D[3]), fabs(D[4])), fabs(D[5]));
+    return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: element %d of block %d strains by %.2g and "
+                    "turns by %.2g rad; %s", m->info.step + 1, far, m->element[far].block, strain,
+                    fabs(D[2]), bbm_is_static(m) ? "in statics smaller loads or a larger E help"
+                                                 : "a smaller dt, velocity or load helps");
+}
+
+/* Whether the springs of all contacts keep their blocks apart. */
+bbm_status bbm_check_depth(bbm_model *m)
+{
+    const bbm_contact *c = NULL;
+
+    if (!(bbm_deepest_contact(m, &c) > DEEP))
+        return BBM_OK;
+    return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in block %d, a "
+                    "tenth of the smaller one; larger stiffnesses p_n, p_s help", m->info.step + 1,
+                    m->edge[c->corner].block, -c->d_n, m->edge[c->edge].block);
+}

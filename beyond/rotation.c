@@ -1,0 +1,215 @@
+/* rotation.c - exact rotations, and the vectors of a step at its middle: with both a step keeps energy
+ * and momentum.
+ *
+ * Beyond the paper. T of Eq. (2) belongs to the positions at the start of a step. A body that turns by
+ * r while it touches or is bonded ends the step r^2/2 times its lever away from where u = T D had it:
+ * it swells, and a spring then holds a length that is not there, so that each step makes energy. The
+ * exact motion of a point at X from the barycentre,
+ *
+ *     u = (u0, v0) + R(r) (1 + e) X - X,         e = [ex gxy/2; gxy/2 ey],
+ *
+ * is linear in D, too, if it is written at the middle of its way, Xm = X + (u - (u0, v0))/2. With
+ * J = [0 -1; 1 0] and R - 1 = tan(r/2) J (R + 1),
+ *
+ *     u = (u0, v0) + 2 tan(r/2) J Xm + (1 + tan(r/2) J) e X  =  T_m D.
+ *
+ * With T_m in place of T the length of a bonding spring at the end of the step is exactly
+ * d0 + T_m,i Di - T_m,j Dj. In the same way l d_n = b x p and l d_s = b.a of a contact are products,
+ * and differences of products are exact with the mean of the other factor:
+ * delta(b x p) = delta b x p_m + b_m x delta p. So one rule serves all: points and T at the middle.
+ * The work of each force is then what its spring, its load or its pressure loses (Simo, Tarnow, Wong:
+ * Comput. Methods Appl. Mech. Eng. 100, 1992, take the middle for the same reason).
+ *
+ * T_m needs the D of the solution. A step begins with what its velocities foretell and renews T_m when
+ * no contact changes its state. Statics and `rotation` BBM_LINEAR, the paper's way, keep T.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "beyond.h"
+
+/* TURN [rad^2]  turn of an element times the error of that turn below which T_m holds: points are right
+ *               to this times their lever, and a bonded block that spins by 0.2 rad a step keeps its
+ *               energy to 1e-9 of it
+ * SHARE [-]     force of a contact that comes from T_m of another D, against the largest one on its
+ *               elements: what it makes of energy is this share of the energy of the contact's spring
+ * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is 1e-5 of
+ *               that */
+#define TURN 1e-8
+#define SHARE 1e-5
+#define DIRECTION 1e-4
+
+/* Whether points move by the exact rotation. */
+int bbm_moves_exactly(const bbm_model *m)
+{
+    return m->beyond->rotation == BBM_EXACT && !bbm_is_static(m);
+}
+
+/* How a point at (X, Y) from the barycentre moves: translation, strain, then the exact rotation,
+ * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X; where rotations are
+ * linear, its first order in r0, u = T D. */
+void bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6], double X,
+                      double Y, double u[2])
+{
+    const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
+    const int exact = bbm_moves_exactly(m);
+    const double s = exact ? sin(D[2]) : D[2], c1 = exact ? -2 * pow(sin(D[2] / 2), 2) : 0;
+    const double x = exact ? X + ux : X, y = exact ? Y + uy : Y;
+
+    (void)e;
+    u[0] = D[0] + ux + c1 * x - s * y;
+    u[1] = D[1] + uy + c1 * y + s * x;
+}
+
+/* T_m at the point that starts the step in (x, y), and where it is in the middle of the step: `at`. */
+void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6], double at[2])
+{
+    const double X = x - e->x, Y = y - e->y, *D = e->mode_D, r = D[2];
+    const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
+    const double t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
+    const double s = sin(r), c1 = -2 * sin(r / 2) * sin(r / 2);
+    const double Xm = X + (ux + c1 * (X + ux) - s * (Y + uy)) / 2;
+    const double Ym = Y + (uy + c1 * (Y + uy) + s * (X + ux)) / 2;
+    const double matrix[2][6] = {
+        /* u0  v0  r0       ex     ey      gxy               */
+        {  1,  0,  -f * Ym, X,     -t * Y, (Y - t * X) / 2 },
+        {  0,  1,  f * Xm,  t * X, Y,      (X + t * Y) / 2 },
+    };
+
+    memcpy(T, matrix, sizeof matrix);
+    at[0] = e->x + D[0] / 2 + Xm;
+    at[1] = e->y + D[1] / 2 + Ym;
+}
+
+/* Takes the vectors of the step in the middle of D, [6 elements]; not exact: at its start. */
+void bbm_set_middle(bbm_model *m, const double D[])
+{
+    const int exact = bbm_moves_exactly(m);
+
+    for (int i = 0; i < m->elements; i++) {
+        m->element[i].mode = exact ? bbm_middle_matrix : NULL;
+        for (int a = 0; a < 6; a++)
+            m->element[i].mode_D[a] = exact ? D[6 * i + a] : 0;
+    }
+}
+
+/* Whether the turn of element i is another one than that of its T_m, by more than can be left. */
+static int is_off(const bbm_model *m, int i)
+{
+    const double r = m->D[6 * i + 2], off = fabs(r - m->element[i].mode_D[2]);
+
+    return off * (fabs(r) + off) > TURN;
+}
+
+/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone is
+ * the start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
+static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
+{
+    const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
+    const bbm_element *ei = &m->element[i], *ej = &m->element[j];
+    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
+    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
+    const double x0 = P3->x + c->anchor * (P2->x - P3->x), y0 = P3->y + c->anchor * (P2->y - P3->y);
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
+    double u1[2], u2[2], u3[2], u0[2];
+
+    bbm_move(m, ei, &m->D[6 * i], P1->x, P1->y, u1);
+    bbm_move(m, ej, &m->D[6 * j], P2->x, P2->y, u2);
+    bbm_move(m, ej, &m->D[6 * j], P3->x, P3->y, u3);
+    bbm_move(m, ej, &m->D[6 * j], x0, y0, u0);
+    const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
+    const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
+    d[0] = (x * py - y * px) / l;
+    d[1] = c->share * ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
+}
+
+/* Whether the force of a contact on element i, closed as it is, has another direction. */
+static int turns_otherwise(const bbm_model *m, const bbm_contact *c, int i)
+{
+    return c->state != BBM_OPEN && bbm_is_exact(m)
+        && fabs(m->D[6 * i + 2] - m->element[i].mode_D[2]) > DIRECTION;
+}
+
+/* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
+ * of the largest one on its two elements, or in direction, or an open contact on the wrong side. */
+int bbm_contacts_are_off(const bbm_model *m, double share)
+{
+    int contacts, off = 0;
+    const bbm_contact *list = bbm_list_contacts(m, &contacts);
+
+    for (int k = 0; k < contacts && !off; k++) {
+        const bbm_contact *c = &list[k];
+        const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
+        const double Fi = hypot(m->F[6 * i], m->F[6 * i + 1]), Fj = hypot(m->F[6 * j], m->F[6 * j + 1]);
+        const double bound = fmax(share * fmax(fabs(c->N), fmax(Fi, Fj)), c->tolerance);
+        double d[2];
+        exact_distances(m, c, d);
+        off = turns_otherwise(m, c, i) || turns_otherwise(m, c, j);
+        off |= m->par.p_n * fabs(d[0] - c->d_n) > bound && (c->state != BBM_OPEN || (d[0] < 0) != (c->d_n < 0));
+        off |= m->par.p_s * fabs(d[1] - c->d_s) > bound && c->state == BBM_LOCK;
+    }
+    return off;
+}
+
+/* Whether the vectors of bonds, fixed points, loads or contacts belong to another step than the
+ * solution. */
+int bbm_middle_is_off(const bbm_model *m)
+{
+    int off = 0;
+
+    if (!bbm_moves_exactly(m))
+        return 0;
+    for (int k = 0; k < m->gaps && !off; k++)
+        off = is_off(m, m->gap[k].i) || (m->gap[k].j >= 0 && is_off(m, m->gap[k].j));
+    for (int v = 0; v < m->vertices && !off; v++) {
+        const double *load = m->node[m->vertex[v].node].load;
+        off = (load[0] != 0 || load[1] != 0) && is_off(m, m->vertex[v].element);
+    }
+    for (int l = 0; l < m->line_loads && !off; l++)
+        off = is_off(m, m->vertex[m->line_load[l].a].element);
+    return off || bbm_contacts_are_off(m, SHARE);
+}
+
+/* Renews the vectors of the step, and with them the gaps, if they are off; whether they were. */
+int bbm_renew_middle(bbm_model *m)
+{
+    if (!bbm_middle_is_off(m))
+        return 0;
+    bbm_set_middle(m, m->D);
+    (void)bbm_list_gaps(m);             /* as many as before: there is room */
+    return 1;
+}
+
+/* A tensor (xx, yy, xy) turns with the element: R s R^T. */
+static void turn_tensor(double s[3], double r)
+{
+    const double c = cos(2 * r), n = sin(2 * r), t = s[2];
+    const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
+
+    s[0] = mean + half * c - t * n;
+    s[1] = mean - half * c + t * n;
+    s[2] = half * n + t * c;
+}
+
+/* Stress and strain rates turn with an element that has moved, and the change of its moments by strain,
+ * which no force of the step knows of, changes no energy: turning and straining slow down or speed up
+ * together. */
+void bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_element *e,
+                      const bbm_vertex vertex[])
+{
+    double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
+    double turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
+    bbm_element end = *e;
+
+    if (!bbm_moves_exactly(m))
+        return;
+    const double before = bbm_inertia_form(start, turning);
+    turn_tensor(e->stress, e->D[2]);
+    turn_tensor(rate, e->D[2]);
+    turning[3] = rate[0], turning[4] = rate[1], turning[5] = 2 * rate[2];
+    bbm_element_geometry(&end, vertex);
+    const double after = bbm_inertia_form(&end, turning);
+    const double factor = after > 0 ? sqrt(before / after) : 1;
+    for (int a = 2; a < 6; a++)
+        e->V[a] = factor * turning[a];
+}

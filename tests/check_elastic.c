@@ -1,0 +1,545 @@
+/* check_elastic.c - bodies in statics: K, patch tests, bonded bars, loads, the finite element. */
+#include <string.h>
+
+#include "check.h"
+#include "models.h"
+
+/* ---------------------------------------------------------------- K, dense, in the test's hands */
+
+/* All of K, column by column. */
+static double *dense_matrix(const bbm_model *m)
+{
+    const int n = 6 * m->elements;
+    double *A = calloc((size_t)(n * n), sizeof *A), *x = calloc((size_t)n, sizeof *x);
+
+    for (int c = 0; c < n; c++) {
+        x[c] = 1;
+        bbm_matrix_multiply(m->K, x, &A[c * n]);
+        x[c] = 0;
+    }
+    free(x);
+    return A;
+}
+
+/* Cholesky's elimination, always with the largest pivot left, which stops at one that is rounding:
+ * the number of positive pivots. *least: the smallest diagonal entry that was left then, or 0.
+ * Destroys A. */
+static int rank(int n, double *A, double *least)
+{
+    double size = 0;
+    int *left = calloc((size_t)n, sizeof *left), r;
+
+    for (int a = 0; a < n; a++) {
+        left[a] = a;
+        size = fmax(size, A[a * n + a]);
+    }
+    for (r = 0; r < n; r++) {
+        for (int a = r + 1; a < n; a++)
+            if (A[left[a] * (n + 1)] > A[left[r] * (n + 1)]) {
+                const int other = left[r];
+                left[r] = left[a];
+                left[a] = other;
+            }
+        const int p = left[r];
+        /* rounding: 1e-16 n; the smallest true ones here: 1e-5 */
+        if (A[p * (n + 1)] <= 1e-10 * size)
+            break;
+        for (int a = r + 1; a < n; a++)
+            for (int b = r + 1; b < n; b++)
+                A[left[a] * n + left[b]] -= A[left[a] * n + p] * A[p * n + left[b]] /
+                                            A[p * (n + 1)];
+    }
+    *least = 0;
+    for (int a = r; a < n; a++)
+        *least = fmin(*least, A[left[a] * (n + 1)] / size);
+    free(left);
+    return r;
+}
+
+START_TEST(K_is_symmetric_and_positive_definite_when_the_body_is_held)
+{
+    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = _i, .jitter = 0.2 };
+    bbm_model *m = cantilever(&SOLID, &g, 1, -1);
+
+    ck_ok(bbm_step(m), m);
+    const int n = 6 * m->elements;
+    double *A = dense_matrix(m), least, size = 0;
+    for (int a = 0; a < n; a++)
+        size = fmax(size, A[a * n + a]);
+    for (int a = 0; a < n; a++)
+        for (int b = 0; b < a; b++)
+            ck_near(A[a * n + b], A[b * n + a], size, 1e-15);
+    ck_assert_int_eq(rank(n, A, &least), n);
+    free(A);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A step of 1e12 s: the inertia left is 1e-24 of the stiffness. */
+START_TEST(K_has_three_zero_pivots_when_nothing_holds_the_body)
+{
+    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = _i, .jitter = 0.2 };
+    bbm_model *m = new_model(&SOLID);
+
+    add_grid(m, &g, 0);
+    ck_ok(bbm_prepare(m), m);
+    m->par.dt = 1e12;
+    bbm_step(m);
+    const int n = 6 * m->elements;
+    double *A = dense_matrix(m), least;
+    ck_assert_int_eq(rank(n, A, &least), n - 3);
+    ck_assert(least > -1e-12);
+    free(A);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(a_rigid_motion_of_bonded_elements_costs_nothing)
+{
+    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = _i, .jitter = 0.2 };
+    const double motion[3] = { 0.5, -2, 1.5 };  /* u, v at the origin, rotation */
+    bbm_model *m = new_model(&SOLID);
+
+    add_grid(m, &g, 0);
+    ck_ok(bbm_prepare(m), m);
+    m->par.dt = 1e12;
+    bbm_step(m);
+    double *D = calloc(12 * (size_t)m->elements, sizeof *D), *KD = D + 6 * m->elements;
+    double energy_of = 0;
+    for (int e = 0; e < m->elements; e++) {
+        D[6 * e] = motion[0] - motion[2] * m->element[e].y;
+        D[6 * e + 1] = motion[1] + motion[2] * m->element[e].x;
+        D[6 * e + 2] = motion[2];
+    }
+    bbm_matrix_multiply(m->K, D, KD);
+    for (int a = 0; a < 6 * m->elements; a++) {
+        ck_near(KD[a], 0, 1e5, ROUNDING);  /* of K: alpha G t = 2e4 times D */
+        energy_of += KD[a] * D[a] / 2;
+    }
+    ck_near(energy_of, 0, 1e5, ROUNDING);
+    free(D);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ---------------------------------------------------------------------------------- patch tests */
+
+typedef struct {
+    double x[16][2];
+    int nodes, roller, elements, n[9], node[9][5];    /* roller: node of one element alone */
+} patch;
+
+static const patch PATCHES[] = {
+    /* a strip: quadrilateral, triangle, pentagon, two triangles; no node is inside */
+    { { { 0, 0 }, { 1.25, 0.25 }, { 3, -0.25 }, { 4.5, 0 }, { 6, 0 },
+        { 0.25, 1 }, { 1.5, 1.25 }, { 2.75, 1 }, { 5, 1.5 }, { 6.25, 1.25 } },
+      10, 9, 5, { 4, 3, 5, 3, 3 }, { { 0, 1, 6, 5 }, { 1, 2, 6 }, { 2, 3, 8, 7, 6 }, { 3, 4, 8 },
+                                     { 4, 9, 8 } } },
+    /* one node inside; quadrilaterals and triangles round it */
+    { { { 0, 0 }, { 2, 0 }, { 4, 0 }, { 4, 1.5 }, { 4, 4 }, { 2.5, 4 }, { 0, 4 }, { 0, 2 },
+        { 1.75, 2.25 } },
+      9, 4, 6, { 4, 3, 3, 4, 3, 3 },
+      { { 0, 1, 8, 7 }, { 1, 2, 8 }, { 2, 3, 8 }, { 3, 4, 5, 8 }, { 5, 6, 8 }, { 6, 7, 8 } } },
+    /* three nodes inside, triangles, quadrilaterals and a pentagon */
+    { { { 0, 0 }, { 3, 0 }, { 6, 0 }, { 6, 2.5 }, { 6, 5 }, { 2.5, 5 }, { 0, 5 }, { 0, 2 },
+        { 1.5, 1.75 }, { 4, 1.5 }, { 3.5, 3.5 } },
+      11, 2, 7, { 4, 4, 4, 3, 5, 3, 3 },
+      { { 0, 1, 8, 7 }, { 1, 2, 3, 9 }, { 3, 4, 5, 10 }, { 3, 10, 9 }, { 5, 6, 7, 8, 10 },
+        { 1, 9, 8 },
+        { 8, 9, 10 } } },
+};
+
+static const double STRESSES[][3] = { { 3, 0, 0 }, { 0, 2, 0 }, { 0, 0, 1 }, { 3, -1, 2 } };
+
+/* Pulls at every boundary edge with the traction of a uniform stress, holds what is needed against
+ * rigid motion (without reactions, for the tractions are in balance), and writes the stresses that
+ * come out. */
+static void stretch_patch(const patch *p, const double s[3], double alpha, double stress[][3])
+{
+    bbm_model *m = new_model(&SOLID);
+
+    m->par.alpha = alpha;
+    for (int n = 0; n < p->nodes; n++)
+        ck_ok(bbm_add_node(m, p->x[n][0], p->x[n][1], NULL), m);
+    for (int e = 0; e < p->elements; e++)
+        ck_ok(bbm_add_element(m, 0, 0, p->n[e], p->node[e], NULL), m);
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, p->roller, BBM_Y, 0, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    for (int i = 0; i < m->edges; i++) {
+        const bbm_vertex *a = &m->vertex[m->edge[i].a], *b = &m->vertex[m->edge[i].b];
+        const double dx = b->x - a->x, dy = b->y - a->y, l = hypot(dx, dy), t = SOLID.thickness;
+        const double fx = t * (s[0] * dy - s[2] * dx) / l, fy = t * (s[2] * dy - s[1] * dx) / l;
+        ck_ok(bbm_add_line_load(m, a->node, b->node, fx, fy), m);
+    }
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    for (int e = 0; e < m->elements; e++)
+        memcpy(stress[e], m->element[e].stress, sizeof m->element[e].stress);
+    bbm_model_free(m);
+}
+
+/* Where no node is inside, elements can part by s.n l/2k along every edge without straining: exact
+ * whatever alpha. */
+START_TEST(a_strip_under_uniform_traction_has_that_stress_in_every_element)
+{
+    double stress[9][3];
+
+    stretch_patch(&PATCHES[0], STRESSES[_i], 100, stress);
+    for (int e = 0; e < PATCHES[0].elements; e++)
+        for (int a = 0; a < 3; a++)
+            ck_near(stress[e][a], STRESSES[_i][a], 3, SOLVED);
+}
+END_TEST
+
+/* Round an inner node the gaps need not close, and the stress is uniform only in the limit of rigid
+ * springs: s(alpha) = s + c1/alpha + c2/alpha^2 + ... Three values of alpha remove c1 and c2;
+ * c3/alpha^3 is near 1e-12. */
+START_TEST(an_irregular_patch_under_uniform_traction_has_that_stress_in_every_element)
+{
+    for (int p = 1; p < COUNT(PATCHES); p++) {
+        double stress[3][9][3];
+        for (int a = 0; a < 3; a++)
+            stretch_patch(&PATCHES[p], STRESSES[_i], 1e4 * (1 << a), stress[a]);
+        for (int e = 0; e < PATCHES[p].elements; e++)
+            for (int a = 0; a < 3; a++) {
+                const double first = 2 * stress[1][e][a] - stress[0][e][a];
+                const double second = 2 * stress[2][e][a] - stress[1][e][a];
+                ck_near((4 * second - first) / 3, STRESSES[_i][a], 3, SOLVED);
+            }
+    }
+}
+END_TEST
+
+/* A pressure p [N/m] on all sides of any polygon is in balance, and -p/t is the stress in x and in
+ * y. */
+START_TEST(a_body_under_pressure_all_round_has_that_stress)
+{
+    const shape *s = &SHAPES[_i];
+    bbm_model *m = new_model(&SOLID);
+    int nodes[CORNERS];
+
+    for (int c = 0; c < s->n; c++)
+        ck_ok(bbm_add_node(m, s->x[c][0], s->x[c][1], &nodes[c]), m);
+    ck_ok(bbm_add_element(m, 0, 0, s->n, nodes, NULL), m);
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, 2, BBM_Y, 0, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < m->edges; e++)
+        ck_ok(bbm_load_edge(m, e, 0, 0, 5), m);
+    ck_ok(bbm_step(m), m);
+    for (int a = 0; a < 3; a++)
+        ck_near(m->element[0].stress[a], a < 2 ? -5 / SOLID.thickness : 0, 5, SOLVED);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* One polygon as the whole block, plain DDA: in balance the mean stress is sum of f x^T / (t A),
+ * made symmetric. */
+START_TEST(a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads)
+{
+    const shape *s = &SHAPES[2];
+    const double A = 5.5, f[CORNERS][2] = { { 2, 1 }, { -1, 0.5 }, { 0, -2 }, { -3, 1 },
+                                            { 2, -0.5 }, { 0, 0 } };
+    bbm_model *m = new_model(&SOLID);
+    double T[2][2] = { { 0 } };
+    int nodes[CORNERS];
+
+    for (int c = 0; c < s->n; c++)
+        ck_ok(bbm_add_node(m, s->x[c][0], s->x[c][1], &nodes[c]), m);
+    ck_ok(bbm_add_element(m, 3, 0, s->n, nodes, NULL), m);
+    ck_ok(bbm_fix_node(m, 4, BBM_XY, 0, 0), m);                            /* (0, 0) */
+    ck_ok(bbm_fix_node(m, 5, BBM_Y, 0, 0), m);                             /* (3, 0) */
+    double moment = 0;
+    for (int c = 0; c < s->n; c++) {
+        ck_ok(bbm_add_load(m, c, f[c][0], f[c][1]), m);
+        moment += s->x[c][0] * f[c][1] - s->x[c][1] * f[c][0];
+        for (int r = 0; r < 4; r++)
+            T[r / 2][r % 2] += s->x[c][r / 2] * f[c][r % 2];
+    }
+    T[0][1] -= moment;  /* the support at (3, 0) pulls -moment/3 */
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    const double *stress = m->element[0].stress, tA = SOLID.thickness * A;
+    ck_near(stress[0], T[0][0] / tA, 1, SOLVED);
+    ck_near(stress[1], T[1][1] / tA, 1, SOLVED);
+    ck_near(stress[2], (T[0][1] + T[1][0]) / 2 / tA, 1, SOLVED);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ---------------------------------------------------------------------------------- bonded bars */
+
+/* Every joint is two springs side by side, the wall too: F L/(E A) + (N - 1) F/2k + F/2k with
+ * k = alpha G t = alpha E t/2. */
+START_TEST(a_bonded_bar_stretches_by_its_strain_and_its_springs)
+{
+    bbm_model *m = new_bar(&CORK, 1);
+    const double F = 3, k = 100 * CORK.E / 2 * CORK.thickness, EA = CORK.E * CORK.thickness * 1;
+
+    ck_ok(bbm_step(m), m);
+    for (int j = 0; j < 2; j++) {
+        const double strain = F / EA, length = 0.5 * LINKS;
+        const bbm_result end = result_at(m, 2 * LINKS + j);
+        ck_relative(end.u, strain * length + LINKS * F / (2 * k), SOLVED);
+        ck_near(end.v, 0, end.u, SOLVED);
+        ck_relative(end.stress[0], F / CORK.thickness, SOLVED);
+        ck_relative(end.mises, F / CORK.thickness, SOLVED);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Springs between unlike elements: the means of G and t. */
+START_TEST(a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_parts)
+{
+    const bbm_material two[2] = { { .E = 1000, .density = 1, .thickness = 0.5 },
+                                  { .E = 3000, .density = 1, .thickness = 0.25 } };
+    const double F = 3, alpha = 100, kw = alpha * 500 * 0.5;
+    const double k = alpha * (500 + 1500) / 2 * (0.5 + 0.25) / 2;
+    bbm_model *m = new_bar(two, 2);
+
+    ck_ok(bbm_step(m), m);
+    double expected = F / (2 * kw) + (LINKS - 1) * F / (2 * k);
+    for (int e = 0; e < LINKS; e++)
+        expected += 0.5 * F / (two[e % 2].E * two[e % 2].thickness);
+    ck_relative(result_at(m, 2 * LINKS).u, expected, SOLVED);
+    for (int e = 0; e < LINKS; e++)
+        ck_relative(m->element[e].stress[0], F / two[e % 2].thickness, SOLVED);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(displacements_fall_as_one_over_the_thickness)
+{
+    bbm_material thick = SOLID;
+    grid g = { .lx = 3, .ly = 1, .nx = 3, .ny = 1, .triangles = 1 };
+
+    thick.thickness *= 4;
+    bbm_model *m = cantilever(&SOLID, &g, 1, -1), *n = cantilever(&thick, &g, 1, -1);
+    ck_ok(bbm_step(m), m);
+    ck_ok(bbm_step(n), n);
+    for (int i = 0; i < m->nodes; i++) {
+        ck_near(4 * result_at(n, i).v, result_at(m, i).v,
+                result_at(m, node_at(&g, 3, 0)).v, SOLVED);
+        ck_near(4 * result_at(n, i).stress[0], result_at(m, i).stress[0],
+                result_at(m, 0).stress[0], SOLVED);
+    }
+    bbm_model_free(m);
+    bbm_model_free(n);
+}
+END_TEST
+
+START_TEST(a_displaced_wall_takes_the_body_along)
+{
+    bbm_model *m = unit_square(&SOLID);
+
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0.25, -0.5), m);
+    ck_ok(bbm_fix_node(m, 1, BBM_Y, 9, -0.5), m);  /* 9: not held in x, so of no account */
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    for (int n = 0; n < 4; n++) {
+        ck_near(result_at(m, n).u, 0.25, 1, SOLVED);
+        ck_near(result_at(m, n).v, -0.5, 1, SOLVED);
+        ck_near(m->vertex[n].x, m->node[n].x + 0.25, 1, SOLVED);
+        ck_near(m->vertex[n].y, m->node[n].y - 0.5, 1, SOLVED);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A later call adds a direction and leaves the wall point of the other alone. */
+START_TEST(a_node_may_be_held_in_x_and_y_by_separate_calls)
+{
+    bbm_model *m = unit_square(&SOLID);
+
+    ck_ok(bbm_fix_node(m, 2, BBM_Y, 7, 0.5), m);
+    ck_ok(bbm_fix_node(m, 2, BBM_X, -0.25, 7), m);
+    ck_assert_int_eq(m->node[2].held, BBM_XY);
+    ck_assert(m->node[2].wall[0] == -0.25 && m->node[2].wall[1] == 0.5);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ----------------------------------------------------------------------------- loads in a model */
+
+typedef struct { double x[BBM_GAUSS][2]; int calls; } places;
+
+static void note_place(double x, double y, const void *context, double f[2])
+{
+    places *p = *(places *const *)context;
+
+    ck_assert_int_lt(p->calls, BBM_GAUSS);
+    p->x[p->calls][0] = x;
+    p->x[p->calls++][1] = y;
+    f[0] = f[1] = 0;
+}
+
+START_TEST(a_load_that_varies_is_asked_for_at_the_gauss_points_alone)
+{
+    bbm_model *m = points(1);
+    places asked = { .calls = 0 }, *context = &asked;
+
+    ck_ok(bbm_add_varying_line_load(m, 14, 2, note_place, &context), m); /* from (4, 2) to (2, 0) */
+    ck_assert_int_eq(asked.calls, BBM_GAUSS);
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, weight;
+        bbm_gauss_point(g, &s, &weight);
+        ck_near(asked.x[g][0], 4 - 2 * s, 1, ROUNDING);
+        ck_near(asked.x[g][1], 2 - 2 * s, 1, ROUNDING);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Force and moment are integrals of cubic polynomials along the side, for which Simpson's rule is
+ * exact. */
+START_TEST(a_load_that_varies_reaches_the_element_whichever_end_is_named_first)
+{
+    const double scale[2] = { 6, -5 }, a[2] = { 1.5, -1 }, b[2] = { 2, 1.25 };
+    const double weight[3] = { 1 / 6.0, 4 / 6.0, 1 / 6.0 };
+    const int ends[2] = { _i ? 2 : 1, _i ? 1 : 2 };
+    bbm_model *m = new_model(&SOLID);
+    double total[3] = { 0 }, expected[3] = { 0 };
+
+    for (int n = 0; n < 4; n++)
+        ck_ok(bbm_add_node(m, SHAPES[1].x[n][0], SHAPES[1].x[n][1], NULL), m);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL), m);
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, 3, BBM_X, 0, 0), m);
+    ck_ok(bbm_add_varying_line_load(m, ends[0], ends[1], rising_load, scale), m);
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    total_load(m, 0, total);
+    for (int g = 0; g < 3; g++) {
+        const double x = a[0] + (b[0] - a[0]) * g / 2, y = a[1] + (b[1] - a[1]) * g / 2;
+        double f[2];
+        rising_load(x, y, scale, f);
+        const double wl = weight[g] * hypot(b[0] - a[0], b[1] - a[1]);
+        expected[0] += wl * f[0];
+        expected[1] += wl * f[1];
+        expected[2] += wl * (x * f[1] - y * f[0]);
+    }
+    for (int r = 0; r < 3; r++)
+        ck_near(total[r], expected[r], 50, ROUNDING);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(loads_of_one_node_and_of_one_edge_add_up)
+{
+    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = 1 };
+    bbm_model *m = cantilever(&SOLID, &g, 0, 0);
+    double total[3] = { 0 };
+
+    ck_ok(bbm_add_load(m, node_at(&g, 1, 1), 2, -1), m);  /* at (1, 1), where triangles meet */
+    ck_ok(bbm_add_load(m, node_at(&g, 1, 1), 3, 5), m);
+    /* middle (3, 1.5), length 1 */
+    ck_ok(bbm_add_line_load(m, node_at(&g, 3, 1), node_at(&g, 3, 2), 1, 0.5), m);
+    ck_ok(bbm_add_line_load(m, node_at(&g, 3, 2), node_at(&g, 3, 1), 2, 0.25), m);
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    for (int e = 0; e < m->elements; e++)
+        total_load(m, e, total);
+    ck_relative(total[0], 5 + 3, ROUNDING);
+    ck_relative(total[1], 4 + 0.75, ROUNDING);
+    ck_relative(total[2], (4 - 5) + (3 * 0.75 - 1.5 * 3), ROUNDING);
+    const int n = node_at(&g, 1, 1), meeting = m->adjacent_first[n + 1] - m->adjacent_first[n];
+    for (int v = 0; v < m->vertices; v++)
+        if (m->vertex[v].node == n)
+            ck_relative(m->F[6 * m->vertex[v].element], 5.0 / meeting, ROUNDING);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(gravity_pulls_at_the_mass_of_each_element)
+{
+    grid g = { .lx = 2, .ly = 1.5, .nx = 2, .ny = 2, .jitter = 0.2 };
+    bbm_model *m = cantilever(&SOLID, &g, 0, 0);
+
+    m->par.gravity[0] = 3;
+    m->par.gravity[1] = -9;
+    ck_ok(bbm_step(m), m);
+    for (int e = 0; e < m->elements; e++) {
+        const double mass = SOLID.density * SOLID.thickness * m->element[e].A0;
+        ck_relative(m->F[6 * e], mass * m->par.gravity[0], ROUNDING);
+        ck_relative(m->F[6 * e + 1], mass * m->par.gravity[1], ROUNDING);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ----------------------------------------------------------- the constant-strain finite element */
+
+/* Largest difference of the bonded triangles' displacements from the finite element's, against its
+ * largest. */
+static double distance_from_finite_element(double alpha)
+{
+    grid g = { .lx = 4, .ly = 2, .nx = 6, .ny = 3, .triangles = 1, .jitter = 0.25 };
+    bbm_model *m = cantilever(&SOLID, &g, 1, -1);
+    double *u = finite_element(m), size = 0, error = 0;
+
+    m->par.alpha = alpha;
+    ck_ok(bbm_step(m), m);
+    for (int n = 0; n < m->nodes; n++) {
+        const bbm_result r = result_at(m, n);
+        size = fmax(size, hypot(u[2 * n], u[2 * n + 1]));
+        error = fmax(error, hypot(r.u - u[2 * n], r.v - u[2 * n + 1]));
+    }
+    free(u);
+    bbm_model_free(m);
+    return error / size;
+}
+
+/* The springs' compliance is a little over 2/alpha; the next term, of 1/alpha^2, is 0.2 % of it at
+ * 1e3. At 1e7 the rounding of K D, 2e-16 alpha times the condition of the finite element (some 50),
+ * is half of what is left. */
+START_TEST(bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha)
+{
+    const double e3 = distance_from_finite_element(1e3), e5 = distance_from_finite_element(1e5);
+
+    ck_assert(e3 < 0.003);
+    ck_relative(e3 / e5, 100, 0.005);
+    ck_assert(distance_from_finite_element(1e7) < 5e-7);
+}
+END_TEST
+
+Suite *elastic_suite(void)
+{
+    Suite *s = suite_create("elastic");
+    const loop_test K[] = {
+        { K_is_symmetric_and_positive_definite_when_the_body_is_held, 2 },
+        { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 },
+        { a_rigid_motion_of_bonded_elements_costs_nothing, 2 },
+    };
+    const loop_test patches[] = {
+        { a_strip_under_uniform_traction_has_that_stress_in_every_element, COUNT(STRESSES) },
+        { an_irregular_patch_under_uniform_traction_has_that_stress_in_every_element,
+          COUNT(STRESSES) },
+        { a_body_under_pressure_all_round_has_that_stress, COUNT(SHAPES) },
+        { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 },
+    };
+    const loop_test bars[] = {
+        { a_bonded_bar_stretches_by_its_strain_and_its_springs, 1 },
+        { a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_parts, 1 },
+        { displacements_fall_as_one_over_the_thickness, 1 },
+        { a_displaced_wall_takes_the_body_along, 1 },
+        { a_node_may_be_held_in_x_and_y_by_separate_calls, 1 },
+    };
+    const loop_test loads[] = {
+        { a_load_that_varies_is_asked_for_at_the_gauss_points_alone, 1 },
+        { a_load_that_varies_reaches_the_element_whichever_end_is_named_first, 2 },
+        { loads_of_one_node_and_of_one_edge_add_up, 1 },
+        { gravity_pulls_at_the_mass_of_each_element, 1 },
+    };
+    const loop_test finite_element[] = {
+        { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 },
+    };
+
+    add_case(s, "K", K, COUNT(K));
+    add_case(s, "patches", patches, COUNT(patches));
+    add_case(s, "bars", bars, COUNT(bars));
+    add_case(s, "loads", loads, COUNT(loads));
+    add_case(s, "finite element", finite_element, COUNT(finite_element));
+    return s;
+}

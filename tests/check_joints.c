@@ -1,0 +1,246 @@
+/* check_joints.c - joints: cohesion and tensile strength where blocks touch from the start. */
+#include "check.h"
+#include "models.h"
+
+/* --------------------------------------------------------------------------------------- joints */
+
+/* A block that comes fast to the end of the table, level with its top: on the line, but not on the
+ * edge. Or to its top from above. Both are in reach of the step, and neither is part of a joint. */
+START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.cohesion = 1e4;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? 0 : 5.125, .y = _i ? 0.125 : 0,
+                                           .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, _i ? 0 : -15, _i ? -15 : 0);
+    detect(m);
+    ck_assert_int_ge(m->contacts, 1);
+    for (int k = 0; k < m->contacts; k++)
+        ck_assert(!m->contact[k].whole && m->contact[k].area == 0 &&
+                  m->contact[k].state == BBM_OPEN);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Unit squares one above the other, or the upper one shifted so that just its corner is past the
+ * end of the lower side: a millionth of the mean edge is still closed, and still on the edge, and
+ * more is not. */
+START_TEST(a_joint_may_gape_by_a_millionth_of_an_edge)
+{
+    for (int k = 0; k < 2; k++) {
+        const double small = _i ? (k ? 1.001e-6 : 0.999e-6) : k ? nextafter(1e-6, 1) : 1e-6;
+        bbm_model *m = new_blocks();
+        m->par.tension = 1;
+        add_rectangle(m, 0, ROCK, (rectangle){ .x = _i ? -1 : 0, .y = -1, .w = 1, .h = 1 });
+        add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? small : 0, .y = _i ? 0 : small,
+                                               .w = 1, .h = 1 });
+        ck_ok(bbm_prepare(m), m);
+        set_velocity(m, 1, 1, 0);
+        detect(m);
+        ck_assert_int_ge(m->contacts, 1);
+        int off = 0;
+        for (int c = 0; c < m->contacts; c++) {
+            ck_assert(_i || m->contact[c].whole == (k == 0));
+            off |= m->contact[c].off;
+        }
+        ck_assert_int_eq(off, _i && k);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* A block 2 m x 1 m on a table, a joint since the start, without gravity: friction 30 degrees, 5
+ * kPa of cohesion, 3 kPa of tensile strength. `fx` on its lower corners together, `fy` on the upper
+ * ones. */
+static bbm_model *joined(double fx, double fy)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.gravity[1] = 0;
+    m->par.friction = 30;
+    m->par.cohesion = 5000;
+    m->par.tension = 3000;
+    m->par.velocity_factor = 0;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 2, .h = 1 });
+    for (int c = 0; c < 2; c++)  /* the shear acts at the joint, the pull at the top */
+        ck_ok(bbm_add_load(m, vertex_of(m, 1, c)->node, fx / 2, 0), m);
+    for (int c = 2; c < 4; c++)
+        ck_ok(bbm_add_load(m, vertex_of(m, 1, c)->node, 0, fy / 2), m);
+    ck_ok(bbm_prepare(m), m);
+    return m;
+}
+
+/* Blocks that touch when some time has gone have no joint, though the first step is still under
+ * way. */
+START_TEST(a_joint_is_there_at_the_start_or_never)
+{
+    bbm_model *m = joined(0, 0);
+
+    m->info.t = _i ? 1e-3 : 0;
+    detect(m);
+    ck_assert_int_eq(m->contacts, 2);
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(m->contact[k].whole, !_i);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(a_joint_breaks_at_its_tensile_strength)
+{
+    bbm_model *m = joined(0, (_i ? 1.01 : 0.99) * 3000 * 2);
+
+    run_steps(m, 50);
+    ck_assert_int_eq(m->info.contacts, _i ? 0 : 2);
+    if (_i)
+        ck_assert(m->element[1].sum[1] > 1e-3);
+    else
+        ck_relative(normal_force(m, 0, 1), -0.99 * 6000, 1e-5);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Without friction and cohesion it slides all the time, and holds until it is pulled off. */
+START_TEST(a_joint_without_shear_strength_has_its_tensile_strength)
+{
+    bbm_model *m = joined(0, (_i ? 1.01 : 0.99) * 3000 * 2);
+
+    m->par.friction = m->par.cohesion = 0;
+    run_steps(m, 50);
+    ck_assert_int_eq(m->info.contacts, _i ? 0 : 2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* c l + N tan(phi): with a thrust of 10 kN, and with a pull of 4 kN; the joint that holds is at
+ * rest. */
+START_TEST(a_joint_slips_at_its_cohesion_and_friction)
+{
+    const double N = _i % 2 ? -4000 : 10000, bound = 5000 * 2 + N * tan(PI / 6);
+    bbm_model *m = joined((_i / 2 ? 1.01 : 0.99) * bound, -N);
+
+    run_steps(m, 60);
+    if (_i / 2) {
+        ck_assert(m->element[1].sum[0] > 1e-4);
+    } else {
+        ck_assert(contact_of(m, 1, 0) && contact_of(m, 1, 0)->state == BBM_LOCK);
+        /* the block's own shear */
+        ck_near(m->element[1].sum[0], 0.99 * bound / (2 * m->par.p_s), 1e-5, 0.1);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Sheared off under a thrust of 1 kN. Then a push above the friction, though below the cohesion,
+ * moves it on, and a pull of a hundredth of the strength lifts it. */
+START_TEST(a_joint_that_broke_has_no_strength_left)
+{
+    const double bound = 10000 + 1000 * tan(PI / 6);
+    bbm_model *m = joined(1.05 * bound, -1000);
+
+    run_steps(m, 40);
+    ck_assert(m->element[1].sum[0] > 1e-4);
+    for (int k = 0; k < m->contacts; k++)
+        ck_assert(!m->contact[k].whole);
+    for (int c = 0; c < 2; c++)
+        ck_ok(bbm_add_load(m, vertex_of(m, 1, c)->node, 500 - 1.05 * bound / 2, 0), m);
+    const double here = m->element[1].sum[0];
+    run_steps(m, 20);
+    ck_assert(m->element[1].sum[0] > here + 1e-4);
+    for (int c = 0; c < 4; c++)
+        ck_ok(bbm_add_load(m, vertex_of(m, 1, c)->node, c < 2 ? -500 : 0, c < 2 ? 0 : 530), m);
+    run_steps(m, 20);
+    ck_assert_int_eq(m->info.contacts, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* The sides of the seats above, in pieces, and a table of half the thickness: what cohesion and
+ * tension act on is the overlap, shared out among the contacts so that each has half the way to the
+ * next. At sizes that differ by 2000, as given and shifted by what a model file rounds. */
+static const int PIECES[][2] = { { 1, 1 }, { 4, 1 }, { 1, 3 }, { 4, 3 }, { 2, 2 },
+                                 { 4, 2 }, { 4, 8 } };
+
+static double joint_area(double size, double x, double w, const int pieces[2])
+{
+    const bbm_material thin = { 1e10, 0.25, 2500, 0.5 };
+    bbm_model *m = new_blocks();
+    double sum = 0;
+    int material;
+
+    ck_ok(bbm_add_material(m, &thin, &material), m);
+    m->par.tension = 1;
+    add_rectangle(m, 0, material, (rectangle){ .x = 0, .y = -size, .w = size, .h = size,
+                                               .nx = pieces[0] });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = x, .y = 0, .w = w, .h = size, .nx = pieces[1] });
+    ck_ok(bbm_prepare(m), m);
+    detect(m);
+    for (int k = 0; k < m->contacts; k++) {
+        ck_assert(m->contact[k].area == 0 || m->contact[k].state == BBM_LOCK);
+        sum += m->contact[k].area;
+    }
+    bbm_model_free(m);
+    return sum;
+}
+
+START_TEST(the_areas_of_a_joints_contacts_add_up_to_its_own)
+{
+    const int *pieces = PIECES[_i / COUNT(SEATS)];
+    const double sizes[] = { 1, 40, 0.02 };
+
+    for (int k = 0; k < 9; k++) {
+        const double size = sizes[k / 3], shift = 1e-7 * (k % 3 - 1);
+        const double x = SEATS[_i % COUNT(SEATS)].x + shift, w = SEATS[_i % COUNT(SEATS)].w;
+        const double overlap = fmin(1, x + w) - fmax(0, x);
+        ck_relative(joint_area(size, size * x, size * w, pieces), overlap * size * 0.5,
+                    shift == 0 ? SOLVED : 1e-6);
+    }
+}
+END_TEST
+
+/* The block is laid down on the table, from 1 mm above; it can then be lifted by next to
+ * nothing. */
+START_TEST(blocks_that_come_to_touch_have_no_tensile_strength)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.gravity[1] = 0;
+    m->par.friction = 30;
+    m->par.tension = 3000;
+    m->par.velocity_factor = 0;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 1e-3, .w = 2, .h = 1 });
+    ck_ok(bbm_add_load(m, vertex_of(m, 1, 2)->node, 0, -3000), m);
+    ck_ok(bbm_add_load(m, vertex_of(m, 1, 3)->node, 0, -3000), m);
+    ck_ok(bbm_prepare(m), m);
+    run_steps(m, 60);
+    ck_assert_int_eq(m->info.contacts, 2);
+    ck_ok(bbm_add_load(m, vertex_of(m, 1, 2)->node, 0, 3005), m);
+    ck_ok(bbm_add_load(m, vertex_of(m, 1, 3)->node, 0, 3005), m);
+    run_steps(m, 20);
+    ck_assert_int_eq(m->info.contacts, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+Suite *joints_suite(void)
+{
+    Suite *s = suite_create("joints");
+    const loop_test e[] = {
+        { a_joint_is_where_a_corner_lies_on_an_edge, 2 },
+        { a_joint_may_gape_by_a_millionth_of_an_edge, 2 },
+        { a_joint_is_there_at_the_start_or_never, 2 },
+        { a_joint_breaks_at_its_tensile_strength, 2 },
+        { a_joint_without_shear_strength_has_its_tensile_strength, 2 },
+        { a_joint_slips_at_its_cohesion_and_friction, 4 },
+        { a_joint_that_broke_has_no_strength_left, 1 },
+        { the_areas_of_a_joints_contacts_add_up_to_its_own, COUNT(PIECES) * COUNT(SEATS) },
+        { blocks_that_come_to_touch_have_no_tensile_strength, 1 },
+    };
+
+    add_case(s, "joints", e, COUNT(e));
+    return s;
+}

@@ -1,0 +1,376 @@
+/* check_repeat.c - steps with contacts that are done again, that fail, that repeat to the last
+ * bit. */
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "check.h"
+#include "models.h"
+
+/* --------------------------------------------------------- steps that are done again, that fail */
+
+/* Steps far too long make the iteration fail now and then. Then the step is done in parts; when
+ * those are two halves, the result must be that of a model that takes two half steps and has never
+ * tried the long one. */
+START_TEST(a_step_done_again_in_halves_is_the_two_half_steps_to_the_last_bit)
+{
+    int halves = 0;
+
+    for (unsigned seed = 1; seed < 20 && halves < 2; seed++) {
+        bbm_model *m = pile(seed, 0), *n = pile(seed, 0);
+        m->info.cuts = 0;
+        for (int i = 0; i < 20 && m->info.cuts < 2; i++) {
+            m->par.dt = n->par.dt = 0.1;
+            ck_ok(bbm_step(m), m);
+            n->par.dt /= 1 + m->info.cuts;
+            for (int k = 0; k <= m->info.cuts && m->info.cuts < 2; k++) {
+                ck_ok(bbm_step(n), n);
+                ck_assert_int_eq(n->info.cuts, 0);
+            }
+            ck_assert(m->info.cuts > 1 || same_state(m, n));
+            ck_near(m->info.t, 0.1 * m->info.step, 1, ROUNDING);
+            halves += m->info.cuts == 1;
+        }
+        bbm_model_free(m);
+        bbm_model_free(n);
+    }
+    ck_assert(halves >= 2);
+}
+END_TEST
+
+/* The solver is given too few iterations at each step of a pile that has come to rest; then the run
+ * goes on as if nothing had been. */
+START_TEST(a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were)
+{
+    bbm_model *m = pile(4, 0), *n = pile(4, 0);
+    const int iterations = m->par.pcg.iterations;
+
+    settle(m, 200);
+    settle(n, 200);
+    ck_assert_int_gt(m->info.contacts, 4);
+    for (int i = 0; i < 10; i++) {
+        m->par.pcg.iterations = 1;
+        ck_assert_int_eq(bbm_step(m), BBM_NOT_CONVERGED);
+        ck_assert(same_state(m, n));
+        m->par.pcg.iterations = iterations;
+        ck_ok(bbm_step(m), m);
+        ck_ok(bbm_step(n), n);
+        ck_assert(same_state(m, n));
+    }
+    bbm_model_free(m);
+    bbm_model_free(n);
+}
+END_TEST
+
+#define PARAMETER(name, value) { offsetof(bbm_parameters, name), value, #name }
+
+static const struct { size_t offset; double value; const char *name; } PARAMETERS[] = {
+    PARAMETER(p_n, 0), PARAMETER(p_n, -1), PARAMETER(p_n, NAN), PARAMETER(p_n, INFINITY),
+    PARAMETER(p_s, 0), PARAMETER(p_s, -1), PARAMETER(p_s, NAN), PARAMETER(p_s, INFINITY),
+    PARAMETER(friction, -1e-9), PARAMETER(friction, 90), PARAMETER(friction, NAN),
+    PARAMETER(friction, INFINITY),
+    PARAMETER(cohesion, -1e-9), PARAMETER(cohesion, NAN), PARAMETER(cohesion, INFINITY),
+    PARAMETER(tension, -1e-9), PARAMETER(tension, NAN), PARAMETER(tension, INFINITY),
+};
+
+START_TEST(contact_parameters_outside_their_range_are_refused_by_name)
+{
+    bbm_model *m = pile(1, 0);
+    char named[60];
+
+    snprintf(named, sizeof named, "%s = %g", PARAMETERS[_i].name, PARAMETERS[_i].value);
+    memcpy((char *)&m->par + PARAMETERS[_i].offset, &PARAMETERS[_i].value, sizeof(double));
+    ck_assert_int_eq(bbm_step(m), BBM_BAD_PARAMETER);
+    ck_assert_msg(strstr(bbm_message(m), named) != NULL, "%s", bbm_message(m));
+    ck_assert_int_eq(m->info.step, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+START_TEST(contact_parameters_at_the_ends_of_their_range_are_taken)
+{
+    bbm_model *m = pile(1, 0);
+
+    m->par.friction = m->par.cohesion = m->par.tension = 0;
+    m->par.p_n = m->par.p_s = 1e-3;
+    ck_ok(bbm_step(m), m);
+    m->par.friction = 89.9;
+    ck_ok(bbm_step(m), m);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ---------------------------------------------------------------------------- steps that repeat */
+
+START_TEST(a_pile_falls_the_same_way_twice_to_the_last_bit)
+{
+    bbm_model *m = pile(2, 0), *n = pile(2, 0);
+    int hits = 0;
+
+    for (int i = 0; i < 60; i++) {
+        run_steps(m, 1);
+        run_steps(n, 1);
+        ck_assert(same_state(m, n));
+        hits += m->info.contacts;
+    }
+    ck_assert_int_gt(hits, 60);
+    bbm_model_free(m);
+    bbm_model_free(n);
+}
+END_TEST
+
+/* In reversed order: the same but for rounding and the solver's tolerance, which hits enlarge. */
+START_TEST(a_pile_falls_the_same_way_whichever_block_comes_first)
+{
+    bbm_model *m = pile(2, 0), *n = pile(2, 1);
+    int hits = 0;
+
+    for (int i = 0; i < 45; i++) {
+        run_steps(m, 1);
+        run_steps(n, 1);
+        for (int b = 0; b < PILE; b++)
+            for (int a = 0; a < 2; a++)
+                ck_near(m->element[b + 1].sum[a], n->element[PILE - 1 - b].sum[a], 1, 1e-6);
+        ck_assert_int_eq(m->info.contacts, n->info.contacts);
+        hits += m->info.contacts;
+    }
+    ck_assert_int_gt(hits, 40);
+    bbm_model_free(m);
+    bbm_model_free(n);
+}
+END_TEST
+
+/* Puts a model back to where another one stands; its scratch memory stays as it is. */
+static void put_back(bbm_model *m, const bbm_model *start)
+{
+    memcpy(m->vertex, start->vertex, (size_t)m->vertices * sizeof *m->vertex);
+    memcpy(m->element, start->element, (size_t)m->elements * sizeof *m->element);
+    m->info = start->info;
+}
+
+/* One model has fallen before, and its pile is lifted again; a step in the air ends its contacts.
+ * From there both fall. */
+START_TEST(a_step_depends_on_the_state_and_not_on_what_is_left_in_memory)
+{
+    bbm_model *used = pile(2, 0), *fresh = pile(2, 0), *start = pile(2, 0);
+    int hits = 0;
+
+    for (int b = 0; b < PILE; b++) {
+        const int e = b + 1;
+        for (int v = start->element[e].first;
+             v < start->element[e].first + start->element[e].n; v++) {
+            start->vertex[v].x += 0.5 * start->element[e].x;
+            start->vertex[v].u += 0.5 * start->element[e].x;
+            start->vertex[v].y += 0.5 * start->element[e].y + 0.1;
+            start->vertex[v].v += 0.5 * start->element[e].y + 0.1;
+        }
+        set_velocity(start, e, -2 * start->element[e].x, -3 * start->element[e].y);
+    }
+    run_steps(used, 60);
+    put_back(used, start);
+    put_back(fresh, start);
+    run_steps(used, 2);
+    run_steps(fresh, 2);
+    ck_assert_int_eq(used->contacts, 0);
+    for (int i = 0; i < 60; i++) {
+        run_steps(used, 1);
+        run_steps(fresh, 1);
+        ck_assert(same_state(used, fresh));
+        hits += used->info.contacts;
+    }
+    ck_assert_int_gt(hits, 60);
+    bbm_model_free(used);
+    bbm_model_free(fresh);
+    bbm_model_free(start);
+}
+END_TEST
+
+/* Each call that fails leaves a model that is good for another try: only the step is lost. All
+ * calls from the k-th on fail, or that one alone. */
+START_TEST(whichever_allocation_fails_contacts_leave_the_model_fit_to_go_on)
+{
+    bbm_model *reference = pile(5, 0);
+    bbm_status status = BBM_NO_MEMORY;
+    int k = 0;
+
+    ck_ok(fall(reference), reference);
+    for (; status != BBM_OK; k += k < 60 ? 1 : 7) {
+        bbm_model *m = pile(5, 0);
+        test_allocations_left = _i ? -k - 1 : k;
+        status = fall(m);
+        test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
+        ck_assert(status == BBM_NO_MEMORY || status == BBM_OK);
+        if (status && m->info.step == 0)
+            ck_ok(bbm_prepare(m), m);
+        while (m->info.step < 40)
+            ck_ok(bbm_step(m), m);
+        ck_assert(same_state(m, reference));
+        bbm_model_free(m);
+    }
+    ck_assert(k > 60);
+    bbm_model_free(reference);
+}
+END_TEST
+
+START_TEST(preparing_again_forgets_the_contacts)
+{
+    bbm_model *m = pile(3, 0);
+
+    run_steps(m, 50);
+    ck_assert(m->contacts > 0);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(m->contacts, 0);
+    run_steps(m, 1);
+    ck_assert(m->info.contacts > 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block that has sunk into a table is prepared again, and is held: deeper by as much again,
+ * since what closes inside starts without force; it does not fall through. */
+START_TEST(blocks_prepared_again_in_a_run_keep_holding_each_other)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.p_n = 1e7;
+    m->par.p_s = 4e6;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    settle(m, 60);
+    const double deep = DENSITY * GRAVITY / 2 / m->par.p_n;
+    ck_near(m->info.penetration, deep, deep, 1e-3);
+    ck_ok(bbm_prepare(m), m);
+    settle(m, 60);
+    ck_assert_int_eq(m->info.contacts, 2);
+    ck_near(m->info.penetration, 2 * deep, deep, 1e-2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ----------------------------------------------------------------------------- units of measure */
+
+/* Units of length, mass and time as powers of two, so that no number loses a bit. */
+static const struct { int length, mass, time; } UNITS[] = { { -20, 0, 0 }, { 20, 30, -12 } };
+
+/* The same model, built in other units. */
+static bbm_model *in_units(const bbm_model *m, double L, double M, double T)
+{
+    const double force = M * L / (T * T), pressure = force / (L * L);
+    bbm_model *n = new_blocks();
+
+    n->par = m->par;
+    n->par.dt *= T;
+    n->par.gravity[0] *= L / (T * T);
+    n->par.gravity[1] *= L / (T * T);
+    n->par.p_n *= force / L;
+    n->par.p_s *= force / L;
+    n->par.cohesion *= pressure;
+    n->par.tension *= pressure;
+    for (int i = 0; i < m->nodes; i++) {
+        ck_ok(bbm_add_node(n, m->node[i].x * L, m->node[i].y * L, NULL), n);
+        if (m->node[i].held)
+            ck_ok(bbm_fix_node(n, i, m->node[i].held, 0, 0), n);
+    }
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        const bbm_material *r = &e->material;
+        const bbm_material rock = { r->E * pressure, r->nu, r->density * M / (L * L * L),
+                                    r->thickness * L };
+        int node[12], material;
+        for (int k = 0; k < e->n; k++)
+            node[k] = m->vertex[e->first + k].node;
+        ck_ok(bbm_add_material(n, &rock, &material), n);
+        ck_ok(bbm_add_element(n, e->block, material, e->n, node, NULL), n);
+    }
+    ck_ok(bbm_prepare(n), n);
+    return n;
+}
+
+static void check_units(const bbm_model *m, const bbm_model *n, double L, double M, double T)
+{
+    const double force = M * L / (T * T);
+
+    ck_assert_int_eq(m->info.passes, n->info.passes);
+    ck_assert_int_eq(m->contacts, n->contacts);
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k], *d = &n->contact[k];
+        ck_assert(c->corner == d->corner && c->edge == d->edge && c->state == d->state &&
+                  c->sign == d->sign);
+        ck_assert(c->whole == d->whole && c->off == d->off && c->rival[0] == d->rival[0] &&
+                  c->rival[1] == d->rival[1]);
+        ck_assert(c->anchor == d->anchor && c->d_n * L == d->d_n && c->area * L * L == d->area);
+        ck_assert(c->N * force == d->N && c->T * force == d->T);
+    }
+    for (int v = 0; v < m->vertices; v++)
+        ck_assert(m->vertex[v].x * L == n->vertex[v].x && m->vertex[v].y * L == n->vertex[v].y);
+}
+
+/* A pile thrown about; a bonded wall with joints on a floor, some of whose bricks are shot. */
+static bbm_model *lively(int bonded)
+{
+    const int order[16] = { 3, 2, 1, 0, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+    bbm_model *m = bonded ? wall(order, 0) : pile(3, 0);
+
+    if (bonded)
+        add_rectangle(m, 16, BASE, (rectangle){ .x = -1, .y = -1, .w = 7, .h = 1, .nx = 3,
+                                                .fixed = 1 });
+    m->par.friction = 25;
+    m->par.cohesion = m->par.tension = bonded ? 2e3 : 0;
+    return m;
+}
+
+START_TEST(the_result_does_not_depend_on_the_units_to_the_last_bit)
+{
+    const double L = ldexp(1, UNITS[_i / 2].length), M = ldexp(1, UNITS[_i / 2].mass);
+    const double T = ldexp(1, UNITS[_i / 2].time);
+    bbm_model *m = lively(_i % 2), *n = in_units(m, L, M, T);
+    int hits = 0;
+
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < m->elements; e++) {
+        const int b = m->element[e].block % 5;
+        const int still = b > 2 || m->node[m->vertex[m->element[e].first].node].held;
+        set_velocity(m, e, still ? 0 : b - 1, still ? 0 : -2);
+        set_velocity(n, e, m->element[e].V[0] * L / T, m->element[e].V[1] * L / T);
+        m->element[e].V[2] = still ? 0 : 6;
+        n->element[e].V[2] = m->element[e].V[2] / T;
+    }
+    for (int i = 0; i < (_i % 2 ? 2 : 60); i++) {
+        run_steps(m, 1);
+        run_steps(n, 1);
+        check_units(m, n, L, M, T);
+        hits += m->info.contacts;
+    }
+    ck_assert_int_gt(hits, 50);
+    bbm_model_free(m);
+    bbm_model_free(n);
+}
+END_TEST
+
+Suite *repeat_suite(void)
+{
+    Suite *s = suite_create("repeat");
+    const loop_test again[] = {
+        { a_step_done_again_in_halves_is_the_two_half_steps_to_the_last_bit, 1 },
+        { a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were, 1 },
+        { contact_parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
+        { contact_parameters_at_the_ends_of_their_range_are_taken, 1 },
+    };
+    const loop_test repeat[] = {
+        { a_pile_falls_the_same_way_twice_to_the_last_bit, 1 },
+        { a_pile_falls_the_same_way_whichever_block_comes_first, 1 },
+        { a_step_depends_on_the_state_and_not_on_what_is_left_in_memory, 1 },
+        { whichever_allocation_fails_contacts_leave_the_model_fit_to_go_on, 2 },
+        { preparing_again_forgets_the_contacts, 1 },
+        { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 },
+    };
+    const loop_test units[] = {
+        { the_result_does_not_depend_on_the_units_to_the_last_bit, 2 * COUNT(UNITS) },
+    };
+
+    add_case(s, "again", again, COUNT(again));
+    add_case(s, "repeat", repeat, COUNT(repeat));
+    add_case(s, "units", units, COUNT(units));
+    return s;
+}

@@ -1,0 +1,400 @@
+/* check_sliding.c - section 3.8: friction against closed forms, and how contacts go along where
+ * blocks slide. */
+#include "check.h"
+#include "models.h"
+
+/* ------------------------------------------------------------------------------------- friction */
+
+static const struct { double phi, tolerance; } SLIDING[] = {
+    { 0, 1e-9 }, { 10, 1e-5 }, { 20, 1e-5 }, { 25, 1e-5 }, { 29, 1e-4 },
+};
+
+/* s = g (sin a - cos a tan phi) t^2/2. Gravity comes suddenly: while the block sinks into its
+ * springs it feels less friction, and is ahead by tan(phi) times the penetration, 5.3e-6 m:
+ * 5e-6 of the way at 25 degrees. At 29 degrees the way is a tenth of that, and the block sticks
+ * at first. */
+START_TEST(a_block_slides_down_an_incline_as_the_closed_form_says)
+{
+    const double phi = SLIDING[_i / 2].phi;
+    const double g = GRAVITY * (sin(PI / 6) - cos(PI / 6) * tan(radians(phi)));
+    const int pieces = _i % 2 ? 13 : 1;
+    bbm_model *m = incline(phi, 1e9, pieces);
+
+    run_steps(m, 100);
+    ck_relative(slid(m, pieces), g / 2, SLIDING[_i / 2].tolerance);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* v0 t + (sin a - cos a tan phi) g t^2/2. */
+START_TEST(a_block_that_slides_from_the_start_keeps_the_initial_velocity)
+{
+    const double v0 = 1, phi = 20, g = GRAVITY * (sin(PI / 6) - cos(PI / 6) * tan(radians(phi)));
+    bbm_model *m = incline(phi, 1e9, 5);
+
+    set_velocity(m, 5, -v0 * cos(PI / 6), -v0 * sin(PI / 6));
+    run_steps(m, 100);
+    ck_relative(slid(m, 5), v0 + g / 2, 1e-5);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Uphill it stops after v0^2/(2 g (cos a tan phi + sin a)), and stays: the shear force turns from
+ * friction down the slope to the weight's share up the slope. Stopping falls between two steps,
+ * which shifts the end by up to (dt g)^2/(2 g). */
+START_TEST(a_block_thrown_uphill_stops_where_it_should_and_stays_there)
+{
+    const double v0 = 2, phi = 40, g = GRAVITY * (cos(PI / 6) * tan(radians(phi)) + sin(PI / 6));
+    const double W = 0.5 * DENSITY * GRAVITY, way = v0 * v0 / (2 * g);
+    bbm_model *m = incline(phi, 1e9, 13);
+
+    set_velocity(m, 13, v0 * cos(PI / 6), v0 * sin(PI / 6));
+    run_steps(m, 40);
+    const double stop = slid(m, 13);
+    ck_near(-stop, way, 1, g * m->par.dt * m->par.dt / 2 + W / m->par.p_s);
+    run_steps(m, 40);
+    ck_near(slid(m, 13), stop, 1, 1e-5);
+    double T = 0;
+    for (int c = 0; c < 2; c++) {
+        const bbm_contact *k = contact_of(m, 13, c);
+        ck_assert(k && k->state == BBM_LOCK);
+        T += k->T;
+    }
+    ck_near(fabs(T), W * sin(PI / 6), W, 1e-3);                 /* the last of the swing dies out */
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Steeper than the incline, friction holds: the shear springs give way by W sin a/(2 p_s), and the
+ * block, 1 m x 0.5 m, tilts by what the normal springs give, which moves its middle by W sin a
+ * h^2/(2 b^2 p_n) more; its own shear strain, under a millionth of a metre, is left. With 31
+ * degrees on 30 it first slides by some of that, as gravity comes suddenly. */
+START_TEST(a_block_whose_friction_angle_is_above_the_slope_stays)
+{
+    const double W = 0.5 * DENSITY * GRAVITY;
+    const int pieces = _i % 2 ? 13 : 1;
+    bbm_model *m = incline(_i / 2 ? 40 : 31, 1e9, pieces);
+
+    run_steps(m, 100);
+    const double give = W * sin(PI / 6) * (1 / (2 * m->par.p_s) + 0.25 / (2 * m->par.p_n));
+    ck_near(slid(m, pieces), give, 1, _i / 2 ? 1e-6 : 1e-5);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Blocks of width 1 and height h on a slope: tan(delta) = 1/h; phi_c as in the literature on
+ * toppling [degree], 2 degrees to both sides of each border. */
+static const struct { double h, slope, phi; int slides, topples; } CHART[] = {
+    { 0.5, 33, 31, 1, 0 }, { 0.5, 33, 35, 0, 0 },                               /* delta = 63.4 */
+    { 2, 24.5, 22.5, 1, 0 }, { 2, 24.5, 26.5, 0, 0 }, { 2, 24.5, 45, 0, 0 },    /* delta = 26.6 */
+    { 2, 28.6, 24.5, 1, 0 }, { 2, 28.6, 60, 0, 1 },
+    /* phi_c = 31.3 */
+    { 2, 45, 24.5, 1, 0 }, { 2, 45, 28.6, 1, 1 }, { 2, 45, 29.3, 1, 1 }, { 2, 45, 33.3, 0, 1 },
+    { 3, 33, 16.4, 1, 0 }, { 3, 33, 20.4, 1, 1 },                               /* delta = 18.4 */
+};
+
+/* A block slides when its lower corner has moved by 1 mm in 0.5 s, and topples when it has turned
+ * by 1/1000. */
+START_TEST(a_block_on_a_slope_slides_or_topples_as_the_chart_says)
+{
+    const double slope = CHART[_i].slope;
+    double turned = 0;
+    bbm_model *m = new_blocks();
+
+    m->par.friction = CHART[_i].phi;
+    add_rectangle(m, 0, BASE, (rectangle){ -12, -1, 16, 1, slope, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, CHART[_i].h, slope, .fixed = 0 });
+    ck_ok(bbm_prepare(m), m);
+    for (int i = 0; i < 50; i++) {
+        run_steps(m, 1);
+        turned += m->element[1].D[2];
+    }
+    const bbm_vertex *foot = vertex_of(m, 1, 0);
+    ck_assert_int_eq(-cos(radians(slope)) * foot->u - sin(radians(slope)) * foot->v > 1e-3,
+                     CHART[_i].slides);
+    ck_assert_int_eq(turned > 1e-3, CHART[_i].topples);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* ---------------------------------------------------------------------- where contacts go along */
+
+/* On an incline of 20 pieces, after it has come to rest: the anchors stay in their places to the
+ * last bit, so that nothing creeps, and the block is in the same place after 200 more steps. */
+START_TEST(a_locked_contact_keeps_its_anchor)
+{
+    bbm_model *m = incline(40, 1e9, 20);
+    double anchor[2], here;
+
+    settle(m, 50);
+    here = slid(m, 20);
+    for (int c = 0; c < 2; c++)
+        anchor[c] = contact_of(m, 20, c)->anchor;
+    for (int i = 0; i < 200; i++) {
+        run_steps(m, 1);
+        for (int c = 0; c < 2; c++) {
+            ck_assert_int_eq(contact_of(m, 20, c)->state, BBM_LOCK);
+            ck_assert(contact_of(m, 20, c)->anchor == anchor[c]);
+        }
+    }
+    ck_near(slid(m, 20), here, 1, 1e-12);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* While it slides: the friction force of every contact is N tan(phi), and the anchor lies where its
+ * spring would carry that force, T = p_s (P1 - P0).m. */
+START_TEST(a_sliding_contact_takes_its_anchor_along)
+{
+    bbm_model *m = incline(20, 1e8, 1);
+    int seen = 0;
+
+    for (int i = 0; i < 30; i++) {
+        run_steps(m, 1);
+        for (int k = 0; k < m->contacts; k++) {
+            const bbm_contact *c = &m->contact[k];
+            const bbm_vertex *P1 = corner_vertex(m, c), *P2 = end_of(m, c->edge);
+            const bbm_vertex *P3 = start_of(m, c->edge);
+            const double x = P2->x - P3->x, y = P2->y - P3->y, l = hypot(x, y);
+            const double stretch = ((P3->x + c->anchor * x - P1->x) * x +
+                                    (P3->y + c->anchor * y - P1->y) * y) / l;
+            if (c->state != BBM_SLIDE)
+                continue;
+            seen++;
+            ck_near(c->T, c->sign * c->N * tan(radians(20)), DENSITY * GRAVITY, SOLVED);
+            ck_near(stretch * m->par.p_s, c->T, DENSITY * GRAVITY, 1e-6);
+        }
+    }
+    ck_assert(seen > 30);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block that comes slanting, without gravity: its corner crosses the table's top at (x, 0) of its
+ * straight way, in the course of a step. With rough and soft springs it locks there. */
+START_TEST(a_contact_is_anchored_where_it_hit)
+{
+    const double vx = _i ? 2 : -1, gap = 0.013;
+    int locked = 0;
+    bbm_model *m = new_blocks();
+
+    m->par.gravity[1] = 0;
+    m->par.friction = 89;
+    m->par.p_s = 1e3;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.5, .y = gap, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 1, vx, -1);
+    run_steps(m, 2);
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const bbm_vertex *P2 = end_of(m, c->edge), *P3 = start_of(m, c->edge);
+        const double start = corner_vertex(m, c) == vertex_of(m, 1, 0) ? -0.5 : 0.5;
+        ck_assert_int_eq(c->state, BBM_LOCK);
+        ck_near(P3->x + c->anchor * (P2->x - P3->x), start + vx * gap, 1, 1e-6);
+        locked++;
+    }
+    ck_assert_int_eq(locked, 2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Over thirteen pieces of one straight side the contacts carry the same forces as over one, step by
+ * step. The base itself gives way by some 1e-5 of what the block does, and not in the same way. */
+START_TEST(a_vertex_that_passes_from_edge_to_edge_keeps_its_forces)
+{
+    const double W = 0.5 * DENSITY * GRAVITY;
+    bbm_model *one = incline(20, 1e9, 1), *many = incline(20, 1e9, 13);
+    int passed = 0, edge = -1;
+
+    for (int i = 0; i < 100; i++) {
+        run_steps(one, 1);
+        run_steps(many, 1);
+        ck_assert_int_eq(one->info.contacts, many->info.contacts);
+        for (int c = 0; c < 2; c++) {
+            const bbm_contact *p = contact_of(one, 1, c), *q = contact_of(many, 13, c);
+            ck_assert(p && q);
+            ck_assert_int_eq(p->state, q->state);
+            ck_near(p->N, q->N, W, 1e-3);
+            ck_near(p->T, q->T, W, 1e-3);
+            passed += c == 0 && edge >= 0 && q->edge != edge;
+            edge = c == 0 ? q->edge : edge;
+        }
+    }
+    ck_assert(passed >= 1);
+    bbm_model_free(one);
+    bbm_model_free(many);
+}
+END_TEST
+
+/* A locked block is pulled along a table of four pieces by a force that grows, so that its soft
+ * shear springs carry its corners over the ends of the pieces. At rest the springs carry the load,
+ * on whichever edge. */
+START_TEST(a_locked_contact_passes_from_edge_to_edge_with_its_shear_force)
+{
+    const double sign = _i ? -1 : 1;
+    bbm_model *m = new_blocks();
+    int edges[2] = { -1, -1 }, passed = 0;
+
+    m->par.friction = 60;
+    m->par.p_s = 1e6;
+    add_rectangle(m, 0, BASE, (rectangle){ -2, -1, 4, 1, .nx = 4, .fixed = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.5 - sign * 0.5007, .w = 1,
+                                                         .h = 0.1 });
+    ck_ok(bbm_prepare(m), m);
+    settle(m, 5);
+    for (int i = 1; i <= 10; i++) {
+        ck_ok(bbm_add_load(m, vertex_of(m, e, 0)->node, sign * 300, 0), m);
+        settle(m, 40);
+        double T = 0;
+        for (int c = 0; c < 2; c++) {
+            const bbm_contact *k = contact_of(m, e, c);
+            ck_assert(k && k->state == BBM_LOCK);
+            T += k->T;
+            passed += edges[c] >= 0 && edges[c] != k->edge;
+            edges[c] = k->edge;
+        }
+        ck_near(fabs(T), 300 * i, 3000, 1e-6);
+        ck_near(normal_force(m, 0, 1), 0.1 * DENSITY * GRAVITY, DENSITY, 1e-6);
+        /* it stretches, too */
+        ck_near(m->element[e].sum[0], sign * 300 * i / (2 * m->par.p_s), 1e-3, 1e-2);
+    }
+    ck_assert_int_eq(passed, 2);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A block slides over the end of a table until friction stops it; then its corner is not on the
+ * table any more, and the table's corner bears in its place. Weight, friction and motion go on as
+ * before: s = v0 t - g tan(phi) t^2/2. The load moves from contact to contact, by W v0 dt/2 in a
+ * step, so that the springs swing by a thousandth of the weight. */
+START_TEST(a_block_that_slides_over_an_end_keeps_its_forces)
+{
+    const double W = 0.1 * DENSITY * GRAVITY, v0 = 1, mu = tan(radians(20)), sign = _i ? -1 : 1;
+    bbm_model *m = new_blocks();
+
+    m->par.friction = 20;
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .y = -1, .w = 2, .h = 1, .fixed = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.5 + sign * 0.45, .y = 0, .w = 1,
+                                                         .h = 0.1 });
+    ck_ok(bbm_prepare(m), m);
+    settle(m, 20);
+    const double start = m->element[e].sum[0];
+    set_velocity(m, e, sign * v0, 0);
+    for (int i = 1; i <= 25; i++) {
+        const double t = 0.01 * i;
+        double T = 0;
+        run_steps(m, 1);
+        ck_assert_int_eq(m->info.contacts, 2);
+        ck_near(normal_force(m, 0, 1), W, W, 5e-3);
+        for (int k = 0; k < m->contacts; k++)
+            T += m->contact[k].state == BBM_SLIDE ? fabs(m->contact[k].T) : INFINITY;
+        ck_near(T, normal_force(m, 0, 1) * mu, W, 1e-9);
+        ck_near(sign * (m->element[e].sum[0] - start), v0 * t - mu * GRAVITY * t * t / 2, 1, 1e-4);
+    }
+    ck_assert(contact_of(m, e, _i ? 0 : 1) == NULL);
+    run_steps(m, 30);
+    ck_near(sign * (m->element[e].sum[0] - start), v0 * v0 / (2 * mu * GRAVITY), 1, 5e-4);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A tip that slides on from one half of a table's top to the other one, which has come to lie
+ * higher: if its contact was closed it stays closed there, though deeper than others were; if it
+ * was open there is none. */
+START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
+{
+    const double at[2][2] = { { -1, 0 }, { -3, 0 } };
+    const int was_closed_here = _i == 0;
+    bbm_model *m = new_blocks();
+    int n;
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -5, .y = -1, .w = 10, .h = 1, .nx = 2 });
+    for (int k = 0; k < 2; k++)
+        add_wedge(m, 1, at[k], radians(60), radians(120));
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, 2, 1, 0);
+    start_step(m, &n);
+    bbm_contact *c = find_listed(m, 2 + !was_closed_here, 0, 0, 2);
+    c->state = BBM_LOCK;
+    c->d_n = -1e-4;
+    c->N = 1e-4 * m->par.p_n;
+    ck_ok(bbm_keep_contacts(m), m);
+    shift_element(m, 2, 1.5, -5e-4);
+    start_step(m, &n);
+    c = find_listed(m, 2, 0, 1, 2);
+    ck_assert_int_eq(c != NULL, was_closed_here);
+    ck_assert(!c || (c->state == BBM_LOCK && c->before));
+    if (c)
+        ck_near(c->rest, -5e-4 + 1e-4, 1e-4, ROUNDING);         /* so that it has its N */
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A contact that pushes although its vertex, at the start of the step, was neither above the edge
+ * nor outside it: past an end, and behind its line. x holds the vertices as they were. */
+static int pushes_beside_the_edge(const bbm_model *m, const bbm_contact *c, double x[][2])
+{
+    const double *P = x[m->edge[c->corner].a], *A = x[m->edge[c->edge].a];
+    const double *B = x[m->edge[c->edge].b];
+    const double t[2] = { B[0] - A[0], B[1] - A[1] }, l = hypot(t[0], t[1]);
+    const double s = ((P[0] - A[0]) * t[0] + (P[1] - A[1]) * t[1]) / l;
+    const double d = ((P[0] - A[0]) * t[1] - (P[1] - A[1]) * t[0]) / l;
+
+    return c->state != BBM_OPEN && (s < -1e-5 || s > l + 1e-5) && d < 1e-7;
+}
+
+/* Without friction, at 2 or 4 m/s, to the right or to the left. It tips over the corner; nothing
+ * holds it beyond. */
+START_TEST(a_block_that_slides_off_a_table_is_let_go)
+{
+    const double sign = _i % 2 ? -1 : 1, v0 = _i / 2 ? 4 : 2;
+    double x[8][2];
+    bbm_model *m = new_blocks();
+
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .y = -1, .w = 2, .h = 1, .fixed = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.4 + 0.5 * sign, .y = 0, .w = 0.8,
+                                                         .h = 0.4 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, e, sign * v0, 0);
+    for (int i = 0; i < 60; i++) {
+        for (int v = 0; v < 8; v++) {
+            x[v][0] = m->vertex[v].x;
+            x[v][1] = m->vertex[v].y;
+        }
+        run_steps(m, 1);
+        for (int k = 0; k < m->contacts; k++)
+            ck_assert(!pushes_beside_the_edge(m, &m->contact[k], x));
+    }
+    ck_assert(m->element[e].sum[1] < -0.2);
+    ck_assert_int_eq(m->contacts, 0);
+    bbm_model_free(m);
+}
+END_TEST
+
+Suite *sliding_suite(void)
+{
+    Suite *s = suite_create("sliding");
+    const loop_test friction[] = {
+        { a_block_slides_down_an_incline_as_the_closed_form_says, 2 * COUNT(SLIDING) },
+        { a_block_that_slides_from_the_start_keeps_the_initial_velocity, 1 },
+        { a_block_thrown_uphill_stops_where_it_should_and_stays_there, 1 },
+        { a_block_whose_friction_angle_is_above_the_slope_stays, 4 },
+        { a_block_on_a_slope_slides_or_topples_as_the_chart_says, COUNT(CHART) },
+    };
+    const loop_test anchors[] = {
+        { a_locked_contact_keeps_its_anchor, 1 },
+        { a_sliding_contact_takes_its_anchor_along, 1 },
+        { a_contact_is_anchored_where_it_hit, 2 },
+        { a_vertex_that_passes_from_edge_to_edge_keeps_its_forces, 1 },
+        { a_locked_contact_passes_from_edge_to_edge_with_its_shear_force, 2 },
+        { a_block_that_slides_over_an_end_keeps_its_forces, 2 },
+        { a_corner_that_slides_on_along_a_bent_side_keeps_its_contact, 2 },
+        { a_block_that_slides_off_a_table_is_let_go, 4 },
+    };
+
+    add_case(s, "friction", friction, COUNT(friction));
+    add_case(s, "anchors", anchors, COUNT(anchors));
+    return s;
+}
