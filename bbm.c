@@ -1036,7 +1036,7 @@ bbm_status bbm_model_new(bbm_model **out)
         return BBM_NO_MEMORY;
     m->par = (bbm_parameters){
         .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
-        .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000, .form = BBM_TWO_LEVEL },
+        .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 },
     };
     return BBM_OK;
 }
