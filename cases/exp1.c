@@ -71,7 +71,7 @@ static bbm_model *solve_beam(char variant, int k, double alpha, int augment)
     load(m, variant, g.first, g.first + g.nx, g.nx + 1, g.ny);
     m->par.alpha = alpha;
     m->beyond->multiplier_rounds = augment;
-    m->par.pcg.form = augment ? BBM_TWO_LEVEL : BBM_EISENSTAT;         /* the paper's unless beyond it */
+    m->par.pcg.method = augment ? &bbm_two_level : &bbm_eisenstat;         /* the paper's unless beyond it */
     if (variant == 'a')
         m->par.steps = 10, m->par.tolerance = 1e-8;
     case_must(m, bbm_prepare(m));

@@ -99,7 +99,7 @@ static bbm_model *solve_plate(const char *variant, int k, double alpha)
             bbm_add_line_load(m, a, b, t * S, 0);
     }
     m->par.alpha = alpha;
-    m->par.pcg.form = BBM_EISENSTAT;                        /* the paper's solver */
+    m->par.pcg.method = &bbm_eisenstat;                        /* the paper's solver */
     case_must(m, bbm_prepare(m));
     case_must(m, bbm_run(m));
     return m;

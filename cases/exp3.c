@@ -67,7 +67,7 @@ static bbm_model *make_model(const variant *v, int *first)
     m->par.gravity[1] = -v->gravity;
     m->par.alpha = 1000;
     m->beyond->bonding = BBM_VERTICES;                          /* the paper's bonds and solver */
-    m->par.pcg.form = BBM_EISENSTAT;
+    m->par.pcg.method = &bbm_eisenstat;
     m->beyond->multiplier_rounds = v->augment;                            /* beyond the paper: fixed points that do not give */
     m->par.faces = 1;
     m->par.p_n = 5e11;
