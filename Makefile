@@ -11,7 +11,7 @@ CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 LIBRARY  = bbm contact solver $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy mechanism multipliers overlap pieces refuse rotation statics
+BEYOND   = beyond bending coarse eisenstat energy mechanism multipliers overlap pieces refuse rotation statics sweep joints friction
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)

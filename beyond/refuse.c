@@ -1,19 +1,21 @@
 /* refuse.c - solutions that are none.
  *
- * A step of which the equations were not solved, whose elements go too far for what is linear in it, or
- * whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and the model
- * stays as it was.
+ * A step of which the equations were not solved, whose elements go too far for what is linear in
+ * it, or whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and
+ * the model stays as it was.
  */
 #include <math.h>
-#include <stddef.h>
+#include <stdlib.h>
 
 #include "beyond.h"
 
 /* UNSOLVED [-]    a residual |F - K D|/|F| above this is no solution, though the iteration ended:
  *                 stiffnesses too far apart for doubles
- * FAR_STRAIN [-]  what an element may strain in a step of dynamics; in a static step, which is linear
+ * FAR_STRAIN [-]  what an element may strain in a step of dynamics; in a static step, which is
+ * linear
  *                 elasticity for loads of any size, it is 1: the element has turned over
- * FAR_TURN [rad]  what a bonded element may turn in a step of dynamics: T of the middle of a step grows
+ * FAR_TURN [rad]  what a bonded element may turn in a step of dynamics: T of the middle of a step
+ * grows
  *                 without bound towards half a turn
  * DEEP [-]        depth of a contact against the size of its smaller block at which its springs do not
  *                 keep the blocks apart any more */
@@ -49,6 +51,36 @@ bbm_status bbm_check_solution(bbm_model *m)
                     "turns by %.2g rad; %s", m->info.step + 1, far, m->element[far].block, strain,
                     fabs(D[2]), bbm_is_static(m) ? "in statics smaller loads or a larger E help"
                                                  : "a smaller dt, velocity or load helps");
+}
+
+/* Measures the boundaries of the blocks of a prepared model. */
+bbm_status bbm_measure_blocks(bbm_model *m)
+{
+    free(m->beyond->girth);
+    m->beyond->girth = calloc((size_t)m->elements, sizeof *m->beyond->girth);
+    for (int e = 0; e < m->edges && m->beyond->girth; e++)
+        m->beyond->girth[m->edge[e].first] += m->edge[e].along.length;
+    return m->beyond->girth ? BBM_OK : BBM_NO_MEMORY;
+}
+
+/* The closed contact that is deepest against the size of its smaller block, a quarter of its
+ * boundary; returns that share, or 0 if none is closed. */
+double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
+{
+    const double *girth = m->beyond->girth;
+    int contacts;
+    const bbm_contact *c = bbm_list_contacts(m, &contacts);
+    double most = 0;
+
+    for (int k = 0; k < contacts; k++) {
+        const double i = girth[m->edge[c[k].corner].first], j = girth[m->edge[c[k].edge].first];
+        const double share = -c[k].d_n / (fmin(i, j) / 4);
+        if (c[k].state != BBM_OPEN && share > most) {
+            most = share;
+            *deepest = &c[k];
+        }
+    }
+    return most;
 }
 
 /* Whether the springs of all contacts keep their blocks apart. */

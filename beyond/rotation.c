@@ -81,15 +81,15 @@ void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
     at[1] = e->y + D[1] / 2 + Ym;
 }
 
-/* Takes the vectors of the step in the middle of D, [6 elements]; not exact: at its start. */
-void bbm_set_middle(bbm_model *m, const double D[])
+/* Takes the vectors of the step in the middle of D; not exact: at its start. */
+void bbm_set_middle(bbm_model *m)
 {
     const int exact = bbm_moves_exactly(m);
 
     for (int i = 0; i < m->elements; i++) {
         m->element[i].mode = exact ? bbm_middle_matrix : NULL;
         for (int a = 0; a < 6; a++)
-            m->element[i].mode_D[a] = exact ? D[6 * i + a] : 0;
+            m->element[i].mode_D[a] = exact ? m->D[6 * i + a] : 0;
     }
 }
 
@@ -120,7 +120,7 @@ static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2
     const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
     const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
     d[0] = (x * py - y * px) / l;
-    d[1] = c->share * ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
+    d[1] = c->time_left * ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
 }
 
 /* Whether the force of a contact on element i, closed as it is, has another direction. */
@@ -141,7 +141,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
         const bbm_contact *c = &list[k];
         const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
         const double Fi = hypot(m->F[6 * i], m->F[6 * i + 1]), Fj = hypot(m->F[6 * j], m->F[6 * j + 1]);
-        const double bound = fmax(share * fmax(fabs(c->N), fmax(Fi, Fj)), c->tolerance);
+        const double bound = fmax(share * fmax(fabs(c->N), fmax(Fi, Fj)), c->force_tolerance);
         double d[2];
         exact_distances(m, c, d);
         off = turns_otherwise(m, c, i) || turns_otherwise(m, c, j);
@@ -175,7 +175,7 @@ int bbm_renew_middle(bbm_model *m)
 {
     if (!bbm_middle_is_off(m))
         return 0;
-    bbm_set_middle(m, m->D);
+    bbm_set_middle(m);
     (void)bbm_list_gaps(m);             /* as many as before: there is room */
     return 1;
 }

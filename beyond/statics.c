@@ -161,6 +161,8 @@ static double distance(const bbm_model *m, int i, int j)
  * another block, or -1 if there is none. Returns 0 if all are held. */
 static int find_loose(const bbm_model *m, double h, int pair[2])
 {
+    int contacts;
+    const bbm_contact *list = bbm_list_contacts(m, &contacts);
     double inertia = 0, furthest = 0, most = 0;
 
     pair[0] = pair[1] = -1;
@@ -171,9 +173,8 @@ static int find_loose(const bbm_model *m, double h, int pair[2])
         if (way > furthest)
             furthest = way, pair[0] = i;
     }
-    for (int k = 0; k < bbm_contact_count(m); k++) {
-        int c[2];
-        bbm_contact_pair(m, k, c);
+    for (int k = 0; k < contacts; k++) {
+        const int c[2] = { m->edge[list[k].corner].element, m->edge[list[k].edge].element };
         const int first = hypot(m->D[6 * c[0]], m->D[6 * c[0] + 1]) >= hypot(m->D[6 * c[1]], m->D[6 * c[1] + 1]);
         const double apart = distance(m, c[0], c[1]);
         if (apart > fmax(most, PARTS * furthest))
