@@ -226,7 +226,6 @@ typedef struct {                /* of a block, with the index of its first eleme
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
     double depth_now;           /* m        the same of the solution, if that is deeper         */
     double travel;              /* m        how far its vertices may move in this step          */
-    double moved;               /* m        how far they do                                     */
     /* --- of an element --- */
     double turn;                /* rad      how far it may turn in this step                    */
 } motion;
@@ -393,23 +392,19 @@ void bbm_guess_step(bbm_model *m)
         const bbm_element *e = &m->element[i];
         for (int a = 0; a < 6; a++)
             m->D[6 * i + a] = bbm_is_static(m) ? e->D[a] : e->V[a] * h + fall[a];
+        m->scratch->motion[i].travel = 0;
     }
     m->scratch->is_listed = 0;
 }
 
-/* How far the boundary of each block moves by D. */
-static void find_motion(const bbm_model *m)
+/* How far the vertex that starts edge e moves by D. */
+static double way_of(const bbm_model *m, int e)
 {
+    const bbm_vertex *p = start_of(m, e);
     double u[2];
 
-    for (int i = 0; i < m->elements; i++)
-        m->scratch->motion[i].moved = 0;
-    for (int e = 0; e < m->edges; e++) {
-        const bbm_vertex *p = start_of(m, e);
-        motion *b = motion_of(m, e);
-        bbm_move(m, &m->element[p->element], &m->D[6 * p->element], p->x, p->y, u);
-        b->moved = fmax(b->moved, hypot(u[0], u[1]));
-    }
+    bbm_move(m, &m->element[p->element], &m->D[6 * p->element], p->x, p->y, u);
+    return hypot(u[0], u[1]);
 }
 
 /* Whether the solution moves further than the detection has foreseen. */
@@ -417,28 +412,29 @@ int bbm_moved_too_far(bbm_model *m)
 {
     int too_far = 0;
 
-    find_motion(m);
-    for (int i = 0; i < m->elements; i++) {
-        const motion *b = &m->scratch->motion[i];
-        too_far |= b->moved > b->travel || fabs(m->D[6 * i + 2]) > b->turn;
+    for (int e = 0; e < m->edges && !too_far; e++) {
+        const int i = element_of(m, e);
+        too_far = way_of(m, e) > motion_of(m, e)->travel
+               || fabs(m->D[6 * i + 2]) > m->scratch->motion[i].turn;
     }
     return too_far;
 }
 
 /* How far the blocks may move, by D as far as it is known: a tenth more, or what rounding and a
- * closed contact give, and twice the turn; way no less than what this step has foreseen before. Returns
- * the largest way. */
+ * closed contact give, and no less than what this step has foreseen before; and turn: twice that.
+ * Returns the largest way. */
 static double foresee(bbm_model *m)
 {
     double most = 0;
 
-    find_motion(m);
     for (int i = 0; i < m->elements; i++) {
-        motion *b = &m->scratch->motion[i];
-        const double way = 1.1 * b->moved + b->depth + m->scratch->touch / 2;
-        b->travel = m->scratch->is_listed ? fmax(way, b->travel) : way;
-        b->turn = 2 * fabs(m->D[6 * i + 2]) + PARALLEL / 2;
-        b->depth_now = b->depth;
+        motion *of = &m->scratch->motion[i];
+        of->depth_now = of->depth;
+        of->turn = 2 * fabs(m->D[6 * i + 2]) + PARALLEL / 2;
+    }
+    for (int e = 0; e < m->edges; e++) {
+        motion *b = motion_of(m, e);
+        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + m->scratch->touch / 2);
         most = fmax(most, b->travel);
     }
     return most;
