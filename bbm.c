@@ -29,8 +29,8 @@
 
 #include "bbm.h"
 
-/* An element whose area is below FLAT times the square of its longest reach is a line: round-off has
- * its sign. */
+/* An element whose area is below FLAT times the square of its longest reach is a line: round-off
+ * has its sign. */
 #define FLAT 1e-12
 
 /* The work of one step, cut or not, after which it has not settled: solutions, some times what the
@@ -113,7 +113,8 @@ void bbm_displacement(const bbm_element *e, double x, double y, double u[2])
 
 static double shear_modulus(const bbm_material *m) { return m->E / (2 * (1 + m->nu)); }
 
-/* Stiffness [N/m] of the bonding springs between two elements, Eq. (4): k = alpha G t max(A)/min(A),
+/* Stiffness [N/m] of the bonding springs between two elements, Eq. (4),
+ *     k = alpha G t max(A)/min(A),
  * with G and t the means of the two. Starting areas, so that a spring keeps its stiffness and its
  * energy. The paper's text names alpha, G and the areas; that they enter as this ratio is our
  * choice: k then has the dimension of G t, is symmetric, and alpha G t on a uniform mesh. */
@@ -165,7 +166,7 @@ double bbm_mass_per_area(const bbm_element *e)
     return e->material.density * e->material.thickness * e->A0 / e->A;
 }
 
-/* int T^T T dA, Eq. (12), (16), (17): with the origin in the barycentre the first moments vanish. */
+/* int T^T T dA, Eq. (12), (16), (17); about the barycentre the first moments vanish. */
 void bbm_mode_integral(const bbm_element *e, double M[6][6])
 {
     const double A = e->A, xx = e->Sxx, yy = e->Syy, xy = e->Sxy;
@@ -222,9 +223,9 @@ void bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6], d
 }
 
 /* A spring k between the vertices P of element i and Q of element j, one point at the start. Its
- * elongation at the end of the step is |d|, d = d0 + Ti(P) Di - Tj(Q) Dj, d0 = P - Q, Eq. (18)-(23);
- * Pi_b = k/2 d.d, Eq. (24)-(26). d0 is the difference of the displacements: coordinates would add
- * their round-off. */
+ * elongation at the end of the step is |d|,
+ *     d = d0 + Ti(P) Di - Tj(Q) Dj,  d0 = P - Q,  Eq. (18)-(23);   Pi_b = k/2 d.d,  Eq. (24)-(26).
+ * d0 is the difference of the displacements: coordinates would add their round-off. */
 void bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
                      const bbm_vertex *Q, double k, bbm_gap *g)
 {
@@ -447,12 +448,14 @@ bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions)
     return BBM_OK;
 }
 
-/* What glues in the paper. */
+/* Lists what glues, with T of the step: in the paper bonds and fixed points. */
 bbm_status bbm_list_gaps(bbm_model *m)
 {
     bbm_status status = BBM_OK;
 
     m->gaps = 0;
+    if (m->hook.list_gaps)
+        return m->hook.list_gaps(m);
     for (int b = 0; b < m->bonds && !status; b++)
         status = bbm_list_bond(m, &m->bond[b]);
     for (int v = 0; v < m->vertices && !status; v++)
@@ -507,8 +510,8 @@ static void gather_loads(bbm_model *m)
         load_line(m, &m->line_load[l]);
 }
 
-/* Adds the submatrices of a pair of elements, or of i and the wall (j < 0), to F, and to K unless it
- * is kept. */
+/* Adds the submatrices of two elements, or of i and the wall (j < 0), to F, and to K unless it is
+ * kept. */
 bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
 {
     bbm_status status = BBM_OK;
@@ -555,7 +558,6 @@ bbm_status bbm_assemble(bbm_model *m)
     if (!m->K_is_kept) {
         gather_loads(m);
         bbm_matrix_clear(m->K);
-        status = m->hook.list_gaps ? m->hook.list_gaps(m) : bbm_list_gaps(m);
     }
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     for (int i = 0; i < m->elements && !status; i++)
@@ -573,21 +575,25 @@ static void count_time(bbm_model *m, int phase, clock_t since)
     m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
 }
 
-/* Lays out K: a submatrix for each element, each bond and each contact, Eq. (5). Without memory the
- * old one stays. */
+/* Lays out K: a submatrix for each element, each gap between two of them and each contact, Eq. (5).
+ * Without memory the old one stays. */
 static bbm_status lay_out_matrix(bbm_model *m)
 {
-    const int contacts = m->work ? bbm_contact_count(m) : 0, n = contacts + m->bonds;
-    int (*pair)[2] = calloc((size_t)n + 1, sizeof *pair);
+    const int contacts = m->work ? bbm_contact_count(m) : 0;
+    int (*pair)[2] = calloc((size_t)(contacts + m->gaps) + 1, sizeof *pair), n = 0;
     bbm_matrix *K;
 
     if (!pair)
         return BBM_NO_MEMORY;
-    for (int k = 0; k < contacts; k++)
-        bbm_contact_pair(m, k, pair[k]);
-    for (int b = 0; b < m->bonds; b++) {
-        pair[contacts + b][0] = m->bond[b].i;
-        pair[contacts + b][1] = m->bond[b].j;
+    for (; n < contacts; n++)
+        bbm_contact_pair(m, n, pair[n]);
+    for (int g = 0; g < m->gaps; g++) {
+        const int repeated = g > 0 && m->gap[g].i == m->gap[g - 1].i
+                          && m->gap[g].j == m->gap[g - 1].j;
+        if (m->gap[g].j < 0 || repeated)
+            continue;
+        pair[n][0] = m->gap[g].i;
+        pair[n++][1] = m->gap[g].j;
     }
     if (m->K && n == m->pairs && memcmp(pair, m->pair, (size_t)n * sizeof *pair) == 0) {
         free(pair);
@@ -656,8 +662,12 @@ static bbm_status detect(bbm_model *m, int *other)
     if (status || same)
         return status;
     *other = 1;
-    status = lay_out_matrix(m);
-    return status || !m->hook.begin ? status : m->hook.begin(m);
+    if (m->hook.begin)
+        m->hook.begin(m);
+    status = bbm_list_gaps(m);
+    if (!status)
+        status = lay_out_matrix(m);
+    return status || !m->hook.check_listed ? status : m->hook.check_listed(m);
 }
 
 static bbm_status assemble(bbm_model *m)
@@ -685,7 +695,7 @@ static bbm_status solve(bbm_model *m)
     return status ? describe_failure(m, status) : BBM_OK;
 }
 
-/* One pass of the open-close iteration, 3.8. `changed`: the solution is void, a state or F is new. */
+/* One pass of the open-close iteration, 3.8. `changed`: a state or F is new, so solve again. */
 static bbm_status open_close(bbm_model *m, int *changed)
 {
     bbm_pass pass;
@@ -714,7 +724,7 @@ void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], doubl
     multiply_mode(T, D, u);
 }
 
-/* Moves one element by its D: vertices by Eq. (1), stress by E e, Eq. (7), (8), velocity by (14). */
+/* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
 static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
 {
     const bbm_element start = *e;
@@ -734,13 +744,16 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
             e->stress[a] += E[a][b] * e->D[3 + b];
         e->sum[a] += e->D[a];
     }
-    bbm_newmark_velocity(e, m->h, m->par.velocity_factor);
+    if (bbm_is_static(m))
+        memset(e->V, 0, sizeof e->V);
+    else
+        bbm_newmark_velocity(e, m->h, m->par.velocity_factor);
     if (m->hook.turn)
         m->hook.turn(m, &start, e, vertex);
 }
 
-/* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one that
- * shares all but what moves; the first stays as it is. */
+/* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one
+ * that shares all but what moves; the first stays as it is. */
 static bbm_model move_model(const bbm_model *m)
 {
     bbm_model end = *m;
@@ -857,8 +870,8 @@ static int is_lost(bbm_status s)
         || s == BBM_OPEN_CLOSE;
 }
 
-/* One time step. If it fails, dt is halved and the step done again, down to dt/1024, as long as that
- * takes no more than some solutions; the nominal step is completed in parts, which grow again.
+/* One time step. If it fails, dt is halved and the step done again, down to dt/1024, as long as
+ * that takes no more than some solutions; the nominal step is completed in parts, which grow again.
  * In statics all contacts of a block may begin to slide in one pass, and nothing holds it then,
  * though not all would have to: the second trial lets one contact change in each pass, so that the
  * others can take over. A step that fails leaves the model as the last part left it. */
@@ -1384,13 +1397,14 @@ int bbm_root_of(int up[], int e)
     return e;
 }
 
-/* Joins what bonds and contacts connect to bodies, known by their root in up[]. */
+/* Joins what gaps and contacts connect to bodies, known by their root in up[]. */
 void bbm_join_elements(const bbm_model *m, int up[])
 {
     for (int e = 0; e < m->elements; e++)
         up[e] = e;
-    for (int b = 0; b < m->bonds; b++)
-        up[bbm_root_of(up, m->bond[b].j)] = bbm_root_of(up, m->bond[b].i);
+    for (int g = 0; g < m->gaps; g++)
+        if (m->gap[g].j >= 0)
+            up[bbm_root_of(up, m->gap[g].j)] = bbm_root_of(up, m->gap[g].i);
     for (int c = 0; c < bbm_contact_count(m); c++) {
         int pair[2];
         bbm_contact_pair(m, c, pair);
@@ -1410,7 +1424,8 @@ static bbm_status allocate(bbm_model *m)
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;
     m->load = m->D + 6 * (size_t)m->elements;
-    return lay_out_matrix(m) || bbm_contact_new(m) ? BBM_NO_MEMORY : BBM_OK;
+    const int failed = bbm_list_gaps(m) || lay_out_matrix(m) || bbm_contact_new(m);
+    return failed ? BBM_NO_MEMORY : BBM_OK;
 }
 
 /* Checks the model and makes all that the steps need. */

@@ -259,9 +259,10 @@ typedef struct {
     /* --- a step begins --- */
     bbm_status (*check_step)(bbm_model *m);
     void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
-    bbm_status (*begin)(bbm_model *m);                      /* the contacts are listed          */
+    void (*begin)(bbm_model *m);                            /* the contacts are listed          */
+    bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
     /* --- K D = F --- */
-    bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bbm_list_gaps        */
+    bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
@@ -412,7 +413,7 @@ int        bbm_is_exact(const bbm_model *m);                    /* see bbm_hooks
 double     bbm_mass_per_area(const bbm_element *e);             /* M of (11)                    */
 int        bbm_next_vertex(const bbm_element *e, int v);
 bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);             /* NULL: no memory              */
-bbm_status bbm_list_gaps(bbm_model *m);                         /* the paper's                  */
+bbm_status bbm_list_gaps(bbm_model *m);
 bbm_status bbm_list_bond(bbm_model *m, const bbm_bond *b);
 bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions);
 void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */

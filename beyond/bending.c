@@ -172,7 +172,7 @@ static bbm_status list_bond(bbm_model *m, const bbm_bond *b)
     const bbm_vertex *const Q[2] = { &m->vertex[b->q[0]], &m->vertex[b->q[1]] };
     double M[2][2];
 
-    if (i->n != 4 || j->n != 4)
+    if (m->beyond->bonding == BBM_VERTICES || i->n != 4 || j->n != 4)
         return bbm_list_bond(m, b);
     bond_moment(m, b, M);
     return list_edge(m, b->i, P, b->j, Q, BBM_XY, bbm_bonding_stiffness(m->par.alpha, i, j), M);
@@ -184,7 +184,8 @@ static int held_edge(const bbm_model *m, const bbm_element *e, int v)
 {
     const int next = m->vertex[bbm_next_vertex(e, v)].node;
 
-    return e->n == 4 ? m->node[m->vertex[v].node].held & m->node[next].held : 0;
+    return m->beyond->bonding == BBM_VERTICES || e->n != 4
+         ? 0 : m->node[m->vertex[v].node].held & m->node[next].held;
 }
 
 /* Lists vertex v in the directions in which no edge holds it, and the edge from v on as a bond with
@@ -219,9 +220,6 @@ bbm_status bbm_list_edge_gaps(bbm_model *m)
 {
     bbm_status status = BBM_OK;
 
-    if (m->beyond->bonding == BBM_VERTICES)
-        return bbm_list_gaps(m);
-    m->gaps = 0;
     for (int b = 0; b < m->bonds && !status; b++)
         status = list_bond(m, &m->bond[b]);
     for (int v = 0; v < m->vertices && !status; v++)

@@ -9,13 +9,8 @@ static void release(bbm_model *m) { free(m->beyond); }
 /* A prepared model: elements that lie side by side, springs with the energy that they begin with. */
 static bbm_status check(bbm_model *m)
 {
-    bbm_status status = bbm_check_overlap(m);
-
-    if (!status)
-        status = bbm_list_edge_gaps(m);
-    if (!status)
-        m->beyond->springs = bbm_spring_energy(m);
-    return status;
+    m->beyond->springs = bbm_spring_energy(m);
+    return bbm_check_overlap(m);
 }
 
 /* The settings of all subjects, and before the first step bonds that hold. */
@@ -48,10 +43,14 @@ static void accelerate(bbm_model *m)
         m->acceleration[a] -= b->shake[a] * swing;
 }
 
-static bbm_status begin(bbm_model *m)
+static void begin(bbm_model *m)
 {
     bbm_set_middle(m, bbm_guess(m));
     bbm_start_multipliers(m);
+}
+
+static bbm_status check_listed(bbm_model *m)
+{
     return bbm_is_static(m) ? bbm_check_supports(m) : BBM_OK;
 }
 
@@ -94,6 +93,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_step = check_step,
         .accelerate = accelerate,
         .begin = begin,
+        .check_listed = check_listed,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,
         .renew = bbm_renew_middle,

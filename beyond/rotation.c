@@ -117,14 +117,14 @@ int bbm_middle_is_off(const bbm_model *m)
     return off || bbm_contacts_are_off(m, SHARE);
 }
 
-/* Renews the vectors of the step if they are off; whether they were. */
+/* Renews the vectors of the step, and with them the gaps, if they are off; whether they were. */
 int bbm_renew_middle(bbm_model *m)
 {
-    const int off = bbm_middle_is_off(m);
-
-    if (off)
-        bbm_set_middle(m, m->D);
-    return off;
+    if (!bbm_middle_is_off(m))
+        return 0;
+    bbm_set_middle(m, m->D);
+    (void)bbm_list_gaps(m);             /* as many as before: there is room */
+    return 1;
 }
 
 /* A tensor (xx, yy, xy) turns with the element: R s R^T. */
