@@ -679,7 +679,7 @@ static bbm_status assemble(bbm_model *m)
     return status;
 }
 
-/* K D = F, section 4. */
+/* Solves K D = F, Eq. (5), section 4. */
 static bbm_status solve(bbm_model *m)
 {
     const bbm_pcg_info *i = &m->info.pcg;
@@ -1036,7 +1036,7 @@ bbm_status bbm_model_new(bbm_model **out)
         return BBM_NO_MEMORY;
     m->par = (bbm_parameters){
         .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
-        .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000, .form = BBM_TWO_LEVEL },
+        .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 },
     };
     return BBM_OK;
 }

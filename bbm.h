@@ -153,17 +153,13 @@ typedef void bbm_field(double x, double y, const void *context, double f[2]);
 typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
 
-typedef enum {                  /* how K D = F is solved                                                        */
-    BBM_EISENSTAT,              /* the paper's SSOR-PCG in half the time of the next, with the same iterates    */
-    BBM_TEXTBOOK,               /* the paper's SSOR-PCG                                                         */
-    BBM_TWO_LEVEL               /* beyond the paper: with a coarse space; where there is none, the first        */
-} bbm_pcg_form;
+typedef struct bbm_method bbm_method;       /* another than the paper's, see the end of this file  */
 
 typedef struct {
-    double omega;               /* -        relaxation factor of SSOR, in (0, 2); with two levels it is 1       */
+    double omega;               /* -        relaxation factor of SSOR, in (0, 2)                                */
     double tolerance;           /* -        of the residual, in the norm of the preconditioner, against F      */
     int    iterations;          /* at most; both for each connected component of K by itself                    */
-    bbm_pcg_form form;
+    const bbm_method *method;   /* in place of the paper's; NULL: the paper's                   */
 } bbm_pcg;
 
 typedef struct {                /* what a solve did                                                             */
@@ -453,10 +449,42 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]);  /* K_ij
 void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);          /* B = K_ij              */
 void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y);       /* y = K x               */
 int        bbm_matrix_bandwidth(const bbm_matrix *K);                                  /* in block rows         */
-bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node); /* for two levels:
-                                   block row i hangs on node[first[i]] .. node[first[i+1]-1], each with two unknowns;
-                                   rows that are solved apart have no node in common                            */
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);        /* by P on the k-th      */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info);
+
+/* ---------------------------------------------------- 5. inside the linear solver, see solver.c
+ * Block rows are numbered in two ways: by the caller, and by their place in the reverse
+ * Cuthill-McKee order. Vectors here have 6 n entries in the order of the places. */
+
+struct bbm_matrix {
+    int n;                      /* block rows                                                   */
+    int *place, *caller;        /* [n]       place[caller's row], and back                      */
+    int *first, *back;          /* [n+1]     the blocks of row i of L are first[i] .. first[i+1]-1, */
+                                /* [blocks]  their columns i - back[]                           */
+    int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
+    double (*D)[6][6], (*L)[6][6];              /* [n], [blocks]                                */
+    /* --- scratch of bbm_solve --- */
+    int from, to;               /* the rows of the component in hand: from .. to-1              */
+    double (*G)[6][6], (*S)[6][6];              /* [n], [blocks]  C_i^-1 and w C_i^-1 L_ij C_j^-T */
+    double *x, *r, *p, *q;      /* solution, residual, direction, product                       */
+    double *y, *u;              /* results of a sweep forward and of one backward               */
+    const bbm_method *method;
+    double omega;
+    int ready;                  /* G, S and what the method made belong to D, L and these two   */
+    void *extra;                /* what a method keeps with K                                   */
+    void (*free_extra)(void *extra);
+};
+
+/* A method other than the paper's; what is NULL is done the paper's way. */
+struct bbm_method {
+    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);      /* another method or omega for this K */
+    void (*make_ready)(bbm_matrix *K);                      /* G and S are new                  */
+    void (*correct)(const bbm_matrix *K, double *y);        /* between the two sweeps           */
+    bbm_status (*iterate)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
+};                              /* from x = 0 and r = F, scaled, to x for the rows in hand      */
+
+bbm_status bbm_order(int n, int pairs, int (*pair)[2], int place[]);    /* Cuthill-McKee        */
+void       bbm_sweep_forward(const bbm_matrix *K, double *y);           /* y = E^-1 y           */
+void       bbm_sweep_backward(const bbm_matrix *K, double *u);          /* u = E^-T u           */
+bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
 
 #endif

@@ -86,6 +86,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         *out = NULL;
         return BBM_NO_MEMORY;
     }
+    m->par.pcg.method = &bbm_two_level;
     m->hook = (bbm_hooks){
         .release = release,
         .check_polygon = bbm_check_polygon,
@@ -96,6 +97,8 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_listed = check_listed,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,
+        .lay_out = bbm_lay_out_coarse,
+        .before_solution = bbm_interpolate_elements,
         .renew = bbm_renew_middle,
         .settled = bbm_take_over,
         .move = bbm_move_exactly,

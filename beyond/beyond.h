@@ -34,6 +34,17 @@ struct bbm_beyond {
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
 
+/* Methods for pcg.method: eisenstat.c; coarse.c, two levels. */
+extern const bbm_method bbm_eisenstat, bbm_two_level;
+
+/* coarse.c */
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node);
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
+void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int middles, int a,
+                             double P[6][2]);
+bbm_status bbm_lay_out_coarse(bbm_model *m);
+void       bbm_interpolate_elements(bbm_model *m);
+
 /* energy.c. The energies after the last step; kinetic: with the velocity before its factor. */
 typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 void       bbm_energies(const bbm_model *m, bbm_energy *e);

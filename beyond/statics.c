@@ -201,7 +201,7 @@ bbm_status bbm_explain(bbm_model *m, bbm_status status)
     m->K_is_kept = 0;
     const bbm_status assembled = bbm_assemble(m);
     m->h = INFINITY;
-    pcg.form = BBM_EISENSTAT;
+    pcg.method = &bbm_eisenstat;
     if (assembled)
         return assembled;
     push_all(m);

@@ -16,6 +16,6 @@ bbm_model *case_paper_model(void)
     bbm_model *m = case_model();
 
     m->beyond->bonding = BBM_VERTICES;
-    m->par.pcg.form = BBM_EISENSTAT;
+    m->par.pcg.method = &bbm_eisenstat;
     return m;
 }

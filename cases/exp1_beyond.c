@@ -28,7 +28,7 @@ static void print_augmented(const case_reference *b)
             bbm_model *m = exp1_beam('b', 2, alpha);
             m->beyond->multiplier_rounds = augment;
             if (augment)
-                m->par.pcg.form = BBM_TWO_LEVEL;
+                m->par.pcg.method = &bbm_two_level;
             solve(m);
             printf(" %+.4f %% |", deflection_error(m, b, 24));
             bbm_model_free(m);

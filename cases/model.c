@@ -495,7 +495,7 @@ static int read_pcg(model_reader *r)
 
     if (!options(r, LENGTH(o), o))
         return 0;
-    p->form = coarse == 0 ? BBM_TWO_LEVEL : BBM_EISENSTAT;
+    p->method = coarse == 0 ? &bbm_two_level : &bbm_eisenstat;
     return 1;
 }
 
@@ -1206,7 +1206,7 @@ int model_read(const char *path, model *p)
         p->m->beyond->multiplier_rounds = 2;
         p->m->beyond->bonding = BBM_MOMENT;
         p->m->par.faces = 1;
-        p->m->par.pcg.form = BBM_TWO_LEVEL;
+        p->m->par.pcg.method = &bbm_two_level;
         read_all(&r);
     }
     free_reader(&r);

@@ -11,6 +11,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "../beyond/beyond.h"
 #include "../cases/case.h"
 
 enum { TURNS = 9, ITERATIONS = 100 };
@@ -49,9 +50,9 @@ static void touch(bbm_matrix *K)
 }
 
 /* Seconds of a solve that is cut short after some iterations. */
-static double solve_time(bbm_model *m, bbm_pcg_form form, int iterations)
+static double solve_time(bbm_model *m, const bbm_method *method, int iterations)
 {
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-300, .iterations = iterations, .form = form };
+    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-300, .iterations = iterations, .method = method };
     bbm_pcg_info info;
 
     touch(m->K);
@@ -61,17 +62,17 @@ static double solve_time(bbm_model *m, bbm_pcg_form form, int iterations)
 }
 
 /* Seconds of one iteration: what further iterations add to a solve of one, so that setting up does not count. */
-static double iteration_time(bbm_model *m, bbm_pcg_form form)
+static double iteration_time(bbm_model *m, const bbm_method *method)
 {
-    const double one = solve_time(m, form, 1);
+    const double one = solve_time(m, method, 1);
 
-    return (solve_time(m, form, 1 + ITERATIONS) - one) / ITERATIONS;
+    return (solve_time(m, method, 1 + ITERATIONS) - one) / ITERATIONS;
 }
 
 /* Iterations of a whole solve. */
-static int iterations(bbm_model *m, bbm_pcg_form form)
+static int iterations(bbm_model *m, const bbm_method *method)
 {
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000, .form = form };
+    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000, .method = method };
     bbm_pcg_info info;
 
     case_must(NULL, bbm_solve(m->K, m->F, m->D, &pcg, &info));
@@ -101,12 +102,12 @@ static void print_forms(void)
         bbm_model *m = beam(24 * n, 6 * n, CASE_CROSSED, 100);
         double textbook[TURNS], eisenstat[TURNS], ratio[TURNS];
         for (int i = 0; i < TURNS; i++) {
-            textbook[i] = 1e6 * iteration_time(m, BBM_TEXTBOOK);
-            eisenstat[i] = 1e6 * iteration_time(m, BBM_EISENSTAT);
+            textbook[i] = 1e6 * iteration_time(m, NULL);
+            eisenstat[i] = 1e6 * iteration_time(m, &bbm_eisenstat);
             ratio[i] = eisenstat[i] / textbook[i];
         }
         printf("| %d | %.1f | %.1f | %.2f | %d | %d |\n", 6 * m->elements, median(textbook), median(eisenstat),
-               median(ratio), iterations(m, BBM_TEXTBOOK), iterations(m, BBM_EISENSTAT));
+               median(ratio), iterations(m, NULL), iterations(m, &bbm_eisenstat));
         fflush(stdout);
         bbm_model_free(m);
     }
@@ -184,9 +185,9 @@ static void bench_detection(const char *name, void add(bbm_model *, int), const 
 }
 
 /* Milliseconds of a whole solution, all that it makes of K included: the median of some turns. */
-static double whole_time(bbm_model *m, bbm_pcg_form form, int turns, int *count)
+static double whole_time(bbm_model *m, const bbm_method *method, int turns, int *count)
 {
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000, .form = form };
+    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000, .method = method };
     bbm_pcg_info info;
     double t[TURNS];
 
@@ -216,7 +217,7 @@ static void print_levels(void)
             bbm_model *m = beam(4 * rows[k], rows[k], CASE_ALTERNATING, alpha);
             const int turns = k < 2 ? TURNS : k < 3 ? 3 : 1, n = 6 * m->elements;
             int one, two;
-            const double t1 = whole_time(m, BBM_EISENSTAT, turns, &one), t2 = whole_time(m, BBM_TWO_LEVEL, TURNS, &two);
+            const double t1 = whole_time(m, &bbm_eisenstat, turns, &one), t2 = whole_time(m, &bbm_two_level, TURNS, &two);
             const double by = log(n / last[0]);
             printf(k ? "| %d | %g | %d | %.1f | %.2f |" : "| %d | %g | %d | %.1f | |", n, alpha, one, t1,
                    log(t1 / last[1]) / by);

@@ -53,7 +53,7 @@ START_TEST(two_levels_reach_the_solution_of_the_dense_matrix)
 {
     dense_system *s = new_system(_i, 30);
     dense_coarse *c = new_coarse(s, 31);
-    const bbm_pcg pcg = accurate(1.9, BBM_TWO_LEVEL);   /* an omega that is not used */
+    const bbm_pcg pcg = accurate(1.9, &bbm_two_level);   /* an omega that is not used */
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
@@ -142,7 +142,7 @@ START_TEST(two_level_iterates_are_those_with_dense_matrices)
 {
     dense_system *s = new_system(CHAIN, 32);
     dense_coarse *c = new_coarse(s, 33);
-    bbm_pcg pcg = accurate(1, BBM_TWO_LEVEL);
+    bbm_pcg pcg = accurate(1, &bbm_two_level);
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
@@ -168,7 +168,7 @@ START_TEST(coarse_space_of_all_unknowns_solves_in_one_iteration)
 {
     dense_system *s = new_system(_i, 34);
     dense_coarse *c = calloc(1, sizeof *c);
-    bbm_pcg pcg = accurate(1, BBM_TWO_LEVEL);
+    bbm_pcg pcg = accurate(1, &bbm_two_level);
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
     unsigned seed = 35;
@@ -198,7 +198,7 @@ START_TEST(coarse_displacements_that_move_nothing_change_no_iterate)
     dense_system *s = new_system(_i, 24);
     dense_coarse *c = new_coarse(s, 37), *twice = calloc(1, sizeof *twice);
     const bbm_pcg pcg = { .omega = 1, .tolerance = 1e-6, .iterations = 1000,
-                          .form = BBM_TWO_LEVEL };
+                          .method = &bbm_two_level };
     double D[MOST_6], E[MOST_6];
     bbm_pcg_info once, again;
 
@@ -228,14 +228,14 @@ START_TEST(without_a_coarse_space_two_levels_are_one)
     dense_system *s = new_system(_i, 38);
     dense_coarse *c = new_coarse(s, 39);
     const int none[MOST + 1] = { 0 };
-    bbm_pcg pcg = accurate(1.3, BBM_EISENSTAT);
+    bbm_pcg pcg = accurate(1.3, &bbm_eisenstat);
     double D[MOST_6], E[MOST_6];
     bbm_pcg_info info;
 
     ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
     /* it takes the old one away */
     ck_assert_int_eq(bbm_matrix_coarse(s->K, 0, none, NULL), BBM_OK);
-    pcg.form = BBM_TWO_LEVEL;
+    pcg.method = &bbm_two_level;
     ck_assert_int_eq(bbm_solve(s->K, s->F, E, &pcg, &info), BBM_OK);
     ck_assert_mem_eq(D, E, (size_t)(6 * s->n) * sizeof *D);
     free(c);
@@ -265,14 +265,14 @@ static void change(dense_system *s, dense_coarse *c, int changes)
 
 START_TEST(solution_does_not_depend_on_earlier_ones)
 {
-    static const bbm_pcg_form form[] = { BBM_TWO_LEVEL, BBM_TEXTBOOK, BBM_EISENSTAT };
+    static const bbm_method *const method[] = { &bbm_two_level, NULL, &bbm_eisenstat };
     dense_system *s = new_system(GRID, 40);
     dense_coarse *c = new_coarse(s, 41);
     double D[MOST_6], E[MOST_6];
     bbm_pcg_info info;
 
     for (int k = 0; k < 18; k++) {
-        const bbm_pcg pcg = accurate(k % 6 ? 1.2 : 1, form[(k / 6 + _i) % 3]);
+        const bbm_pcg pcg = accurate(k % 6 ? 1.2 : 1, method[(k / 6 + _i) % 3]);
         dense_system *t = new_system(GRID, 40);
         dense_coarse *d = new_coarse(t, 41);
 
@@ -318,7 +318,7 @@ START_TEST(coarse_node_of_two_connected_components_is_refused)
 {
     dense_system *s = new_system(PARTS, 47);
     dense_coarse *c = new_coarse(s, 48);
-    const bbm_pcg pcg = accurate(1, BBM_EISENSTAT);
+    const bbm_pcg pcg = accurate(1, &bbm_eisenstat);
     double D[MOST_6];
     bbm_pcg_info info;
 
@@ -334,7 +334,7 @@ START_TEST(coarse_space_that_finds_no_memory_is_none)
 {
     dense_system *s = new_system(GRID, 44);
     dense_coarse *c = new_coarse(s, 45);
-    const bbm_pcg pcg = accurate(1, BBM_TWO_LEVEL);
+    const bbm_pcg pcg = accurate(1, &bbm_two_level);
     bbm_status status = BBM_NO_MEMORY;
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
@@ -360,7 +360,7 @@ END_TEST
 START_TEST(matrix_that_is_not_positive_definite_is_found_out_on_two_levels)
 {
     static const int first[] = { 0, 1, 2 }, node[] = { 0, 0 };
-    const bbm_pcg pcg = accurate(1, BBM_TWO_LEVEL);
+    const bbm_pcg pcg = accurate(1, &bbm_two_level);
     double P[6][2] = { { 1, 0 }, { 0, 1 } }, F[12] = { 0 }, D[12];
     bbm_pcg_info info;
     bbm_matrix *K = tridiagonal(2, 2);
@@ -425,12 +425,12 @@ static dense_system *join(dense_system *const s[2], dense_coarse *const c[2], co
 /* The other one's load is 2^40 = 1e12 times larger, which changes no digit of its own. */
 START_TEST(what_is_not_connected_is_solved_as_if_it_were_alone)
 {
-    static const bbm_pcg_form form[] = { BBM_TWO_LEVEL, BBM_TEXTBOOK, BBM_EISENSTAT };
+    static const bbm_method *const method[] = { &bbm_two_level, NULL, &bbm_eisenstat };
     dense_system *const s[2] = { new_system(GRID, 68), new_system(CHAIN, 61) };
     dense_coarse *const c[2] = { new_coarse(s[0], 62), new_coarse(s[1], 63) };
     const int arrangement = _i % ARRANGEMENTS;
     const bbm_pcg pcg = { .omega = 1.2, .tolerance = 1e-8, .iterations = 1000,
-                          .form = form[_i / ARRANGEMENTS] };
+                          .method = method[_i / ARRANGEMENTS] };
     int whose[MOST], number[MOST], count[2] = { 0, 0 };
     double alone[2][MOST_6], D[MOST_6], F[MOST_6];
     bbm_pcg_info info[2], both;
@@ -467,7 +467,7 @@ static double chains_time(int apart)
 {
     enum { PAIRS = 1024, ROWS = 1536 };
     static const bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100,
-                                 .form = BBM_TWO_LEVEL };
+                                 .method = &bbm_two_level };
     static int pair[PAIRS][2], first[ROWS + 1], node[ROWS];
     static double F[6 * ROWS], D[6 * ROWS];
     double P[6][2] = { { 1, 0 }, { 0, 1 } }, B[6][6] = { { 0 } };
@@ -641,12 +641,12 @@ END_TEST
 START_TEST(two_levels_and_one_reach_the_same_displacements)
 {
     bbm_model *m = new_mesh(_i, 6, 100);
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-12, .iterations = 5000, .form = BBM_TWO_LEVEL };
+    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-12, .iterations = 5000, .method = &bbm_two_level };
     double *D = calloc(6 * (size_t)m->elements, sizeof *D);
     bbm_pcg_info two, one;
 
     ck_assert_int_eq(bbm_solve(m->K, m->F, D, &pcg, &two), BBM_OK);
-    pcg.form = BBM_EISENSTAT;
+    pcg.method = &bbm_eisenstat;
     ck_assert_int_eq(bbm_solve(m->K, m->F, m->D, &pcg, &one), BBM_OK);
     ck_assert_int_lt(10 * two.iterations, one.iterations);
     assert_same(6 * m->elements, D, m->D, 1e-8);
@@ -715,7 +715,7 @@ START_TEST(one_level_is_used_where_two_do_not_pay)
     for (int k = 0; k < 2; k++) {
         ck_assert_int_eq(bbm_beyond_new(&m[k]), BBM_OK);
         m[k]->par.dt = table[_i].dt;
-        m[k]->par.pcg.form = k ? BBM_EISENSTAT : BBM_TWO_LEVEL;
+        m[k]->par.pcg.method = k ? &bbm_eisenstat : &bbm_two_level;
         mesh_of_blocks(m[k], table[_i].bonded, table[_i].held);
     }
     ck_assert_int_eq(memcmp(m[0]->D, m[1]->D, 18 * sizeof *m[0]->D) != 0, table[_i].two);

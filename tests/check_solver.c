@@ -6,7 +6,7 @@
 #include "check.h"
 #include "systems.h"
 
-static const bbm_pcg_form FORM[] = { BBM_EISENSTAT, BBM_TEXTBOOK };
+static const bbm_method *const METHOD[] = { &bbm_eisenstat, NULL };
 
 /* ----------------------------------------------------------------------------------- the matrix */
 
@@ -41,7 +41,7 @@ END_TEST
 START_TEST(order_direction_and_repetition_of_the_pairs_change_no_bit)
 {
     dense_system *s = new_system(_i, 4), *t = new_system(_i, 4);
-    const bbm_pcg pcg = accurate(1, FORM[0]);
+    const bbm_pcg pcg = accurate(1, METHOD[0]);
     bbm_pcg_info info;
     int other[3 * MOST_PAIRS][2], pairs = 0;
     double D[MOST_6], E[MOST_6];
@@ -263,8 +263,8 @@ START_TEST(solution_is_that_of_the_dense_matrix)
 
     dense_solve(6 * s->n, s->A, s->F, expected);
     D[6 * s->n] = 77;
-    for (int k = 0; k < COUNT(OMEGA) * COUNT(FORM); k++) {
-        const bbm_pcg pcg = accurate(OMEGA[k / COUNT(FORM)], FORM[k % COUNT(FORM)]);
+    for (int k = 0; k < COUNT(OMEGA) * COUNT(METHOD); k++) {
+        const bbm_pcg pcg = accurate(OMEGA[k / COUNT(METHOD)], METHOD[k % COUNT(METHOD)]);
         ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
         assert_same(6 * s->n, D, expected, SOLVED);
         ck_assert(D[6 * s->n] == 77);
@@ -314,8 +314,8 @@ START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(OMEGA) * COUNT(FORM); k++) {
-        bbm_pcg pcg = accurate(OMEGA[k / COUNT(FORM)], FORM[k % COUNT(FORM)]);
+    for (int k = 0; k < COUNT(OMEGA) * COUNT(METHOD); k++) {
+        bbm_pcg pcg = accurate(OMEGA[k / COUNT(METHOD)], METHOD[k % COUNT(METHOD)]);
         for (pcg.iterations = 1; pcg.iterations <= 4; pcg.iterations++) {
             ck_assert_int_eq(dense_ssor_pcg(s, pcg.omega, 1e-13, pcg.iterations, expected),
                              pcg.iterations);
@@ -335,9 +335,9 @@ START_TEST(iterations_are_as_many_as_with_dense_matrices)
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(tolerance) * COUNT(FORM); k++) {
-        bbm_pcg pcg = accurate(OMEGA[_i], FORM[k % COUNT(FORM)]);
-        pcg.tolerance = tolerance[k / COUNT(FORM)];
+    for (int k = 0; k < COUNT(tolerance) * COUNT(METHOD); k++) {
+        bbm_pcg pcg = accurate(OMEGA[_i], METHOD[k % COUNT(METHOD)]);
+        pcg.tolerance = tolerance[k / COUNT(METHOD)];
         const int iterations = dense_ssor_pcg(s, pcg.omega, pcg.tolerance, 1000, expected);
         ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
         ck_assert_int_eq(info.iterations, iterations);
@@ -373,8 +373,8 @@ START_TEST(residual_is_the_true_one)
     double D[MOST_6];
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(FORM); k++) {
-        bbm_pcg pcg = accurate(1.2, FORM[k]);
+    for (int k = 0; k < COUNT(METHOD); k++) {
+        bbm_pcg pcg = accurate(1.2, METHOD[k]);
         pcg.tolerance = 1e-3;
         ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
         /* two ways to round K D, against a residual that may be rounding itself */
@@ -387,7 +387,7 @@ END_TEST
 START_TEST(a_solution_takes_no_longer_than_the_processor_was_at_it)
 {
     dense_system *s = new_system(GRID, 15);
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     const clock_t start = clock();
     double D[MOST_6];
     bbm_pcg_info info;
@@ -407,7 +407,7 @@ END_TEST
 START_TEST(two_solutions_are_equal_to_the_last_bit)
 {
     dense_system *s = new_system(GRID, 15);
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     double D[MOST_6], E[MOST_6];
     bbm_pcg_info info[2];
 
@@ -425,7 +425,7 @@ START_TEST(loads_of_any_size_give_the_same_digits)
 {
     static const int exponent[] = { 900, 600, -600, -900 };
     dense_system *s = new_system(CHAIN, 16);
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     double D[MOST_6], E[MOST_6], F[MOST_6];
     bbm_pcg_info info;
 
@@ -444,7 +444,7 @@ END_TEST
 START_TEST(no_load_gives_no_displacement_in_no_iteration)
 {
     dense_system *s = new_system(PARTS, 17);
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     double F[MOST_6] = { 0 }, D[MOST_6];
     bbm_pcg_info info;
 
@@ -464,7 +464,7 @@ START_TEST(load_on_one_of_many_rows_makes_no_denormals)
 {
     enum { ROWS = 4000 };
     const double c = 0.8 / 1.64;
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     bbm_matrix *K = tridiagonal(ROWS, -c);
     double *F = calloc(6 * ROWS, sizeof *F), *D = calloc(6 * ROWS, sizeof *D);
     bbm_pcg_info info;
@@ -504,10 +504,10 @@ static bbm_status refused(dense_system *s, const bbm_pcg *pcg, bbm_pcg_info *inf
 START_TEST(parameter_outside_its_range_is_refused)
 {
     const bbm_pcg wrong[] = {
-        { 0, 1e-8, 100, FORM[0] }, { 2, 1e-8, 100, FORM[0] }, { -1, 1e-8, 100, FORM[0] },
-        { 3, 1e-8, 100, FORM[0] }, { NAN, 1e-8, 100, FORM[0] }, { 1, 0, 100, FORM[0] },
-        { 1, -1e-8, 100, FORM[0] }, { 1, NAN, 100, FORM[0] }, { 1, INFINITY, 100, FORM[0] },
-        { 1, 1, 100, FORM[0] }, { 1, 1e-8, 0, FORM[0] }, { 1, 1e-8, -1, FORM[0] },
+        { 0, 1e-8, 100, METHOD[0] }, { 2, 1e-8, 100, METHOD[0] }, { -1, 1e-8, 100, METHOD[0] },
+        { 3, 1e-8, 100, METHOD[0] }, { NAN, 1e-8, 100, METHOD[0] }, { 1, 0, 100, METHOD[0] },
+        { 1, -1e-8, 100, METHOD[0] }, { 1, NAN, 100, METHOD[0] }, { 1, INFINITY, 100, METHOD[0] },
+        { 1, 1, 100, METHOD[0] }, { 1, 1e-8, 0, METHOD[0] }, { 1, 1e-8, -1, METHOD[0] },
     };
     dense_system *s = new_system(CHAIN, 18);
     bbm_pcg_info info;
@@ -524,7 +524,7 @@ START_TEST(entry_of_the_load_that_is_not_finite_is_refused)
 {
     static const double wrong[] = { NAN, INFINITY, -INFINITY };
     dense_system *s = new_system(CHAIN, 19);
-    const bbm_pcg pcg = accurate(1, FORM[0]);
+    const bbm_pcg pcg = accurate(1, METHOD[0]);
     bbm_pcg_info info;
 
     for (int i = 0; i < 6 * s->n; i++) {
@@ -542,7 +542,7 @@ START_TEST(entry_of_the_matrix_that_is_not_finite_is_refused)
 {
     static const int place[][2] = { { 0, 0 }, { 11, 11 }, { 0, 1 }, { 10, 11 }, { 5, 5 } };
     dense_system *s = new_system(CHAIN, 20);
-    const bbm_pcg pcg = accurate(1, FORM[0]);
+    const bbm_pcg pcg = accurate(1, METHOD[0]);
     bbm_pcg_info info;
     double B[6][6] = { { 0 } };
 
@@ -563,9 +563,9 @@ START_TEST(diagonal_block_that_is_not_positive_definite_is_named)
     dense_system *s = new_system(GRID, 21);
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(FORM); k++)
+    for (int k = 0; k < COUNT(METHOD); k++)
         for (int row = 0; row < s->n; row += 5) {
-            const bbm_pcg pcg = accurate(1, FORM[k]);
+            const bbm_pcg pcg = accurate(1, METHOD[k]);
             double I[6][6] = { { 0 } };
 
             bbm_matrix_clear(s->K);
@@ -585,7 +585,7 @@ END_TEST
  * exactly 0. */
 START_TEST(matrix_that_is_not_positive_definite_is_found_out_by_the_iteration)
 {
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     double F[12] = { 0 }, D[12];
     bbm_pcg_info info;
 
@@ -606,7 +606,7 @@ END_TEST
 START_TEST(limit_of_iterations_ends_with_the_last_iterate_and_its_residual)
 {
     dense_system *s = new_system(GRID, 22);
-    bbm_pcg pcg = accurate(1, FORM[_i]);
+    bbm_pcg pcg = accurate(1, METHOD[_i]);
     double D[MOST_6], r[MOST_6];
     bbm_pcg_info info;
     int needed;
@@ -630,7 +630,7 @@ END_TEST
 
 START_TEST(solution_too_large_for_a_number_is_not_returned_in_silence)
 {
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     double B[6][6] = { { 0 } }, F[18] = { 0 }, D[18];
     bbm_pcg_info info;
     bbm_matrix *K;
@@ -651,7 +651,7 @@ END_TEST
 START_TEST(least_tolerance_is_met_by_an_exact_solution)
 {
     const bbm_pcg pcg = { .omega = 1, .tolerance = DBL_MIN * DBL_EPSILON, .iterations = 10,
-                          .form = FORM[_i] };
+                          .method = METHOD[_i] };
     double B[6][6] = { { 0 } }, F[6] = { 1, 1, 1, 1, 1, 1 }, D[6];
     bbm_pcg_info info;
     bbm_matrix *K;
@@ -674,7 +674,7 @@ END_TEST
 START_TEST(component_without_load_stays_where_it_is)
 {
     dense_system *s = new_system(PARTS, 64);
-    const bbm_pcg pcg = accurate(1, FORM[_i]);
+    const bbm_pcg pcg = accurate(1, METHOD[_i]);
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
@@ -692,8 +692,8 @@ END_TEST
 START_TEST(rows_that_are_not_connected_take_one_iteration)
 {
     dense_system *s = calloc(1, sizeof *s);
-    const bbm_pcg pcg = { .omega = OMEGA[_i / COUNT(FORM)], .tolerance = 1e-10, .iterations = 1,
-                          .form = FORM[_i % COUNT(FORM)] };
+    const bbm_pcg pcg = { .omega = OMEGA[_i / COUNT(METHOD)], .tolerance = 1e-10, .iterations = 1,
+                          .method = METHOD[_i % COUNT(METHOD)] };
     double expected[MOST_6], D[MOST_6];
     unsigned seed = 65;
     bbm_pcg_info info;
@@ -723,7 +723,7 @@ END_TEST
 START_TEST(component_that_fails_is_reported_and_the_others_are_solved)
 {
     dense_system *s = new_system(PARTS, 67), *t = new_system(PARTS, 67);
-    bbm_pcg pcg = accurate(1, FORM[_i]);
+    bbm_pcg pcg = accurate(1, METHOD[_i]);
     double D[MOST_6], E[MOST_6];
     bbm_pcg_info info;
 
@@ -773,26 +773,26 @@ Suite *solver_suite(void)
         { iterates_are_those_of_ssor_pcg_with_dense_matrices, 1 },
         { iterations_are_as_many_as_with_dense_matrices, COUNT(OMEGA) },
         { residual_is_the_true_one, PATTERNS },
-        { a_solution_takes_no_longer_than_the_processor_was_at_it, COUNT(FORM) },
-        { two_solutions_are_equal_to_the_last_bit, COUNT(FORM) },
-        { loads_of_any_size_give_the_same_digits, COUNT(FORM) },
-        { no_load_gives_no_displacement_in_no_iteration, COUNT(FORM) },
-        { load_on_one_of_many_rows_makes_no_denormals, COUNT(FORM) },
+        { a_solution_takes_no_longer_than_the_processor_was_at_it, COUNT(METHOD) },
+        { two_solutions_are_equal_to_the_last_bit, COUNT(METHOD) },
+        { loads_of_any_size_give_the_same_digits, COUNT(METHOD) },
+        { no_load_gives_no_displacement_in_no_iteration, COUNT(METHOD) },
+        { load_on_one_of_many_rows_makes_no_denormals, COUNT(METHOD) },
     };
     const loop_test failure[] = {
         { parameter_outside_its_range_is_refused, 1 },
         { entry_of_the_load_that_is_not_finite_is_refused, 1 },
         { entry_of_the_matrix_that_is_not_finite_is_refused, 36 },
         { diagonal_block_that_is_not_positive_definite_is_named, 6 },
-        { matrix_that_is_not_positive_definite_is_found_out_by_the_iteration, COUNT(FORM) },
-        { limit_of_iterations_ends_with_the_last_iterate_and_its_residual, COUNT(FORM) },
-        { solution_too_large_for_a_number_is_not_returned_in_silence, COUNT(FORM) },
-        { least_tolerance_is_met_by_an_exact_solution, COUNT(FORM) },
+        { matrix_that_is_not_positive_definite_is_found_out_by_the_iteration, COUNT(METHOD) },
+        { limit_of_iterations_ends_with_the_last_iterate_and_its_residual, COUNT(METHOD) },
+        { solution_too_large_for_a_number_is_not_returned_in_silence, COUNT(METHOD) },
+        { least_tolerance_is_met_by_an_exact_solution, COUNT(METHOD) },
     };
     const loop_test components[] = {
-        { component_without_load_stays_where_it_is, COUNT(FORM) },
-        { rows_that_are_not_connected_take_one_iteration, COUNT(FORM) * COUNT(OMEGA) },
-        { component_that_fails_is_reported_and_the_others_are_solved, COUNT(FORM) },
+        { component_without_load_stays_where_it_is, COUNT(METHOD) },
+        { rows_that_are_not_connected_take_one_iteration, COUNT(METHOD) * COUNT(OMEGA) },
+        { component_that_fails_is_reported_and_the_others_are_solved, COUNT(METHOD) },
     };
 
     add_case(s, "matrix", matrix, COUNT(matrix));

@@ -180,9 +180,9 @@ void assert_same(int n, const double *x, const double *y, double tolerance)
         ck_near(x[i], y[i], size, tolerance);
 }
 
-bbm_pcg accurate(double omega, bbm_pcg_form form)
+bbm_pcg accurate(double omega, const bbm_method *method)
 {
-    return (bbm_pcg){ .omega = omega, .tolerance = 1e-13, .iterations = 1000, .form = form };
+    return (bbm_pcg){ .omega = omega, .tolerance = 1e-13, .iterations = 1000, .method = method };
 }
 
 bbm_matrix *tridiagonal(int n, double c)

@@ -56,7 +56,7 @@ int dense_pcg(const dense_system *s, double W[MOST_6][MOST_6], double tolerance,
 
 double norm(int n, const double *x);
 void assert_same(int n, const double *x, const double *y, double tolerance);
-bbm_pcg accurate(double omega, bbm_pcg_form form);
+bbm_pcg accurate(double omega, const bbm_method *method);
 
 /* K = tridiagonal (c, 1, c), six times. */
 bbm_matrix *tridiagonal(int n, double c);
