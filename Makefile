@@ -87,7 +87,7 @@ torture: $O/torture
 
 $O/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
-	$(CC) $(STRICT) $(DEFINE) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+	$(CC) $(STRICT) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # --- tests: the library once more, with an allocator that can be made to fail ---
 $O/failing/%.o: %.c $(HEADERS) Makefile
@@ -103,7 +103,7 @@ $(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failin
 $(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$(PROGRAMS:%=$O/tests/%.o): DEFINE = -DBUILD='"$O"'
+$(PROGRAMS:%=$O/tests/%.o): CPPFLAGS += -DBUILD='"$O"'
 
 $O/tests/check_all.o: DEFINE = -DCASES
 $O/tests/check_paper.o: DEFINE = -DPAPER
