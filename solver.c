@@ -75,58 +75,50 @@
 
 /* --------------------------------------------------------------------- the pattern and its order */
 
-typedef struct {                /* who is a neighbour of whom, in the caller's numbers             */
+typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */
     int n;
-    int *first, *end;           /* [n+1], [n]  those of i are list[first[i] .. end[i]-1], ascending */
-    int *list;                  /* [2 pairs]                                                       */
-    int *level;                 /* [n]  distance from the start of the search, -1: not yet found   */
-    int *order;                 /* [n]  as they are found                                          */
+    int *first, (*end)[2];      /* [n+1]  the neighbours of i are end[first[i] .. first[i+1]-1][1] */
+    int *level;                 /* [n]    distance from the start of the search, -1: not found  */
+    int *order;                 /* [n]    as they are found                                     */
 } graph;
 
-/* Puts j into the list of i, unless it is there. */
-static void add_neighbour(graph *g, int i, int j)
+static int compare_ends(const void *a, const void *b)
 {
-    int *to = &g->list[g->end[i]];
+    const int *p = a, *q = b, by = p[0] == q[0];
 
-    while (to > g->list + g->first[i] && to[-1] >= j)
-        to--;
-    const int *end = &g->list[g->end[i]];
-    if (i == j || (to < end && *to == j))
-        return;
-    memmove(to + 1, to, (size_t)(end - to) * sizeof *to);
-    *to = j;
-    g->end[i]++;
+    return (p[by] > q[by]) - (p[by] < q[by]);
 }
 
+/* Sorts both ends of all pairs by the row and then by the neighbour, and drops what comes twice. */
 static bbm_status graph_new(graph *g, int n, int pairs, int (*pair)[2])
 {
-    *g = (graph){ .n = n };
     for (int k = 0; k < 2 * pairs; k++)
         if (pair[k / 2][k % 2] < 0 || pair[k / 2][k % 2] >= n)
             return BBM_BAD_INDEX;
-    g->first = calloc(4 * (size_t)n + 1 + 2 * (size_t)pairs, sizeof *g->first);
-    if (!g->first)
+    g->n = n;
+    g->first = calloc(3 * (size_t)n + 1, sizeof *g->first);
+    g->end = calloc(2 * (size_t)pairs + 1, sizeof *g->end);
+    if (!g->first || !g->end)
         return BBM_NO_MEMORY;
-    g->end = g->first + n + 1;
-    g->level = g->end + n;
+    g->level = g->first + n + 1;
     g->order = g->level + n;
-    g->list = g->order + n;
-    for (int k = 0; k < 2 * pairs; k++)
-        g->first[pair[k / 2][k % 2] + 1]++;
-    for (int i = 0; i < n; i++) {
-        g->first[i + 1] += g->first[i];
-        g->end[i] = g->first[i];
+    for (int k = 0; k < 2 * pairs; k++) {
+        g->end[k][0] = pair[k / 2][k % 2];
+        g->end[k][1] = pair[k / 2][1 - k % 2];
+    }
+    qsort(g->end, 2 * (size_t)pairs, sizeof *g->end, compare_ends);
+    int count = 0;
+    for (int i = 0, k = 0; i < n; i++) {
+        for (; k < 2 * pairs && g->end[k][0] == i; k++)
+            if (g->end[k][1] != i && (count == g->first[i] || g->end[count - 1][1] != g->end[k][1]))
+                g->end[count++][1] = g->end[k][1];
+        g->first[i + 1] = count;
         g->level[i] = -1;
     }
-    for (int k = 0; k < 2 * pairs; k++)
-        add_neighbour(g, pair[k / 2][k % 2], pair[k / 2][1 - k % 2]);
     return BBM_OK;
 }
 
-static int degree(const graph *g, int i)
-{
-    return g->end[i] - g->first[i];
-}
+static int degree(const graph *g, int i) { return g->first[i + 1] - g->first[i]; }
 
 /* Cuthill-McKee: the rows of a component, breadth first; those found from the same row by ascending
  * degree. Returns their number. */
@@ -138,8 +130,8 @@ static int breadth_first(graph *g, int start, int *order)
     g->level[start] = 0;
     for (int next = 0; next < count; next++) {
         const int i = order[next], found = count;
-        for (int k = g->first[i]; k < g->end[i]; k++) {
-            const int j = g->list[k];
+        for (int k = g->first[i]; k < g->first[i + 1]; k++) {
+            const int j = g->end[k][1];
             if (g->level[j] >= 0)
                 continue;
             g->level[j] = g->level[i] + 1;
@@ -179,30 +171,14 @@ static void reverse_cuthill_mckee(graph *g, int place[])
         place[g->order[i]] = g->n - 1 - i;
 }
 
-/* The order alone. */
-bbm_status bbm_order(int n, int pairs, int (*pair)[2], int place[])
-{
-    graph g;
-    const bbm_status status = graph_new(&g, n, pairs, pair);
-
-    if (!status)
-        reverse_cuthill_mckee(&g, place);
-    free(g.first);
-    return status;
-}
-
 /* ------------------------------------------------------------------------------------- the matrix */
 
 /* All arrays of one type are one piece of memory. */
 static bbm_status allocate(bbm_matrix *K, const graph *g)
 {
-    const size_t n = (size_t)g->n;
-    int ends = 0;
+    const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
 
-    for (int i = 0; i < g->n; i++)
-        ends += degree(g, i);
-    const size_t blocks = (size_t)ends / 2;
-    K->n = g->n;
+    K->n = K->to = g->n;
     K->place = calloc(4 * n + 2 + blocks, sizeof *K->place);
     K->D = calloc(2 * (n + blocks), sizeof *K->D);
     K->x = calloc(6 * 6 * n, sizeof *K->x);
@@ -232,9 +208,9 @@ static void lay_out_rows(bbm_matrix *K, const graph *g)
         K->caller[K->place[i]] = i;
     for (int i = 0; i < K->n; i++) {
         const int row = K->caller[i];
-        for (int k = g->first[row]; k < g->end[row]; k++)
-            if (K->place[g->list[k]] < i)
-                K->back[count++] = i - K->place[g->list[k]];
+        for (int k = g->first[row]; k < g->first[row + 1]; k++)
+            if (K->place[g->end[k][1]] < i)
+                K->back[count++] = i - K->place[g->end[k][1]];
         K->first[i + 1] = count;
         if (g->level[row] == 0)
             K->start[++K->components] = i + 1;
@@ -259,6 +235,7 @@ bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **out)
         K = NULL;
     }
     free(g.first);
+    free(g.end);
     *out = K;
     return status;
 }
@@ -321,15 +298,6 @@ void bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6])
             B[a][b] = !from ? 0 : right ? from[b][a] : from[a][b];
 }
 
-int bbm_matrix_bandwidth(const bbm_matrix *K)
-{
-    int width = 0;
-
-    for (int k = 0; k < K->first[K->n]; k++)
-        width = K->back[k] > width ? K->back[k] : width;
-    return width;
-}
-
 /* ------------------------------------------------------------------------------------ the kernels
  * Written so that a compiler can do two entries at a time without changing the order of a sum. */
 
@@ -355,12 +323,12 @@ static void multiply_add_transposed(double c, double B[6][6], const double *rest
                      + (B[4][b] * x[4] + B[5][b] * x[5]));
 }
 
-/* y = K x */
+/* y = K x in the caller's order, for the rows in hand. */
 void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
 {
-    memset(y, 0, 6 * (size_t)K->n * sizeof *y);
-    for (int i = 0; i < K->n; i++) {
+    for (int i = K->from; i < K->to; i++) {
         const int row = 6 * K->caller[i];
+        memset(y + row, 0, 6 * sizeof *y);
         multiply_add_transposed(1, K->D[i], x + row, y + row);
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
             const int column = 6 * K->caller[i - K->back[k]];
@@ -370,20 +338,21 @@ void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
     }
 }
 
-/* y = E^-1 y */
-void bbm_sweep_forward(const bbm_matrix *K, double *y)
+/* y += c S x. With c = -1 and x = y that is y = E^-1 y, each row with those before it as they have
+ * become. */
+void bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->from; i < K->to; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add(-1, K->S[k], y + 6 * (i - K->back[k]), y + 6 * i);
+            multiply_add(c, K->S[k], x + 6 * (i - K->back[k]), y + 6 * i);
 }
 
-/* u = E^-T u: each row, once it is done, is passed on to the rows that need it. */
-void bbm_sweep_backward(const bbm_matrix *K, double *u)
+/* y += c S^T x. With c = -1 and x = y that is y = E^-T y: each row, once it is done, is passed on. */
+void bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->to - 1; i >= K->from; i--)
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add_transposed(-1, K->S[k], u + 6 * i, u + 6 * (i - K->back[k]));
+            multiply_add_transposed(c, K->S[k], x + 6 * i, y + 6 * (i - K->back[k]));
 }
 
 /* x.y */
@@ -403,7 +372,7 @@ static void copy(const bbm_matrix *K, const double *from, double *to)
 }
 
 /* z = x + c y; z may be x or y. */
-static void combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z)
+void bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z)
 {
     for (int i = 6 * K->from; i < 6 * K->to; i += 2) {
         const double even = x[i] + c * y[i], odd = x[i + 1] + c * y[i + 1];
@@ -479,7 +448,7 @@ static bbm_status make_ready(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *in
     K->ready = 1;
     K->method = pcg->method;
     K->omega = pcg->omega;
-    if (K->method && K->method->make_ready)
+    if (K->method->make_ready)
         K->method->make_ready(K);
     return BBM_OK;
 }
@@ -535,23 +504,21 @@ bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *inf
 static double precondition(const bbm_matrix *K)
 {
     copy(K, K->r, K->y);
-    bbm_sweep_forward(K, K->y);
-    if (K->method && K->method->correct)
+    bbm_multiply_lower(K, -1, K->y, K->y);
+    if (K->method->correct)
         K->method->correct(K, K->y);
     copy(K, K->y, K->u);
-    bbm_sweep_backward(K, K->u);
+    bbm_multiply_upper(K, -1, K->u, K->u);
     return dot(K, K->r, K->u);
 }
 
 /* p = u + b p,  q = w K p = y + (w-1) u + S u + b q. Returns p.q. */
 static double new_direction(const bbm_matrix *K, double b)
 {
-    combine(K, K->u, b, K->p, K->p);
-    combine(K, K->y, b, K->q, K->q);
-    combine(K, K->q, K->omega - 1, K->u, K->q);
-    for (int i = K->from; i < K->to; i++)
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add(1, K->S[k], K->u + 6 * (i - K->back[k]), K->q + 6 * i);
+    bbm_combine(K, K->u, b, K->p, K->p);
+    bbm_combine(K, K->y, b, K->q, K->q);
+    bbm_combine(K, K->q, K->omega - 1, K->u, K->q);
+    bbm_multiply_lower(K, 1, K->u, K->q);
     return dot(K, K->p, K->q);
 }
 
@@ -566,8 +533,8 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
         const bbm_status status = bbm_count_iteration(pq, pcg, info);
         if (status)
             return status;
-        combine(K, K->x, ru / pq, K->p, K->x);
-        combine(K, K->r, -ru / pq, K->q, K->r);
+        bbm_combine(K, K->x, ru / pq, K->p, K->x);
+        bbm_combine(K, K->r, -ru / pq, K->q, K->r);
         ru = precondition(K);
         b = ru / last;
     }
@@ -584,61 +551,44 @@ static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
     return all_finite(6 * (size_t)n, F) ? BBM_OK : BBM_NOT_FINITE;
 }
 
-static void take_component(bbm_matrix *K, int c)
-{
-    K->from = K->start[c];
-    K->to = K->start[c + 1];
-}
-
 /* The rows of D in hand. Where the iteration ends early, they are those of its last iterate. */
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                                   bbm_pcg_info *info)
 {
     const double scale = magnitude(K, F);
+    double rr = 0, ff = 0;
 
     if (scale == 0)
         return BBM_OK;
     scale_load(K, F, scale);
-    const int other = K->method && K->method->iterate;
-    const bbm_status status = (other ? K->method->iterate : iterate)(K, pcg, info);
+    const bbm_status status = (K->method->iterate ? K->method->iterate : iterate)(K, pcg, info);
     unscale_solution(K, scale, D);
+    bbm_matrix_multiply(K, D, K->q);
+    for (int i = 6 * K->from; i < 6 * K->to; i++) {
+        const int row = 6 * K->caller[i / 6] + i % 6;
+        const double r = (F[row] - K->q[row]) / scale, f = F[row] / scale;
+        rr += r * r;
+        ff += f * f;
+    }
+    info->residual = sqrt(rr / ff);
     return status;
 }
 
-/* |F - K D|/|F| of the component where it is largest, or not a number. */
-static double true_residual(bbm_matrix *K, const double *F, const double *D)
-{
-    double largest = 0;
-
-    bbm_matrix_multiply(K, D, K->q);
-    for (int c = 0; c < K->components; c++) {
-        take_component(K, c);
-        const double scale = magnitude(K, F);
-        double rr = 0, ff = 0;
-        for (int i = 6 * K->from; i < 6 * K->to && scale > 0; i++) {
-            const int row = 6 * K->caller[i / 6] + i % 6;
-            const double r = (F[row] - K->q[row]) / scale, f = F[row] / scale;
-            rr += r * r;
-            ff += f * f;
-        }
-        if (scale > 0 && !(sqrt(rr / ff) <= largest))
-            largest = sqrt(rr / ff);
-    }
-    return largest;
-}
-
-/* If the iteration did not begin, D is 0, iterations 0 and residual 1. One component that fails does not
- * keep the others from being solved. */
+/* If the iteration did not begin, D is 0, iterations 0 and residual 1. One component that fails does
+ * not keep the others from being solved. */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *wanted,
                      bbm_pcg_info *info)
 {
+    static const bbm_method paper = { 0 };
     const clock_t start = clock();
     bbm_pcg pcg = *wanted;
     bbm_status status = check(F, K->n, &pcg);
 
     *info = (bbm_pcg_info){ .residual = 1, .element = -1 };
     memset(D, 0, 6 * (size_t)K->n * sizeof *D);
-    if (pcg.method && pcg.method->choose)
+    if (!pcg.method)
+        pcg.method = &paper;
+    if (pcg.method->choose)
         pcg.method->choose(K, &pcg);
     if (!status)
         status = make_ready(K, &pcg, info);
@@ -646,14 +596,18 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
     info->seconds[0] = (double)(ready - start) / CLOCKS_PER_SEC;
     if (status)
         return status;
+    info->residual = 0;
     for (int c = 0; c < K->components; c++) {
         bbm_pcg_info one = { 0 };
-        take_component(K, c);
+        K->from = K->start[c];
+        K->to = K->start[c + 1];
         const bbm_status s = solve_component(K, F, D, &pcg, &one);
         status = status ? status : s;
         info->iterations = one.iterations > info->iterations ? one.iterations : info->iterations;
+        info->residual = one.residual <= info->residual ? info->residual : one.residual;
     }
-    info->residual = true_residual(K, F, D);
+    K->from = 0;
+    K->to = K->n;
     info->seconds[1] = (double)(clock() - ready) / CLOCKS_PER_SEC;
     return !status && !all_finite(6 * (size_t)K->n, D) ? BBM_NOT_FINITE : status;
 }
