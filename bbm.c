@@ -679,7 +679,7 @@ static bbm_status assemble(bbm_model *m)
     return status;
 }
 
-/* K D = F, section 4. */
+/* Solves K D = F, Eq. (5), section 4. */
 static bbm_status solve(bbm_model *m)
 {
     const bbm_pcg_info *i = &m->info.pcg;

@@ -63,9 +63,9 @@ static double solve_time(bbm_model *m, const bbm_method *method, int iterations)
 /* Seconds of one iteration: what further iterations add to a solve of one, so that setting up does not count. */
 static double iteration_time(bbm_model *m, const bbm_method *method)
 {
-    const double one = solve_time(m, form, 1);
+    const double one = solve_time(m, method, 1);
 
-    return (solve_time(m, form, 1 + ITERATIONS) - one) / ITERATIONS;
+    return (solve_time(m, method, 1 + ITERATIONS) - one) / ITERATIONS;
 }
 
 /* Iterations of a whole solve. */
