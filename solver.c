@@ -1,24 +1,26 @@
-/* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with SSOR.
+/* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with
+ * SSOR.
  *
  * Storage. K is symmetric and consists of 6x6 blocks, a block row for each element. Write
  *
  *     K = L + D + L^T,      D: the diagonal blocks,  L: the blocks left of them.
  *
- * Only D and those blocks of L that are not zero are stored, row by row: `first` says where the blocks
- * of a row begin and `back` how far left of the diagonal each of them is. The block rows are not in the
- * caller's order but in the reverse Cuthill-McKee order: number the elements from one end of the body
- * to the other, breadth first, and reverse the numbers. The blocks of L then lie in a narrow band below
- * the diagonal, and what a sweep reads was written shortly before. The band itself is not stored: an
- * element has three or four neighbours and a band has sqrt(n) places, all but those few zero for ever,
- * because an iteration, unlike a factorisation, fills nothing in. The pattern is made once
- * (bbm_matrix_new); each time step clears K and adds the submatrices anew.
+ * Only D and those blocks of L that are not zero are stored, row by row: `first` says where the
+ * blocks of a row begin and `back` how far left of the diagonal each of them is. The block rows are
+ * not in the caller's order but in the reverse Cuthill-McKee order: number the elements from one
+ * end of the body to the other, breadth first, and reverse the numbers. The blocks of L then lie in
+ * a narrow band below the diagonal, and what a sweep reads was written shortly before. The band
+ * itself is not stored: an element has three or four neighbours and a band has sqrt(n) places, all
+ * but those few zero for ever, because an iteration, unlike a factorisation, fills nothing in. The
+ * pattern is made once (bbm_matrix_new); each time step clears K and adds the submatrices anew.
  *
- * Nothing far away matters. Blocks that no bond and no contact joins, however indirectly, are different
- * components of K: no row of one has a block in a column of another. Each component is solved by
- * itself, with its own scale of F, its own steps and its own end of the iteration. In one iteration for
- * all, a stone that flies past would count the forces in a pile at rest as nothing against its own, and
- * leave them unsolved. The order puts the rows of a component one after the other: they are the rows
- * `from` to `to` - 1 of all that follows. Its D is the same to the last bit whatever else there is.
+ * Nothing far away matters. Blocks that no bond and no contact joins, however indirectly, are
+ * different components of K: no row of one has a block in a column of another. Each component is
+ * solved by itself, with its own scale of F, its own steps and its own end of the iteration. In one
+ * iteration for all, a stone that flies past would count the forces in a pile at rest as nothing
+ * against its own, and leave them unsolved. The order puts the rows of a component one after the
+ * other: they are the rows `from` to `to` - 1 of all that follows. Its D is the same to the last
+ * bit whatever else there is.
  *
  * SSOR-PCG as in the textbooks, with a relaxation factor w, 0 < w < 2:
  *
@@ -31,37 +33,37 @@
  *         u = M^-1 r
  *         p = u + (r.u / its last value) p
  *
- * The factor 1/(2-w) that M often has is left out: it changes neither x nor the end of the iteration.
+ * The factor 1/(2-w) that M often has is left out: it changes neither x nor the end of the
+ * iteration.
  *
- * Scaling. Factor D_i = C_i C_i^T once and write C^-1 F for F, C^T D for D, C^-1 K C^-T for K: the
- * iterates stay the same, the blocks on the diagonal become I and those of L C_i^-1 L_ij C_j^-T. Let S
+ * Scaling. Factor D_i = C_i C_i^T once, and write r, x, K for C^-1 r, C^T x, C^-1 K C^-T: the
+ * iterates stay the same. The diagonal blocks of K become I and those of L C_i^-1 L_ij C_j^-T; let S
  * be w times the latter, and E = I + S. Then
  *
- *     w K = w I + S + S^T,    M = E E^T / w,
+ *     K = I + (S + S^T)/w,    M = E E^T/w.
  *
- * and M^-1 r is, but for the factor w, a sweep forward and a sweep backward over S:
+ * Two sweeps over S are M^-1 but for the factor w, and since the second says S^T u = y - u, a product
+ * with K takes only one more pass over S:
  *
- *     y = E^-1 r,  u = E^-T y.
+ *     y = E^-1 r,   u = E^-T y,   w K u = y + (w-1) u + S u,
  *
- * The second says S^T u = y - u, so that the product takes only one more pass over S:
+ * and with p = u + b p also w K p = w K u + b (w K p). The factors w cancel in a and in r, and leave
+ * 1/w of x: D = w C^-T x.
  *
- *     w K u = y + (w-1) u + S u,    and with  p = u + b p  also  w K p = w K u + b (w K p).
+ * Another method than this one may make something of K when it has been scaled, correct y between
+ * the sweeps, or iterate in a way of its own (bbm_method).
  *
- * With w K in the place of K and M without its w, x becomes 1/w of what it was: D = w C^-T x.
- *
- * Another method than this one may make something of K when it has been scaled, correct y between the
- * sweeps, or iterate in a way of its own (bbm_method).
- *
- * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but
- * F - K D cannot become smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps =
- * 2e-16). A tolerance much below 1e-10 buys iterations and nothing else. Therefore bbm_solve stops on r
- * and then reports the true residual, computed afresh.
+ * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but F
+ * - K D cannot become smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps =
+ * 2e-16). A tolerance much below 1e-10 buys iterations and nothing else. Therefore bbm_solve stops
+ * on r and then reports the true residual, computed afresh.
  *
  * Denormals. When a single element is loaded, a sweep carries the load from element to element and
- * weakens it each time, down to numbers below 1e-308, on which many processors take ten or a hundred
- * times longer; rounding can keep them alive through all the rest of the body. Therefore F is scaled to
- * a largest entry near 1, and its zeros become NEGLIGIBLE: no number fades below that, squares of such
- * numbers are still far from 1e-308, and nothing that matters changes. It costs nothing in an iteration.
+ * weakens it each time, down to numbers below 1e-308, on which many processors take ten or a
+ * hundred times longer; rounding can keep them alive through all the rest of the body. Therefore F
+ * is scaled to a largest entry near 1, and its zeros become NEGLIGIBLE: no number fades below that,
+ * squares of such numbers are still far from 1e-308, and nothing that matters changes. It costs
+ * nothing in an iteration.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -73,11 +75,11 @@
 /* Against the largest entry of F. */
 #define NEGLIGIBLE 1e-100
 
-/* --------------------------------------------------------------------- the pattern and its order */
+/* -------------------------------------------------------------------- the pattern and its order */
 
 typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */
     int n;
-    int *first, (*end)[2];      /* [n+1]  the neighbours of i are end[first[i] .. first[i+1]-1][1] */
+    int *first, (*end)[2];      /* [n+1]  of i: end[first[i] .. first[i+1]-1][1], ascending     */
     int *level;                 /* [n]    distance from the start of the search, -1: not found  */
     int *order;                 /* [n]    as they are found                                     */
 } graph;
@@ -144,8 +146,8 @@ static int breadth_first(graph *g, int start, int *order)
     return count;
 }
 
-/* A good start lies at an end of the component: search from anywhere, start again from the row found
- * last, and so on while that takes the search further. */
+/* A good start lies at an end of the component: search from anywhere, start again from the row
+ * found last, and so on while that takes the search further. */
 static int order_component(graph *g, int start, int *order)
 {
     for (int depth = -1;;) {
@@ -171,7 +173,7 @@ static void reverse_cuthill_mckee(graph *g, int place[])
         place[g->order[i]] = g->n - 1 - i;
 }
 
-/* ------------------------------------------------------------------------------------- the matrix */
+/* ----------------------------------------------------------------------------------- the matrix */
 
 /* All arrays of one type are one piece of memory. */
 static bbm_status allocate(bbm_matrix *K, const graph *g)
@@ -259,10 +261,12 @@ void bbm_matrix_clear(bbm_matrix *K)
     K->ready = 0;
 }
 
-/* Where K_ij, or K_ji if i comes before j, is stored; NULL: nowhere. A row has one to three blocks left
- * of the diagonal: look at each. */
+/* Where K_ij, or K_ji if i comes before j, is stored; NULL: nowhere. A row has one to three blocks
+ * left of the diagonal: look at each. */
 static double (*find_block(const bbm_matrix *K, int i, int j))[6]
 {
+    if (i < 0 || i >= K->n || j < 0 || j >= K->n)
+        return NULL;
     const int a = K->place[i], b = K->place[j], row = a > b ? a : b, left = abs(a - b);
 
     for (int k = K->first[row]; k < K->first[row + 1]; k++)
@@ -274,9 +278,8 @@ static double (*find_block(const bbm_matrix *K, int i, int j))[6]
 /* K_ij += B */
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 {
-    if (i < 0 || i >= K->n || j < 0 || j >= K->n)
-        return BBM_BAD_INDEX;
     double (*to)[6] = find_block(K, i, j);
+
     if (!to)
         return BBM_BAD_INDEX;
     const int right = K->place[i] < K->place[j];
@@ -298,7 +301,7 @@ void bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6])
             B[a][b] = !from ? 0 : right ? from[b][a] : from[a][b];
 }
 
-/* ------------------------------------------------------------------------------------ the kernels
+/* ------------------------------------------------------------------------------------- the kernels
  * Written so that a compiler can do two entries at a time without changing the order of a sum. */
 
 /* y += c B x, each row in two partial sums: of the even and of the odd columns. */
@@ -338,8 +341,7 @@ void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
     }
 }
 
-/* y += c S x. With c = -1 and x = y that is y = E^-1 y, each row with those before it as they have
- * become. */
+/* y += c S x. With c = -1 and x = y that is y = E^-1 y: a row takes those before it as they are now. */
 void bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->from; i < K->to; i++)
@@ -347,7 +349,7 @@ void bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *
             multiply_add(c, K->S[k], x + 6 * (i - K->back[k]), y + 6 * i);
 }
 
-/* y += c S^T x. With c = -1 and x = y that is y = E^-T y: each row, once it is done, is passed on. */
+/* y += c S^T x. With c = -1 and x = y that is y = E^-T y: each row is passed on once it is done. */
 void bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->to - 1; i >= K->from; i--)
@@ -381,9 +383,9 @@ void bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y
     }
 }
 
-/* ------------------------------------------------------------------------------------ the scaling */
+/* ---------------------------------------------------------------------------------- the scaling */
 
-/* G = C^-1, where D = C C^T is the Cholesky factorisation. Returns 0 if D is not positive definite. */
+/* G = C^-1, where D = C C^T by Cholesky. Returns 0 if D is not positive definite. */
 static int invert_factor(double D[6][6], double G[6][6])
 {
     double C[6][6];
@@ -428,8 +430,8 @@ static int all_finite(size_t count, const double *x)
     return 1;
 }
 
-/* Makes of K what the solution needs; further solutions with the same K find it ready. If a D_i is not
- * positive definite, info->element says which row that is. */
+/* Makes of K what the solution needs; further solutions with the same K find it ready. If a D_i is
+ * not positive definite, info->element says which row that is. */
 static bbm_status make_ready(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     if (K->ready && K->method == pcg->method && K->omega == pcg->omega)
@@ -453,7 +455,8 @@ static bbm_status make_ready(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *in
     return BBM_OK;
 }
 
-/* The power of two below the largest entry of F in the rows in hand: to divide by it rounds nothing. */
+/* The power of two below the largest entry of F in the rows in hand: to divide by it rounds
+ * nothing. */
 static double magnitude(const bbm_matrix *K, const double *F)
 {
     double m = 0;
@@ -486,10 +489,10 @@ static void unscale_solution(const bbm_matrix *K, double scale, double *D)
         multiply_add_transposed(scale * K->omega, K->G[i], K->x + 6 * i, D + 6 * K->caller[i]);
 }
 
-/* --------------------------------------------------------------------------------------- SSOR-PCG */
+/* ------------------------------------------------------------------------------------- SSOR-PCG */
 
-/* Counts an iteration, unless the limit is reached or p.Kp, perhaps a NaN, shows that K is not positive
- * definite. */
+/* Counts an iteration, unless the limit is reached or p.Kp, perhaps a NaN, shows that K is not
+ * positive definite. */
 bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     if (info->iterations == pcg->iterations)
@@ -541,7 +544,7 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     return BBM_OK;
 }
 
-/* ----------------------------------------------------------------------------------- the solution */
+/* --------------------------------------------------------------------------------- the solution */
 
 static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
 {
@@ -574,8 +577,8 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, con
     return status;
 }
 
-/* If the iteration did not begin, D is 0, iterations 0 and residual 1. One component that fails does
- * not keep the others from being solved. */
+/* If the iteration did not begin, D is 0, iterations 0 and residual 1. One component that fails
+ * does not keep the others from being solved. */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *wanted,
                      bbm_pcg_info *info)
 {

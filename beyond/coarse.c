@@ -1,19 +1,20 @@
-/* coarse.c - a second, coarse level for the SSOR-PCG of solver.c, by which the number of iterations no
- * longer grows with the mesh.
+/* coarse.c - a second, coarse level for the SSOR-PCG of solver.c, by which the number of iterations
+ * no longer grows with the mesh.
  *
- * SSOR removes in one iteration what is stiff and local, but carries news of the load by one element
- * per sweep; the finer the mesh, the more iterations. What it is slow at is known beforehand:
- * displacements that are continuous from element to element cost the bonding springs nothing, so that
- * in their sight everything else is stiff. On triangles these are the displacements of the
- * constant-strain finite element. So take the corners of the elements as a coarse grid, where corners
- * tied together by bonds are one node, and correct between the two sweeps of SSOR in the whole space of
- * its displacements at once. P takes the displacements of the nodes to the unknowns of the elements, six
- * rows and two columns for each corner; Kc = P^T K P is the stiffness on the coarse grid, with all fixed
- * points, contacts and inertia in it. In the scaled variables of solver.c, with w = 1 and Q = C^T P,
+ * SSOR removes in one iteration what is stiff and local, but carries news of the load by one
+ * element per sweep; the finer the mesh, the more iterations. What it is slow at is known
+ * beforehand: displacements that are continuous from element to element cost the bonding springs
+ * nothing, so that in their sight everything else is stiff. On triangles these are the
+ * displacements of the constant-strain finite element. So take the corners of the elements as a
+ * coarse grid, where corners tied together by bonds are one node, and correct between the two
+ * sweeps of SSOR in the whole space of its displacements at once. P takes the displacements of the
+ * nodes to the unknowns of the elements, six rows and two columns for each corner; Kc = P^T K P is
+ * the stiffness on the coarse grid, with all fixed points, contacts and inertia in it. In the
+ * scaled variables of solver.c, with w = 1 and Q = C^T P,
  *
- *     y = E^-1 r                              sweep forward; it leaves the residual r - K y = -S^T y
- *     z = y - Q Kc^-1 Q^T S^T y               its correction
- *     u = E^-T (r - S z)                      sweep backward
+ *     y = E^-1 r                       sweep forward; it leaves the residual r - K y = -S^T y
+ *     z = y - Q Kc^-1 Q^T S^T y        its correction
+ *     u = E^-T (r - S z)               sweep backward
  *
  * and since r = y + S y, that is no more than a correction of y between the sweeps as they are,
  *
@@ -21,12 +22,13 @@
  *
  * positive definite by its form. Some 15 iterations suffice on a mesh of any fineness.
  *
- * Kc has an envelope: from the first entry of each row that is not zero to the diagonal, everything is
- * stored and factored by Cholesky. The nodes are numbered by the last row that has them, so that the
- * envelope is narrow as the band of K is. Displacements of the nodes that move no element (the hourglass
- * of quadrilaterals) have no stiffness: of their pivots rounding is left, some eps of what was summed up
- * before it cancelled. A pivot below VANISHING of that is struck out with its row: the coarse space is
- * then a little smaller, and the preconditioner as positive definite as before.
+ * Kc has an envelope: from the first entry of each row that is not zero to the diagonal, everything
+ * is stored and factored by Cholesky. The nodes are numbered by the last row that has them, so that
+ * the envelope is narrow as the band of K is. Displacements of the nodes that move no element (the
+ * hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left, some eps of
+ * what was summed up before it cancelled. A pivot below VANISHING of that is struck out with its
+ * row: the coarse space is then a little smaller, and the preconditioner as positive definite as
+ * before.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -53,9 +55,9 @@ typedef struct {
     int pays;                   /* in the step in hand                                          */
 } coarse_space;
 
-/* ------------------------------------------------------------------------------------ the layout */
+/* ----------------------------------------------------------------------------------- the layout */
 
-/* first, node and start. The nodes are numbered from the last row on and from the last number down. */
+/* first, node and start; the nodes are numbered from the last row on, from the last number down. */
 static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *node, int *number,
                              coarse_space *c)
 {
@@ -153,8 +155,8 @@ static void coarse_free(void *extra)
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
- * node[first[i+1]-1], all different, or none, and no two components the same node. Rows of three nodes
- * that share two of them must be triangles bonded along that side. */
+ * node[first[i+1]-1], all different, or none, and no two components the same node. Rows of three
+ * nodes that share two of them must be triangles bonded along that side. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node)
 {
     for (int k = 0; k < first[K->n]; k++)
@@ -190,7 +192,7 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------------------------ Kc and its factor */
+/* ---------------------------------------------------------------------------- Kc and its factor */
 
 /* Kc_ij, left of the diagonal or on it; those right of it in the same row lie after it. */
 static double *entry(const coarse_space *c, int i, int j)
@@ -221,7 +223,8 @@ static void add_block(coarse_space *c, double f, int a, double Y[6][2], int j)
     }
 }
 
-/* Q = C^T P = C^-1 D P, and Kc = P^T (D + L + L^T) P, of which the first is what pivots are measured by. */
+/* Q = C^T P = C^-1 D P, and Kc = P^T (D + L + L^T) P, of which the first is what pivots are
+ * measured by. */
 static void sum_coarse(const bbm_matrix *K, coarse_space *c)
 {
     double Y[6][2];
@@ -248,8 +251,8 @@ static void sum_coarse(const bbm_matrix *K, coarse_space *c)
         }
 }
 
-/* s = the products of the rows a0 and a1 with b0 and b1, over an even number of columns, each in two
- * partial sums: one alone would wait for each addition to end. */
+/* s = the products of the rows a0 and a1 with b0 and b1, over an even number of columns, each in
+ * two partial sums: one alone would wait for each addition to end. */
 static void multiply_rows(int n, const double *a0, const double *a1, const double *b0,
                           const double *b1, double s[4])
 {
@@ -376,13 +379,13 @@ static void choose(const bbm_matrix *K, bbm_pcg *pcg)
 
 const bbm_method bbm_two_level = { .choose = choose, .make_ready = make_ready, .correct = correct };
 
-/* ---------------------------------------------------------------------- the coarse space of a model */
+/* ------------------------------------------------------------------ the coarse space of a model */
 
-/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the displacements
- * linear in x, y the one nearest to those of all n corners, by least squares; on a triangle it is exact.
- * With `middles` it is the one nearest to the means over the sides, for elements that are bonded there.
- * Fitted about the mean of the corners, a linear function has the value mean(u) there and the gradient
- * g = M^-1 sum_a d_a u_a, M = sum d d^T:
+/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
+ * displacements linear in x, y the one nearest to those of all n corners, by least squares; on a
+ * triangle it is exact. With `middles` it is the one nearest to the means over the sides, for
+ * elements that are bonded there. Fitted about the mean of the corners, a linear function has the
+ * value mean(u) there and the gradient g = M^-1 sum_a d_a u_a, M = sum d d^T:
  *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx,
  *     r0 = (vx - uy)/2. */
 void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int middles, int a,
@@ -425,9 +428,10 @@ static int held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
-/* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts them.
- * An element without bonds is not in it, for there would be as many coarse unknowns as it has of its own;
- * nor is one held at every corner, which hardly moves. SSOR alone is faster for both. */
+/* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
+ * them. An element without bonds is not in it, for there would be as many coarse unknowns as it has
+ * of its own; nor is one held at every corner, which hardly moves. SSOR alone is faster for both.
+ * */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices;
@@ -460,9 +464,9 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     return status;
 }
 
-/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element by
- * itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs to cross
- * some elements. */
+/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element
+ * by itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs
+ * to cross some elements. */
 static int step_is_long(const bbm_model *m)
 {
     for (int b = 0; b < m->bonds; b++) {
@@ -474,8 +478,8 @@ static int step_is_long(const bbm_model *m)
     return 0;
 }
 
-/* The coarse space of the present geometry, unless it is that already. Elements that are not in it are
- * refused, which does no harm. */
+/* The coarse space of the present geometry, unless it is that already. Elements that are not in it
+ * are refused, which does no harm. */
 void bbm_interpolate_elements(bbm_model *m)
 {
     coarse_space *c = m->K->extra;

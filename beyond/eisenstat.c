@@ -4,7 +4,8 @@
  *
  *     w K = w I + S + S^T = E + E^T - (2-w) I,      E = I + S,
  *
- * so that w E^-1 K E^-T p costs no product, only the two sweeps that the preconditioner needs in any case:
+ * so that w E^-1 K E^-T p costs no product, only the two sweeps that the preconditioner needs in
+ * any case:
  *
  *     x = 0,  r = E^-1 F,  p = r
  *     until sqrt(r.r) <= tolerance * its first value:
@@ -14,9 +15,9 @@
  *         x += a t,  r -= a (t + y)
  *         p = r + (r.r / its last value) p
  *
- * The iterates are those of solver.c but for rounding, and so is the end: r.r here is r.u there. What is
- * left out is the product with K. What is left is so little that reading and writing the vectors counts, too,
- * and steps that use the same ones are done together.
+ * The iterates are those of solver.c but for rounding, and so is the end: r.r here is r.u there.
+ * What is left out is the product with K. What is left is so little that reading and writing the
+ * vectors counts, too, and steps that use the same ones are done together.
  */
 #include <math.h>
 
@@ -35,7 +36,8 @@ static double dot_sum(const bbm_matrix *K, const double *p, const double *t, con
 }
 
 /* x += a t, r -= a (t + y). Returns r.r. */
-static double advance(const bbm_matrix *K, double a, const double *restrict t, const double *restrict y)
+static double advance(const bbm_matrix *K, double a, const double *restrict t,
+                      const double *restrict y)
 {
     double *restrict x = K->x, *restrict r = K->r, even = 0, odd = 0;
 
