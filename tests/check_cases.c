@@ -362,7 +362,7 @@ START_TEST(without_beyond_the_tables_of_the_paper_are_the_same)
 END_TEST
 
 /* 2 m. The directions of contacts at the start of a step or in its middle make a difference of
- * 6e-10 of that on a plate that gives way. */
+ * 6e-10 of that on a plate that gives way, the solver's tolerance in 250 steps one of 5e-10. */
 START_TEST(without_beyond_the_block_slides_as_far)
 {
     static const char *const quantity[] = {
@@ -372,7 +372,7 @@ START_TEST(without_beyond_the_block_slides_as_far)
 
     for (int k = 0; k < COUNT(quantity); k++)
         ck_relative(find_result("paper/out/exp3", quantity[k]).computed,
-                    find_result("exp3", quantity[k]).computed, 1e-9);
+                    find_result("exp3", quantity[k]).computed, 2e-9);
 }
 END_TEST
 
