@@ -91,29 +91,21 @@ static int eliminate(const window *w, int p)
     return pivot > 0;
 }
 
-/* The order of elimination, and the list of gaps for each place. */
+/* The order of elimination, that of K, and the list of gaps for each place. */
 static bbm_status lay_out(const bbm_model *m, window *w)
 {
-    int (*pair)[2] = calloc((size_t)m->gaps + 1, sizeof *pair), pairs = 0;
-
-    for (int g = 0; g < m->gaps && pair; g++)
-        if (m->gap[g].j >= 0) {
-            pair[pairs][0] = m->gap[g].i;
-            pair[pairs++][1] = m->gap[g].j;
-        }
-    const bbm_status status = pair ? bbm_order(m->elements, pairs, pair, w->place) : BBM_NO_MEMORY;
-    free(pair);
+    memcpy(w->place, m->K->place, (size_t)m->elements * sizeof *w->place);
     w->n = 3;
     for (int e = 0; e < m->elements; e++)
         w->first[e] = -1;
-    for (int g = 0; g < m->gaps && !status; g++) {
+    for (int g = 0; g < m->gaps; g++) {
         const int i = w->place[m->gap[g].i], j = m->gap[g].j < 0 ? i : w->place[m->gap[g].j];
         const int low = i < j ? i : j, band = 3 * (abs(i - j) + 1);
         w->next[g] = w->first[low];
         w->first[low] = g;
         w->n = band > w->n ? band : w->n;
     }
-    w->row = status ? NULL : calloc((size_t)w->n * (size_t)w->n, sizeof *w->row);
+    w->row = calloc((size_t)w->n * (size_t)w->n, sizeof *w->row);
     return w->row ? BBM_OK : BBM_NO_MEMORY;
 }
 
