@@ -579,14 +579,17 @@ static void count_time(bbm_model *m, int phase, clock_t since)
  * Without memory the old one stays. */
 static bbm_status lay_out_matrix(bbm_model *m)
 {
-    const int contacts = m->work ? bbm_contact_count(m) : 0;
+    int contacts = 0;
+    const bbm_contact *c = m->scratch ? bbm_list_contacts(m, &contacts) : NULL;
     int (*pair)[2] = calloc((size_t)(contacts + m->gaps) + 1, sizeof *pair), n = 0;
     bbm_matrix *K;
 
     if (!pair)
         return BBM_NO_MEMORY;
-    for (; n < contacts; n++)
-        bbm_contact_pair(m, n, pair[n]);
+    for (; n < contacts; n++) {
+        pair[n][0] = m->edge[c[n].corner].element;
+        pair[n][1] = m->edge[c[n].edge].element;
+    }
     for (int g = 0; g < m->gaps; g++) {
         const int repeated = g > 0 && m->gap[g].i == m->gap[g - 1].i
                           && m->gap[g].j == m->gap[g - 1].j;
@@ -620,8 +623,11 @@ static int is_spent(const bbm_model *m)
 /* The contacts have not settled. */
 static bbm_status unsettled(bbm_model *m)
 {
+    int contacts;
+
+    (void)bbm_list_contacts(m, &contacts);
     return bbm_fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts",
-                    m->info.step + 1, m->info.t, m->h, m->info.passes, bbm_contact_count(m));
+                    m->info.step + 1, m->info.t, m->h, m->info.passes, contacts);
 }
 
 /* What went wrong in a solution becomes a sentence with the numbers. */
@@ -656,8 +662,6 @@ static bbm_status detect(bbm_model *m, int *other)
     if (m->detections++ == DETECTIONS)
         return unsettled(m);
     status = bbm_detect_contacts(m, &same);
-    if (!status && !same && m->one_by_one)
-        status = bbm_start_again(m);
     count_time(m, BBM_DETECT, start);
     if (status || same)
         return status;
@@ -1054,7 +1058,7 @@ static void free_prepared(bbm_model *m)
     free(m->pair);
     free(m->contact);
     bbm_matrix_free(m->K);
-    bbm_contact_free(m->work);
+    bbm_contact_free(m->scratch);
     m->bond = NULL;
     m->edge = NULL;
     m->adjacent_first = NULL;
@@ -1065,8 +1069,8 @@ static void free_prepared(bbm_model *m)
     m->pair = NULL;
     m->contact = NULL;
     m->K = NULL;
-    m->work = NULL;
-    m->bonds = m->edges = m->gaps = m->gap_room = m->pairs = m->contacts = m->contact_room = 0;
+    m->scratch = NULL;
+    m->bonds = m->edges = m->gaps = m->gap_room = m->pairs = m->contacts = 0;
 }
 
 void bbm_model_free(bbm_model *m)
@@ -1349,13 +1353,15 @@ static bbm_status connect_elements(bbm_model *m)
             return bbm_fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d",
                             m->blamed[1], m->blamed[0], p, q);
         }
-        m->vertex[v].edge = partners == 0 ? m->edges : -1;
+        const int across = partners == 0 ? 0
+                         : bbm_next_vertex(&m->element[m->vertex[w].element], w);
+        m->vertex[v].edge = partners == 0 ? m->edges : -1 - across;
         if (partners == 0)
-            m->edge[m->edges++] = (bbm_edge){ i, v, next, block };
+            m->edge[m->edges++] = (bbm_edge){ .element = i, .a = v, .b = next,
+                                              .block = block };
         else if (v < w)
-            m->bond[m->bonds++] = (bbm_bond){
-                i, m->vertex[w].element, { v, next },
-                { bbm_next_vertex(&m->element[m->vertex[w].element], w), w } };
+            m->bond[m->bonds++] = (bbm_bond){ i, m->vertex[w].element, { v, next },
+                                              { across, w } };
     }
     return BBM_OK;
 }
@@ -1400,15 +1406,17 @@ int bbm_root_of(int up[], int e)
 /* Joins what gaps and contacts connect to bodies, known by their root in up[]. */
 void bbm_join_elements(const bbm_model *m, int up[])
 {
+    int contacts;
+    const bbm_contact *c = bbm_list_contacts(m, &contacts);
+
     for (int e = 0; e < m->elements; e++)
         up[e] = e;
     for (int g = 0; g < m->gaps; g++)
         if (m->gap[g].j >= 0)
             up[bbm_root_of(up, m->gap[g].j)] = bbm_root_of(up, m->gap[g].i);
-    for (int c = 0; c < bbm_contact_count(m); c++) {
-        int pair[2];
-        bbm_contact_pair(m, c, pair);
-        up[bbm_root_of(up, pair[1])] = bbm_root_of(up, pair[0]);
+    for (int k = 0; k < contacts; k++) {
+        const int i = m->edge[c[k].corner].element, j = m->edge[c[k].edge].element;
+        up[bbm_root_of(up, j)] = bbm_root_of(up, i);
     }
     for (int e = 0; e < m->elements; e++)
         up[e] = bbm_root_of(up, e);

@@ -88,7 +88,8 @@ typedef struct {                /* a corner of one element                      
     int    node, element;
     double x, y;                /* m        present position                 */
     double u, v;                /* m        displacement since the start: x = node.x + u        */
-    int    edge;                /* the boundary edge that starts here, or -1; by bbm_prepare    */
+    int    edge;                /* the boundary edge that starts here, or -1 - w, where w is    */
+                                /*          the vertex across the bond; by bbm_prepare          */
 } bbm_vertex;
 
 typedef struct bbm_element bbm_element;
@@ -122,8 +123,17 @@ typedef struct {                /* an internal edge: two bonding springs, elemen
     int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j      */
 } bbm_bond;
 
+typedef struct { double x, y, length; } bbm_direction;         /* unit vector; m                */
+
 typedef struct {                /* a boundary edge from vertex a to b, its element on the left  */
     int element, a, b, block;
+    /* --- contact.c --- */
+    int    first;               /* one of the elements of its block, for all of them            */
+    int    before, after;       /* its neighbours along the boundary                            */
+    int    side;                /* the first edge of the straight side that it belongs to       */
+    double span;                /* m        length of that side at the start, of its first edge */
+    bbm_direction along;        /* of the present positions                                     */
+    int    contact;             /* the first one of the corner a in model.contact               */
 } bbm_edge;
 
 /* What glues: the gap d = d0 + T_i D_i - T_j D_j, with the energy 1/2 d.W d + f.d. */
@@ -176,36 +186,40 @@ enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
 
-typedef struct {                /* vertex P1 of one block against an edge P2 P3 of another                      */
+typedef struct {                /* vertex P1 of one block against an edge P2 P3 of another      */
     /* --- identity: boundary edges; P1 starts `corner`, P2 ends `edge`, P3 starts it --- */
     int    corner, edge;
     /* --- state, carried from step to step --- */
     bbm_contact_state state;
-    double sign;                /* of the slip while it slides: 1 towards P3                                    */
-    double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                                          */
-    double rest;                /* m        d_n at which the normal spring carries nothing: 0, or where it was  */
-                                /*          when it closed inside, so that no spring starts loaded              */
-    double N, T;                /* N        normal force; shear force that the spring carries or would carry    */
-    int    inside;              /* opened though P1 is still inside: where it had closed inside, see rest       */
-    int    whole;               /* closed since the start and not broken: has cohesion and tensile strength     */
+    double sign;                /* of the slip while it slides: 1 towards P3                    */
+    double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                          */
+    double rest;                /* m        d_n at which the normal spring carries nothing: 0,  */
+                                /*          or where it was when it closed inside, so that no   */
+                                /*          spring starts loaded                                */
+    double N, T;                /* N        normal force; what the shear spring carries or      */
+                                /*          would carry                                         */
+    double area;                /* m^2      that P1 stands for of an unbroken joint, or 0       */
+    int    inside;              /* opened with P1 still inside, where it had closed, see rest   */
     /* --- of the step --- */
-    int    rival[4];            /* other lines of entrance, in the list, or -1: two at P3, two at P2            */
-    double gap;                 /* m        d_n at the start                                                    */
-    double area;                /* m^2      of the joint that P1 stands for; 0 if it is not whole               */
-    double share;               /* -        of the step after it hit, on which its shear spring acts            */
-    int    before;              /* closed at the start                                                          */
-    int    off;                 /* the foot is not on the edge at the start                                     */
-    double d_n, d_s;            /* m        normal distance and slip at the end                                 */
-    double used;                /* N        the N that the friction of the last solution used                   */
-    bbm_contact_state next;
-    int    closings;            /* in this step                                                                 */
+    int    entrance[4];         /* the other entrance lines, contacts in the list or -1: two    */
+                                /*          at P3, two at P2                                    */
+    int    was_closed;          /* at the start                                                 */
+    int    beyond_end;          /* the projection of P1 is not on the edge at the start         */
+    double d_n0;                /* m        d_n at the start                                    */
+    double time_left;           /* -        of the step when P1 hit, on which the shear spring  */
+                                /*          acts                                                */
+    double d_n, d_s;            /* m        normal distance and slip at the end                 */
+    double N_of_friction;       /* N        the N that friction is taken for                    */
+    double force_tolerance;     /* N        forces that differ by less agree                    */
+    bbm_contact_state next_state;
+    int    closings;
 } bbm_contact;
 
-typedef struct {                /* what the formulas of 3.7 take                                                */
+typedef struct {                /* what the formulas of 3.7 take                                */
     const bbm_element *i, *j;
     const bbm_vertex *P1, *P2, *P3;
-    int exact;                  /* with what (60) drops, see beyond/middle.c; 0: the paper                      */
-    double rest;                /* m        see bbm_contact; 0: the paper                                       */
+    int exact;                  /* with what (60) drops, see beyond/rotation.c; 0: the paper    */
+    double rest;                /* m        see bbm_contact; 0: the paper                       */
 } bbm_touch;
 
 typedef struct { double d, e[6], g[6]; } bbm_spring;    /* its length is d + e.D_i + g.D_j                      */
@@ -243,7 +257,7 @@ typedef struct {                /* what the last step did                       
 
 typedef struct bbm_model bbm_model;
 typedef struct bbm_matrix bbm_matrix;               /* K, in solver.c                           */
-typedef struct bbm_contact_work bbm_contact_work;   /* scratch of contact.c                     */
+typedef struct bbm_contact_scratch bbm_contact_scratch;     /* in contact.c             */
 typedef struct bbm_beyond bbm_beyond;               /* of the hooks                             */
 
 /* Where what the paper does not have comes in; NULL: the paper's way. */
@@ -257,12 +271,15 @@ typedef struct {
     void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
     void (*begin)(bbm_model *m);                            /* the contacts are listed          */
     bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
+    bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
+    double (*joint_area)(const bbm_model *m, int corner, int edge); /* of what touches at the start */
     /* --- K D = F --- */
     bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
-    bbm_status (*friction)(bbm_model *m, int *agree);       /* the next N of friction forces    */
+    bbm_status (*friction)(bbm_model *m, int pass);         /* the next N of friction forces;   */
+                                                            /* pass 0: of new states            */
     int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */
     int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
     int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
@@ -304,9 +321,9 @@ struct bbm_model {
     bbm_element *end_element;   /* [elements] the end of the step, see move_model               */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     /* --- contacts --- */
-    int contacts, contact_room;
+    int contacts;
     bbm_contact *contact;       /* [contacts] at the end of the last step, by corner and edge   */
-    bbm_contact_work *work;
+    bbm_contact_scratch *scratch;
     int pairs, (*pair)[2];      /* elements of the contacts and bonds that K has room for       */
     /* --- results --- */
     bbm_info info;
@@ -392,13 +409,16 @@ void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]
 void   bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6]);     /* (47) */
 
 /* 3.7, 3.8 */
-void   bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);                          /* (52)-(57)             */
-void   bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s);     /* (58a-f)               */
-void   bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s);            /* (53), (60)-(62)       */
-void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s, bbm_submatrices *s);  /* (63), (64) */
-void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s); /* (65)-(69) */
+void   bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);                   /* (52)-(57)    */
+void   bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s);  /* (58a-f)  */
+void   bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (53), (60)-(62)  */
+void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s,
+                             bbm_submatrices *s);                               /* (63), (64)   */
+void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr,
+                                bbm_submatrices *s);                            /* (65)-(69)    */
 double bbm_shear_strength(const bbm_parameters *p, double N, double area);
-bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, double slack);    /* the table */
+bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c,
+                                 double tolerance);                             /* the table    */
 
 /* ------------------------------------------------------ 4. what the files of the library share */
 
@@ -423,19 +443,15 @@ void       bbm_join_elements(const bbm_model *m, int up[]);     /* by bonds and 
 
 /* contact.c: the parts of a step with contacts, for bbm_step */
 bbm_status bbm_contact_new(bbm_model *m);
-void       bbm_contact_free(bbm_contact_work *w);
-void       bbm_guess_step(bbm_model *m);
+void       bbm_contact_free(bbm_contact_scratch *w);
+void       bbm_guess_step(bbm_model *m);                        /* D as far as it is foretold   */
 int        bbm_moved_too_far(bbm_model *m);
-const double *bbm_guess(const bbm_model *m);
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
-bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);
-bbm_status bbm_start_again(bbm_model *m);
-int        bbm_contact_count(const bbm_model *m);
-void       bbm_contact_pair(const bbm_model *m, int k, int pair[2]);
+bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
+int        bbm_carries(const bbm_model *m, int corner, int edge);
+bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
-double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
-int        bbm_contacts_are_off(const bbm_model *m, double share);
 bbm_status bbm_keep_contacts(bbm_model *m);
 /* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
  * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,

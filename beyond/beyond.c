@@ -4,13 +4,21 @@
 
 #include "beyond.h"
 
-static void release(bbm_model *m) { free(m->beyond); }
+static void release(bbm_model *m)
+{
+    if (!m->beyond)
+        return;
+    free(m->beyond->friction.x);
+    free(m->beyond->girth);
+    free(m->beyond);
+}
 
 /* A prepared model: elements lie side by side, springs have the energy that they begin with. */
 static bbm_status check(bbm_model *m)
 {
     m->beyond->springs = bbm_spring_energy(m);
-    return bbm_check_overlap(m);
+    const bbm_status status = bbm_measure_blocks(m);
+    return status ? status : bbm_check_overlap(m);
 }
 
 /* The settings of all subjects, and before the first step bonds that hold. */
@@ -46,7 +54,7 @@ static void accelerate(bbm_model *m)
 
 static void begin(bbm_model *m)
 {
-    bbm_set_middle(m, bbm_guess(m));
+    bbm_set_middle(m);
     bbm_start_multipliers(m);
 }
 
@@ -96,6 +104,9 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .accelerate = accelerate,
         .begin = begin,
         .check_listed = check_listed,
+        .find_pairs = bbm_sweep,
+        .joint_area = bbm_joint_area,
+        .friction = bbm_find_friction,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,
         .lay_out = bbm_lay_out_coarse,

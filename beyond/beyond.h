@@ -17,6 +17,14 @@ typedef enum {                  /* how two quadrilaterals are bonded; others at 
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
+enum { BBM_FRICTION_DIRECTIONS = 16 };
+
+typedef struct {                /* friction.c                                                   */
+    int directions, room;
+    double *x, *r;              /* [room] N     that friction takes; what the solution adds     */
+    double *dx, *dr;            /* [(BBM_FRICTION_DIRECTIONS + 1) room] their changes           */
+} bbm_friction_search;
+
 struct bbm_beyond {
     /* --- settings --- */
     bbm_bonding  bonding;       /* bending.c                                                    */
@@ -25,6 +33,8 @@ struct bbm_beyond {
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
+    bbm_friction_search friction;
+    double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
@@ -55,8 +65,9 @@ double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u
 /* rotation.c */
 int        bbm_moves_exactly(const bbm_model *m);
 bbm_mode   bbm_middle_matrix;
-void       bbm_set_middle(bbm_model *m, const double D[]);
+void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
+int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
 void       bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6], double X,
                             double Y, double u[2]);
@@ -74,8 +85,15 @@ void       bbm_start_multipliers(bbm_model *m);
 int        bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);
 
+/* sweep.c, joints.c, friction.c */
+bbm_status bbm_sweep(bbm_model *m, double search);
+double     bbm_joint_area(const bbm_model *m, int corner, int edge);
+bbm_status bbm_find_friction(bbm_model *m, int pass);
+
 /* refuse.c, statics.c */
 bbm_status bbm_check_solution(bbm_model *m);
+bbm_status bbm_measure_blocks(bbm_model *m);
+double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
 bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */

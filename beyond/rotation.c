@@ -33,9 +33,12 @@
  *               keeps its energy to 1e-9 of it
  * SHARE [-]     force of a contact that comes from T_m of another D, against the largest one on
  *               its elements: what it makes of energy is this share of the energy of the
- *               contact's spring */
+ *               contact's spring
+ * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is
+ *               1e-5 of that */
 #define TURN 1e-8
 #define SHARE 1e-5
+#define DIRECTION 1e-4
 
 /* Whether points move by the exact rotation. */
 int bbm_moves_exactly(const bbm_model *m)
@@ -80,15 +83,15 @@ void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
     at[1] = e->y + D[1] / 2 + Ym;
 }
 
-/* Takes the vectors of the step in the middle of D, [6 elements]; not exact: at its start. */
-void bbm_set_middle(bbm_model *m, const double D[])
+/* Takes the vectors of the step in the middle of D; not exact: at its start. */
+void bbm_set_middle(bbm_model *m)
 {
     const int exact = bbm_moves_exactly(m);
 
     for (int i = 0; i < m->elements; i++) {
         m->element[i].mode = exact ? bbm_middle_matrix : NULL;
         for (int a = 0; a < 6; a++)
-            m->element[i].mode_D[a] = exact ? D[6 * i + a] : 0;
+            m->element[i].mode_D[a] = exact ? m->D[6 * i + a] : 0;
     }
 }
 
@@ -98,6 +101,56 @@ static int is_off(const bbm_model *m, int i)
     const double r = m->D[6 * i + 2], off = fabs(r - m->element[i].mode_D[2]);
 
     return off * (fabs(r) + off) > TURN;
+}
+
+/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone is
+ * the start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
+static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
+{
+    const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
+    const bbm_element *ei = &m->element[i], *ej = &m->element[j];
+    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
+    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
+    const double x0 = P3->x + c->anchor * (P2->x - P3->x), y0 = P3->y + c->anchor * (P2->y - P3->y);
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
+    double u1[2], u2[2], u3[2], u0[2];
+
+    bbm_move(m, ei, &m->D[6 * i], P1->x, P1->y, u1);
+    bbm_move(m, ej, &m->D[6 * j], P2->x, P2->y, u2);
+    bbm_move(m, ej, &m->D[6 * j], P3->x, P3->y, u3);
+    bbm_move(m, ej, &m->D[6 * j], x0, y0, u0);
+    const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
+    const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
+    d[0] = (x * py - y * px) / l;
+    d[1] = c->time_left * ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
+}
+
+/* Whether the force of a contact on element i, closed as it is, has another direction. */
+static int turns_otherwise(const bbm_model *m, const bbm_contact *c, int i)
+{
+    return c->state != BBM_OPEN && bbm_is_exact(m)
+        && fabs(m->D[6 * i + 2] - m->element[i].mode_D[2]) > DIRECTION;
+}
+
+/* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
+ * of the largest one on its two elements, or in direction, or an open contact on the wrong side. */
+int bbm_contacts_are_off(const bbm_model *m, double share)
+{
+    int contacts, off = 0;
+    const bbm_contact *list = bbm_list_contacts(m, &contacts);
+
+    for (int k = 0; k < contacts && !off; k++) {
+        const bbm_contact *c = &list[k];
+        const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
+        const double Fi = hypot(m->F[6 * i], m->F[6 * i + 1]), Fj = hypot(m->F[6 * j], m->F[6 * j + 1]);
+        const double bound = fmax(share * fmax(fabs(c->N), fmax(Fi, Fj)), c->force_tolerance);
+        double d[2];
+        exact_distances(m, c, d);
+        off = turns_otherwise(m, c, i) || turns_otherwise(m, c, j);
+        off |= m->par.p_n * fabs(d[0] - c->d_n) > bound && (c->state != BBM_OPEN || (d[0] < 0) != (c->d_n < 0));
+        off |= m->par.p_s * fabs(d[1] - c->d_s) > bound && c->state == BBM_LOCK;
+    }
+    return off;
 }
 
 /* Whether the vectors of bonds, fixed points, loads or contacts belong to another step than the
@@ -124,7 +177,7 @@ int bbm_renew_middle(bbm_model *m)
 {
     if (!bbm_middle_is_off(m))
         return 0;
-    bbm_set_middle(m, m->D);
+    bbm_set_middle(m);
     (void)bbm_list_gaps(m);             /* as many as before: there is room */
     return 1;
 }

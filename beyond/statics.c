@@ -144,6 +144,9 @@ static double distance(const bbm_model *m, int i, int j)
  * blocks part most, the one that goes further first. The second is -1 if no blocks part. */
 static double find_loose(const bbm_model *m, int pair[2])
 {
+    int contacts;
+    const bbm_contact *list = bbm_list_contacts(m, &contacts);
+
     pair[0] = 0;
     pair[1] = -1;
     for (int i = 1; i < m->elements; i++)
@@ -151,9 +154,8 @@ static double find_loose(const bbm_model *m, int pair[2])
             pair[0] = i;
     const double furthest = way(m, pair[0]);
     double most = PARTS * furthest;
-    for (int k = 0; k < bbm_contact_count(m); k++) {
-        int c[2];
-        bbm_contact_pair(m, k, c);
+    for (int k = 0; k < contacts; k++) {
+        const int c[2] = { m->edge[list[k].corner].element, m->edge[list[k].edge].element };
         const double apart = distance(m, c[0], c[1]);
         if (apart > most) {
             most = apart;

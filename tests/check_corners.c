@@ -205,11 +205,11 @@ static int check_rivals(const bbm_model *m)
             for (int r = 0; r < m->contacts; r++)
                 lines += is_other_line(m, c, Q, &m->contact[r]);
             for (int r = 2 * end; r < 2 * end + 2; r++)
-                found += c->rival[r] >= 0 && is_other_line(m, c, Q, &m->contact[c->rival[r]]);
+                found += c->entrance[r] >= 0 && is_other_line(m, c, Q, &m->contact[c->entrance[r]]);
             ck_assert_int_eq(found, lines);
-            ck_assert(c->rival[2 * end] < 0 || c->rival[2 * end] != c->rival[2 * end + 1]);
+            ck_assert(c->entrance[2 * end] < 0 || c->entrance[2 * end] != c->entrance[2 * end + 1]);
             for (int r = 2 * end; r < 2 * end + 2; r++)
-                ck_assert(c->rival[r] < 0 || is_other_line(m, c, Q, &m->contact[c->rival[r]]));
+                ck_assert(c->entrance[r] < 0 || is_other_line(m, c, Q, &m->contact[c->entrance[r]]));
             rivals += lines;
         }
     return rivals;
@@ -416,6 +416,7 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
     m->h = m->par.dt;
     bbm_guess_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
+    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     m->D[6 * e + 2] = turn;
     bbm_move(m, &m->element[e], &m->D[6 * e], start[0], start[1], u);
     m->D[6 * e] = 4.98 - start[0] - u[0];
@@ -493,8 +494,8 @@ START_TEST(a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line)
     bbm_contact *c[2];
     bbm_model *m = tip_at(side, x, y, c);
 
-    ck_assert(c[side] && c[side]->state == BBM_LOCK && c[side]->before && c[side]->rest == 0);
-    ck_assert(c[!side] && c[!side]->state == BBM_OPEN && !c[!side]->before);
+    ck_assert(c[side] && c[side]->state == BBM_LOCK && c[side]->was_closed && c[side]->rest == 0);
+    ck_assert(c[!side] && c[!side]->state == BBM_OPEN && !c[!side]->was_closed);
     ck_assert_int_eq(look_at(m, 1, 0.01, 0.01), 0);
     ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
     ck_assert_int_eq(c[side]->state, BBM_LOCK);
@@ -514,8 +515,8 @@ START_TEST(nothing_comes_in_from_behind)
     bbm_contact *c[2];
     bbm_model *m = tip_at(was, was == TOP ? out : deep, was == TOP ? deep : out, c);
 
-    ck_assert(c[was] && c[was]->state == BBM_OPEN && !c[was]->before);
-    ck_assert(c[was]->rest == c[was]->gap);             /* nor would it have a force there */
+    ck_assert(c[was] && c[was]->state == BBM_OPEN && !c[was]->was_closed);
+    ck_assert(c[was]->rest == c[was]->d_n0);             /* nor would it have a force there */
     ck_assert_int_eq(look_at(m, 1, -2e-3, -2e-3), 1);
     ck_assert_int_eq(c[other]->state, BBM_LOCK);
     bbm_model_free(m);

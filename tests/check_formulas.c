@@ -940,7 +940,7 @@ static const struct {
 START_TEST(each_cell_of_the_table_of_states_is_as_written)
 {
     const bbm_parameters p = strength_of(CELLS[_i].kind);
-    const bbm_contact c = { .state = CELLS[_i].was, .whole = CELLS[_i].whole, .area = 0.5,
+    const bbm_contact c = { .state = CELLS[_i].was, .area = CELLS[_i].whole ? 0.5 : 0,
                             .sign = CELLS[_i].sign, .d_n = CELLS[_i].d_n,
                             .d_s = CELLS[_i].T / p.p_s, .T = CELLS[_i].T,
                             .N = CELLS[_i].was == BBM_OPEN ? 0 : -p.p_n * CELLS[_i].d_n };

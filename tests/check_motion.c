@@ -145,7 +145,7 @@ START_TEST(the_matrix_of_the_middle_moves_points_exactly)
     for (int seed = 0; seed < 20; seed++) {
         bbm_element *e = &m->element[i];
         some_motion(seed, m->D);
-        bbm_set_middle(m, m->D);
+        bbm_set_middle(m);
         exact_motion(e, m->D, 2.5, 1, to);
         bbm_middle_matrix(e, 2.5, 1, T, at);
         ck_near(2.5 + sum_row(T[0], m->D), to[0], 1, 1e-14);
@@ -154,12 +154,12 @@ START_TEST(the_matrix_of_the_middle_moves_points_exactly)
         ck_near(at[1], (1 + to[1]) / 2, 1, 1e-14);
     }
     m->beyond->rotation = BBM_LINEAR;
-    bbm_set_middle(m, m->D);
+    bbm_set_middle(m);
     bbm_middle_matrix(&m->element[i], 2.5, 1, T, at);
     ck_assert_int_eq(memcmp(T, paper, sizeof T), 0);
     m->beyond->rotation = BBM_EXACT;
     m->h = INFINITY;
-    bbm_set_middle(m, m->D);
+    bbm_set_middle(m);
     bbm_middle_matrix(&m->element[i], 2.5, 1, T, at);
     ck_assert_int_eq(memcmp(T, paper, sizeof T), 0);
     bbm_model_free(m);
@@ -233,7 +233,7 @@ START_TEST(with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_ex
         double p1[2], p2[2], p3[2], p0[2], d[2];
         some_motion(seed, m->D);
         some_motion(seed + 100, m->D + 6);
-        bbm_set_middle(m, m->D);
+        bbm_set_middle(m);
         bbm_normal_vectors(&c, &n);
         bbm_shear_vectors(&c, anchor, &s);
         exact_motion(a, m->D, P1->x, P1->y, p1);

@@ -297,8 +297,8 @@ static void check_units(const bbm_model *m, const bbm_model *n, double L, double
         const bbm_contact *c = &m->contact[k], *d = &n->contact[k];
         ck_assert(c->corner == d->corner && c->edge == d->edge && c->state == d->state &&
                   c->sign == d->sign);
-        ck_assert(c->whole == d->whole && c->off == d->off && c->rival[0] == d->rival[0] &&
-                  c->rival[1] == d->rival[1]);
+        ck_assert(c->beyond_end == d->beyond_end && c->entrance[0] == d->entrance[0] &&
+                  c->entrance[1] == d->entrance[1]);
         ck_assert(c->anchor == d->anchor && c->d_n * L == d->d_n && c->area * L * L == d->area);
         ck_assert(c->N * force == d->N && c->T * force == d->T);
     }

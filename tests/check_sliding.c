@@ -325,7 +325,7 @@ START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
     start_step(m, &n);
     c = find_listed(m, 2, 0, 1, 2);
     ck_assert_int_eq(c != NULL, was_closed_here);
-    ck_assert(!c || (c->state == BBM_LOCK && c->before));
+    ck_assert(!c || (c->state == BBM_LOCK && c->was_closed));
     if (c)
         ck_near(c->rest, -5e-4 + 1e-4, 1e-4, ROUNDING);         /* so that it has its N */
     bbm_model_free(m);

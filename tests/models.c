@@ -386,7 +386,7 @@ size_t state_of(const bbm_model *m, double state[STATE])
     for (int k = 0; k < m->contacts; k++) {
         const bbm_contact *c = &m->contact[k];
         const double here[8] = { c->corner, c->edge, c->state, c->sign, c->anchor, c->N,
-                                 c->T, c->whole };
+                                 c->T, c->area };
         memcpy(&state[n], here, sizeof here);
         n += 8;
     }

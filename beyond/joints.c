@@ -1,0 +1,59 @@
+/* joints.c - cohesion and tensile strength of unbroken joints.
+ *
+ * Beyond the paper, whose contacts have friction alone. Where blocks touch at the start there is a
+ * joint; cohesion and tensile strength act on its area, of which each contact stands for a share:
+ * to both sides half the way to the next point that touches. The shares add up to the joint. A
+ * contact has its share until it opens, or slips though it has a shear strength: from then on it
+ * is 0.
+ */
+#include <math.h>
+
+#include "beyond.h"
+
+/* Straight sides that differ less in direction lie on each other, and points that are closer, in
+ * lengths of their edge, are the same: rounding of a model file. */
+#define PARALLEL 1e-2
+#define SAME 1e-6
+
+/* The way along an edge from its start to the corner c. */
+static double way_along(const bbm_model *m, int edge, int c)
+{
+    const bbm_vertex *p = &m->vertex[m->edge[c].a], *a = &m->vertex[m->edge[edge].a];
+    const bbm_direction t = m->edge[edge].along;
+
+    return (p->x - a->x) * t.x + (p->y - a->y) * t.y;
+}
+
+/* The end of an edge, or of its whole straight side: the corner that starts it, or ends it. */
+static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
+{
+    if (!ends)
+        return whole ? m->edge[edge].side : edge;
+    edge = m->edge[edge].after;
+    while (whole && m->edge[edge].side != edge)
+        edge = m->edge[edge].after;
+    return edge;
+}
+
+/* The share of a contact that touches at the start, as far as its own sides lie on the edge. The
+ * next point is the next grid point of the side of which they touch, or the end of either side. */
+double bbm_joint_area(const bbm_model *m, int corner, int edge)
+{
+    const bbm_edge *e = &m->edge[edge];
+    const double s = way_along(m, edge, corner), same = SAME * e->along.length;
+    double length = 0;
+
+    for (int ends = 0; ends < 2; ends++) {
+        const int mine = ends ? corner : m->edge[corner].before;
+        const bbm_direction t = m->edge[mine].along;
+        if (fabs(t.x * e->along.y - t.y * e->along.x) > PARALLEL)
+            continue;
+        const int own = end_of_side(m, mine, !bbm_carries(m, mine, edge), ends);
+        int other = end_of_side(m, edge, !bbm_carries(m, edge, mine), !ends);
+        if (m->edge[other].side != other && fabs(way_along(m, edge, other) - s) <= same)
+            other = ends ? m->edge[other].before : m->edge[other].after;
+        length += fmin(fabs(way_along(m, edge, own) - s), fabs(way_along(m, edge, other) - s)) / 2;
+    }
+    return length * fmin(m->element[m->edge[corner].element].material.thickness,
+                         m->element[e->element].material.thickness);
+}
