@@ -464,7 +464,6 @@ void       bbm_matrix_clear(bbm_matrix *K);
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]);  /* K_ij, K_ji = B^T; i = j: B symmetric */
 void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);          /* B = K_ij              */
 void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y);       /* y = K x               */
-int        bbm_matrix_bandwidth(const bbm_matrix *K);                                  /* in block rows         */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info);
 
 /* ---------------------------------------------------- 5. inside the linear solver, see solver.c
@@ -498,9 +497,9 @@ struct bbm_method {
     bbm_status (*iterate)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
 };                              /* from x = 0 and r = F, scaled, to x for the rows in hand      */
 
-bbm_status bbm_order(int n, int pairs, int (*pair)[2], int place[]);    /* Cuthill-McKee        */
-void       bbm_sweep_forward(const bbm_matrix *K, double *y);           /* y = E^-1 y           */
-void       bbm_sweep_backward(const bbm_matrix *K, double *u);          /* u = E^-T u           */
+void       bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y);
+void       bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y);
+void       bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z);
 bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
 
 #endif

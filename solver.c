@@ -1,24 +1,26 @@
-/* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with SSOR.
+/* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with
+ * SSOR.
  *
  * Storage. K is symmetric and consists of 6x6 blocks, a block row for each element. Write
  *
  *     K = L + D + L^T,      D: the diagonal blocks,  L: the blocks left of them.
  *
- * Only D and those blocks of L that are not zero are stored, row by row: `first` says where the blocks
- * of a row begin and `back` how far left of the diagonal each of them is. The block rows are not in the
- * caller's order but in the reverse Cuthill-McKee order: number the elements from one end of the body
- * to the other, breadth first, and reverse the numbers. The blocks of L then lie in a narrow band below
- * the diagonal, and what a sweep reads was written shortly before. The band itself is not stored: an
- * element has three or four neighbours and a band has sqrt(n) places, all but those few zero for ever,
- * because an iteration, unlike a factorisation, fills nothing in. The pattern is made once
- * (bbm_matrix_new); each time step clears K and adds the submatrices anew.
+ * Only D and those blocks of L that are not zero are stored, row by row: `first` says where the
+ * blocks of a row begin and `back` how far left of the diagonal each of them is. The block rows are
+ * not in the caller's order but in the reverse Cuthill-McKee order: number the elements from one
+ * end of the body to the other, breadth first, and reverse the numbers. The blocks of L then lie in
+ * a narrow band below the diagonal, and what a sweep reads was written shortly before. The band
+ * itself is not stored: an element has three or four neighbours and a band has sqrt(n) places, all
+ * but those few zero for ever, because an iteration, unlike a factorisation, fills nothing in. The
+ * pattern is made once (bbm_matrix_new); each time step clears K and adds the submatrices anew.
  *
- * Nothing far away matters. Blocks that no bond and no contact joins, however indirectly, are different
- * components of K: no row of one has a block in a column of another. Each component is solved by
- * itself, with its own scale of F, its own steps and its own end of the iteration. In one iteration for
- * all, a stone that flies past would count the forces in a pile at rest as nothing against its own, and
- * leave them unsolved. The order puts the rows of a component one after the other: they are the rows
- * `from` to `to` - 1 of all that follows. Its D is the same to the last bit whatever else there is.
+ * Nothing far away matters. Blocks that no bond and no contact joins, however indirectly, are
+ * different components of K: no row of one has a block in a column of another. Each component is
+ * solved by itself, with its own scale of F, its own steps and its own end of the iteration. In one
+ * iteration for all, a stone that flies past would count the forces in a pile at rest as nothing
+ * against its own, and leave them unsolved. The order puts the rows of a component one after the
+ * other: they are the rows `from` to `to` - 1 of all that follows. Its D is the same to the last
+ * bit whatever else there is.
  *
  * SSOR-PCG as in the textbooks, with a relaxation factor w, 0 < w < 2:
  *
@@ -31,37 +33,37 @@
  *         u = M^-1 r
  *         p = u + (r.u / its last value) p
  *
- * The factor 1/(2-w) that M often has is left out: it changes neither x nor the end of the iteration.
+ * The factor 1/(2-w) that M often has is left out: it changes neither x nor the end of the
+ * iteration.
  *
- * Scaling. Factor D_i = C_i C_i^T once and write C^-1 F for F, C^T D for D, C^-1 K C^-T for K: the
- * iterates stay the same, the blocks on the diagonal become I and those of L C_i^-1 L_ij C_j^-T. Let S
+ * Scaling. Factor D_i = C_i C_i^T once, and write r, x, K for C^-1 r, C^T x, C^-1 K C^-T: the
+ * iterates stay the same. The diagonal blocks of K become I and those of L C_i^-1 L_ij C_j^-T; let S
  * be w times the latter, and E = I + S. Then
  *
- *     w K = w I + S + S^T,    M = E E^T / w,
+ *     K = I + (S + S^T)/w,    M = E E^T/w.
  *
- * and M^-1 r is, but for the factor w, a sweep forward and a sweep backward over S:
+ * Two sweeps over S are M^-1 but for the factor w, and since the second says S^T u = y - u, a product
+ * with K takes only one more pass over S:
  *
- *     y = E^-1 r,  u = E^-T y.
+ *     y = E^-1 r,   u = E^-T y,   w K u = y + (w-1) u + S u,
  *
- * The second says S^T u = y - u, so that the product takes only one more pass over S:
+ * and with p = u + b p also w K p = w K u + b (w K p). The factors w cancel in a and in r, and leave
+ * 1/w of x: D = w C^-T x.
  *
- *     w K u = y + (w-1) u + S u,    and with  p = u + b p  also  w K p = w K u + b (w K p).
+ * Another method than this one may make something of K when it has been scaled, correct y between
+ * the sweeps, or iterate in a way of its own (bbm_method).
  *
- * With w K in the place of K and M without its w, x becomes 1/w of what it was: D = w C^-T x.
- *
- * Another method than this one may make something of K when it has been scaled, correct y between the
- * sweeps, or iterate in a way of its own (bbm_method).
- *
- * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but
- * F - K D cannot become smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps =
- * 2e-16). A tolerance much below 1e-10 buys iterations and nothing else. Therefore bbm_solve stops on r
- * and then reports the true residual, computed afresh.
+ * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but F
+ * - K D cannot become smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps =
+ * 2e-16). A tolerance much below 1e-10 buys iterations and nothing else. Therefore bbm_solve stops
+ * on r and then reports the true residual, computed afresh.
  *
  * Denormals. When a single element is loaded, a sweep carries the load from element to element and
- * weakens it each time, down to numbers below 1e-308, on which many processors take ten or a hundred
- * times longer; rounding can keep them alive through all the rest of the body. Therefore F is scaled to
- * a largest entry near 1, and its zeros become NEGLIGIBLE: no number fades below that, squares of such
- * numbers are still far from 1e-308, and nothing that matters changes. It costs nothing in an iteration.
+ * weakens it each time, down to numbers below 1e-308, on which many processors take ten or a
+ * hundred times longer; rounding can keep them alive through all the rest of the body. Therefore F
+ * is scaled to a largest entry near 1, and its zeros become NEGLIGIBLE: no number fades below that,
+ * squares of such numbers are still far from 1e-308, and nothing that matters changes. It costs
+ * nothing in an iteration.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -73,60 +75,52 @@
 /* Against the largest entry of F. */
 #define NEGLIGIBLE 1e-100
 
-/* --------------------------------------------------------------------- the pattern and its order */
+/* -------------------------------------------------------------------- the pattern and its order */
 
-typedef struct {                /* who is a neighbour of whom, in the caller's numbers             */
+typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */
     int n;
-    int *first, *end;           /* [n+1], [n]  those of i are list[first[i] .. end[i]-1], ascending */
-    int *list;                  /* [2 pairs]                                                       */
-    int *level;                 /* [n]  distance from the start of the search, -1: not yet found   */
-    int *order;                 /* [n]  as they are found                                          */
+    int *first, (*end)[2];      /* [n+1]  of i: end[first[i] .. first[i+1]-1][1], ascending     */
+    int *level;                 /* [n]    distance from the start of the search, -1: not found  */
+    int *order;                 /* [n]    as they are found                                     */
 } graph;
 
-/* Puts j into the list of i, unless it is there. */
-static void add_neighbour(graph *g, int i, int j)
+static int compare_ends(const void *a, const void *b)
 {
-    int *to = &g->list[g->end[i]];
+    const int *p = a, *q = b, by = p[0] == q[0];
 
-    while (to > g->list + g->first[i] && to[-1] >= j)
-        to--;
-    const int *end = &g->list[g->end[i]];
-    if (i == j || (to < end && *to == j))
-        return;
-    memmove(to + 1, to, (size_t)(end - to) * sizeof *to);
-    *to = j;
-    g->end[i]++;
+    return (p[by] > q[by]) - (p[by] < q[by]);
 }
 
+/* Sorts both ends of all pairs by the row and then by the neighbour, and drops what comes twice. */
 static bbm_status graph_new(graph *g, int n, int pairs, int (*pair)[2])
 {
-    *g = (graph){ .n = n };
     for (int k = 0; k < 2 * pairs; k++)
         if (pair[k / 2][k % 2] < 0 || pair[k / 2][k % 2] >= n)
             return BBM_BAD_INDEX;
-    g->first = calloc(4 * (size_t)n + 1 + 2 * (size_t)pairs, sizeof *g->first);
-    if (!g->first)
+    g->n = n;
+    g->first = calloc(3 * (size_t)n + 1, sizeof *g->first);
+    g->end = calloc(2 * (size_t)pairs + 1, sizeof *g->end);
+    if (!g->first || !g->end)
         return BBM_NO_MEMORY;
-    g->end = g->first + n + 1;
-    g->level = g->end + n;
+    g->level = g->first + n + 1;
     g->order = g->level + n;
-    g->list = g->order + n;
-    for (int k = 0; k < 2 * pairs; k++)
-        g->first[pair[k / 2][k % 2] + 1]++;
-    for (int i = 0; i < n; i++) {
-        g->first[i + 1] += g->first[i];
-        g->end[i] = g->first[i];
+    for (int k = 0; k < 2 * pairs; k++) {
+        g->end[k][0] = pair[k / 2][k % 2];
+        g->end[k][1] = pair[k / 2][1 - k % 2];
+    }
+    qsort(g->end, 2 * (size_t)pairs, sizeof *g->end, compare_ends);
+    int count = 0;
+    for (int i = 0, k = 0; i < n; i++) {
+        for (; k < 2 * pairs && g->end[k][0] == i; k++)
+            if (g->end[k][1] != i && (count == g->first[i] || g->end[count - 1][1] != g->end[k][1]))
+                g->end[count++][1] = g->end[k][1];
+        g->first[i + 1] = count;
         g->level[i] = -1;
     }
-    for (int k = 0; k < 2 * pairs; k++)
-        add_neighbour(g, pair[k / 2][k % 2], pair[k / 2][1 - k % 2]);
     return BBM_OK;
 }
 
-static int degree(const graph *g, int i)
-{
-    return g->end[i] - g->first[i];
-}
+static int degree(const graph *g, int i) { return g->first[i + 1] - g->first[i]; }
 
 /* Cuthill-McKee: the rows of a component, breadth first; those found from the same row by ascending
  * degree. Returns their number. */
@@ -138,8 +132,8 @@ static int breadth_first(graph *g, int start, int *order)
     g->level[start] = 0;
     for (int next = 0; next < count; next++) {
         const int i = order[next], found = count;
-        for (int k = g->first[i]; k < g->end[i]; k++) {
-            const int j = g->list[k];
+        for (int k = g->first[i]; k < g->first[i + 1]; k++) {
+            const int j = g->end[k][1];
             if (g->level[j] >= 0)
                 continue;
             g->level[j] = g->level[i] + 1;
@@ -152,8 +146,8 @@ static int breadth_first(graph *g, int start, int *order)
     return count;
 }
 
-/* A good start lies at an end of the component: search from anywhere, start again from the row found
- * last, and so on while that takes the search further. */
+/* A good start lies at an end of the component: search from anywhere, start again from the row
+ * found last, and so on while that takes the search further. */
 static int order_component(graph *g, int start, int *order)
 {
     for (int depth = -1;;) {
@@ -179,30 +173,14 @@ static void reverse_cuthill_mckee(graph *g, int place[])
         place[g->order[i]] = g->n - 1 - i;
 }
 
-/* The order alone. */
-bbm_status bbm_order(int n, int pairs, int (*pair)[2], int place[])
-{
-    graph g;
-    const bbm_status status = graph_new(&g, n, pairs, pair);
-
-    if (!status)
-        reverse_cuthill_mckee(&g, place);
-    free(g.first);
-    return status;
-}
-
-/* ------------------------------------------------------------------------------------- the matrix */
+/* ----------------------------------------------------------------------------------- the matrix */
 
 /* All arrays of one type are one piece of memory. */
 static bbm_status allocate(bbm_matrix *K, const graph *g)
 {
-    const size_t n = (size_t)g->n;
-    int ends = 0;
+    const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
 
-    for (int i = 0; i < g->n; i++)
-        ends += degree(g, i);
-    const size_t blocks = (size_t)ends / 2;
-    K->n = g->n;
+    K->n = K->to = g->n;
     K->place = calloc(4 * n + 2 + blocks, sizeof *K->place);
     K->D = calloc(2 * (n + blocks), sizeof *K->D);
     K->x = calloc(6 * 6 * n, sizeof *K->x);
@@ -232,9 +210,9 @@ static void lay_out_rows(bbm_matrix *K, const graph *g)
         K->caller[K->place[i]] = i;
     for (int i = 0; i < K->n; i++) {
         const int row = K->caller[i];
-        for (int k = g->first[row]; k < g->end[row]; k++)
-            if (K->place[g->list[k]] < i)
-                K->back[count++] = i - K->place[g->list[k]];
+        for (int k = g->first[row]; k < g->first[row + 1]; k++)
+            if (K->place[g->end[k][1]] < i)
+                K->back[count++] = i - K->place[g->end[k][1]];
         K->first[i + 1] = count;
         if (g->level[row] == 0)
             K->start[++K->components] = i + 1;
@@ -259,6 +237,7 @@ bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **out)
         K = NULL;
     }
     free(g.first);
+    free(g.end);
     *out = K;
     return status;
 }
@@ -282,10 +261,12 @@ void bbm_matrix_clear(bbm_matrix *K)
     K->ready = 0;
 }
 
-/* Where K_ij, or K_ji if i comes before j, is stored; NULL: nowhere. A row has one to three blocks left
- * of the diagonal: look at each. */
+/* Where K_ij, or K_ji if i comes before j, is stored; NULL: nowhere. A row has one to three blocks
+ * left of the diagonal: look at each. */
 static double (*find_block(const bbm_matrix *K, int i, int j))[6]
 {
+    if (i < 0 || i >= K->n || j < 0 || j >= K->n)
+        return NULL;
     const int a = K->place[i], b = K->place[j], row = a > b ? a : b, left = abs(a - b);
 
     for (int k = K->first[row]; k < K->first[row + 1]; k++)
@@ -297,9 +278,8 @@ static double (*find_block(const bbm_matrix *K, int i, int j))[6]
 /* K_ij += B */
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 {
-    if (i < 0 || i >= K->n || j < 0 || j >= K->n)
-        return BBM_BAD_INDEX;
     double (*to)[6] = find_block(K, i, j);
+
     if (!to)
         return BBM_BAD_INDEX;
     const int right = K->place[i] < K->place[j];
@@ -321,16 +301,7 @@ void bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6])
             B[a][b] = !from ? 0 : right ? from[b][a] : from[a][b];
 }
 
-int bbm_matrix_bandwidth(const bbm_matrix *K)
-{
-    int width = 0;
-
-    for (int k = 0; k < K->first[K->n]; k++)
-        width = K->back[k] > width ? K->back[k] : width;
-    return width;
-}
-
-/* ------------------------------------------------------------------------------------ the kernels
+/* ------------------------------------------------------------------------------------- the kernels
  * Written so that a compiler can do two entries at a time without changing the order of a sum. */
 
 /* y += c B x, each row in two partial sums: of the even and of the odd columns. */
@@ -355,12 +326,12 @@ static void multiply_add_transposed(double c, double B[6][6], const double *rest
                      + (B[4][b] * x[4] + B[5][b] * x[5]));
 }
 
-/* y = K x */
+/* y = K x in the caller's order, for the rows in hand. */
 void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
 {
-    memset(y, 0, 6 * (size_t)K->n * sizeof *y);
-    for (int i = 0; i < K->n; i++) {
+    for (int i = K->from; i < K->to; i++) {
         const int row = 6 * K->caller[i];
+        memset(y + row, 0, 6 * sizeof *y);
         multiply_add_transposed(1, K->D[i], x + row, y + row);
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
             const int column = 6 * K->caller[i - K->back[k]];
@@ -370,20 +341,20 @@ void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
     }
 }
 
-/* y = E^-1 y */
-void bbm_sweep_forward(const bbm_matrix *K, double *y)
+/* y += c S x. With c = -1 and x = y that is y = E^-1 y: a row takes those before it as they are now. */
+void bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->from; i < K->to; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add(-1, K->S[k], y + 6 * (i - K->back[k]), y + 6 * i);
+            multiply_add(c, K->S[k], x + 6 * (i - K->back[k]), y + 6 * i);
 }
 
-/* u = E^-T u: each row, once it is done, is passed on to the rows that need it. */
-void bbm_sweep_backward(const bbm_matrix *K, double *u)
+/* y += c S^T x. With c = -1 and x = y that is y = E^-T y: each row is passed on once it is done. */
+void bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->to - 1; i >= K->from; i--)
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add_transposed(-1, K->S[k], u + 6 * i, u + 6 * (i - K->back[k]));
+            multiply_add_transposed(c, K->S[k], x + 6 * i, y + 6 * (i - K->back[k]));
 }
 
 /* x.y */
@@ -403,7 +374,7 @@ static void copy(const bbm_matrix *K, const double *from, double *to)
 }
 
 /* z = x + c y; z may be x or y. */
-static void combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z)
+void bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z)
 {
     for (int i = 6 * K->from; i < 6 * K->to; i += 2) {
         const double even = x[i] + c * y[i], odd = x[i + 1] + c * y[i + 1];
@@ -412,9 +383,9 @@ static void combine(const bbm_matrix *K, const double *x, double c, const double
     }
 }
 
-/* ------------------------------------------------------------------------------------ the scaling */
+/* ---------------------------------------------------------------------------------- the scaling */
 
-/* G = C^-1, where D = C C^T is the Cholesky factorisation. Returns 0 if D is not positive definite. */
+/* G = C^-1, where D = C C^T by Cholesky. Returns 0 if D is not positive definite. */
 static int invert_factor(double D[6][6], double G[6][6])
 {
     double C[6][6];
@@ -459,8 +430,8 @@ static int all_finite(size_t count, const double *x)
     return 1;
 }
 
-/* Makes of K what the solution needs; further solutions with the same K find it ready. If a D_i is not
- * positive definite, info->element says which row that is. */
+/* Makes of K what the solution needs; further solutions with the same K find it ready. If a D_i is
+ * not positive definite, info->element says which row that is. */
 static bbm_status make_ready(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     if (K->ready && K->method == pcg->method && K->omega == pcg->omega)
@@ -479,12 +450,13 @@ static bbm_status make_ready(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *in
     K->ready = 1;
     K->method = pcg->method;
     K->omega = pcg->omega;
-    if (K->method && K->method->make_ready)
+    if (K->method->make_ready)
         K->method->make_ready(K);
     return BBM_OK;
 }
 
-/* The power of two below the largest entry of F in the rows in hand: to divide by it rounds nothing. */
+/* The power of two below the largest entry of F in the rows in hand: to divide by it rounds
+ * nothing. */
 static double magnitude(const bbm_matrix *K, const double *F)
 {
     double m = 0;
@@ -517,10 +489,10 @@ static void unscale_solution(const bbm_matrix *K, double scale, double *D)
         multiply_add_transposed(scale * K->omega, K->G[i], K->x + 6 * i, D + 6 * K->caller[i]);
 }
 
-/* --------------------------------------------------------------------------------------- SSOR-PCG */
+/* ------------------------------------------------------------------------------------- SSOR-PCG */
 
-/* Counts an iteration, unless the limit is reached or p.Kp, perhaps a NaN, shows that K is not positive
- * definite. */
+/* Counts an iteration, unless the limit is reached or p.Kp, perhaps a NaN, shows that K is not
+ * positive definite. */
 bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     if (info->iterations == pcg->iterations)
@@ -535,23 +507,21 @@ bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *inf
 static double precondition(const bbm_matrix *K)
 {
     copy(K, K->r, K->y);
-    bbm_sweep_forward(K, K->y);
-    if (K->method && K->method->correct)
+    bbm_multiply_lower(K, -1, K->y, K->y);
+    if (K->method->correct)
         K->method->correct(K, K->y);
     copy(K, K->y, K->u);
-    bbm_sweep_backward(K, K->u);
+    bbm_multiply_upper(K, -1, K->u, K->u);
     return dot(K, K->r, K->u);
 }
 
 /* p = u + b p,  q = w K p = y + (w-1) u + S u + b q. Returns p.q. */
 static double new_direction(const bbm_matrix *K, double b)
 {
-    combine(K, K->u, b, K->p, K->p);
-    combine(K, K->y, b, K->q, K->q);
-    combine(K, K->q, K->omega - 1, K->u, K->q);
-    for (int i = K->from; i < K->to; i++)
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add(1, K->S[k], K->u + 6 * (i - K->back[k]), K->q + 6 * i);
+    bbm_combine(K, K->u, b, K->p, K->p);
+    bbm_combine(K, K->y, b, K->q, K->q);
+    bbm_combine(K, K->q, K->omega - 1, K->u, K->q);
+    bbm_multiply_lower(K, 1, K->u, K->q);
     return dot(K, K->p, K->q);
 }
 
@@ -566,15 +536,15 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
         const bbm_status status = bbm_count_iteration(pq, pcg, info);
         if (status)
             return status;
-        combine(K, K->x, ru / pq, K->p, K->x);
-        combine(K, K->r, -ru / pq, K->q, K->r);
+        bbm_combine(K, K->x, ru / pq, K->p, K->x);
+        bbm_combine(K, K->r, -ru / pq, K->q, K->r);
         ru = precondition(K);
         b = ru / last;
     }
     return BBM_OK;
 }
 
-/* ----------------------------------------------------------------------------------- the solution */
+/* --------------------------------------------------------------------------------- the solution */
 
 static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
 {
@@ -584,61 +554,44 @@ static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
     return all_finite(6 * (size_t)n, F) ? BBM_OK : BBM_NOT_FINITE;
 }
 
-static void take_component(bbm_matrix *K, int c)
-{
-    K->from = K->start[c];
-    K->to = K->start[c + 1];
-}
-
 /* The rows of D in hand. Where the iteration ends early, they are those of its last iterate. */
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                                   bbm_pcg_info *info)
 {
     const double scale = magnitude(K, F);
+    double rr = 0, ff = 0;
 
     if (scale == 0)
         return BBM_OK;
     scale_load(K, F, scale);
-    const int other = K->method && K->method->iterate;
-    const bbm_status status = (other ? K->method->iterate : iterate)(K, pcg, info);
+    const bbm_status status = (K->method->iterate ? K->method->iterate : iterate)(K, pcg, info);
     unscale_solution(K, scale, D);
+    bbm_matrix_multiply(K, D, K->q);
+    for (int i = 6 * K->from; i < 6 * K->to; i++) {
+        const int row = 6 * K->caller[i / 6] + i % 6;
+        const double r = (F[row] - K->q[row]) / scale, f = F[row] / scale;
+        rr += r * r;
+        ff += f * f;
+    }
+    info->residual = sqrt(rr / ff);
     return status;
 }
 
-/* |F - K D|/|F| of the component where it is largest, or not a number. */
-static double true_residual(bbm_matrix *K, const double *F, const double *D)
-{
-    double largest = 0;
-
-    bbm_matrix_multiply(K, D, K->q);
-    for (int c = 0; c < K->components; c++) {
-        take_component(K, c);
-        const double scale = magnitude(K, F);
-        double rr = 0, ff = 0;
-        for (int i = 6 * K->from; i < 6 * K->to && scale > 0; i++) {
-            const int row = 6 * K->caller[i / 6] + i % 6;
-            const double r = (F[row] - K->q[row]) / scale, f = F[row] / scale;
-            rr += r * r;
-            ff += f * f;
-        }
-        if (scale > 0 && !(sqrt(rr / ff) <= largest))
-            largest = sqrt(rr / ff);
-    }
-    return largest;
-}
-
-/* If the iteration did not begin, D is 0, iterations 0 and residual 1. One component that fails does not
- * keep the others from being solved. */
+/* If the iteration did not begin, D is 0, iterations 0 and residual 1. One component that fails
+ * does not keep the others from being solved. */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *wanted,
                      bbm_pcg_info *info)
 {
+    static const bbm_method paper = { 0 };
     const clock_t start = clock();
     bbm_pcg pcg = *wanted;
     bbm_status status = check(F, K->n, &pcg);
 
     *info = (bbm_pcg_info){ .residual = 1, .element = -1 };
     memset(D, 0, 6 * (size_t)K->n * sizeof *D);
-    if (pcg.method && pcg.method->choose)
+    if (!pcg.method)
+        pcg.method = &paper;
+    if (pcg.method->choose)
         pcg.method->choose(K, &pcg);
     if (!status)
         status = make_ready(K, &pcg, info);
@@ -646,14 +599,18 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
     info->seconds[0] = (double)(ready - start) / CLOCKS_PER_SEC;
     if (status)
         return status;
+    info->residual = 0;
     for (int c = 0; c < K->components; c++) {
         bbm_pcg_info one = { 0 };
-        take_component(K, c);
+        K->from = K->start[c];
+        K->to = K->start[c + 1];
         const bbm_status s = solve_component(K, F, D, &pcg, &one);
         status = status ? status : s;
         info->iterations = one.iterations > info->iterations ? one.iterations : info->iterations;
+        info->residual = one.residual <= info->residual ? info->residual : one.residual;
     }
-    info->residual = true_residual(K, F, D);
+    K->from = 0;
+    K->to = K->n;
     info->seconds[1] = (double)(clock() - ready) / CLOCKS_PER_SEC;
     return !status && !all_finite(6 * (size_t)K->n, D) ? BBM_NOT_FINITE : status;
 }

@@ -1,37 +1,34 @@
-/* coarse.c - a second, coarse level for the SSOR-PCG of solver.c: the iterations no longer grow with
- * the mesh.
+/* coarse.c - a second, coarse level for the SSOR-PCG of solver.c, by which the number of iterations
+ * no longer grows with the mesh.
  *
- * SSOR removes in one iteration what is stiff and local, but carries news of the load by one element per
- * sweep; the finer the mesh, the more iterations. What it is slow at is known beforehand: displacements
- * that are continuous from element to element cost the bonding springs nothing, so that in their sight
- * everything else is stiff. On triangles these are the displacements of the constant-strain finite
- * element. So take the corners of the elements as a coarse grid, where corners tied together by bonds are
- * one node, and correct between the two sweeps of SSOR in the whole space of its displacements at once.
- * P takes the displacements of the nodes to the unknowns of the elements, six rows and two columns for
- * each corner, and Kc = P^T K P is the stiffness on the coarse grid, with all fixed points, contacts and
- * inertia in it. With w = 1 and what solver.c calls E = I + S, C and the scaled residual r:
+ * SSOR removes in one iteration what is stiff and local, but carries news of the load by one
+ * element per sweep; the finer the mesh, the more iterations. What it is slow at is known
+ * beforehand: displacements that are continuous from element to element cost the bonding springs
+ * nothing, so that in their sight everything else is stiff. On triangles these are the
+ * displacements of the constant-strain finite element. So take the corners of the elements as a
+ * coarse grid, where corners tied together by bonds are one node, and correct between the two
+ * sweeps of SSOR in the whole space of its displacements at once. P takes the displacements of the
+ * nodes to the unknowns of the elements, six rows and two columns for each corner; Kc = P^T K P is
+ * the stiffness on the coarse grid, with all fixed points, contacts and inertia in it. In the
+ * scaled variables of solver.c, with w = 1 and Q = C^T P,
  *
- *     y = E^-1 r                                  the sweep forward, after which r - K y = -S^T y
- *     z = y + C^T P Kc^-1 (C^T P)^T (r - K y)
- *     u = E^-T (r - S z)                          the sweep backward; r = y + S y
+ *     y = E^-1 r                       sweep forward; it leaves the residual r - K y = -S^T y
+ *     z = y - Q Kc^-1 Q^T S^T y        its correction
+ *     u = E^-T (r - S z)               sweep backward
  *
- * Put in, only T = S C^T P = C^-1 L P is left of it,
+ * and since r = y + S y, that is no more than a correction of y between the sweeps as they are,
  *
- *     y = E^-1 r,   y += T Kc^-1 T^T y,   u = E^-T y:
+ *     y = E^-1 r,   y += S Q Kc^-1 Q^T S^T y,   u = E^-T y,
  *
- * the two sweeps as they were, and between them a correction that is positive definite by its form. That
- * many iterations, some 15, suffice on a mesh of any fineness.
+ * positive definite by its form. Some 15 iterations suffice on a mesh of any fineness.
  *
- * K_ij P has two columns for each corner of j. The springs along a side of two triangles feel nothing but
- * the displacements of its two ends, so that for the third corner they are zero. That is used: a
- * side leaves no room for blocks of Kc between the two nodes beside it.
- *
- * Kc has an envelope: from the first entry of each row that is not zero to the diagonal everything is
- * stored and factored by Cholesky. The nodes are numbered by the last row that has them, which makes the
- * envelope as narrow as the order of the rows does that of K. Displacements of the nodes that move no
- * element (the hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left, some eps
- * of what was summed up before it cancelled. A pivot below VANISHING of that is struck out with its row:
- * the coarse space is then a little smaller, and the preconditioner as positive definite as before.
+ * Kc has an envelope: from the first entry of each row that is not zero to the diagonal, everything
+ * is stored and factored by Cholesky. The nodes are numbered by the last row that has them, so that
+ * the envelope is narrow as the band of K is. Displacements of the nodes that move no element (the
+ * hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left, some eps of
+ * what was summed up before it cancelled. A pivot below VANISHING of that is struck out with its
+ * row: the coarse space is then a little smaller, and the preconditioner as positive definite as
+ * before.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -49,12 +46,8 @@ typedef struct {
     int n;                      /* nodes, two unknowns each                                     */
     int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
                                 /*           start[i] .. start[j]-1                             */
-    int *corner;                /* [rows+1]  row i is an element of corner[i+1] - corner[i]     */
-    int *first, *node;          /* [rows+1]  its list, node[first[i]] .. node[first[i+1]-1]: the */
-                                /*           nodes of its corners, then others of the rows left */
-    double (*P)[6][2];          /* [corners] as given                                           */
-    double (*T)[6][2];          /* [lists]   C^-1 L P                                           */
-    int *at;                    /* [n]       where a node is in the list in hand, if it is there */
+    int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
+    double (*P)[6][2], (*Q)[6][2];  /* as node   given; C_i^T P                                 */
     int *left;                  /* [2 n]     the first column of row i of Kc that is not zero   */
     size_t *diagonal;           /* [2 n]     where Kc_ii is; the row left of it lies before it  */
     double *A;                  /* Kc, then its factor, with 1/C_ii on the diagonal             */
@@ -62,82 +55,60 @@ typedef struct {
     int pays;                   /* in the step in hand                                          */
 } coarse_space;
 
-/* ------------------------------------------------------------------------------------ the layout */
+/* ----------------------------------------------------------------------------------- the layout */
 
-static int corners(const coarse_space *c, int i) { return c->corner[i + 1] - c->corner[i]; }
-
-/* Whether the elements are triangles with a side in common. */
-static int share_a_side(const coarse_space *c, int i, int j)
+/* first, node and start; the nodes are numbered from the last row on, from the last number down. */
+static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *node, int *number,
+                             coarse_space *c)
 {
-    int common = 0;
-
-    for (int k = 0; k < 9 && corners(c, i) == 3 && corners(c, j) == 3; k++)
-        common += c->node[c->first[i] + k / 3] == c->node[c->first[j] + k % 3];
-    return common == 2;
-}
-
-/* number[] of the caller's nodes, and start: from the last row on, and from the last number down. */
-static bbm_status number_nodes(const bbm_matrix *K, const int *first, const int *node,
-                               coarse_space *c, int *number)
-{
-    for (int k = 0; k < c->n; k++)
-        number[k] = -1;
+    for (int i = 0; i < K->n; i++)
+        c->first[i + 1] = c->first[i] + first[K->caller[i] + 1] - first[K->caller[i]];
     c->start[K->n] = c->n;
     for (int k = K->components - 1; k >= 0; k--)
         for (int i = K->start[k + 1] - 1; i >= K->start[k]; i--) {
+            const int *row = node + first[K->caller[i]];
             c->start[i] = c->start[i + 1];
-            for (int a = first[K->caller[i]]; a < first[K->caller[i] + 1]; a++) {
-                if (number[node[a]] < 0)
-                    number[node[a]] = --c->start[i];
-                if (number[node[a]] >= c->start[K->start[k + 1]])
-                    return BBM_BAD_INDEX;               /* of another component */
+            for (int a = c->first[i]; a < c->first[i + 1]; a++, row++) {
+                if (number[*row] == 0)
+                    number[*row] = c->start[i]--;
+                if (number[*row] > c->start[K->start[k + 1]])
+                    return BBM_BAD_INDEX;               /* it is in two components */
+                c->node[a] = number[*row] - 1;
             }
         }
     return BBM_OK;
 }
 
-/* Appends a node to the list of row i, unless it is there. */
-static void list_node(coarse_space *c, int i, int node)
+/* Whether two rows are triangles with a side in common. The springs of a side feel no more than the
+ * displacements of its two ends: K_ij adds to their diagonal blocks of Kc, and to nothing else. */
+static int share_a_side(const coarse_space *c, int i, int j)
 {
-    if (c->at[node] >= c->first[i])
-        return;
-    c->at[node] = c->first[i + 1];
-    c->node[c->first[i + 1]++] = node;
+    int common = 0;
+
+    if (i == j || c->first[i + 1] - c->first[i] != 3 || c->first[j + 1] - c->first[j] != 3)
+        return 0;
+    for (int k = 0; k < 9; k++)
+        common += c->node[c->first[i] + k / 3] == c->node[c->first[j] + k % 3];
+    return common == 2;
 }
 
-static void list_nodes(const bbm_matrix *K, const int *first, const int *node, const int *number,
-                       coarse_space *c)
-{
-    for (int k = 0; k < c->n; k++)
-        c->at[k] = -1;
-    for (int i = 0; i < K->n; i++) {
-        const int row = K->caller[i];
-        c->corner[i + 1] = c->corner[i] + first[row + 1] - first[row];
-        c->first[i + 1] = c->first[i];
-        for (int a = first[row]; a < first[row + 1]; a++)
-            list_node(c, i, number[node[a]]);
-        for (int k = K->first[i]; k < K->first[i + 1]; k++) {
-            const int j = i - K->back[k];
-            for (int b = 0; b < corners(c, j) && !share_a_side(c, i, j); b++)
-                list_node(c, i, c->node[c->first[j] + b]);
-        }
-    }
-}
-
-/* left and diagonal of Kc = P^T D P + P^T (L P) + (P^T (L P))^T. Returns the number of entries. */
-static size_t lay_out_envelope(coarse_space *c, int rows)
+/* left and diagonal. Returns the number of entries. */
+static size_t lay_out_envelope(const bbm_matrix *K, coarse_space *c)
 {
     size_t entries = 0;
 
     for (int k = 0; k < 2 * c->n; k++)
         c->left[k] = k / 2 * 2;
-    for (int i = 0; i < rows; i++)
-        for (int a = c->first[i]; a < c->first[i] + corners(c, i); a++)
-            for (int b = c->first[i]; b < c->first[i + 1]; b++) {
-                const int p = c->node[a], q = c->node[b], row = 2 * (p > q ? p : q), column = 2 * (p < q ? p : q);
-                if (column < c->left[row])
-                    c->left[row] = c->left[row + 1] = column;
-            }
+    for (int i = 0; i < K->n; i++)
+        for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
+            const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = share_a_side(c, i, j);
+            for (int a = c->first[i]; a < c->first[i + 1] && !side; a++)
+                for (int b = c->first[j]; b < c->first[j + 1]; b++) {
+                    const int p = 2 * c->node[a], q = 2 * c->node[b], row = p > q ? p : q;
+                    if (p + q - row < c->left[row])
+                        c->left[row] = c->left[row + 1] = p + q - row;
+                }
+        }
     for (int k = 0; k < 2 * c->n; k++) {
         c->diagonal[k] = entries + (size_t)(k - c->left[k]);
         entries = c->diagonal[k] + 1;
@@ -148,34 +119,25 @@ static size_t lay_out_envelope(coarse_space *c, int rows)
 static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
                           coarse_space *c)
 {
-    const size_t rows = (size_t)K->n + 1, n = (size_t)nodes;
-    size_t room = (size_t)first[K->n];
+    const size_t rows = (size_t)K->n + 1, corners = (size_t)first[K->n], n = (size_t)nodes;
 
-    for (int i = 0; i < K->n; i++)
-        for (int k = K->first[i]; k < K->first[i + 1]; k++) {
-            const int j = K->caller[i - K->back[k]];
-            room += (size_t)(first[j + 1] - first[j]);
-        }
     c->n = nodes;
     c->pays = 1;
-    c->start = calloc(3 * rows + 3 * n + room, sizeof *c->start);
+    c->start = calloc(2 * rows + corners + 2 * n, sizeof *c->start);
     c->diagonal = calloc(2 * n, sizeof *c->diagonal);
     c->size = calloc(4 * n, sizeof *c->size);
-    if (!c->start || !c->diagonal || !c->size)
+    c->P = calloc(2 * corners, sizeof *c->P);
+    if (!c->start || !c->diagonal || !c->size || !c->P)
         return BBM_NO_MEMORY;
-    c->corner = c->start + rows;
-    c->first = c->corner + rows;
-    c->at = c->first + rows;
-    c->left = c->at + n;
-    c->node = c->left + 2 * n;
+    c->first = c->start + rows;
+    c->node = c->first + rows;
+    c->left = c->node + corners;
     c->x = c->size + 2 * n;
-    if (number_nodes(K, first, node, c, c->left))
+    c->Q = c->P + corners;
+    if (list_nodes(K, first, node, c->left, c))
         return BBM_BAD_INDEX;
-    list_nodes(K, first, node, c->left, c);
-    c->A = calloc(lay_out_envelope(c, K->n), sizeof *c->A);
-    c->P = calloc((size_t)(c->corner[K->n] + c->first[K->n]), sizeof *c->P);
-    c->T = c->P + c->corner[K->n];
-    return c->A && c->P ? BBM_OK : BBM_NO_MEMORY;
+    c->A = calloc(lay_out_envelope(K, c), sizeof *c->A);
+    return c->A ? BBM_OK : BBM_NO_MEMORY;
 }
 
 static void coarse_free(void *extra)
@@ -192,8 +154,8 @@ static void coarse_free(void *extra)
     free(c);
 }
 
-/* Gives K a coarse space in place of the one it had: block row i depends on the nodes node[first[i]] ..
- * node[first[i+1]-1], all different, or on none, and no two components on the same node. Rows of three
+/* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
+ * node[first[i+1]-1], all different, or none, and no two components the same node. Rows of three
  * nodes that share two of them must be triangles bonded along that side. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node)
 {
@@ -220,14 +182,17 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
 {
     const coarse_space *c = K->extra;
 
-    if (!c || i < 0 || i >= K->n || k < 0 || k >= corners(c, K->place[i]))
+    if (!c || i < 0 || i >= K->n)
         return BBM_BAD_INDEX;
-    memcpy(c->P[c->corner[K->place[i]] + k], P, sizeof *c->P);
+    const int *first = &c->first[K->place[i]];
+    if (k < 0 || k >= first[1] - first[0])
+        return BBM_BAD_INDEX;
+    memcpy(c->P[first[0] + k], P, sizeof *c->P);
     K->ready = 0;
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------------------------ Kc and its factor */
+/* ---------------------------------------------------------------------------- Kc and its factor */
 
 /* Kc_ij, left of the diagonal or on it; those right of it in the same row lie after it. */
 static double *entry(const coarse_space *c, int i, int j)
@@ -235,71 +200,59 @@ static double *entry(const coarse_space *c, int i, int j)
     return &c->A[c->diagonal[i] - (size_t)(i - j)];
 }
 
-/* Y += f B X */
-static void multiply_add(double f, double B[6][6], double X[6][2], double Y[6][2])
+/* Y = B X */
+static void multiply(double B[6][6], double X[6][2], double Y[6][2])
 {
     for (int a = 0; a < 6; a++)
         for (int b = 0; b < 2; b++) {
-            double s = 0;
+            Y[a][b] = 0;
             for (int k = 0; k < 6; k++)
-                s += B[a][k] * X[k][b];
-            Y[a][b] += f * s;
+                Y[a][b] += B[a][k] * X[k][b];
         }
 }
 
-/* Kc += P^T T + (P^T T)^T, of the rows P and T of an element. */
-static void add_element(coarse_space *c, int i)
+/* Kc += f (P^T Y + its transpose), where P is that of corner a and Y belongs to node j. */
+static void add_block(coarse_space *c, double f, int a, double Y[6][2], int j)
 {
-    for (int a = 0; a < corners(c, i); a++)
-        for (int t = c->first[i]; t < c->first[i + 1]; t++)
-            for (int k = 0; k < 4; k++) {
-                const int p = 2 * c->node[c->first[i] + a] + k / 2, q = 2 * c->node[t] + k % 2;
-                double s = 0;
-                for (int b = 0; b < 6; b++)
-                    s += c->P[c->corner[i] + a][b][k / 2] * c->T[t][b][k % 2];
-                *(p > q ? entry(c, p, q) : entry(c, q, p)) += p == q ? 2 * s : s;
-            }
+    for (int k = 0; k < 4; k++) {
+        const int p = 2 * c->node[a] + k / 2, q = 2 * j + k % 2;
+        double s = 0;
+        for (int b = 0; b < 6; b++)
+            s += c->P[a][b][k / 2] * Y[b][k % 2];
+        *(p > q ? entry(c, p, q) : entry(c, q, p)) += p == q ? 2 * f * s : f * s;
+    }
 }
 
-/* Kc = P^T (D/2 + L) P + its transpose, with T first D/2 P, then L P; in the end T = C^-1 L P. */
+/* Q = C^T P = C^-1 D P, and Kc = P^T (D + L + L^T) P, of which the first is what pivots are
+ * measured by. */
 static void sum_coarse(const bbm_matrix *K, coarse_space *c)
 {
+    double Y[6][2];
+
     memset(c->A, 0, (c->diagonal[2 * c->n - 1] + 1) * sizeof *c->A);
-    memset(c->T, 0, (size_t)c->first[K->n] * sizeof *c->T);
-    for (int i = 0; i < K->n; i++) {
-        for (int a = 0; a < corners(c, i); a++)
-            multiply_add(0.5, K->D[i], c->P[c->corner[i] + a], c->T[c->first[i] + a]);
-        add_element(c, i);
-    }
-    for (int k = 0; k < 2 * c->n; k++) {
-        c->size[k] = *entry(c, k, k);
-        c->at[k / 2] = -1;
-    }
-    for (int i = 0; i < K->n; i++) {
-        for (int t = c->first[i]; t < c->first[i + 1]; t++) {
-            c->at[c->node[t]] = t;
-            memset(c->T[t], 0, sizeof c->T[t]);
+    for (int i = 0; i < K->n; i++)
+        for (int b = c->first[i]; b < c->first[i + 1]; b++) {
+            multiply(K->D[i], c->P[b], Y);
+            multiply(K->G[i], Y, c->Q[b]);
+            for (int a = c->first[i]; a <= b; a++)
+                add_block(c, a == b ? 0.5 : 1, a, Y, c->node[b]);
         }
+    for (int k = 0; k < 2 * c->n; k++)
+        c->size[k] = *entry(c, k, k);
+    for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
-            const int j = i - K->back[k];
-            for (int b = 0; b < corners(c, j); b++) {
-                const int t = c->at[c->node[c->first[j] + b]];
-                if (t >= c->first[i])
-                    multiply_add(1, K->L[k], c->P[c->corner[j] + b], c->T[t]);
+            const int j = i - K->back[k], side = share_a_side(c, i, j);
+            for (int b = c->first[j]; b < c->first[j + 1]; b++) {
+                multiply(K->L[k], c->P[b], Y);
+                for (int a = c->first[i]; a < c->first[i + 1]; a++)
+                    if (!side || c->node[a] == c->node[b])
+                        add_block(c, 1, a, Y, c->node[b]);
             }
         }
-        add_element(c, i);
-        for (int t = c->first[i]; t < c->first[i + 1]; t++) {
-            double LP[6][2];
-            memcpy(LP, c->T[t], sizeof LP);
-            memset(c->T[t], 0, sizeof LP);
-            multiply_add(1, K->G[i], LP, c->T[t]);
-        }
-    }
 }
 
-/* s = the products of the rows a0 and a1 with b0 and b1, over an even number of columns, each in two
- * partial sums: one alone would wait for each addition to end. */
+/* s = the products of the rows a0 and a1 with b0 and b1, over an even number of columns, each in
+ * two partial sums: one alone would wait for each addition to end. */
 static void multiply_rows(int n, const double *a0, const double *a1, const double *b0,
                           const double *b1, double s[4])
 {
@@ -382,30 +335,35 @@ static void solve(const coarse_space *c, int from, int to, double *restrict x)
     }
 }
 
-/* y += T Kc^-1 T^T y */
-static void correct(const bbm_matrix *K, double *restrict y)
+/* y += S Q Kc^-1 Q^T S^T y; u is free between the sweeps. */
+static void correct(const bbm_matrix *K, double *y)
 {
     const coarse_space *c = K->extra;
     const int from = 2 * c->start[K->from], to = 2 * c->start[K->to];
+    double *u = K->u;
 
+    memset(u + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *u);
     memset(c->x + from, 0, (size_t)(to - from) * sizeof *c->x);
+    bbm_multiply_upper(K, 1, y, u);
     for (int i = K->from; i < K->to; i++)
-        for (int t = c->first[i]; t < c->first[i + 1]; t++) {
+        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
             double s[2] = { 0 };
-            for (int a = 0; a < 6; a++) {
-                s[0] += c->T[t][a][0] * y[6 * i + a];
-                s[1] += c->T[t][a][1] * y[6 * i + a];
+            for (int k = 0; k < 6; k++) {
+                s[0] += c->Q[a][k][0] * u[6 * i + k];
+                s[1] += c->Q[a][k][1] * u[6 * i + k];
             }
-            c->x[2 * c->node[t]] += s[0];
-            c->x[2 * c->node[t] + 1] += s[1];
+            c->x[2 * c->node[a]] += s[0];
+            c->x[2 * c->node[a] + 1] += s[1];
         }
     solve(c, from, to, c->x);
+    memset(u + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *u);
     for (int i = K->from; i < K->to; i++)
-        for (int t = c->first[i]; t < c->first[i + 1]; t++) {
-            const double x0 = c->x[2 * c->node[t]], x1 = c->x[2 * c->node[t] + 1];
-            for (int a = 0; a < 6; a++)
-                y[6 * i + a] += c->T[t][a][0] * x0 + c->T[t][a][1] * x1;
+        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
+            const double *x = &c->x[2 * c->node[a]], x0 = x[0], x1 = x[1];
+            for (int k = 0; k < 6; k++)
+                u[6 * i + k] += c->Q[a][k][0] * x0 + c->Q[a][k][1] * x1;
         }
+    bbm_multiply_lower(K, 1, u, y);
 }
 
 /* Without a coarse space, or where it does not pay, Eisenstat's form. */
@@ -421,13 +379,13 @@ static void choose(const bbm_matrix *K, bbm_pcg *pcg)
 
 const bbm_method bbm_two_level = { .choose = choose, .make_ready = make_ready, .correct = correct };
 
-/* ---------------------------------------------------------------------- the coarse space of a model */
+/* ------------------------------------------------------------------ the coarse space of a model */
 
-/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the displacements
- * linear in x, y the one nearest to those of all n corners, by least squares; on a triangle it is exact.
- * With `middles` it is the one nearest to the means over the sides, for elements that are bonded there.
- * Fitted about the mean of the corners, a linear function has the value mean(u) there and the gradient
- * g = M^-1 sum_a d_a u_a, M = sum d d^T:
+/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
+ * displacements linear in x, y the one nearest to those of all n corners, by least squares; on a
+ * triangle it is exact. With `middles` it is the one nearest to the means over the sides, for
+ * elements that are bonded there. Fitted about the mean of the corners, a linear function has the
+ * value mean(u) there and the gradient g = M^-1 sum_a d_a u_a, M = sum d d^T:
  *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx,
  *     r0 = (vx - uy)/2. */
 void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int middles, int a,
@@ -470,9 +428,10 @@ static int held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
-/* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts them.
- * An element without bonds is not in it, for there would be as many coarse unknowns as it has of its own;
- * nor is one held at every corner, which hardly moves. SSOR alone is faster for both. */
+/* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
+ * them. An element without bonds is not in it, for there would be as many coarse unknowns as it has
+ * of its own; nor is one held at every corner, which hardly moves. SSOR alone is faster for both.
+ * */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices;
@@ -505,9 +464,9 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     return status;
 }
 
-/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element by
- * itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs to cross
- * some elements. */
+/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element
+ * by itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs
+ * to cross some elements. */
 static int step_is_long(const bbm_model *m)
 {
     for (int b = 0; b < m->bonds; b++) {
@@ -519,8 +478,8 @@ static int step_is_long(const bbm_model *m)
     return 0;
 }
 
-/* The coarse space of the present geometry, unless it is that already. Elements that are not in it are
- * refused, which does no harm. */
+/* The coarse space of the present geometry, unless it is that already. Elements that are not in it
+ * are refused, which does no harm. */
 void bbm_interpolate_elements(bbm_model *m)
 {
     coarse_space *c = m->K->extra;

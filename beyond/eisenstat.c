@@ -4,7 +4,8 @@
  *
  *     w K = w I + S + S^T = E + E^T - (2-w) I,      E = I + S,
  *
- * so that w E^-1 K E^-T p costs no product, only the two sweeps that the preconditioner needs in any case:
+ * so that w E^-1 K E^-T p costs no product, only the two sweeps that the preconditioner needs in
+ * any case:
  *
  *     x = 0,  r = E^-1 F,  p = r
  *     until sqrt(r.r) <= tolerance * its first value:
@@ -14,9 +15,9 @@
  *         x += a t,  r -= a (t + y)
  *         p = r + (r.r / its last value) p
  *
- * The iterates are those of solver.c but for rounding, and so is the end: r.r here is r.u there. What is
- * left out is the product with K. What is left is so little that reading and writing the vectors counts, too,
- * and steps that use the same ones are done together.
+ * The iterates are those of solver.c but for rounding, and so is the end: r.r here is r.u there.
+ * What is left out is the product with K. What is left is so little that reading and writing the
+ * vectors counts, too, and steps that use the same ones are done together.
  */
 #include <math.h>
 
@@ -34,16 +35,9 @@ static double dot_sum(const bbm_matrix *K, const double *p, const double *t, con
     return s;
 }
 
-/* y = p - (2-w) t */
-static void between(const bbm_matrix *K, const double *restrict p, const double *restrict t,
-                    double *restrict y)
-{
-    for (int i = 6 * K->from; i < 6 * K->to; i++)
-        y[i] = p[i] - (2 - K->omega) * t[i];
-}
-
 /* x += a t, r -= a (t + y). Returns r.r. */
-static double advance(const bbm_matrix *K, double a, const double *restrict t, const double *restrict y)
+static double advance(const bbm_matrix *K, double a, const double *restrict t,
+                      const double *restrict y)
 {
     double *restrict x = K->x, *restrict r = K->r, even = 0, odd = 0;
 
@@ -71,17 +65,16 @@ static void new_direction(const bbm_matrix *K, double b, double *restrict p, dou
 
 static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    double *t = K->u, *y = K->y, rr = 0;
+    double *t = K->u, *y = K->y;
 
-    bbm_sweep_forward(K, K->r);
-    for (int i = 6 * K->from; i < 6 * K->to; i++)
-        rr += K->r[i] * K->r[i];
+    bbm_multiply_lower(K, -1, K->r, K->r);
+    double rr = advance(K, 0, K->p, K->q);
     new_direction(K, 0, K->p, t);
     const double stop = pcg->tolerance * sqrt(rr);
     while (!(sqrt(rr) <= stop)) {
-        bbm_sweep_backward(K, t);
-        between(K, K->p, t, y);
-        bbm_sweep_forward(K, y);
+        bbm_multiply_upper(K, -1, t, t);
+        bbm_combine(K, K->p, K->omega - 2, t, y);
+        bbm_multiply_lower(K, -1, y, y);
         const double pq = dot_sum(K, K->p, t, y), last = rr;
         const bbm_status status = bbm_count_iteration(pq, pcg, info);
         if (status)

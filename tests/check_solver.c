@@ -8,6 +8,15 @@
 
 static const bbm_method *const METHOD[] = { &bbm_eisenstat, NULL };
 
+static int bandwidth_of(const bbm_matrix *K)
+{
+    int width = 0;
+
+    for (int k = 0; k < K->first[K->n]; k++)
+        width = K->back[k] > width ? K->back[k] : width;
+    return width;
+}
+
 /* ----------------------------------------------------------------------------------- the matrix */
 
 START_TEST(product_is_that_of_the_dense_matrix)
@@ -55,7 +64,7 @@ START_TEST(order_direction_and_repetition_of_the_pairs_change_no_bit)
     bbm_matrix_free(t->K);
     ck_assert_int_eq(bbm_matrix_new(t->n, pairs, other, &t->K), BBM_OK);
     fill_system(t, 4);
-    ck_assert_int_eq(bbm_matrix_bandwidth(s->K), bbm_matrix_bandwidth(t->K));
+    ck_assert_int_eq(bandwidth_of(s->K), bandwidth_of(t->K));
     ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
     ck_assert_int_eq(bbm_solve(t->K, t->F, E, &pcg, &info), BBM_OK);
     ck_assert_mem_eq(D, E, (size_t)(6 * s->n) * sizeof *D);
@@ -202,7 +211,7 @@ static int strip_bandwidth(int width, int length, int ring, unsigned seed)
         }
     }
     ck_assert_int_eq(bbm_matrix_new(width * length, pairs, pair, &K), BBM_OK);
-    bandwidth = bbm_matrix_bandwidth(K);
+    bandwidth = bandwidth_of(K);
     bbm_matrix_free(K);
     return bandwidth;
 }
@@ -235,7 +244,7 @@ START_TEST(neighbours_of_low_degree_come_first)
         pair[pairs + 1][1] = number[(i + 2) % LONG];
     }
     ck_assert_int_eq(bbm_matrix_new(LONG, pairs - 1, pair, &K), BBM_OK);
-    ck_assert_int_eq(bbm_matrix_bandwidth(K), 2);
+    ck_assert_int_eq(bandwidth_of(K), 2);
     bbm_matrix_free(K);
 }
 END_TEST
@@ -247,7 +256,7 @@ START_TEST(bandwidths_of_small_patterns_are_those_of_theory)
 
     for (int k = 0; k < PATTERNS; k++) {
         dense_system *s = new_system(k, 9);
-        ck_assert_int_eq(bbm_matrix_bandwidth(s->K), expected[k]);
+        ck_assert_int_eq(bandwidth_of(s->K), expected[k]);
         free_system(s);
     }
 }
