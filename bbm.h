@@ -222,7 +222,7 @@ typedef struct {                /* what the formulas of 3.7 take                
     double rest;                /* m        see bbm_contact; 0: the paper                       */
 } bbm_touch;
 
-typedef struct { double d, e[6], g[6]; } bbm_spring;    /* its length is d + e.D_i + g.D_j                      */
+typedef struct { double d, e[6], g[6]; } bbm_spring;        /* length d + e.D_i + g.D_j     */
 
 typedef struct {
     double dt;                  /* s        time step; INFINITY: statics, without inertia        */
@@ -272,7 +272,7 @@ typedef struct {
     void (*begin)(bbm_model *m);                            /* the contacts are listed          */
     bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
-    double (*joint_area)(const bbm_model *m, int corner, int edge); /* of what touches at the start */
+    double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
     /* --- K D = F --- */
     bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */

@@ -441,21 +441,16 @@ static double foresee(bbm_model *m)
     return most;
 }
 
-/* How far two blocks may approach each other in this step. */
-static double approach(const bbm_model *m, int c, int e)
-{
-    return motion_of(m, c)->travel + motion_of(m, e)->travel;
-}
-
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
  * the two blocks do. Nothing comes in from behind. What moves by T of the start of a step may also
- * end it inside; and a corner that slides on along a straight side, which may be bent by now,
- * keeps its contact. */
+ * end it inside, by its way; and a corner that slides on along a straight side, which may be bent
+ * by now, keeps its contact. */
 static double allowed_depth(const bbm_model *m, int c, int e)
 {
-    const double depth = fmin(motion_of(m, c)->depth, motion_of(m, e)->depth);
+    const motion *i = motion_of(m, c), *j = motion_of(m, e);
+    const double way = bbm_is_exact(m) ? 0 : i->travel + j->travel;
 
-    return 2 * depth + m->scratch->touch + (bbm_is_exact(m) ? 0 : approach(m, c, e));
+    return 2 * fmin(i->depth, j->depth) + m->scratch->touch + way;
 }
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
@@ -535,6 +530,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
 {
     const motion *of = m->scratch->motion;
     const double turns = of[element_of(m, corner)].turn + of[element_of(m, e)].turn;
+    const double approach = motion_of(m, corner)->travel + motion_of(m, e)->travel;
     const double deep = allowed_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
@@ -542,7 +538,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (!is_corner(m, corner) && !bbm_carries(m, corner, e))
         return 0;
-    if (fmax(fabs(f.d), f.beyond) > approach(m, corner, e) + deep)
+    if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
     if (f.beyond <= m->scratch->touch && f.d < -deep && !find_closed(m, corner, e, 1))
         return 0;
