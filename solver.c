@@ -417,8 +417,8 @@ static void scale_block(double w, double Gi[6][6], double L[6][6], double Gj[6][
         double t[6] = { 0 };
         for (int c = 0; c <= a; c++)
             for (int b = 0; b < 6; b++)
-                t[b] += Gi[a][c] * L[c][b];
-        multiply_add(w, Gj, t, S[a]);
+                t[b] += w * Gi[a][c] * L[c][b];
+        multiply_add(1, Gj, t, S[a]);
     }
 }
 
