@@ -170,6 +170,7 @@ typedef struct {                /* what a solve did                             
     double seconds[2];          /* s        CPU time of the preconditioner and of the iteration */
 } bbm_pcg_info;
 
+/* What CPU time is counted for. */
 enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
 typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;
