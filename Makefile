@@ -1,5 +1,6 @@
 # make           builds the experiments        make check     every test (needs libcheck)
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
+# make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
 # make bench     time ratios of the solver     make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
@@ -10,12 +11,14 @@
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-LIBRARY  = bbm contact solver $(BEYOND:%=beyond/%)
+CORE     = bbm contact solver
+LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
 BEYOND   = beyond bending coarse eisenstat energy mechanism multipliers overlap pieces refuse rotation statics
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)
-SHARED   = case output plot scene theory
+COMMON   = case output plot scene theory
+SHARED   = $(COMMON) beyond
 PROGRAM  = bbm model msh write
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
@@ -23,8 +26,8 @@ SUITES   = check_formulas check_elastic check_steps check_mesh check_input check
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
            check_theory check_equations
-SHARING  = models systems
-HEADERS  = $(wildcard *.h cases/*.h tests/*.h)
+SHARING  = models shapes systems
+HEADERS  = $(wildcard *.h beyond/*.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
@@ -47,6 +50,25 @@ bench: $O/bench
 
 $(CASES:%=$O/%): $O/%: $O/cases/%.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+# What the experiments show beyond the paper.
+$O/exp1 $O/exp3: $O/%: $O/cases/%_beyond.o
+$O/failing/exp1 $O/failing/exp3: $O/failing/%: $O/failing/cases/%_beyond.o
+
+# --- the paper alone: the core, the experiments with paper.c in place of what they have of beyond/ ---
+paper: paper-run $O/paper/formulas
+	$O/paper/formulas
+
+paper-run: $(RUN:%=$O/paper/%)
+	@for c in $(RUN); do $O/paper/$$c || exit 1; done
+
+$(RUN:%=$O/paper/%): $O/paper/%: $O/cases/%.o $O/cases/paper.o $(COMMON:%=$O/cases/%.o) $(CORE:%=$O/%.o)
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+$O/paper/formulas: $O/tests/check_paper.o $O/tests/check_formulas.o $O/tests/shapes.o $(CORE:%=$O/%.o)
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
 bbm: $O/bbm
 	cp $O/bbm bbm
@@ -83,9 +105,11 @@ $(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
 
 $(PROGRAMS:%=$O/tests/%.o): CPPFLAGS += -DBUILD='"$O"'
 
-$O/tests/check_all.o: tests/check_main.c $(HEADERS) Makefile
+$O/tests/check_all.o: DEFINE = -DCASES
+$O/tests/check_paper.o: DEFINE = -DPAPER
+$O/tests/check_all.o $O/tests/check_paper.o: tests/check_main.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
-	$(CC) $(STRICT) -DCASES $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+	$(CC) $(STRICT) $(DEFINE) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
@@ -95,7 +119,8 @@ $O/quick: $O/tests/check_main.o $(TESTED)
 $O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $(PROGRAMS:%=$O/tests/%.o) $O/tests/check_main.o $O/tests/check_all.o $O/tests/test_alloc.o: | libcheck
+$(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $(PROGRAMS:%=$O/tests/%.o) $O/tests/test_alloc.o: | libcheck
+$O/tests/check_main.o $O/tests/check_all.o $O/tests/check_paper.o: | libcheck
 
 libcheck:
 	@echo '#include <check.h>' | $(CC) $(CPPFLAGS) -E - >/dev/null 2>&1 || \
@@ -148,5 +173,5 @@ fuzz:
 clean:
 	rm -rf out bbm
 
-.PHONY: all run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean
 .DELETE_ON_ERROR:

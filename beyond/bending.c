@@ -1,9 +1,9 @@
 /* bending.c - bonds with which quadrilaterals bend.
  *
  * Beyond the paper. Two quadrilaterals that bend open, at the ends of their edge, the gaps d1 and
- * d2 = -d1, for no D bends. Springs at the ends forbid that: the mesh locks. Seen as one bond of the
- * whole edge the two springs k are two gaps of their own, the mean d = (d1 + d2)/2 and the opening
- * dd = (d1 - d2)/2, with the energy
+ * d2 = -d1, for no D bends. Springs at the ends forbid that: the mesh locks. Seen as one bond of
+ * the whole edge the two springs k are two gaps of their own, the mean d = (d1 + d2)/2 and the
+ * opening dd = (d1 - d2)/2, with the energy
  *
  *     Pi = 1/2 d.K d + 1/2 dd.M dd,      K = M = 2 k I.
  *
@@ -18,7 +18,8 @@
 
 /* ------------------------------------------------------------------------ the moment of an edge */
 
-/* Condenses the symmetric 6x6 W, rows (h, a, b), to its first two rows: minimises the energy over a and b. */
+/* Condenses the symmetric 6x6 W, rows (h, a, b), to its first two rows: minimises the energy over
+ * a and b. */
 static void condense(double W[6][6], double S[2][2])
 {
     for (int p = 5; p > 1; p--)
@@ -29,21 +30,23 @@ static void condense(double W[6][6], double S[2][2])
     memcpy(S[1], W[1], sizeof S[1]);
 }
 
-/* The stiffness of a quadrilateral x = c + xi p + eta q, -1/2 <= xi, eta <= 1/2, against the bending that D lacks,
- * u = h xi eta + a xi^2/2 + b eta^2/2 with h, a, b vectors (Wilson's incompatible modes: Taylor, Beresford, Wilson, Int. J.
- * Num. Meth. Eng. 10, 1976). Its gradient is xi (a gx + h gy) + eta (h gx + b gy) with gx, gy the gradients of xi and
- * eta, its strain xi Ex + eta Ey; W = t A/12 (Ex^T E Ex + Ey^T E Ey). What the two bonds that p crosses and the two that
- * q crosses feel is dd = h/2, therefore S = 4 (W condensed to h). */
-static void bending_stiffness(const bbm_element *e, const double p[2], const double q[2], double S[2][2])
+/* The stiffness of a quadrilateral x = c + xi p + eta q, -1/2 <= xi, eta <= 1/2, against the
+ * bending that D lacks, u = h xi eta + a xi^2/2 + b eta^2/2 with h, a, b vectors (Wilson's
+ * incompatible modes: Taylor, Beresford, Wilson, Int. J. Num. Meth. Eng. 10, 1976). Its gradient
+ * is xi (a gx + h gy) + eta (h gx + b gy) with gx, gy the gradients of xi and eta, its strain
+ * xi Ex + eta Ey; W = t A/12 (Ex^T E Ex + Ey^T E Ey). What the two bonds that p crosses and the
+ * two that q crosses feel is dd = h/2, therefore S = 4 (W condensed to h). */
+static void bending_stiffness(const bbm_element *e, const double p[2], const double q[2],
+                              double S[2][2])
 {
     const double det = p[0] * q[1] - p[1] * q[0], tA = e->material.thickness * e->A;
     const double gx[2] = { q[1] / det, -q[0] / det }, gy[2] = { -p[1] / det, p[0] / det };
     const double strain[2][3][6] = {
         /*  hx     hy       ax     ay       bx     by */
-        { { gy[0], 0,       gx[0], 0,       0,     0     },             /* Ex: strain ex                            */
-          { 0,     gy[1],   0,     gx[1],   0,     0     },             /*     ey                                   */
-          { gy[1], gy[0],   gx[1], gx[0],   0,     0     } },           /*     gxy                                  */
-        { { gx[0], 0,       0,     0,       gy[0], 0     },             /* Ey                                       */
+        { { gy[0], 0,       gx[0], 0,       0,     0     },     /* Ex: strain ex */
+          { 0,     gy[1],   0,     gx[1],   0,     0     },     /*     ey        */
+          { gy[1], gy[0],   gx[1], gx[0],   0,     0     } },   /*     gxy       */
+        { { gx[0], 0,       0,     0,       gy[0], 0     },     /* Ey            */
           { 0,     gx[1],   0,     0,       0,     gy[1] },
           { gx[1], gx[0],   0,     0,       gy[1], gy[0] } },
     };
@@ -54,7 +57,8 @@ static void bending_stiffness(const bbm_element *e, const double p[2], const dou
         for (int b = 0; b < 6; b++)
             for (int r = 0; r < 9; r++)
                 for (int x = 0; x < 2; x++)
-                    W[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3] * strain[x][r % 3][b];
+                    W[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3]
+                             * strain[x][r % 3][b];
     condense(W, S);
 }
 
@@ -69,13 +73,19 @@ static void project(double S[2][2], const double s[2], double P[2][2])
             P[a][b] = f[a] * f[b] / sSs;
 }
 
-/* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0 to 1, from 2 to 3), which q
- * crosses, M[1] for 1 and 3, which p crosses. M[1] = 1/2 [S p p^T S/(p.S p) + S - S q q^T S/(q.S q)], M[0] = S - M[1]: for
- * a rectangle the bending stiffness of the edge as a beam's section, E t l^3/12 over the distance w of the centres. */
+/* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0
+ * to 1, from 2 to 3), which q crosses, M[1] for 1 and 3, which p crosses.
+ *
+ *     M[1] = 1/2 [S p p^T S/(p.S p) + S - S q q^T S/(q.S q)],      M[0] = S - M[1]:
+ *
+ * for a rectangle the bending stiffness of the edge as a beam's section, E t l^3/12 over the
+ * distance w of the centres. */
 void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2][2][2])
 {
-    const double p[2] = { (v[1].x + v[2].x - v[0].x - v[3].x) / 2, (v[1].y + v[2].y - v[0].y - v[3].y) / 2 };
-    const double q[2] = { (v[2].x + v[3].x - v[0].x - v[1].x) / 2, (v[2].y + v[3].y - v[0].y - v[1].y) / 2 };
+    const double p[2] = { (v[1].x + v[2].x - v[0].x - v[3].x) / 2,
+                          (v[1].y + v[2].y - v[0].y - v[3].y) / 2 };
+    const double q[2] = { (v[2].x + v[3].x - v[0].x - v[1].x) / 2,
+                          (v[2].y + v[3].y - v[0].y - v[1].y) / 2 };
     double S[2][2], P[2][2], Q[2][2];
 
     bending_stiffness(e, p, q, S);
@@ -90,8 +100,8 @@ void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2]
 
 /* ------------------------------------------------------------------------- the gaps of an edge */
 
-/* Of the edge between P[0], P[1] of i and Q[0], Q[1] of j the gap (d1 + sign d2)/2 with the weight W;
- * j = NULL: Q are points of the wall. */
+/* Of the edge between P[0], P[1] of i and Q[0], Q[1] of j the gap (d1 + sign d2)/2 with the weight
+ * W; j = NULL: Q are points of the wall. */
 void bbm_edge_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
                   const bbm_vertex *const Q[2], double W[2][2], double sign, bbm_gap *g)
 {
@@ -126,8 +136,7 @@ static bbm_status list_edge(bbm_model *m, int i, const bbm_vertex *const P[2], i
         if (!g)
             return BBM_NO_MEMORY;
         for (int a = 0; a < 4; a++)
-            if (!(directions & BBM_X && directions & BBM_Y)
-                && (a != 0 || !(directions & BBM_X)) && (a != 3 || !(directions & BBM_Y)))
+            if (!(directions & 1 << a / 2) || !(directions & 1 << a % 2))
                 W[which][a / 2][a % 2] = 0;
         bbm_edge_gap(&m->element[i], P, j < 0 ? NULL : &m->element[j], Q, W[which],
                      which == 0 ? 1 : -1, g);
@@ -147,8 +156,12 @@ static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M
     memcpy(M, own[(v - e->first) % 2], 4 * sizeof M[0][0]);
 }
 
-/* The moment M of a bond. The halves of its two elements bend one after the other, so their moments act in series: with
- * n the normal of the edge and mi = n.Mi n, M = (Mi + Mj)/2 4 mi mj/(mi + mj)^2, whose n.M n is the harmonic mean. */
+/* The moment M of a bond. The halves of its two elements bend one after the other, so their
+ * moments act in series: with n the normal of the edge and mi = n.Mi n,
+ *
+ *     M = (Mi + Mj)/2  4 mi mj/(mi + mj)^2,
+ *
+ * whose n.M n is the harmonic mean. */
 static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
 {
     const bbm_vertex *P = &m->vertex[b->p[0]], *R = &m->vertex[b->p[1]];
@@ -156,7 +169,7 @@ static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
     double Mi[2][2], Mj[2][2];
 
     own_moment(m, &m->element[b->i], b->p[0], Mi);
-    own_moment(m, &m->element[b->j], b->q[1], Mj);              /* the edge runs the other way in j */
+    own_moment(m, &m->element[b->j], b->q[1], Mj);      /* the edge runs the other way in j */
     const double mi = nx * nx * Mi[0][0] + nx * ny * (Mi[0][1] + Mi[1][0]) + ny * ny * Mi[1][1];
     const double mj = nx * nx * Mj[0][0] + nx * ny * (Mj[0][1] + Mj[1][0]) + ny * ny * Mj[1][1];
     const double sum = mi + mj, series = sum > 0 ? 4 * (mi / sum) * (mj / sum) : 0;

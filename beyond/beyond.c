@@ -6,7 +6,7 @@
 
 static void release(bbm_model *m) { free(m->beyond); }
 
-/* A prepared model: elements that lie side by side, springs with the energy that they begin with. */
+/* A prepared model: elements lie side by side, springs have the energy that they begin with. */
 static bbm_status check(bbm_model *m)
 {
     m->beyond->springs = bbm_spring_energy(m);
@@ -33,7 +33,8 @@ static bbm_status check_step(bbm_model *m)
                     m->element[m->blamed[0]].block, m->blamed[0]);
 }
 
-/* The base accelerates, and the model is at rest in it: gravity less that at the end of the step. */
+/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the
+ * step. */
 static void accelerate(bbm_model *m)
 {
     const bbm_beyond *b = m->beyond;

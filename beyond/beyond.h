@@ -9,10 +9,10 @@
 
 #include "../bbm.h"
 
-typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X, or the paper's x + T D */
+typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */
 
-typedef enum {                  /* how quadrilaterals are bonded along an edge; all others are at its vertices */
-    BBM_MOMENT,                 /* in its middle, with the resistance to opening that bending needs */
+typedef enum {                  /* how two quadrilaterals are bonded; others at their vertices  */
+    BBM_MOMENT,                 /* in its middle, with the moment that bending needs            */
     BBM_MIDPOINTS,              /* in its middle alone                                          */
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
@@ -29,7 +29,7 @@ struct bbm_beyond {
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
     double gained;              /* J        what dynamic steps have made beyond the balance     */
-    double gain;                /* -        the most that one of them made, against what was there */
+    double gain;                /* -        the most that one made, against what was there      */
 };
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
@@ -90,7 +90,7 @@ typedef struct {                /* elements i < j that overlap                  
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
-bbm_status bbm_find_mechanism(const bbm_model *m, int *element);    /* of BBM_MIDPOINTS; or -1  */
+bbm_status bbm_find_mechanism(bbm_model *m, int *element);          /* of BBM_MIDPOINTS; or -1  */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
 
 #endif

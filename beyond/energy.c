@@ -1,18 +1,18 @@
 /* energy.c - energies, and the balance of a step: the net under all that a step does.
  *
- * Beyond the paper. Newmark with beta = 1/2, gamma = 1 keeps the kinetic energy of a free body and takes
- * potentials at the end of the step: with d0 and d1 the lengths of a spring at the start and at the end
- * and f1 its force at the end, f1 (d1 - d0) is at least what the spring gains. Contacts that open or
- * slide lose energy, and friction opposes the slip. So in every dynamic step
+ * Beyond the paper. Newmark with beta = 1/2, gamma = 1 keeps the kinetic energy of a free body and
+ * takes potentials at the end of the step: with d0 and d1 the lengths of a spring at the start and
+ * at the end and f1 its force at the end, f1 (d1 - d0) is at least what the spring gains. Contacts
+ * that open or slide lose energy, and friction opposes the slip. So in every dynamic step
  *
  *     kinetic + elastic + springs at its end
  *         <=  the same at its start + the work of loads and gravity + rounding,
  *
- * and a solution that breaks this is wrong, whatever the reason. It is found out before anything moves,
- * and the step is done again with half the time step, like one whose contacts do not settle. A step that
- * does not keep velocities whole (velocity_factor below 1) takes energy away on purpose; with `rotation`
- * BBM_LINEAR, the paper's way, a block that turns swells and gains energy by that. There the balance is
- * left alone, or only told.
+ * and a solution that breaks this is wrong, whatever the reason. It is found out before anything
+ * moves, and the step is done again with half the time step, like one whose contacts do not
+ * settle. A step that does not keep velocities whole (velocity_factor below 1) takes energy away
+ * on purpose; with `rotation` BBM_LINEAR, the paper's way, a block that turns swells and gains
+ * energy by that. There the balance is left alone, or only told.
  */
 #include <float.h>
 #include <math.h>
@@ -21,7 +21,8 @@
 
 /* GAIN [-]      a step that makes more than this share of what is there is wrong; one that is right
  *               makes some 1e-5 at most, what the solution and the vectors of the step are off
- * ROUNDING [-]  of positions, in which forces do work: some dozens of the last digit of a coordinate */
+ * ROUNDING [-]  of positions, in which forces do work: some dozens of the last digit of a
+ *               coordinate */
 #define GAIN 1e-3
 #define ROUNDING (64 * DBL_EPSILON)
 
@@ -101,9 +102,9 @@ double bbm_spring_energy(const bbm_model *m)
     return energy;
 }
 
-/* The energy that the step from m to `end` makes beyond the work of its loads: `gain`, J. It is compared
- * with what is `there`, J: the energy at the start, the work of each load without sign, and what
- * rounding may make. Too much is BBM_ENERGY; if not, m->beyond notes it. */
+/* The energy that the step from m to `end` makes beyond the work of its loads: `gain`, J. It is
+ * compared with what is `there`, J: the energy at the start, the work of each load without sign,
+ * and what rounding may make. Too much is BBM_ENERGY; if not, m->beyond notes it. */
 bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there)
 {
     bbm_beyond *b = m->beyond;

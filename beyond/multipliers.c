@@ -1,13 +1,14 @@
 /* multipliers.c - bonds and fixed points that do not open.
  *
  * Beyond the paper. A penalty spring opens under the force that it carries. With a multiplier that
- * carries the force in its place it need not: solve, add to each multiplier the force of its spring,
- * f += W d, which goes to the right of K D = F in place of the spring's force, solve again (the
- * augmented Lagrangian of Hestenes, J. Optim. Theory Appl. 4, 1969, and Powell, in: Optimization,
- * 1969; the paper names it for contacts). K stays, and so does all that was made of it.
+ * carries the force in its place it need not: solve, add to each multiplier the force of its
+ * spring, f += W d, which goes to the right of K D = F in place of the spring's force, solve again
+ * (the augmented Lagrangian of Hestenes, J. Optim. Theory Appl. 4, 1969, and Powell, in:
+ * Optimization, 1969; the paper names it for contacts). K stays, and so does all that was made of
+ * it.
  *
- * In statics multipliers go on from step to step. In dynamics each step starts them from zero: kept,
- * they would be an integral controller, and in short steps unstable (doc/limits.md).
+ * In statics multipliers go on from step to step. In dynamics each step starts them from zero:
+ * kept, they would be an integral controller, and in short steps unstable (doc/limits.md).
  */
 #include "beyond.h"
 

@@ -1,8 +1,8 @@
 /* refuse.c - solutions that are none.
  *
- * A step of which the equations were not solved, whose elements go too far for what is linear in it, or
- * whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and the model
- * stays as it was.
+ * A step of which the equations were not solved, whose elements go too far for what is linear in
+ * it, or whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and
+ * the model stays as it was.
  */
 #include <math.h>
 #include <stddef.h>
@@ -11,12 +11,12 @@
 
 /* UNSOLVED [-]    a residual |F - K D|/|F| above this is no solution, though the iteration ended:
  *                 stiffnesses too far apart for doubles
- * FAR_STRAIN [-]  what an element may strain in a step of dynamics; in a static step, which is linear
- *                 elasticity for loads of any size, it is 1: the element has turned over
- * FAR_TURN [rad]  what a bonded element may turn in a step of dynamics: T of the middle of a step grows
- *                 without bound towards half a turn
- * DEEP [-]        depth of a contact against the size of its smaller block at which its springs do not
- *                 keep the blocks apart any more */
+ * FAR_STRAIN [-]  what an element may strain in a step of dynamics; in a static step, which is
+ *                 linear elasticity for loads of any size, it is 1: the element has turned over
+ * FAR_TURN [rad]  what a bonded element may turn in a step of dynamics: T of the middle of a step
+ *                 grows without bound towards half a turn
+ * DEEP [-]        depth of a contact against the size of its smaller block at which its springs do
+ *                 not keep the blocks apart any more */
 #define UNSOLVED 1e-3
 #define FAR_STRAIN 0.5
 #define FAR_TURN 1.0

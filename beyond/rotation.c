@@ -1,10 +1,10 @@
-/* rotation.c - exact rotations, and the vectors of a step at its middle: with both a step keeps energy
- * and momentum.
+/* rotation.c - exact rotations, and the vectors of a step at its middle: with both a step keeps
+ * energy and momentum.
  *
- * Beyond the paper. T of Eq. (2) belongs to the positions at the start of a step. A body that turns by
- * r while it touches or is bonded ends the step r^2/2 times its lever away from where u = T D had it:
- * it swells, and a spring then holds a length that is not there, so that each step makes energy. The
- * exact motion of a point at X from the barycentre,
+ * Beyond the paper. T of Eq. (2) belongs to the positions at the start of a step. A body that
+ * turns by r while it touches or is bonded ends the step r^2/2 times its lever away from where
+ * u = T D had it: it swells, and a spring then holds a length that is not there, so that each step
+ * makes energy. The exact motion of a point at X from the barycentre,
  *
  *     u = (u0, v0) + R(r) (1 + e) X - X,         e = [ex gxy/2; gxy/2 ey],
  *
@@ -14,25 +14,26 @@
  *     u = (u0, v0) + 2 tan(r/2) J Xm + (1 + tan(r/2) J) e X  =  T_m D.
  *
  * With T_m in place of T the length of a bonding spring at the end of the step is exactly
- * d0 + T_m,i Di - T_m,j Dj. In the same way l d_n = b x p and l d_s = b.a of a contact are products,
- * and differences of products are exact with the mean of the other factor:
- * delta(b x p) = delta b x p_m + b_m x delta p. So one rule serves all: points and T at the middle.
- * The work of each force is then what its spring, its load or its pressure loses (Simo, Tarnow, Wong:
- * Comput. Methods Appl. Mech. Eng. 100, 1992, take the middle for the same reason).
+ * d0 + T_m,i Di - T_m,j Dj. In the same way l d_n = b x p and l d_s = b.a of a contact are
+ * products, and differences of products are exact with the mean of the other factor:
+ * delta(b x p) = delta b x p_m + b_m x delta p. So one rule serves all: points and T at the
+ * middle. The work of each force is then what its spring, its load or its pressure loses (Simo,
+ * Tarnow, Wong: Comput. Methods Appl. Mech. Eng. 100, 1992, take the middle for the same reason).
  *
- * T_m needs the D of the solution. A step begins with what its velocities foretell and renews T_m when
- * no contact changes its state. Statics and `rotation` BBM_LINEAR, the paper's way, keep T.
+ * T_m needs the D of the solution. A step begins with what its velocities foretell and renews T_m
+ * when no contact changes its state. Statics and `rotation` BBM_LINEAR, the paper's way, keep T.
  */
 #include <math.h>
 #include <string.h>
 
 #include "beyond.h"
 
-/* TURN [rad^2]  turn of an element times the error of that turn below which T_m holds: points are right
- *               to this times their lever, and a bonded block that spins by 0.2 rad a step keeps its
- *               energy to 1e-9 of it
- * SHARE [-]     force of a contact that comes from T_m of another D, against the largest one on its
- *               elements: what it makes of energy is this share of the energy of the contact's spring */
+/* TURN [rad^2]  turn of an element times the error of that turn below which T_m holds: points are
+ *               right to this times their lever, and a bonded block that spins by 0.2 rad a step
+ *               keeps its energy to 1e-9 of it
+ * SHARE [-]     force of a contact that comes from T_m of another D, against the largest one on
+ *               its elements: what it makes of energy is this share of the energy of the
+ *               contact's spring */
 #define TURN 1e-8
 #define SHARE 1e-5
 
@@ -43,8 +44,8 @@ int bbm_moves_exactly(const bbm_model *m)
 }
 
 /* How a point at (X, Y) from the barycentre moves: translation, strain, then the exact rotation,
- * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X; where rotations are
- * linear, its first order in r0, u = T D. */
+ * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X; where rotations
+ * are linear, its first order in r0, u = T D. */
 void bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6], double X,
                       double Y, double u[2])
 {
@@ -58,7 +59,8 @@ void bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6
     u[1] = D[1] + uy + c1 * y + s * x;
 }
 
-/* T_m at the point that starts the step in (x, y), and where it is in the middle of the step: `at`. */
+/* T_m at the point that starts the step in (x, y), and where it is in the middle of the step:
+ * `at`. */
 void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6], double at[2])
 {
     const double X = x - e->x, Y = y - e->y, *D = e->mode_D, r = D[2];
@@ -138,9 +140,9 @@ static void turn_tensor(double s[3], double r)
     s[2] = half * n + t * c;
 }
 
-/* Stress and strain rates turn with an element that has moved, and the change of its moments by strain,
- * which no force of the step knows of, changes no energy: turning and straining slow down or speed up
- * together. */
+/* Stress and strain rates turn with an element that has moved, and the change of its moments by
+ * strain, which no force of the step knows of, changes no energy: turning and straining slow down
+ * or speed up together. */
 void bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_element *e,
                       const bbm_vertex vertex[])
 {

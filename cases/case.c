@@ -1,5 +1,5 @@
-/* case.c - what the experiments share. A program of cases/ runs from the project's top folder: it reads
- * cases/fem.csv and writes below out/. */
+/* case.c - what the experiments share. A program of cases/ runs from the project's top folder: it
+ * reads cases/fem.csv and writes below out/. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <math.h>
@@ -20,14 +20,6 @@ void case_must(const bbm_model *m, bbm_status s)
         stop("bbm", m ? bbm_message(m) : bbm_status_text(s));
 }
 
-bbm_model *case_model(void)
-{
-    bbm_model *m;
-
-    case_must(NULL, bbm_beyond_new(&m));
-    return m;
-}
-
 void case_progress(const char *what)
 {
     printf("... %s\n", what);
@@ -39,16 +31,19 @@ void case_print_parameters(const bbm_model *m)
     const bbm_parameters *p = &m->par;
     const int touch = m->info.contacts > 0;
 
-    printf("\nTable 1 - parameters\n\n| dt [s] | steps at most | tolerance (71) | omega | tolerance PCG | alpha |%s\n"
-           "|---|---|---|---|---|---|%s\n| %g | %d | %g | %g | %g | %g |", touch ? " p_n [N/m] | p_s [N/m] |" : "",
-           touch ? "---|---|" : "", p->dt, p->steps, p->tolerance, p->pcg.omega, p->pcg.tolerance, p->alpha);
+    printf("\nTable 1 - parameters\n\n"
+           "| dt [s] | steps at most | tolerance (71) | omega | tolerance PCG | alpha |%s\n"
+           "|---|---|---|---|---|---|%s\n| %g | %d | %g | %g | %g | %g |",
+           touch ? " p_n [N/m] | p_s [N/m] |" : "", touch ? "---|---|" : "", p->dt, p->steps,
+           p->tolerance, p->pcg.omega, p->pcg.tolerance, p->alpha);
     if (touch)
         printf(" %g | %g |", p->p_n, p->p_s);
-    printf("\n\n%d step%s, the last with %d SSOR-PCG iterations to a residual of %.1e\n", m->info.step,
-           m->info.step == 1 ? "" : "s", m->info.pcg.iterations, m->info.pcg.residual);
+    printf("\n\n%d step%s, the last with %d SSOR-PCG iterations to a residual of %.1e\n",
+           m->info.step, m->info.step == 1 ? "" : "s", m->info.pcg.iterations,
+           m->info.pcg.residual);
 }
 
-/* ------------------------------------------------------------------------------------------------- meshes */
+/* --------------------------------------------------------------------------------------- meshes */
 
 static int grid_node(const case_grid *g, int i, int j)
 {
@@ -69,7 +64,7 @@ static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j
  *     |   |    | / |    | \ |    |\ /|
  *     |   |    |/  |    |  \|    | o |     quads; alternating, by i + j even or odd; crossed
  *     a---b    a---b    a---b    |/ \|
- *                                a---b                                                                        */
+ *                                a---b */
 static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
 {
     const int a = grid_node(g, i, j), b = grid_node(g, i + 1, j);
@@ -121,7 +116,8 @@ int case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[
 static void place_in_box(double i, double j, const void *box, double xy[2])
 {
     const case_box *b = box;
-    const double x = b->x + b->w * i / b->nx, y = b->y + b->h * j / b->ny, c = cos(b->turn), s = sin(b->turn);
+    const double x = b->x + b->w * i / b->nx, y = b->y + b->h * j / b->ny;
+    const double c = cos(b->turn), s = sin(b->turn);
 
     xy[0] = c * x - s * y;
     xy[1] = s * x + c * y;
@@ -130,8 +126,8 @@ static void place_in_box(double i, double j, const void *box, double xy[2])
 int case_add_box(bbm_model *m, const case_box *b)
 {
     const int first = m->elements;
-    case_grid g = { .nx = b->nx, .ny = b->ny, .cut = CASE_QUADS, .block = b->block, .material = b->material,
-                    .map = place_in_box, .context = b };
+    case_grid g = { .nx = b->nx, .ny = b->ny, .cut = CASE_QUADS, .block = b->block,
+                    .material = b->material, .map = place_in_box, .context = b };
 
     case_add_grid(m, &g);
     return first;
@@ -146,11 +142,14 @@ void case_fix_block(bbm_model *m, int block)
 
 int case_node(const bbm_model *m, double x, double y)
 {
+    double least = INFINITY;
     int best = 0;
 
-    for (int n = 1; n < m->nodes; n++)
-        if (hypot(m->node[n].x - x, m->node[n].y - y) < hypot(m->node[best].x - x, m->node[best].y - y))
-            best = n;
+    for (int n = 0; n < m->nodes; n++) {
+        const double distance = hypot(m->node[n].x - x, m->node[n].y - y);
+        if (distance < least)
+            least = distance, best = n;
+    }
     return best;
 }
 
@@ -160,6 +159,11 @@ bbm_result case_at(const bbm_model *m, double x, double y)
 
     case_must(NULL, bbm_nodal_result(m, case_node(m, x, y), -1, &r));
     return r;
+}
+
+double case_percent(double computed, double reference)
+{
+    return 100 * (computed - reference) / reference;
 }
 
 double case_quantity(const bbm_result *r, const char *quantity)
@@ -173,7 +177,7 @@ double case_quantity(const bbm_result *r, const char *quantity)
     return NAN;
 }
 
-/* ------------------------------------------------------------------------------------- blocks that touch */
+/* ---------------------------------------------------------------------------- blocks that touch */
 
 bbm_model *case_block_on_slope(const case_slope *s)
 {
@@ -182,9 +186,11 @@ bbm_model *case_block_on_slope(const case_slope *s)
 
     bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
     bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
-    case_add_box(m, &(case_box){ .nx = s->base, .ny = 1, .x = -12, .y = -1, .w = 18, .h = 1, .turn = turn });
+    case_add_box(m, &(case_box){ .nx = s->base, .ny = 1, .x = -12, .y = -1, .w = 18, .h = 1,
+                                 .turn = turn });
     case_fix_block(m, 0);
-    case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = s->w, .h = s->h, .turn = turn });
+    case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = s->w,
+                                 .h = s->h, .turn = turn });
     m->par.dt = s->dt;
     m->par.velocity_factor = 1;
     m->par.gravity[1] = -9.81;
@@ -222,13 +228,15 @@ void case_settle(bbm_model *m, int steps)
     m->par.velocity_factor = 1;
 }
 
-/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's block; turned
- * round if it points down, so that arrows stand on what carries and point into what is carried. */
+/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's
+ * block; turned round if it points down, so that arrows stand on what carries and point into what
+ * is carried. */
 static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a], *P2 = &m->vertex[m->edge[c->edge].b];
     const bbm_vertex *P3 = &m->vertex[m->edge[c->edge].a];
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
+    const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
     const double f[2] = { -c->N * y - c->T * x, c->N * x - c->T * y }, up = f[1] < 0 ? -1 : 1;
 
     return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], (int)c->state };
@@ -247,7 +255,7 @@ void case_record(scene *s, const bbm_model *m)
     free(force);
 }
 
-/* ---------------------------------------------------------------------------------------- reference values */
+/* ----------------------------------------------------------------------------- reference values */
 
 /* The number up to the next comma (NaN for an empty field); *p moves behind it. */
 static double next_number(char **p)
@@ -294,16 +302,18 @@ void case_free_reference(case_reference *r)
     free(r->value);
 }
 
-const struct case_value *case_find(const case_reference *r, const char *quantity, double x, double y)
+const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
+                                   double y)
 {
     for (int i = 0; i < r->values; i++)
-        if (strcmp(r->value[i].quantity, quantity) == 0 && hypot(r->value[i].x - x, r->value[i].y - y) < 1e-6)
+        if (strcmp(r->value[i].quantity, quantity) == 0
+            && hypot(r->value[i].x - x, r->value[i].y - y) < 1e-6)
             return &r->value[i];
     stop(quantity, "no such reference value in cases/fem.csv");
     return NULL;
 }
 
-/* ------------------------------------------------------------------------------------------ results as files */
+/* ----------------------------------------------------------------------------- results as files */
 
 const char *case_path(const case_results *r, const char *file, char path[128])
 {
@@ -340,8 +350,8 @@ int case_close(case_results *r)
     return r ? r->failed : 0;
 }
 
-double case_row(case_results *r, const char *quantity, const double xy[2], double computed, double reference,
-                const char *kind)
+double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
+                double reference, const char *kind)
 {
     const double error = reference != 0 ? (computed - reference) / reference : computed;
 
@@ -357,14 +367,15 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
 
 double case_compare(case_results *r, const char *name, double computed, double reference)
 {
-    const double nowhere[2] = { NAN, NAN }, error = case_row(r, name, nowhere, computed, reference, "theory");
+    const double nowhere[2] = { NAN, NAN };
+    const double error = case_row(r, name, nowhere, computed, reference, "theory");
 
     printf("| %s | %.10g | %.10g | %.1e |\n", name, computed, reference, error);
     return error;
 }
 
-void case_write_curves(const case_results *r, const char *file, const char *header, int rows, int columns,
-                       const double *table)
+void case_write_curves(const case_results *r, const char *file, const char *header, int rows,
+                       int columns, const double *table)
 {
     char path[128];
     FILE *f = fopen(case_path(r, file, path), "w");
@@ -383,7 +394,7 @@ void case_write_curves(const case_results *r, const char *file, const char *head
         stop(path, "could not be written");
 }
 
-/* ------------------------------------------------------------------------------------------------ pictures */
+/* ------------------------------------------------------------------------------------- pictures */
 
 /* What is left of a picture that could not be made: a line, and the exit status. */
 static void finish(case_results *r, const char *path, int done)
@@ -429,13 +440,15 @@ void case_draw_panels(case_results *r, const char *file, const bbm_model *m, con
     finish(r, path, scene_write_panels(s, m, case_path(r, file, path), n, time));
 }
 
-/* The arrays of a map: [nodes] x, y, u, v and the quantity; [elements+1] first; [vertices] corner. */
+/* The arrays of a map: [nodes] x, y, u, v and the quantity; [elements+1] first; [vertices]
+ * corner. */
 static void fill_map(const bbm_model *m, const char *quantity, double *at, int *first, int *corner)
 {
     for (int n = 0; n < m->nodes; n++) {
         bbm_result here;
         bbm_nodal_result(m, n, -1, &here);
-        const double value[5] = { m->node[n].x, m->node[n].y, here.u, here.v, case_quantity(&here, quantity) };
+        const double value[5] = { m->node[n].x, m->node[n].y, here.u, here.v,
+                                  case_quantity(&here, quantity) };
         for (int k = 0; k < 5; k++)
             at[k * m->nodes + n] = value[k];
     }
@@ -449,7 +462,8 @@ int case_write_map(const char *path, const bbm_model *m, const char *quantity, p
 {
     const size_t n = (size_t)m->nodes;
     double *at = calloc(5 * n, sizeof *at);
-    int *first = calloc((size_t)m->elements + 1, sizeof *first), *corner = calloc((size_t)m->vertices, sizeof *corner);
+    int *first = calloc((size_t)m->elements + 1, sizeof *first);
+    int *corner = calloc((size_t)m->vertices, sizeof *corner);
     int done = at && first && corner;
 
     if (done) {
@@ -470,7 +484,8 @@ int case_write_map(const char *path, const bbm_model *m, const char *quantity, p
     return done;
 }
 
-void case_draw_map(case_results *r, const char *file, const bbm_model *m, const char *quantity, const char *title)
+void case_draw_map(case_results *r, const char *file, const bbm_model *m, const char *quantity,
+                   const char *title)
 {
     char path[128];
 
@@ -482,5 +497,6 @@ void case_draw_deformed(case_results *r, const char *file, const bbm_model *m, c
 {
     char path[128];
 
-    finish(r, path, case_write_map(case_path(r, file, path), m, "svm", &(plot_map){ .title = title }));
+    finish(r, path, case_write_map(case_path(r, file, path), m, "svm",
+                                   &(plot_map){ .title = title }));
 }

@@ -1,21 +1,24 @@
-/* exp1.c - Experiment I: a cantilever under a load at its free end (section 4.2, Fig. 9-13, Tables 2 and 3).
+/* exp1.c - Experiment I: a cantilever under a load at its free end (section 4.2, Fig. 9-13,
+ * Tables 2 and 3).
  *
- *     y ^                          L = 48 m, H = 12 m, t = 1 m, E = 30 MPa, nu = 0.3, P = 1 kN
+ *     y ^                         L = 48 m, H = 12 m, t = 1 m, E = 30 MPa, nu = 0.3, P = 1 kN
  *   6 |_______________
- *   //|               | |          a   clamped, concentrated load at (48, 0): the paper's experiment
- *   //|---------------| v P   > x  b   clamped, the same load as parabolic shear over the end
- *  -6 |_______________|            c   parabolic shear, and on x = 0 the displacements of (70): (70) is then exact
- *     0               48
- * `exp1` writes tables and out/exp1/; `exp1 converge` prints the errors on three meshes for three values of alpha. */
+ *   //|               | |         a   clamped, concentrated load at (48, 0): the paper's experiment
+ *   //|---------------| v P   > x b   clamped, the same load as parabolic shear over the end
+ *  -6 |_______________|           c   parabolic shear, and on x = 0 the displacements of (70):
+ *     0               48              (70) is then exact
+ *
+ * `exp1` writes tables and out/exp1/; `exp1 converge` prints the errors on three meshes for three
+ * values of alpha. What it shows beyond the paper is in exp1_beyond.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "case.h"
-#include "plot.h"
+#include "exp.h"
 #include "theory.h"
 
-static const double L = 48, H = 12, P = 1000, E = 30e6, nu = 0.3, I = 12.0 * 12 * 12 / 12;
+static const double L = EXP1_LENGTH, H = EXP1_HEIGHT, P = 1000, E = 30e6, nu = 0.3;
+static const double I = 12.0 * 12 * 12 / 12;
 
 /* Eq. (70). */
 static void theory(double x, double y, double u[2])
@@ -31,9 +34,10 @@ static void shear(double x, double y, const void *unused, double f[2])
     f[1] = -P / (2 * I) * (H * H / 4 - y * y);
 }
 
-/* Grid line i, j of the mesh: 25 x 6 cells, each divided k x k times (k = 2 is the experiment's). Along x three zones
- * of 12, 9 and 4 cells, 1.5, 2 and 3 m long, shorter where the bending moment is larger; along y a little thinner at
- * the faces. Every point that the tables name is a grid point. */
+/* Grid line i, j of the mesh: 25 x 6 cells, each divided k x k times (k = 2 is the experiment's).
+ * Along x three zones of 12, 9 and 4 cells, 1.5, 2 and 3 m long, shorter where the bending moment
+ * is larger; along y a little thinner at the faces. Every point that the tables name is a grid
+ * point. */
 static void place(double i, double j, const void *division, double xy[2])
 {
     const double k = *(const int *)division, c = i / k, t = j / (3 * k) - 1;
@@ -42,7 +46,8 @@ static void place(double i, double j, const void *division, double xy[2])
     xy[1] = H / 2 * t * (1 + 0.1 * (1 - t * t));
 }
 
-/* Support and load of a variant on the nodes of x = 0 and x = L, which lie in steps of `row` from y = -H/2. */
+/* Support and load of a variant on the nodes of x = 0 and x = L, which lie in steps of `row` from
+ * y = -H/2. */
 static void load(bbm_model *m, char variant, int left, int right, int row, int rows)
 {
     for (int j = 0; j <= rows; j++) {
@@ -59,21 +64,31 @@ static void load(bbm_model *m, char variant, int left, int right, int row, int r
             bbm_add_varying_line_load(m, right + j * row, right + (j + 1) * row, shear, NULL);
 }
 
-/* The beam of 25 k x 6 k crossed cells. The paper's load a is solved as in the paper, by Newton-Raphson steps until
- * (71) holds; for b and c one step gives the answer of small displacements, as their references do. */
-static bbm_model *solve_beam(char variant, int k, double alpha, int augment)
+void exp1_add_beam(bbm_model *m, char variant, case_grid *g)
 {
-    bbm_model *m = case_model();
+    bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
+    case_add_grid(m, g);
+    load(m, variant, g->first, g->first + g->nx, g->nx + 1, g->ny);
+}
+
+/* The paper's load a is solved as in the paper, by Newton-Raphson steps until (71) holds; for b and
+ * c one step gives the answer of small displacements, as their references do. */
+bbm_model *exp1_beam(char variant, int k, double alpha)
+{
+    bbm_model *m = case_paper_model();
     case_grid g = { .nx = 25 * k, .ny = 6 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
 
-    bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
-    case_add_grid(m, &g);
-    load(m, variant, g.first, g.first + g.nx, g.nx + 1, g.ny);
+    exp1_add_beam(m, variant, &g);
     m->par.alpha = alpha;
-    m->beyond->multiplier_rounds = augment;
-    m->par.pcg.method = augment ? &bbm_two_level : &bbm_eisenstat;         /* the paper's unless beyond it */
     if (variant == 'a')
         m->par.steps = 10, m->par.tolerance = 1e-8;
+    return m;
+}
+
+static bbm_model *solve_beam(char variant, int k, double alpha)
+{
+    bbm_model *m = exp1_beam(variant, k, alpha);
+
     case_must(m, bbm_prepare(m));
     case_must(m, bbm_run(m));
     return m;
@@ -82,9 +97,11 @@ static bbm_model *solve_beam(char variant, int k, double alpha, int augment)
 /* Plain DDA: the beam is one block of six unknowns. */
 static bbm_model *solve_dda(double alpha)
 {
-    static const double corner[6][2] = { { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 }, { 0, 0 } };
+    static const double corner[6][2] = {
+        { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 }, { 0, 0 },
+    };
     const int node[6] = { 0, 1, 2, 3, 4, 5 };
-    bbm_model *m = case_model();
+    bbm_model *m = case_paper_model();
 
     bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
     for (int n = 0; n < 6; n++)
@@ -100,10 +117,11 @@ static bbm_model *solve_dda(double alpha)
     return m;
 }
 
-/* ------------------------------------------------------------------------------------------------- tables */
+/* --------------------------------------------------------------------------------------- tables */
 
 /* Every reference value of a variant against the computed one: the rows of results.csv. */
-static void compare_all(case_results *r, const bbm_model *m, char variant, const case_reference *ref)
+static void compare_all(case_results *r, const bbm_model *m, char variant,
+                        const case_reference *ref)
 {
     for (int i = 0; i < ref->values; i++) {
         const struct case_value *f = &ref->value[i];
@@ -125,26 +143,24 @@ static void compare_all(case_results *r, const bbm_model *m, char variant, const
     }
 }
 
-/* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
-static double percent(double computed, double reference)
-{
-    return 100 * (computed - reference) / reference;
-}
-
 static void print_table_2(const bbm_model *dda, const bbm_model *bbm)
 {
-    printf("\nTable 2 - unknowns\n\n| DDA, one block | BBM, %d triangles | FEM of the paper, 2202 six-node triangles |\n"
-           "|---|---|---|\n| %d | %d | %d |\n", bbm->elements, 6 * dda->elements, 6 * bbm->elements, 2 * 6 * 2202);
+    printf("\nTable 2 - unknowns\n\n"
+           "| DDA, one block | BBM, %d triangles | FEM of the paper, 2202 six-node triangles |\n"
+           "|---|---|---|\n| %d | %d | %d |\n", bbm->elements, 6 * dda->elements,
+           6 * bbm->elements, 2 * 6 * 2202);
 }
 
 /* Fig. 10 as a table and as a picture: the deflection of the axis. */
-static void show_deflection(case_results *r, const bbm_model *dda, const bbm_model *bbm, const case_reference *ref)
+static void show_deflection(case_results *r, const bbm_model *dda, const bbm_model *bbm,
+                            const case_reference *ref)
 {
     enum { N = 9 };
     double x[N], v[4][N], table[N][5];
 
     printf("\nFig. 10 - deflection v [mm] of the axis, load a (concentrated)\n\n"
-           "| x [m] | DDA | BBM | FEM | FEM, converged | theory (70) | BBM against FEM |\n|---|---|---|---|---|---|---|\n");
+           "| x [m] | DDA | BBM | FEM | FEM, converged | theory (70) | BBM against FEM |\n"
+           "|---|---|---|---|---|---|---|\n");
     for (int i = 0; i < N; i++) {
         double u[2];
         x[i] = 6 * i;
@@ -161,16 +177,18 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
             continue;
         printf("| %.0f | %.4f | %.4f | %.4f | ", x[i], 1e3 * v[0][i], 1e3 * v[1][i], 1e3 * v[2][i]);
         printf(isnan(f->converged) ? "no limit | " : "%.4f | ", 1e3 * f->converged);
-        printf("%.4f | %+.2f %% |\n", 1e3 * v[3][i], percent(v[1][i], f->six_node));
+        printf("%.4f | %+.2f %% |\n", 1e3 * v[3][i], case_percent(v[1][i], f->six_node));
     }
     const plot_series s[] = {
         { .name = "theory, Eq. (70)", .n = N, .x = x, .y = v[3], .look = 1 },
-        { .name = "FEM, six-node triangles", .n = N, .x = x, .y = v[2], .style = PLOT_MARKS, .look = 3 },
+        { .name = "FEM, six-node triangles", .n = N, .x = x, .y = v[2], .style = PLOT_MARKS,
+          .look = 3 },
         { .name = "BBM", .n = N, .x = x, .y = v[1], .style = PLOT_MARKS, .look = 2 },
         { .name = "DDA, one block", .n = N, .x = x, .y = v[0], .style = PLOT_BOTH, .look = 4 },
     };
-    case_draw_chart(r, "fig10.svg", &(plot_chart){ .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0, 0, 0 },
-                    .y = { "v", "m", 0, 0, 0 }, .count = 4, .series = s });
+    case_draw_chart(r, "fig10.svg", &(plot_chart){
+                        .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0, 0, 0 },
+                        .y = { "v", "m", 0, 0, 0 }, .count = 4, .series = s });
     case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5, &table[0][0]);
 }
 
@@ -178,11 +196,14 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
 static void print_table_3(const bbm_model *const m[3], const case_reference ref[3])
 {
     static const struct { const char *quantity; double x, y; } at[] = {
-        { "u", 24, 6 }, { "v", 24, 6 }, { "u", 36, 0 }, { "v", 36, 0 }, { "u", 48, 6 }, { "v", 48, 6 },
+        { "u", 24, 6 }, { "v", 24, 6 }, { "u", 36, 0 }, { "v", 36, 0 }, { "u", 48, 6 },
+        { "v", 48, 6 },
     };
 
-    printf("\nTable 3 - displacements [mm]: a clamped, concentrated; b clamped, parabolic shear; c end of (70)\n\n"
-           "| | | BBM | FEM, converged | theory (70) | against FEM | against (70) |\n|---|---|---|---|---|---|---|\n");
+    printf("\nTable 3 - displacements [mm]: a clamped, concentrated; b clamped, parabolic shear; "
+           "c end of (70)\n\n"
+           "| | | BBM | FEM, converged | theory (70) | against FEM | against (70) |\n"
+           "|---|---|---|---|---|---|---|\n");
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 6; i++) {
             const bbm_result here = case_at(m[k], at[i].x, at[i].y);
@@ -190,92 +211,32 @@ static void print_table_3(const bbm_model *const m[3], const case_reference ref[
             double u[2];
             theory(at[i].x, at[i].y, u);
             const double exact = u[at[i].quantity[0] - 'u'];
-            printf("| %c | %s(%.0f,%.0f) | %.5f | ", "abc"[k], at[i].quantity, at[i].x, at[i].y, 1e3 * computed);
+            printf("| %c | %s(%.0f,%.0f) | %.5f | ", "abc"[k], at[i].quantity, at[i].x, at[i].y,
+                   1e3 * computed);
             if (exact == 0) {
                 printf("0, by symmetry | 0 | | |\n");
                 continue;
             }
             const double fem = case_find(&ref[k], at[i].quantity, at[i].x, at[i].y)->converged;
-            printf("%.5f | %.5f | %+.2f %% | %+.2f %% |\n", 1e3 * fem, 1e3 * exact, percent(computed, fem),
-                   percent(computed, exact));
+            printf("%.5f | %.5f | %+.2f %% | %+.2f %% |\n", 1e3 * fem, 1e3 * exact,
+                   case_percent(computed, fem), case_percent(computed, exact));
         }
 }
 
 /* What the experiment comes to. */
 static void print_summary(const bbm_model *const m[3], const case_reference ref[3])
 {
-    static const struct { int k; double x; } at[] = { { 0, 24 }, { 0, 36 }, { 1, 24 }, { 1, 48 }, { 2, 24 }, { 2, 48 } };
+    static const struct { int k; double x; } at[] = {
+        { 0, 24 }, { 0, 36 }, { 1, 24 }, { 1, 48 }, { 2, 24 }, { 2, 48 },
+    };
 
-    printf("\n| Experiment I, deflection [mm], alpha = 1000 | computed | exact | error |\n|---|---|---|---|\n");
+    printf("\n| Experiment I, deflection [mm], alpha = 1000 | computed | exact | error |\n"
+           "|---|---|---|---|\n");
     for (int i = 0; i < 6; i++) {
-        const double exact = case_find(&ref[at[i].k], "v", at[i].x, 0)->converged, v = case_at(m[at[i].k], at[i].x, 0).v;
-        printf("| v(%.0f,0), load %c | %.4f | %.4f | %+.2f %% |\n", at[i].x, "abc"[at[i].k], 1e3 * v, 1e3 * exact,
-               percent(v, exact));
-    }
-}
-
-/* ------------------------------------------------------------------------------------------ beyond the paper */
-
-static void place_uniform(double i, double j, const void *grid, double xy[2])
-{
-    const case_grid *g = grid;
-
-    xy[0] = L * i / g->nx;
-    xy[1] = H * (j / g->ny - 0.5);
-}
-
-/* The beam under load b on a uniform grid, with bonds that do not give. */
-static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
-{
-    bbm_model *m = case_model();
-    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place_uniform };
-
-    g.context = &g;
-    bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
-    case_add_grid(m, &g);
-    load(m, 'b', g.first, g.first + g.nx, g.nx + 1, g.ny);
-    m->beyond->multiplier_rounds = 2;
-    m->beyond->bonding = bonding;
-    case_must(m, bbm_prepare(m));
-    case_must(m, bbm_run(m));
-    return m;
-}
-
-/* Multipliers: v(24,0) for three values of alpha, after one solution (the paper's springs), two and three. */
-static void print_augmented(const case_reference *b)
-{
-    const double exact = case_find(b, "v", 24, 0)->converged;
-
-    printf("\nBeyond the paper: multipliers. v(24,0), load b, against the converged finite element\n\n"
-           "| alpha | paper | augmented once | augmented twice |\n|---|---|---|---|\n");
-    for (double alpha = 10; alpha <= 1000; alpha *= 10) {
-        printf("| %g |", alpha);
-        for (int augment = 0; augment <= 2; augment++) {
-            bbm_model *m = solve_beam('b', 2, alpha, augment);
-            printf(" %+.4f %% |", percent(case_at(m, 24, 0).v, exact));
-            bbm_model_free(m);
-        }
-        printf("\n");
-    }
-}
-
-/* Quadrilaterals by their bond, beside triangles of as many unknowns. */
-static void print_quadrilaterals(const case_reference *b)
-{
-    printf("\nBeyond the paper: quadrilaterals that bend. Load b, augmented twice, error of v(48,0), v(24,0)\n\n"
-           "| unknowns | quads at vertices (paper) | at midpoints | with moment | triangles |\n|---|---|---|---|---|\n");
-    for (int n = 1; n <= 4; n *= 2) {
-        printf("| %d |", 6 * 24 * 6 * n * n);
-        for (int kind = 0; kind < 4; kind++) {
-            static const bbm_bonding bonding[4] = { BBM_VERTICES, BBM_MIDPOINTS, BBM_MOMENT, BBM_VERTICES };
-            bbm_model *m = kind < 3 ? solve_uniform(24 * n, 6 * n, CASE_QUADS, bonding[kind])
-                                    : solve_uniform(18 * n, 4 * n, CASE_ALTERNATING, bonding[kind]);
-            printf(" %+.3f %%, %+.3f %% |", percent(case_at(m, 48, 0).v, case_find(b, "v", 48, 0)->converged),
-                   percent(case_at(m, 24, 0).v, case_find(b, "v", 24, 0)->converged));
-            fflush(stdout);
-            bbm_model_free(m);
-        }
-        printf("\n");
+        const double exact = case_find(&ref[at[i].k], "v", at[i].x, 0)->converged;
+        const double v = case_at(m[at[i].k], at[i].x, 0).v;
+        printf("| v(%.0f,0), load %c | %.4f | %.4f | %+.2f %% |\n", at[i].x, "abc"[at[i].k],
+               1e3 * v, 1e3 * exact, case_percent(v, exact));
     }
 }
 
@@ -288,7 +249,7 @@ static void draw_maps(case_results *r, const bbm_model *m)
     case_draw_deformed(r, "deformed.svg", m, "Deformed beam, von Mises stress");
 }
 
-/* --------------------------------------------------------------------------------------------- convergence */
+/* ---------------------------------------------------------------------------------- convergence */
 
 /* The error of v(24,0), load b, on three meshes for three values of alpha. */
 static void converge(void)
@@ -298,12 +259,13 @@ static void converge(void)
     case_read_reference("exp1", "b", &ref);
     const double exact = case_find(&ref, "v", 24, 0)->converged;
     printf("\nExperiment I, load b: error of v(24,0) against the converged finite element\n\n"
-           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n|---|---|---|---|---|\n");
+           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
+           "|---|---|---|---|---|\n");
     for (int k = 1; k <= 3; k++) {
         printf("| %d |", 4 * 25 * k * 6 * k);
         for (int a = 0; a < 4; a++) {
-            bbm_model *m = solve_beam('b', k, case_alpha[a], 0);
-            printf(" %+.3f %% |", percent(case_at(m, 24, 0).v, exact));
+            bbm_model *m = solve_beam('b', k, case_alpha[a]);
+            printf(" %+.3f %% |", case_percent(case_at(m, 24, 0).v, exact));
             fflush(stdout);
             bbm_model_free(m);
         }
@@ -314,6 +276,9 @@ static void converge(void)
 
 int main(int argc, char **argv)
 {
+    static const char *const progress[3] = {
+        "load a, concentrated", "load b, parabolic shear", "load c, the end of (70)",
+    };
     case_results r;
     case_reference ref[3];
     bbm_model *m[3], *dda = solve_dda(1000);
@@ -327,8 +292,8 @@ int main(int argc, char **argv)
     case_open(&r, "exp1");
     for (int k = 0; k < 3; k++) {
         char variant[2] = { "abc"[k], '\0' };
-        case_progress(k == 0 ? "load a, concentrated" : k == 1 ? "load b, parabolic shear" : "load c, the end of (70)");
-        m[k] = solve_beam(variant[0], 2, 1000, 0);
+        case_progress(progress[k]);
+        m[k] = solve_beam(variant[0], 2, 1000);
         case_read_reference("exp1", variant, &ref[k]);
         compare_all(&r, m[k], variant[0], &ref[k]);
     }
@@ -337,10 +302,10 @@ int main(int argc, char **argv)
     show_deflection(&r, dda, m[0], &ref[0]);
     print_table_3((const bbm_model *const *)m, ref);
     print_summary((const bbm_model *const *)m, ref);
-    print_augmented(&ref[1]);
-    print_quadrilaterals(&ref[1]);
+    exp1_show_beyond(&ref[1]);
     draw_maps(&r, m[0]);
-    printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, deformed.svg\n", r.folder);
+    printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, "
+           "deformed.svg\n", r.folder);
     for (int k = 0; k < 3; k++) {
         bbm_model_free(m[k]);
         case_free_reference(&ref[k]);

@@ -1,19 +1,21 @@
-/* exp2.c - Experiment II: a plate with a circular hole under tension (section 4.3, Fig. 14-23, Tables 4 and 5).
+/* exp2.c - Experiment II: a plate with a circular hole under tension (section 4.3, Fig. 14-23,
+ * Tables 4 and 5).
  *
- *   y=5 ____________                a = 1 m, quarter of a plate 10 m x 10 m, t = 0.2 m, tension s = 1 MPa along x,
- *      |            |-> s           E = 2900 GPa, nu = 0.3; symmetry: v = 0 on y = 0, u = 0 on x = 0
- *     o|            |-> s
- *     o|_           |-> s           b5  s on x = 5, y = 5 free: the paper's experiment, a finite plate
- *        \          |-> s           k5  the tractions of (72) on x = 5 and y = 5: the infinite plate, so (72) is exact
- *         |_________|-> s
- *         1 o  o    5               One large step, as in the paper.
- * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for three values of alpha. */
+ *   y=5 ____________        a = 1 m, quarter of a plate 10 m x 10 m, t = 0.2 m, tension s = 1 MPa
+ *      |            |-> s   along x, E = 2900 GPa, nu = 0.3; symmetry: v = 0 on y = 0, u = 0 on
+ *     o|            |-> s   x = 0
+ *     o|_           |-> s   b5  s on x = 5, y = 5 free: the paper's experiment, a finite plate
+ *        \          |-> s   k5  the tractions of (72) on x = 5 and y = 5: the infinite plate, so
+ *         |_________|-> s       (72) is exact
+ *         1 o  o    5       One large step, as in the paper.
+ *
+ * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for three
+ * values of alpha. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "case.h"
-#include "plot.h"
 #include "theory.h"
 
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
@@ -65,13 +67,14 @@ static void traction_top(double x, double y, const void *unused, double f[2])
     f[1] = t * s[1];
 }
 
-/* Point i, j of the mesh: ring line i of 17 k, ray j of 12 k (k = 2 is the experiment's). On the axes the rings go
- * from 1 to 1.5, 2 and 5 in zones of 7, 3 and 7 cells, each longer than the last by a constant factor, and from
- * circles at the hole to squares at the edge. */
+/* Point i, j of the mesh: ring line i of 17 k, ray j of 12 k (k = 2 is the experiment's). On the
+ * axes the rings go from 1 to 1.5, 2 and 5 in zones of 7, 3 and 7 cells, each longer than the last
+ * by a constant factor, and from circles at the hole to squares at the edge. */
 static void place(double i, double j, const void *division, double xy[2])
 {
     const double k = *(const int *)division, c = i / k, th = PI / 2 * j / (12 * k);
-    const double r = c <= 7 ? pow(1.5, c / 7) : c <= 10 ? 1.5 * pow(4.0 / 3, (c - 7) / 3) : 2 * pow(2.5, (c - 10) / 7);
+    const double r = c <= 7 ? pow(1.5, c / 7)
+                   : c <= 10 ? 1.5 * pow(4.0 / 3, (c - 7) / 3) : 2 * pow(2.5, (c - 10) / 7);
     const double edge = 5 / fmax(cos(th), sin(th)), f = 1 + (r - 1) / 4 * (edge - 1);
 
     xy[0] = j == 12 * k ? 0 : f * cos(th);
@@ -81,7 +84,7 @@ static void place(double i, double j, const void *division, double xy[2])
 /* The quarter plate of 17 k x 12 k crossed cells, solved in one step; variant k5 or b5. */
 static bbm_model *solve_plate(const char *variant, int k, double alpha)
 {
-    bbm_model *m = case_model();
+    bbm_model *m = case_paper_model();
     case_grid g = { .nx = 17 * k, .ny = 12 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
     const int row = g.nx + 1, exact = strcmp(variant, "k5") == 0;
 
@@ -99,7 +102,6 @@ static bbm_model *solve_plate(const char *variant, int k, double alpha)
             bbm_add_line_load(m, a, b, t * S, 0);
     }
     m->par.alpha = alpha;
-    m->par.pcg.method = &bbm_eisenstat;                        /* the paper's solver */
     case_must(m, bbm_prepare(m));
     case_must(m, bbm_run(m));
     return m;
@@ -113,10 +115,11 @@ static double computed(const bbm_model *m, const char *quantity, double x, doubl
     return strcmp(quantity, "stt") == 0 ? hoop(r.stress, x, y) : case_quantity(&r, quantity);
 }
 
-/* ------------------------------------------------------------------------------------------------- tables */
+/* --------------------------------------------------------------------------------------- tables */
 
 /* Every reference value of a variant against the computed one: the rows of results.csv. */
-static void compare_all(case_results *r, const bbm_model *m, const char *variant, const case_reference *ref)
+static void compare_all(case_results *r, const bbm_model *m, const char *variant,
+                        const case_reference *ref)
 {
     for (int i = 0; i < ref->values; i++) {
         const struct case_value *f = &ref->value[i];
@@ -132,26 +135,23 @@ static void compare_all(case_results *r, const bbm_model *m, const char *variant
     }
 }
 
-/* Relative error in percent: below zero means smaller. */
-static double percent(double value, double reference)
-{
-    return 100 * (value - reference) / reference;
-}
-
 typedef struct { const char *quantity; double x, y; } place_of;
 
-static void print_table(const char *title, const bbm_model *m, const case_reference *ref, const place_of at[], int n)
+static void print_table(const char *title, const bbm_model *m, const case_reference *ref,
+                        const place_of at[], int n)
 {
     const double unit = at[0].quantity[0] == 's' ? 1e-6 : 1e6;
 
-    printf("\n%s\n\n| | BBM | FEM | FEM, converged | theory (72) | against FEM | against converged |\n"
+    printf("\n%s\n\n"
+           "| | BBM | FEM | FEM, converged | theory (72) | against FEM | against converged |\n"
            "|---|---|---|---|---|---|---|\n", title);
     for (int i = 0; i < n; i++) {
         const struct case_value *f = case_find(ref, at[i].quantity, at[i].x, at[i].y);
         const double value = computed(m, at[i].quantity, f->x, f->y);
-        printf("| %s(%.4g,%.4g) | %.5f | %.5f | %.5f | %.5f | %+.2f %% | %+.2f %% |\n", at[i].quantity, f->x, f->y,
-               unit * value, unit * f->six_node, unit * f->converged, unit * theory(at[i].quantity, f->x, f->y),
-               percent(value, f->six_node), percent(value, f->converged));
+        printf("| %s(%.4g,%.4g) | %.5f | %.5f | %.5f | %.5f | %+.2f %% | %+.2f %% |\n",
+               at[i].quantity, f->x, f->y, unit * value, unit * f->six_node, unit * f->converged,
+               unit * theory(at[i].quantity, f->x, f->y), case_percent(value, f->six_node),
+               case_percent(value, f->converged));
     }
 }
 
@@ -167,31 +167,41 @@ static void print_tables(const bbm_model *m, const char *variant, const case_ref
     };
     char title[120];
 
-    snprintf(title, sizeof title, "Table 4, %s - stress sxx [MPa]; FEM: six-node triangles", variant);
+    snprintf(title, sizeof title, "Table 4, %s - stress sxx [MPa]; FEM: six-node triangles",
+             variant);
     print_table(title, m, ref, stress, 5);
-    snprintf(title, sizeof title, "Table 5, %s - displacements [1e-6 m]; FEM: six-node triangles", variant);
+    snprintf(title, sizeof title, "Table 5, %s - displacements [1e-6 m]; FEM: six-node triangles",
+             variant);
     print_table(title, m, ref, moved, 6);
 }
 
 /* What the experiment comes to: plate k5, for which (72) is exact. */
 static void print_summary(const bbm_model *m)
 {
-    static const place_of at[] = { { "u", 1, 0 }, { "v", 0, 1 }, { "u", 5, 0 }, { "sxx", 0, 1 }, { "sxx", 0, 2 } };
+    static const place_of at[] = {
+        { "u", 1, 0 }, { "v", 0, 1 }, { "u", 5, 0 }, { "sxx", 0, 1 }, { "sxx", 0, 2 },
+    };
 
-    printf("\n| Experiment II, plate k5 [1e-6 m, MPa], alpha = 1000 | computed | exact | error |\n|---|---|---|---|\n");
+    printf("\n| Experiment II, plate k5 [1e-6 m, MPa], alpha = 1000 | computed | exact | error |\n"
+           "|---|---|---|---|\n");
     for (int i = 0; i < 5; i++) {
-        const double value = computed(m, at[i].quantity, at[i].x, at[i].y), exact = theory(at[i].quantity, at[i].x, at[i].y);
+        const double value = computed(m, at[i].quantity, at[i].x, at[i].y);
+        const double exact = theory(at[i].quantity, at[i].x, at[i].y);
         const double unit = at[i].quantity[0] == 's' ? 1e-6 : 1e6;
-        printf("| %s(%.0f,%.0f) | %.4f | %.4f | %+.2f %% |\n", at[i].quantity, at[i].x, at[i].y, unit * value,
-               unit * exact, percent(value, exact));
+        printf("| %s(%.0f,%.0f) | %.4f | %.4f | %+.2f %% |\n", at[i].quantity, at[i].x, at[i].y,
+               unit * value, unit * exact, case_percent(value, exact));
     }
 }
 
-/* ------------------------------------------------------------------------------------------------- curves */
+/* --------------------------------------------------------------------------------------- curves */
 
-/* A quantity at the grid points i of a line given by from, to and a step of node numbers, against (72) and the
- * finite element. The abscissa is x, y or the angle in degrees. */
-typedef struct { const char *file, *title, *quantity, *abscissa; int first, step, count; } line_of;
+/* A quantity at the grid points of a line, given by the first node, a step of node numbers and
+ * their count, against (72) and the finite element. The abscissa is x, y or the angle in
+ * degrees. */
+typedef struct {
+    const char *file, *title, *quantity, *abscissa;
+    int first, step, count;
+} line_of;
 
 static double abscissa_of(const line_of *l, double x, double y)
 {
@@ -201,11 +211,13 @@ static double abscissa_of(const line_of *l, double x, double y)
 /* Whether a reference value lies on the line: on an axis, or on the hole. */
 static int on_line(const line_of *l, const struct case_value *f)
 {
-    return strcmp(f->quantity, l->quantity) == 0 && (l->abscissa[0] == 'x' ? f->y == 0 : l->abscissa[0] == 'y'
-           ? f->x == 0 : fabs(hypot(f->x, f->y) - 1) < 1e-6);
+    return strcmp(f->quantity, l->quantity) == 0
+           && (l->abscissa[0] == 'x' ? f->y == 0 : l->abscissa[0] == 'y' ? f->x == 0
+               : fabs(hypot(f->x, f->y) - 1) < 1e-6);
 }
 
-static void draw_line(case_results *r, const bbm_model *const m[2], const case_reference *b5, const line_of *l)
+static void draw_line(case_results *r, const bbm_model *const m[2], const case_reference *b5,
+                      const line_of *l)
 {
     double at[128], value[2][128], exact[128], table[128][4], fem_at[16], fem[16];
     char csv[32], svg[32], header[80];
@@ -225,17 +237,21 @@ static void draw_line(case_results *r, const bbm_model *const m[2], const case_r
         }
     const plot_series s[] = {
         { .name = "theory (72), infinite plate", .n = l->count, .x = at, .y = exact, .look = 1 },
-        { .name = "BBM, its tractions (k5)", .n = l->count, .x = at, .y = value[1], .style = PLOT_MARKS, .look = 4 },
-        { .name = "BBM, uniform stress (b5)", .n = l->count, .x = at, .y = value[0], .style = PLOT_MARKS, .look = 2 },
-        { .name = "FEM, converged (b5)", .n = fems, .x = fem_at, .y = fem, .style = PLOT_MARKS, .look = 3 },
+        { .name = "BBM, its tractions (k5)", .n = l->count, .x = at, .y = value[1],
+          .style = PLOT_MARKS, .look = 4 },
+        { .name = "BBM, uniform stress (b5)", .n = l->count, .x = at, .y = value[0],
+          .style = PLOT_MARKS, .look = 2 },
+        { .name = "FEM, converged (b5)", .n = fems, .x = fem_at, .y = fem, .style = PLOT_MARKS,
+          .look = 3 },
     };
     snprintf(csv, sizeof csv, "%s.csv", l->file);
     snprintf(svg, sizeof svg, "%s.svg", l->file);
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
-    case_draw_chart(r, svg, &(plot_chart){ .title = l->title, .count = 4, .series = s,
-                    .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
-                    .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity, l->quantity[0] == 's' ? "Pa" : "m",
-                           0, 0, 0 } });
+    case_draw_chart(r, svg, &(plot_chart){
+                        .title = l->title, .count = 4, .series = s,
+                        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
+                        .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
+                               l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } });
     case_write_curves(r, csv, header, l->count, 4, &table[0][0]);
 }
 
@@ -266,19 +282,21 @@ static void draw_maps(case_results *r, const bbm_model *m)
     case_draw_deformed(r, "deformed.svg", m, "Deformed plate b5, von Mises stress");
 }
 
-/* --------------------------------------------------------------------------------------------- convergence */
+/* ---------------------------------------------------------------------------------- convergence */
 
 /* The error of u(1,0) and of sxx(0,1), plate k5, on three meshes for three values of alpha. */
 static void converge(void)
 {
     printf("\nExperiment II, plate k5: error of u(1,0) | of sxx(0,1) against theory (72)\n\n"
-           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n|---|---|---|---|---|\n");
+           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
+           "|---|---|---|---|---|\n");
     for (int k = 1; k <= 3; k++) {
         printf("| %d |", 4 * 17 * k * 12 * k);
         for (int a = 0; a < 4; a++) {
             bbm_model *m = solve_plate("k5", k, case_alpha[a]);
-            printf(" %+.3f %%, %+.2f %% |", percent(computed(m, "u", 1, 0), theory("u", 1, 0)),
-                   percent(computed(m, "sxx", 0, 1), theory("sxx", 0, 1)));
+            printf(" %+.3f %%, %+.2f %% |",
+                   case_percent(computed(m, "u", 1, 0), theory("u", 1, 0)),
+                   case_percent(computed(m, "sxx", 0, 1), theory("sxx", 0, 1)));
             fflush(stdout);
             bbm_model_free(m);
         }
@@ -311,8 +329,8 @@ int main(int argc, char **argv)
     print_summary(m[1]);
     draw_lines(&r, (const bbm_model *const *)m, &ref[0]);
     draw_maps(&r, m[0]);
-    printf("\nNumbers and pictures: %s/results.csv, fig15 to fig19 as csv and svg, fig20.svg to fig23.svg, deformed.svg\n",
-           r.folder);
+    printf("\nNumbers and pictures: %s/results.csv, fig15 to fig19 as csv and svg, fig20.svg to "
+           "fig23.svg, deformed.svg\n", r.folder);
     for (int k = 0; k < 2; k++) {
         bbm_model_free(m[k]);
         case_free_reference(&ref[k]);

@@ -1,42 +1,43 @@
 /* exp3.c - Experiment III: a block slides without friction (section 4.4, Fig. 24 and 25).
  *
- *           y ^      block 4 m x 1 m, 4 x 2 quadrilaterals; the traction on its left side sums to F = 10 kN
- *     ____    |
- *  F |____|   |      plate 20 m x 2 m, 40 x 4 quadrilaterals, fixed; the origin is its centroid
- *  __|____o___|_____
- * |         P |---> |  x      E = 10 GPa, nu = 0.25, 2500 kg/m^2, t = 1 m, so m = 10 t
- * |_________________|
- *                        u(t) = F t^2/(2 m), v(t) = 0 for the centre of mass, and for P, the lower right corner
+ *           y ^      block 4 m x 1 m, 4 x 2 quadrilaterals; the traction on its left side sums to
+ *     ____    |      F = 10 kN
+ *  F |____|   |
+ *  __|____o___|_____ plate 20 m x 2 m, 40 x 4 quadrilaterals, fixed; the origin is its centroid
+ * |         P |---> |  x
+ * |_________________| E = 10 GPa, nu = 0.25, 2500 kg/m^2, t = 1 m, so m = 10 t
+ *
+ *                    u(t) = F t^2/(2 m), v(t) = 0 for the centre of mass, and for P, the lower
+ *                    right corner
  *
  *     without  no gravity, as in the text: the block touches the plate and carries nothing
- *     gravity  9.81 m/s^2; the plate gives way under the block, which slides on a slope of its own making: u is
- *              wrong by 1e-8, and by 1e-7 with alpha = 100, whose springs give ten times as much
+ *     gravity  9.81 m/s^2; the plate gives way under the block, which slides on a slope of its own
+ *              making: u is wrong by 1e-8, and by 1e-7 with alpha = 100, whose springs give ten
+ *              times as much
  *     rigid    the same on a plate of 1e13 Pa: what is left of the error is not the plate's
- *     held     beyond the paper: 10 GPa again, with multipliers, so that the fixed points of the plate hardly give
  *     line     the same, the traction as a line load
+ *     held     beyond the paper, exp3_beyond.c: 10 GPa again, with multipliers
  *
- * The traction of 10 kN/m is given as the forces that do its work on the grid points of that side, 2.5, 5 and 2.5 kN.
- * As a line load, Eq. (43), it acts on the side's present length, and the weight shortens that by about
- * density g h/(2 E) = 1e-6: so much of F is missing, and of u.
+ * The traction of 10 kN/m is given as the forces that do its work on the grid points of that side,
+ * 2.5, 5 and 2.5 kN. As a line load, Eq. (43), it acts on the side's present length, and the weight
+ * shortens that by about density g h/(2 E) = 1e-6: so much of F is missing, and of u.
  *
- * The block is first brought into equilibrium under its weight and the traction, in quasi-static steps:
- * displacements count from there, without the elastic shortening of about F L/(2 E A) = 2e-6 m. Then it is let go from
- * rest and moves 2 m in 2 s, with P over four edges of the plate. */
+ * The block is first brought into equilibrium under its weight and the traction, in quasi-static
+ * steps: displacements count from there, without the elastic shortening of about F L/(2 E A) =
+ * 2e-6 m. Then it is let go from rest and moves 2 m in 2 s, with P over four edges of the plate. */
 #include <math.h>
 
-#include "case.h"
+#include "exp.h"
 
-enum { STEPS = 200, SETTLE = 50, RUNS = 5 };
+enum { STEPS = 200, SETTLE = 50, PAPER_RUNS = 4, RUNS };
 
 static const double F = 1e4, MASS = 2500 * 4, DT = 0.01;
 
-typedef struct { const char *name, *label; double gravity, plate; int line, augment; } variant; /* m/s^2, Pa        */
-
 typedef struct {
     bbm_model *m;
-    int first, mark;                            /* first element of the block; the node P                          */
+    int first, mark;                        /* first element of the block; the node P           */
     case_effort effort;
-    double start[4], at[STEPS + 1][4];          /* m        u, v of the centre of mass, then of P                  */
+    double start[4], at[STEPS + 1][4];      /* m        u, v of the centre of mass, then of P   */
 } slide;
 
 /* The traction on the left side of the block. */
@@ -52,28 +53,27 @@ static void pull(bbm_model *m, int first, int line)
     }
 }
 
-static bbm_model *make_model(const variant *v, int *first)
+static bbm_model *make_model(const exp3_variant *v, int *first)
 {
-    bbm_model *m = case_model();
+    bbm_model *m = case_paper_model();
 
     bbm_add_material(m, &(bbm_material){ v->plate, 0.25, 2500, 1 }, NULL);
     bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
     case_add_box(m, &(case_box){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
     case_fix_block(m, 0);
-    *first = case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 4, .ny = 2, .x = -8, .y = 1, .w = 4,
-                                          .h = 1 });
+    *first = case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 4, .ny = 2,
+                                          .x = -8, .y = 1, .w = 4, .h = 1 });
     pull(m, *first, v->line);
     m->par.dt = DT;
     m->par.gravity[1] = -v->gravity;
     m->par.alpha = 1000;
-    m->beyond->bonding = BBM_VERTICES;                          /* the paper's bonds and solver */
-    m->par.pcg.method = &bbm_eisenstat;
-    m->beyond->multiplier_rounds = v->augment;                            /* beyond the paper: fixed points that do not give */
     m->par.faces = 1;
     m->par.p_n = 5e11;
     m->par.p_s = 2e11;
     m->par.pcg.tolerance = 1e-13;
     m->par.steps = STEPS;
+    if (v->change)
+        v->change(m);
     case_must(m, bbm_prepare(m));
     return m;
 }
@@ -92,7 +92,7 @@ static void measure(const slide *s, double at[4])
     at[3] = P.v;
 }
 
-static void run(slide *s, const variant *v, scene *film)
+static void run(slide *s, const exp3_variant *v, scene *film)
 {
     s->m = make_model(v, &s->first);
     s->mark = s->m->vertex[s->m->element[s->first + 3].first + 1].node;
@@ -113,52 +113,65 @@ static void run(slide *s, const variant *v, scene *film)
 
 static double theory(double t) { return F * t * t / (2 * MASS); }
 
-/* ------------------------------------------------------------------------------------------------- results */
+/* -------------------------------------------------------------------------------------- results */
 
-static void print_tables(case_results *r, const slide s[RUNS], const variant v[RUNS])
+static void print_run(case_results *r, const slide *s, const exp3_variant *v)
 {
-    const double t = STEPS * DT, nowhere[2] = { NAN, NAN };
+    const double t = STEPS * DT, nowhere[2] = { NAN, NAN }, *end = s->at[STEPS];
+    const double static_depth = MASS * v->gravity / (4 * s->m->par.p_n);
+    char name[64];
+    double high = 0;
 
-    printf("\n| t = %g s | centre u [m], error | P u [m], error | largest abs v of P [m] | W/(4 p_n) [m] | deepest [m] "
-           "| contacts | passes |\n|---|---|---|---|---|---|---|---|\n", t);
-    for (int k = 0; k < RUNS; k++) {
-        const double *end = s[k].at[STEPS], static_depth = MASS * v[k].gravity / (4 * s[k].m->par.p_n);
-        char name[64];
-        double high = 0;
-        for (int i = 0; i <= STEPS; i++)
-            high = fmax(high, fabs(s[k].at[i][3]));
-        snprintf(name, sizeof name, "%s.centre.u", v[k].name);
-        const double e0 = case_row(r, name, nowhere, end[0], theory(t), "theory");
-        snprintf(name, sizeof name, "%s.mark.u", v[k].name);
-        const double e1 = case_row(r, name, nowhere, end[2], theory(t), "theory");
-        snprintf(name, sizeof name, "%s.mark.v", v[k].name);
-        case_row(r, name, nowhere, high, 0, "theory");
-        snprintf(name, sizeof name, "%s.penetration", v[k].name);
-        case_row(r, name, nowhere, s[k].m->info.penetration, static_depth, "theory");
-        printf("| %s | %.9f, %+.1e | %.9f, %+.1e | %.1e | %.3e | %.3e | %d | %d |\n", v[k].label, end[0], e0, end[2],
-               e1, high, static_depth, s[k].m->info.penetration, s[k].m->info.contacts, s[k].effort.passes);
-    }
-    printf("\nP stays within W/(4 p_n) of its height: each of the three grid points inside the foot of the block\n"
-           "carries a quarter of the weight, its ends an eighth. On the plate of 10 GPa it sinks where they press\n"
-           "grid points of the plate down, whose springs give, and rises where two of these share the weight:\n"
-           "a slope that drives it. With multipliers they do not give. The line load acts on a\n"
-           "side that the weight has shortened.\n");
+    for (int i = 0; i <= STEPS; i++)
+        high = fmax(high, fabs(s->at[i][3]));
+    snprintf(name, sizeof name, "%s.centre.u", v->name);
+    const double e0 = case_row(r, name, nowhere, end[0], theory(t), "theory");
+    snprintf(name, sizeof name, "%s.mark.u", v->name);
+    const double e1 = case_row(r, name, nowhere, end[2], theory(t), "theory");
+    snprintf(name, sizeof name, "%s.mark.v", v->name);
+    case_row(r, name, nowhere, high, 0, "theory");
+    snprintf(name, sizeof name, "%s.penetration", v->name);
+    case_row(r, name, nowhere, s->m->info.penetration, static_depth, "theory");
+    printf("| %s | %.9f, %+.1e | %.9f, %+.1e | %.1e | %.3e | %.3e | %d | %d |\n", v->label, end[0],
+           e0, end[2], e1, high, static_depth, s->m->info.penetration, s->m->info.contacts,
+           s->effort.passes);
+}
+
+static void print_tables(case_results *r, const slide s[], const exp3_variant v[], int runs)
+{
+    printf("\n| t = %g s | centre u [m], error | P u [m], error | largest abs v of P [m] "
+           "| W/(4 p_n) [m] | deepest [m] | contacts | passes |\n"
+           "|---|---|---|---|---|---|---|---|\n", STEPS * DT);
+    for (int k = 0; k < runs; k++)
+        print_run(r, &s[k], &v[k]);
+    printf("\nP stays within W/(4 p_n) of its height: each of the three grid points inside the "
+           "foot of the block\ncarries a quarter of the weight, its ends an eighth. On the plate "
+           "of 10 GPa it sinks where they press\ngrid points of the plate down, whose springs "
+           "give, and rises where two of these share the weight:\na slope that drives it.%s The "
+           "line load acts on a\nside that the weight has shortened.\n",
+           runs > PAPER_RUNS ? " With multipliers they do not give." : "");
 }
 
 /* What the experiment comes to. */
-static void print_summary(const slide s[RUNS])
+static void print_summary(const slide s[], int runs)
 {
     static const struct { const char *name; int k, c; } row[] = {
-        { "u of the centre, no gravity", 0, 0 }, { "u of P, no gravity", 0, 2 }, { "v of P, no gravity", 0, 3 },
-        { "u of the centre, gravity, rigid plate", 2, 0 }, { "u of P, gravity, rigid plate", 2, 2 },
-        { "v of P, gravity, rigid plate", 2, 3 }, { "u of the centre, gravity, plate of 10 GPa", 1, 0 },
-        { "v of P, gravity, plate of 10 GPa", 1, 3 }, { "u of the centre, plate of 10 GPa, augmented", 4, 0 },
+        { "u of the centre, no gravity", 0, 0 },
+        { "u of P, no gravity", 0, 2 },
+        { "v of P, no gravity", 0, 3 },
+        { "u of the centre, gravity, rigid plate", 2, 0 },
+        { "u of P, gravity, rigid plate", 2, 2 },
+        { "v of P, gravity, rigid plate", 2, 3 },
+        { "u of the centre, gravity, plate of 10 GPa", 1, 0 },
+        { "v of P, gravity, plate of 10 GPa", 1, 3 },
+        { "u of the centre, plate of 10 GPa, augmented", PAPER_RUNS, 0 },
     };
 
-    printf("\n| Experiment III, displacement [m] at t = %g s | computed | exact | error |\n|---|---|---|---|\n",
-           STEPS * DT);
-    for (int i = 0; i < 9; i++) {
-        const double value = s[row[i].k].at[STEPS][row[i].c], exact = row[i].c == 3 ? 0 : theory(STEPS * DT);
+    printf("\n| Experiment III, displacement [m] at t = %g s | computed | exact | error |\n"
+           "|---|---|---|---|\n", STEPS * DT);
+    for (int i = 0; i < 9 && row[i].k < runs; i++) {
+        const double value = s[row[i].k].at[STEPS][row[i].c];
+        const double exact = row[i].c == 3 ? 0 : theory(STEPS * DT);
         if (exact > 0)
             printf("| %s | %.9f | %g | %+.1e |\n", row[i].name, value, exact, value / exact - 1);
         else
@@ -166,8 +179,9 @@ static void print_summary(const slide s[RUNS])
     }
 }
 
-/* Fig. 25: u and v of P, all that can be seen, and v once more in a scale in which it can be seen. */
-static void draw_figure(case_results *r, const slide s[RUNS], const variant v[RUNS])
+/* Fig. 25: u and v of P, all that can be seen, and v once more in a scale in which it can be
+ * seen. */
+static void draw_figure(case_results *r, const slide s[], const exp3_variant v[])
 {
     enum { N = STEPS + 1, MARKS = 21 };
     double t[N], exact[N], zero[N], v_of[3][N], some[3][MARKS], table[N][8];
@@ -190,30 +204,37 @@ static void draw_figure(case_results *r, const slide s[RUNS], const variant v[RU
     const plot_series both[] = {
         { .name = "u = F t²/(2 m)", .n = N, .x = t, .y = exact, .look = 1 },
         { .name = "v = 0", .n = N, .x = t, .y = zero, .look = 1, .style = PLOT_DASHED },
-        { .name = "u, BBM", .n = MARKS, .x = some[0], .y = some[1], .style = PLOT_MARKS, .look = 2 },
-        { .name = "v, BBM", .n = MARKS, .x = some[0], .y = some[2], .style = PLOT_MARKS, .look = 3 },
+        { .name = "u, BBM", .n = MARKS, .x = some[0], .y = some[1], .style = PLOT_MARKS,
+          .look = 2 },
+        { .name = "v, BBM", .n = MARKS, .x = some[0], .y = some[2], .style = PLOT_MARKS,
+          .look = 3 },
     };
     plot_series lift[3];
     for (int k = 0; k < 3; k++)
         lift[k] = (plot_series){ .name = v[k].label, .n = N, .x = t, .y = v_of[k], .look = k + 2 };
     case_open_page(r, "fig25.svg", &p, 1240, 480);
-    plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){ .title = "Fig. 25: displacement of P",
-                    .x = { "t", "s", 0, 0, 0 }, .y = { "displacement", "m", 0, 0, 0 }, .count = 4,
-                    .series = both });
-    plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){ .title = "v of P, which should be 0",
-                    .x = { "t", "s", 0, 0, 0 }, .y = { "v", "m", 0, 0, 0 }, .count = 3, .series = lift });
+    plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
+                        .title = "Fig. 25: displacement of P", .x = { "t", "s", 0, 0, 0 },
+                        .y = { "displacement", "m", 0, 0, 0 }, .count = 4, .series = both });
+    plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
+                        .title = "v of P, which should be 0", .x = { "t", "s", 0, 0, 0 },
+                        .y = { "v", "m", 0, 0, 0 }, .count = 3, .series = lift });
     case_close_page(r, &p);
-    case_write_curves(r, "fig25.csv", "t,u_theory,u_without,v_without,u_gravity,v_gravity,u_rigid,v_rigid", N, 8,
+    case_write_curves(r, "fig25.csv",
+                      "t,u_theory,u_without,v_without,u_gravity,v_gravity,u_rigid,v_rigid", N, 8,
                       &table[0][0]);
 }
 
 int main(void)
 {
-    static const variant v[RUNS] = {
-        { "without", "without gravity", 0, 1e10, 0, 0 }, { "gravity", "gravity, plate of 10 GPa", 9.81, 1e10, 0, 0 },
-        { "rigid", "gravity, rigid plate", 9.81, 1e13, 0, 0 }, { "line", "the same, line load", 9.81, 1e13, 1, 0 },
-        { "held", "gravity, plate of 10 GPa, augmented", 9.81, 1e10, 0, 2 },
+    const exp3_variant v[RUNS] = {
+        { "without", "without gravity", 0, 1e10, 0, NULL },
+        { "gravity", "gravity, plate of 10 GPa", 9.81, 1e10, 0, NULL },
+        { "rigid", "gravity, rigid plate", 9.81, 1e13, 0, NULL },
+        { "line", "the same, line load", 9.81, 1e13, 1, NULL },
+        exp3_beyond,
     };
+    const int runs = exp3_beyond.name ? RUNS : PAPER_RUNS;
     scene film = { .title = "Experiment III: a block slides without friction (10 kN, with gravity)",
                    .window = { -10, 10, -1, 3 } };
     case_results r;
@@ -222,23 +243,23 @@ int main(void)
 
     printf("\n# Experiment III: frictionless sliding\n\n");
     case_open(&r, "exp3");
-    for (int k = 0; k < RUNS; k++) {
+    for (int k = 0; k < runs; k++) {
         case_progress(v[k].label);
         run(&s[k], &v[k], k == 1 ? &film : NULL);
     }
     case_print_parameters(s[1].m);
-    print_tables(&r, s, v);
-    print_summary(s);
+    print_tables(&r, s, v, runs);
+    print_summary(s, runs);
     draw_figure(&r, s, v);
     mark.vertex = s[1].m->element[s[1].first + 3].first + 1;
     film.marks = 1;
     film.mark = &mark;
     case_draw_movie(&r, "slide.svg", s[1].m, &film);
     case_draw_panels(&r, "states.svg", s[1].m, &film, 3, (double[]){ 0, 1, 2 });
-    printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg, slide.svg (it moves), states.svg\n",
-           r.folder);
+    printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg, slide.svg (it moves), "
+           "states.svg\n", r.folder);
     scene_free(&film);
-    for (int k = 0; k < RUNS; k++)
+    for (int k = 0; k < runs; k++)
         bbm_model_free(s[k].m);
     return case_close(&r);
 }

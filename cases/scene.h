@@ -20,7 +20,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include "../beyond/beyond.h"
+#include "../bbm.h"
 
 enum { SCENE_OPEN, SCENE_LOCK, SCENE_SLIDE };   /* state of a contact, in the library's order                   */
 

@@ -22,6 +22,7 @@
  * (1 - 1/n^2) w^2 dt t/2, of first order in dt: the last column. */
 #include <math.h>
 
+#include "../beyond/beyond.h"
 #include "case.h"
 
 enum { STEPS = 200 };

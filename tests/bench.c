@@ -11,6 +11,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "../beyond/beyond.h"
 #include "../cases/case.h"
 
 enum { TURNS = 9, ITERATIONS = 100 };

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../beyond/beyond.h"
+#include "../bbm.h"
 
 #define COUNT(array) ((int)(sizeof (array) / sizeof (array)[0]))
 

@@ -11,6 +11,7 @@
  * of beams with any nu. Lengths of elements may change as they like; so may E from row to row, if
  * the rows lie symmetric about the axis.
  */
+#include "../beyond/beyond.h"
 #include "check.h"
 
 Suite *bars_suite(void);

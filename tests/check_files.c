@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "../beyond/beyond.h"
 #include "programs.h"
 
 static int is_there(const char *path) { return access(path, F_OK) == 0; }

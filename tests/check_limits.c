@@ -6,6 +6,7 @@
  * are cases of the gallery, each with an oracle of its own; check_cases.c holds them to it. */
 #include <string.h>
 
+#include "../beyond/beyond.h"
 #include "check.h"
 
 static const double GRAVITY = 9.81, DENSITY = 2500;

@@ -2,7 +2,7 @@
  *
  * libcheck reads its settings from the environment: CK_FORK=no runs everything in one process, for
  * a debugger or valgrind; CK_VERBOSITY=verbose lists every test; CK_RUN_CASE=name runs one group.
- * With CASES defined the numbers of the experiments are tested, too.
+ * With CASES defined the numbers of the experiments are tested, too; with PAPER the formulas alone.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <signal.h>
@@ -70,12 +70,15 @@ void add_case(Suite *s, const char *name, const loop_test e[], int count)
 }
 
 static Suite *(*const SUITES[])(void) = {
-    formulas_suite, elastic_suite, steps_suite, mesh_suite, input_suite,
+    formulas_suite,
+#ifndef PAPER
+    elastic_suite, steps_suite, mesh_suite, input_suite,
     detection_suite, corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite,
     blocks_suite, repeat_suite,
     solver_suite, eisenstat_suite, coarse_suite,
     beyond_suite, motion_suite, bars_suite, limits_suite, refused_suite,
     theory_suite, equations_suite,
+#endif
 #ifdef CASES
     cases_suite, model_suite, scenes_suite, files_suite,
 #endif

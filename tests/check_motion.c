@@ -2,7 +2,9 @@
  * multipliers in steps of every length, corners, thin plates and stones far away. */
 #include <string.h>
 
+#include "../beyond/beyond.h"
 #include "check.h"
+#include "shapes.h"
 
 Suite *motion_suite(void);
 
@@ -103,6 +105,30 @@ static double sum_row(const double T[6], const double D[6])
         sum += T[a] * D[a];
     return sum;
 }
+
+/* By the exact rotation in dynamics; by T D in statics and where rotations are linear. */
+START_TEST(positions_follow_the_exact_rotation_in_dynamics_and_the_modes_otherwise)
+{
+    unsigned seed = 13;
+    bbm_model *m = new_model(1e9, 0.01);
+
+    for (int trial = 0; trial < 36; trial++) {
+        const bbm_element e = { .x = 4 * random_number(&seed), .y = 4 * random_number(&seed) };
+        const double x = 4 * random_number(&seed), y = 4 * random_number(&seed);
+        double D[6], T[2][6], u[2], to[2];
+        for (int a = 0; a < 6; a++)
+            D[a] = random_number(&seed);
+        m->beyond->rotation = trial % 3 == 1 ? BBM_LINEAR : BBM_EXACT;
+        m->h = trial % 3 == 2 ? INFINITY : 0.1;
+        bbm_move(m, &e, D, x, y, u);
+        exact_motion(&e, D, x, y, to);
+        bbm_mode_matrix(&e, x, y, T);
+        ck_near(u[0], trial % 3 ? sum_row(T[0], D) : to[0] - x, 10, ROUNDING);
+        ck_near(u[1], trial % 3 ? sum_row(T[1], D) : to[1] - y, 10, ROUNDING);
+    }
+    bbm_model_free(m);
+}
+END_TEST
 
 /* Also for a D in whose middle it is not: then it is T to first order. 4e-16 of numbers up to 3, summed up: 1e-14. */
 START_TEST(the_matrix_of_the_middle_moves_points_exactly)
@@ -495,6 +521,7 @@ Suite *motion_suite(void)
     TCase *t = tcase_create("motion");
 
     tcase_set_timeout(t, 60);
+    tcase_add_test(t, positions_follow_the_exact_rotation_in_dynamics_and_the_modes_otherwise);
     tcase_add_test(t, the_matrix_of_the_middle_moves_points_exactly);
     tcase_add_test(t, the_vectors_are_off_when_an_element_turns_further_than_they_did);
     tcase_add_test(t, with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths);

@@ -1,31 +1,18 @@
 /* models.h - the models that the tests share: polygons, bodies of elements, blocks that touch; and
  * what the tests ask of them.
  *
- * Tolerances. ROUNDING: a few operations on numbers near 1 (eps = 2e-16). SOLVED: after a solve,
- * rounding times the condition number: about 10 alpha on small meshes, p_n dt^2/m = 40 to 1e3 with
- * contacts, where the slack of the open-close iteration is 1e-9 of the largest force. Where a
- * tolerance is larger, what it has to let pass is said beside it. */
+ * Tolerances. ROUNDING, see shapes.h. SOLVED: after a solve, rounding times the condition number:
+ * about 10 alpha on small meshes, p_n dt^2/m = 40 to 1e3 with contacts, where the slack of the
+ * open-close iteration is 1e-9 of the largest force. Where a tolerance is larger, what it has to
+ * let pass is said beside it. */
 #ifndef BBM_TESTS_MODELS_H
 #define BBM_TESTS_MODELS_H
 
+#include "../beyond/beyond.h"
 #include "check.h"
+#include "shapes.h"
 
-#define ROUNDING 1e-12
-#define SOLVED   1e-9
-
-/* A number in [-1, 1], in the same order in every run (Numerical Recipes' linear congruence). */
-double random_number(unsigned *seed);
-
-enum { CORNERS = 6 };
-
-typedef struct {                /* a polygon, and triangles made by hand that fill it */
-    int n, triangles;
-    double x[CORNERS][2];
-    int triangle[CORNERS][3];
-} shape;
-
-/* The last is not convex, and its corner 0 does not see all of it. */
-extern const shape SHAPES[3];
+#define SOLVED 1e-9
 
 /* --------------------------------------------------------------------------- bodies of elements */
 

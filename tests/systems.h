@@ -7,6 +7,7 @@
 #ifndef BBM_TESTS_SYSTEMS_H
 #define BBM_TESTS_SYSTEMS_H
 
+#include "../beyond/beyond.h"
 #include "check.h"
 
 #define ROUNDING 1e-13

@@ -1,0 +1,89 @@
+/* exp1_beyond.c - Experiment I beyond the paper: bonds that multipliers hold, and quadrilaterals
+ * that bend. Errors are against the converged finite element. */
+#include "../beyond/beyond.h"
+#include "exp.h"
+
+static void solve(bbm_model *m)
+{
+    case_must(m, bbm_prepare(m));
+    case_must(m, bbm_run(m));
+}
+
+/* The error of the deflection of the axis in x, in percent. */
+static double deflection_error(const bbm_model *m, const case_reference *b, double x)
+{
+    return case_percent(case_at(m, x, 0).v, case_find(b, "v", x, 0)->converged);
+}
+
+/* Multipliers: v(24,0) for three values of alpha, after one solution (the paper's springs), two and
+ * three. */
+static void print_augmented(const case_reference *b)
+{
+    printf("\nBeyond the paper: multipliers. v(24,0), load b, against the converged finite element"
+           "\n\n"
+           "| alpha | paper | augmented once | augmented twice |\n|---|---|---|---|\n");
+    for (double alpha = 10; alpha <= 1000; alpha *= 10) {
+        printf("| %g |", alpha);
+        for (int augment = 0; augment <= 2; augment++) {
+            bbm_model *m = exp1_beam('b', 2, alpha);
+            m->beyond->multiplier_rounds = augment;
+            if (augment)
+                m->par.pcg.method = &bbm_two_level;
+            solve(m);
+            printf(" %+.4f %% |", deflection_error(m, b, 24));
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+}
+
+static void place_uniform(double i, double j, const void *grid, double xy[2])
+{
+    const case_grid *g = grid;
+
+    xy[0] = EXP1_LENGTH * i / g->nx;
+    xy[1] = EXP1_HEIGHT * (j / g->ny - 0.5);
+}
+
+/* The beam under load b on a uniform grid, with bonds that do not give. */
+static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
+{
+    bbm_model *m = case_model();
+    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place_uniform };
+
+    g.context = &g;
+    exp1_add_beam(m, 'b', &g);
+    m->beyond->multiplier_rounds = 2;
+    m->beyond->bonding = bonding;
+    solve(m);
+    return m;
+}
+
+/* Quadrilaterals by their bond, beside triangles of as many unknowns. */
+static void print_quadrilaterals(const case_reference *b)
+{
+    static const bbm_bonding bonding[3] = { BBM_VERTICES, BBM_MIDPOINTS, BBM_MOMENT };
+
+    printf("\nBeyond the paper: quadrilaterals that bend. Load b, augmented twice, error of "
+           "v(48,0), v(24,0)\n\n"
+           "| unknowns | quads at vertices (paper) | at midpoints | with moment | triangles |\n"
+           "|---|---|---|---|---|\n");
+    for (int n = 1; n <= 4; n *= 2) {
+        printf("| %d |", 6 * 24 * 6 * n * n);
+        for (int kind = 0; kind < 4; kind++) {
+            bbm_model *m = kind < 3
+                ? solve_uniform(24 * n, 6 * n, CASE_QUADS, bonding[kind])
+                : solve_uniform(18 * n, 4 * n, CASE_ALTERNATING, BBM_VERTICES);
+            printf(" %+.3f %%, %+.3f %% |", deflection_error(m, b, 48), deflection_error(m, b, 24));
+            fflush(stdout);
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+}
+
+void exp1_show_beyond(const case_reference *b)
+{
+    print_augmented(b);
+    print_quadrilaterals(b);
+}
