@@ -790,7 +790,7 @@ static bbm_status update(bbm_model *m)
     memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
     memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);
     m->info = end.info;
-    return bbm_keep_contacts(m);
+    return bbm_store_contacts(m);
 }
 
 static void begin_step(bbm_model *m)

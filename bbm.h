@@ -452,7 +452,7 @@ int        bbm_carries(const bbm_model *m, int corner, int edge);
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
-bbm_status bbm_keep_contacts(bbm_model *m);
+bbm_status bbm_store_contacts(bbm_model *m);
 
 /* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not
  * zero, in any order, either way round, repeats allowed. Vectors have 6 n entries in the caller's

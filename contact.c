@@ -33,15 +33,16 @@
  * Where two corners P and Q meet, several of these pairs describe one contact. The entrance lines,
  * along which P can come in, are
  *
- *          \  P  /              |   A                   the two edges of Q (left), or one edge of
- *           \   /               P______                 each block (right). The blocks overlap when
- *            \ /                 Q_____                 both are crossed, and the spring goes on the
- *      _______Q                  |                      one that is crossed last, where P comes in.
- *             |                  |   B                  Two lines that coincide are one contact: of
- *        B    |                  |                      P on Q's edge and Q on P's edge that one
- *                                                       stays whose projection is on its edge; at a
- * tie, the one that it was before, or else the edge that faces up. Both lines at the same time:
- * the one that was closed or else the flatter one counts, the same in any order of the blocks.
+ *          \  P  /              |   A            the two edges of Q (left), or one edge of each
+ *           \   /               P______          block (right). The blocks overlap when both are
+ *            \ /                 Q_____          crossed, and the spring goes on the one that is
+ *      _______Q                  |               crossed last, where P comes in. Two lines that
+ *             |                  |   B           coincide are one contact: of P on Q's edge and Q
+ *        B    |                  |               on P's edge that one stays whose projection is
+ *
+ * on its edge; at a tie, the one that it was before, or else the edge that faces up. Both lines at
+ * the same time: the one that was closed or else the flatter one counts, the same in any order of
+ * the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N: solve with
  * the friction of the last N until they agree (beyond/friction.c needs fewer solutions). Only then
@@ -195,20 +196,20 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
     return c->sign * c->T < strength - tolerance ? BBM_LOCK : BBM_SLIDE;
 }
 
-/* ------------------------------------------------------------------------------------- the data
+/* ---------------------------------------------------------------------------------------- the data
  *
  * Tolerances; none depends on the size of the domain.
- * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and sides
- *                 that differ less in length, relatively, are as long: rounding of a model file
- * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies
- *                 on it: what penetration and elastic bending turn
- * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches: soft
- *                 blocks bend more
+ * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and
+ *                 sides that differ less in length, relatively, are as long: rounding of a file
+ * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less
+ *                 lies on it: what penetration and elastic bending turn
+ * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches:
+ *                 soft blocks bend more
  * TOUCH    [-]    d_n below this, in mean edge lengths, is closed at the start, and a projection
- *                 closer to the end of an edge is at the end: rounding of a model file, elastic strain
- * AGREE    [-]    forces that differ by less, against the largest force of what K connects, agree:
- *                 what the solver can tell
- * TIE      [-]    fractions of a step that differ less are the same moment: rounding               */
+ *                 closer to the end of an edge is at the end: rounding of a file, elastic strain
+ * AGREE    [-]    forces that differ by less, against the largest force of what K connects,
+ *                 agree: what the solver can tell
+ * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define BENT 0.1
@@ -220,11 +221,11 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
  * between two of them. */
 enum { PASSES = 60, FRICTION_PASSES = 100 };
 
-typedef struct { int corner, edge, dropped; } pair;             /* what may touch                   */
+typedef struct { int corner, edge, dropped; } pair;         /* what may touch               */
 
 typedef struct {                /* of a block, with the index of its first element              */
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
-    double depth_now;           /* m        the same of the solution, if that is deeper         */
+    double depth_now;           /* m        the same of the solution, or before it if deeper    */
     double travel;              /* m        how far its vertices may move in this step          */
     /* --- of an element --- */
     double turn;                /* rad      how far it may turn in this step                    */
@@ -247,7 +248,7 @@ struct bbm_contact_scratch {
     uint64_t seen[PASSES + 1];  /* the states of each pass                                      */
 };
 
-/* -------------------------------------------------------------------- the boundary of the blocks */
+/* ------------------------------------------------------------------- the boundary of the blocks */
 
 static const bbm_vertex *start_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].a]; }
 static const bbm_vertex *end_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].b]; }
@@ -331,7 +332,7 @@ static int compare_pairs(const void *p, const void *q)
 /* Finds the first element of each block. */
 static void number_blocks(bbm_model *m)
 {
-    pair *of = m->scratch->pair;                    /* block and edge; edges ascend as elements do */
+    pair *of = m->scratch->pair;                            /* block and edge                   */
 
     for (int e = 0; e < m->edges; e++)
         of[e] = (pair){ m->edge[e].block, e, 0 };
@@ -380,7 +381,7 @@ bbm_status bbm_contact_new(bbm_model *m)
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------ detection: how far blocks may move */
+/* ----------------------------------------------------------- detection: how far blocks may move */
 
 /* Takes for D what the velocities and gravity foretell of the step; in statics a step is as long as
  * the last one at most. */
@@ -459,8 +460,10 @@ static double allowed_depth(const bbm_model *m, int c, int e)
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
 
-typedef struct { double d, s, beyond; } projection;     /* of P1 on an edge: distance, way along it */
-                                                        /* from P3, how far beyond its ends */
+typedef struct {                /* of P1 on an edge, m                                          */
+    double d, s, beyond;        /* distance; way along the edge from P3; how far beyond an end  */
+} projection;
+
 static projection project(const bbm_model *m, int corner, int e)
 {
     const bbm_vertex *P = start_of(m, corner), *a = start_of(m, e);
@@ -503,7 +506,7 @@ int bbm_carries(const bbm_model *m, int c, int e)
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
     const double mine = m->edge[m->edge[c].side].span, other = m->edge[m->edge[e].side].span;
 
-    if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)           /* they do not face each other */
+    if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
         return 0;
     return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
 }
@@ -584,7 +587,7 @@ static bbm_status list_pairs(bbm_model *m)
     return status;
 }
 
-/* ------------------------------------------------------------------ detection: where corners meet */
+/* ---------------------------------------------------------------- detection: where corners meet */
 
 /* The index of a pair, or -1. */
 static int find_pair(const bbm_model *m, pair p)
@@ -648,28 +651,23 @@ static void drop_duplicates(bbm_model *m)
 }
 
 /* Another line on which P and an end Q of its edge can enter each other, if both are convex
- * corners that may meet in this step and it is in the list; else -1. In a notch Q both edges hold
- * P at once. */
+ * corners and it is in the list; else -1. In a notch Q both edges hold P at once. */
 static int find_entrance(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair other = meet(m, p, end, kind);
     const int Q = end ? m->edge[p.edge].after : p.edge;
-    const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
 
-    if (!is_convex(m, Q) || coincide(m, p.edge, other.edge))
-        return -1;
-    const double reach = approach(m, p.corner, p.edge) + allowed_depth(m, p.corner, p.edge);
-    return hypot(a->x - b->x, a->y - b->y) > 2 * reach ? -1 : find_pair(m, other);
+    return is_convex(m, Q) && !coincide(m, p.edge, other.edge) ? find_pair(m, other) : -1;
 }
 
-/* ---------------------------------------------------- detection: what carries over from step to step */
+/* ----------------------------------------------- detection: what carries over from step to step */
 
 static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_edge *i = &m->edge[c->corner], *j = &m->edge[c->edge];
-    const bbm_vertex *v = m->vertex;
+    const bbm_element *i = &m->element[element_of(m, c->corner)];
+    const bbm_element *j = &m->element[element_of(m, c->edge)];
 
-    return (bbm_touch){ &m->element[i->element], &m->element[j->element], &v[i->a], &v[j->b], &v[j->a],
+    return (bbm_touch){ i, j, start_of(m, c->corner), end_of(m, c->edge), start_of(m, c->edge),
                         bbm_is_exact(m), c->rest };
 }
 
@@ -802,7 +800,7 @@ bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
     return m->scratch->contact;
 }
 
-/* -------------------------------------------------------------------------------------- assembly */
+/* ------------------------------------------------------------------------------------- assembly */
 
 /* The friction of a sliding contact under the N that is taken for it, Eq. (65). It goes on below
  * N = 0, where the strength ends, unless the joint is strong and may be in tension: such a contact
@@ -836,7 +834,7 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
     return status;
 }
 
-/* ----------------------------------------------------------------- the open-close iteration: forces */
+/* ------------------------------------------------------------- the open-close iteration: forces */
 
 /* d = d0 + e.D_i + g.D_j of the solution, Eq. (57), (61). */
 static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
@@ -918,7 +916,7 @@ static bbm_status renew_friction(bbm_model *m)
     return BBM_OK;
 }
 
-/* ----------------------------------------------------------------- the open-close iteration: states */
+/* ------------------------------------------------------------- the open-close iteration: states */
 
 /* Whether the projection of an open contact is on the edge, at the start of the step or at its end:
  * there the way from P3 is -d_s, and that from P2 the d_s of an anchor in P2. */
@@ -990,25 +988,21 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
 }
 
 /* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the distance
- * d0 has closed. Its shear spring feels the share of the slip that is left, so that it never
- * pushes along. Returns the way of P1 along the edge in the step, towards P3. */
-static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
-{
-    const double d0 = fmax(0, c->d_n0), s = project(m, c->corner, c->edge).s;
-
-    c->time_left = 1 - d0 / (d0 - c->d_n);
-    c->anchor = s / m->edge[c->edge].along.length;
-    return c->d_s + s;
-}
-
-/* A contact that closes for a second time in a step was opened by the shear spring of its first
- * trial, which need not be there: it tries to slide. */
+ * d0 has closed. It is anchored where it stood at the start, and its shear spring feels the share
+ * of the slip that is left, so that it never pushes along. One that closes for a second time in a
+ * step was opened by the shear spring of its first trial, which need not be there: it tries to
+ * slide. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
-    const double slip = c->state == BBM_OPEN ? anchor_at_hit(m, c) : c->T;
+    const double d0 = fmax(0, c->d_n0), s = project(m, c->corner, c->edge).s;
+    const int closes = c->state == BBM_OPEN;
+    const double slip = closes ? c->d_s + s : c->T;
 
-    if (c->state == BBM_OPEN && ++c->closings > 1)
-        c->next_state = BBM_SLIDE;
+    if (closes) {
+        c->time_left = 1 - d0 / (d0 - c->d_n);
+        c->anchor = s / m->edge[c->edge].along.length;
+        c->next_state = ++c->closings > 1 ? BBM_SLIDE : BBM_LOCK;
+    }
     if (c->next_state == BBM_SLIDE) {
         c->sign = copysign(1, slip);
         c->N_of_friction = c->N;
@@ -1093,7 +1087,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     return BBM_OK;
 }
 
-/* -------------------------------------------------------------------------------- end of the step */
+/* ------------------------------------------------------------------------------ end of the step */
 
 /* After the positions have moved: the anchor of a sliding contact follows, so that its spring
  * would carry the friction force; a joint that has opened, or slid against a shear strength, is
@@ -1117,7 +1111,7 @@ static void store_contact(bbm_model *m, bbm_contact *c)
 }
 
 /* The list of the step becomes that of the model. */
-bbm_status bbm_keep_contacts(bbm_model *m)
+bbm_status bbm_store_contacts(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
     bbm_contact *last = m->contact;

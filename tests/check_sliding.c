@@ -320,7 +320,7 @@ START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
     c->state = BBM_LOCK;
     c->d_n = -1e-4;
     c->N = 1e-4 * m->par.p_n;
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     shift_element(m, 2, 1.5, -5e-4);
     start_step(m, &n);
     c = find_listed(m, 2, 0, 1, 2);
