@@ -218,7 +218,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
 typedef struct {                /* what the formulas of 3.7 take                                */
     const bbm_element *i, *j;
     const bbm_vertex *P1, *P2, *P3;
-    int exact;                  /* with what (60) drops, see beyond/rotation.c; 0: the paper    */
+    int exact;                  /* with what (60) drops; 0: the paper                           */
     double rest;                /* m        see bbm_contact; 0: the paper                       */
 } bbm_touch;
 

@@ -14,7 +14,7 @@
  *                                       N < 0
  *
  * N = -p_n d_n is the normal force, T = p_s d_s what the shear spring carries or would carry, s
- * the sign of the slip, A the contact's share of the area of an unbroken joint (beyond/joints.c).
+ * the sign of the slip, A the contact's share of the area of an unbroken joint: 0, or a hook's.
  * d_s counts from the anchor P0, a point of the edge's material: where P1 hit, and there it stays
  * while the contact is locked; while it slides, the anchor follows so that the spring would just
  * carry the friction force of the last step. What is left of s T above the bound is slip; when it
@@ -24,7 +24,7 @@
  * A step reads (bbm_step): detect, assemble, solve, open-close - again until nothing changes -
  * update.
  *
- * Detection. Each corner is compared with each boundary edge (beyond/sweep.c: with those near it).
+ * Detection. Each corner is compared with each boundary edge, or a hook knows which are near it.
  * `corner` c is the vertex that starts boundary edge c, so that (corner, edge) are two indices of
  * edges: the identity of a contact. A corner may touch an edge if neither of its two sides points
  * into it, and if it does not lie behind it from the start: blocks do not overlap then, but for
@@ -45,15 +45,15 @@
  * the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N: solve with
- * the friction of the last N until they agree (beyond/friction.c needs fewer solutions). Only then
- * are the states judged, on forces that belong to them. When a set of states comes back that has
- * been there before, the iteration would cycle: from then on only the first contact that wants to
+ * the friction of the last N until they agree; a hook may need fewer solutions. Only then are the
+ * states judged, on forces that belong to them. When a set of states comes back that has been
+ * there before, the iteration would cycle: from then on only the first contact that wants to
  * change does so in each pass (Murty's rule of the least index), and a contact that closes for a
  * second time starts as SLIDE. Nothing of the model moves before all has settled: a step that does
  * not settle is done again with half the time step, without a trace of the first trial.
  *
- * Deviations from the paper: points and T at the middle of the step (beyond/rotation.c); grid
- * points inside the shorter of two straight sides touch, too (carries), so that a deformable block
+ * Deviations from the paper: with a hook, points and T at the middle of the step; grid points
+ * inside the shorter of two straight sides touch, too (bbm_carries), so that a deformable block
  * rests on its whole side.
  */
 #include "bbm.h"
@@ -71,8 +71,8 @@
  * Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * Deviation: points and T of e and g at the middle of the step (beyond/rotation.c); then only the
- * change of l is dropped. */
+ * Deviation: where a hook says so, points and T of e and g are those of the middle of the step;
+ * then only the change of l is dropped. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
