@@ -133,7 +133,8 @@ typedef struct {                /* a boundary edge from vertex a to b, its eleme
     int    side;                /* the first edge of the straight side that it belongs to       */
     double span;                /* m        length of that side at the start, of its first edge */
     bbm_direction along;        /* of the present positions                                     */
-    int    contact;             /* the first one of the corner a in model.contact               */
+    int    contact, pair;       /* the first ones of the corner a in model.contact and in the   */
+                                /* pairs that may touch                                         */
 } bbm_edge;
 
 /* What glues: the gap d = d0 + T_i D_i - T_j D_j, with the energy 1/2 d.W d + f.d. */

@@ -588,10 +588,21 @@ static bbm_status list_pairs(bbm_model *m)
 /* The index of a pair, or -1. */
 static int find_pair(const bbm_model *m, pair p)
 {
-    const pair *first = m->scratch->pair;
-    const pair *found = bsearch(&p, first, (size_t)m->scratch->pairs, sizeof p, compare_pairs);
+    const bbm_contact_scratch *w = m->scratch;
 
-    return found ? (int)(found - first) : -1;
+    for (int k = m->edge[p.corner].pair; k < w->pairs && w->pair[k].corner == p.corner; k++)
+        if (w->pair[k].edge == p.edge)
+            return k;
+    return -1;
+}
+
+/* Where the pairs of each corner begin. */
+static void index_pairs(bbm_model *m)
+{
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].pair = m->scratch->pairs;
+    for (int k = m->scratch->pairs - 1; k >= 0; k--)
+        m->edge[m->scratch->pair[k].corner].pair = k;
 }
 
 /* What else there can be where the corner P of a pair meets an end Q of its edge: P on the next
@@ -637,6 +648,7 @@ static void drop_duplicates(bbm_model *m)
     bbm_contact_scratch *w = m->scratch;
     int kept = 0;
 
+    index_pairs(m);
     for (int k = 0; k < w->pairs; k++)
         for (int way = 0; way < 6; way++)
             w->pair[k].dropped |= gives_way(m, w->pair[k], way / 3, (meeting)(way % 3));
@@ -644,6 +656,7 @@ static void drop_duplicates(bbm_model *m)
         if (!w->pair[k].dropped)
             w->pair[kept++] = w->pair[k];
     w->pairs = kept;
+    index_pairs(m);
 }
 
 /* Another line on which P and an end Q of its edge can enter each other, if both are convex
