@@ -240,7 +240,7 @@ void bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_elemen
 }
 
 /* K += sign Ti^T W Tj. */
-static void add_product(double sign, double Ti[2][6], double W[2][2], double Tj[2][6],
+static void add_product(double sign, double Ti[2][6], double W[][2], double Tj[2][6],
                         double K[6][6])
 {
     for (int b = 0; b < 6; b++) {
