@@ -577,7 +577,7 @@ bbm_status bbm_assemble(bbm_model *m)
     return status;
 }
 
-/* --------------------------------------------------------------- the time step, Fig. 8 */
+/* ------------------------------------------------------------- the parts of a time step */
 
 /* Lays out K: a submatrix for each element, each gap between two of them and each contact, Eq. (5).
  * Without memory the old one stays. */
@@ -799,29 +799,6 @@ static void begin_step(bbm_model *m)
     bbm_guess_step(m);
 }
 
-/* Fig. 8 once, with the step m->h. Nothing moves before all has gone well. */
-static bbm_status try_step(bbm_model *m)
-{
-    bbm_status status;
-    int other, changed;
-
-    begin_step(m);
-    status = detect(m, &other);                     /* 3.7: which contacts may close            */
-    do {
-        do {
-            if (!status)
-                status = bbm_assemble(m);           /* K, F: 3.1 to 3.8                         */
-            if (!status)
-                status = solve(m);                  /* K D = F: section 4                       */
-            if (!status)
-                status = open_close(m, &changed);   /* 3.8: do the contacts fit the solution?   */
-        } while (!status && changed);
-        if (!status)
-            status = detect(m, &other);             /* has it moved too far for them?           */
-    } while (!status && other);
-    return status ? status : update(m);             /* positions, stresses, velocities          */
-}
-
 /* Refuses parameters that mean nothing; a comparison with NaN is false, so NaN is refused too. */
 static bbm_status check_parameters(bbm_model *m)
 {
@@ -860,6 +837,31 @@ bbm_status bbm_check_step(bbm_model *m)
                          : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
     const bbm_status status = check_parameters(m);
     return status || !m->hook.check_step ? status : m->hook.check_step(m);
+}
+
+/* --------------------------------------------------------------- the time step, Fig. 8 */
+
+/* Fig. 8 once, with the step m->h. Nothing moves before all has gone well. */
+static bbm_status try_step(bbm_model *m)
+{
+    bbm_status status;
+    int other, changed;
+
+    begin_step(m);
+    status = detect(m, &other);                     /* 3.7: which contacts may close            */
+    do {
+        do {
+            if (!status)
+                status = bbm_assemble(m);           /* K, F: 3.1 to 3.8                         */
+            if (!status)
+                status = solve(m);                  /* K D = F: section 4                       */
+            if (!status)
+                status = open_close(m, &changed);   /* 3.8: do the contacts fit the solution?   */
+        } while (!status && changed);
+        if (!status)
+            status = detect(m, &other);             /* has it moved too far for them?           */
+    } while (!status && other);
+    return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 
 /* Whether the equations, or the states of the contacts, had no end. */
