@@ -9,8 +9,7 @@
  * pieces overlap when no edge of either has the other piece wholly outside, and by the least way
  * that parts them: the edge with the shortest one tells it (separating axes). Bars that cross, or
  * a block within another, are found like a corner in a side. Candidates are pieces whose
- * projections on an axis overlap; the axis is askew, for neither rows nor columns of elements
- * share one place on it.
+ * projections on an axis overlap; the axis slants, x + y/4, as in sweep.c.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,11 +17,9 @@
 
 #include "beyond.h"
 
-/* TOUCH [-]     overlaps up to this, in mean boundary edges, are rounding of a model file, as in
- *               contact.c
- * ASKEW [rad]   direction of the axis */
+/* TOUCH [-]  overlaps up to this, in mean boundary edges, are rounding of a model file, as in
+ *            contact.c */
 #define TOUCH 1e-6
-#define ASKEW 1.0
 
 typedef struct {                /* a convex part of an element                                  */
     int element, n;
@@ -92,15 +89,15 @@ static int find_ear(int n, const bbm_node **p)
     return convex ? -1 : ear;
 }
 
-/* A piece of element e, with its shadow on the axis. */
+/* A piece of element e, with its projection. */
 static piece make_piece(int e, int n, const bbm_node **p)
 {
     piece s = { e, n, p, INFINITY, -INFINITY };
 
     for (int k = 0; k < n; k++) {
-        const double x = cos(ASKEW) * p[k]->x + sin(ASKEW) * p[k]->y;
-        s.low = fmin(s.low, x);
-        s.high = fmax(s.high, x);
+        const double at = p[k]->x + p[k]->y / 4;
+        s.low = fmin(s.low, at);
+        s.high = fmax(s.high, at);
     }
     return s;
 }
@@ -179,17 +176,6 @@ static bbm_overlap describe(const piece *a, const piece *b, double depth)
 
 /* --------------------------------------------------------------------------------- the check */
 
-static double tolerance(const bbm_model *m)
-{
-    double length = 0;
-
-    for (int e = 0; e < m->edges; e++) {
-        const bbm_vertex *a = &m->vertex[m->edge[e].a], *b = &m->vertex[m->edge[e].b];
-        length += hypot(b->x - a->x, b->y - a->y);
-    }
-    return TOUCH * length / m->edges;
-}
-
 static int compare_pieces(const void *p, const void *q)
 {
     const piece *a = p, *b = q;
@@ -218,9 +204,12 @@ bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
     const size_t v = (size_t)m->vertices;
     const bbm_node **p = calloc(4 * v, sizeof *p);
     piece *s = calloc(v, sizeof *s);
+    double length = 0;
     int n = 0;
 
-    *o = (bbm_overlap){ -1, -1, tolerance(m), 0, 0 };
+    for (int e = 0; e < m->edges; e++)
+        length += m->edge[e].along.length;
+    *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
     const bbm_status status = p && s ? BBM_OK : BBM_NO_MEMORY;
     if (!status) {
         for (int e = 0; e < m->elements; e++)

@@ -104,7 +104,8 @@ static int is_off(const bbm_model *m, int i)
 }
 
 /* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone
- * is the start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
+ * is the start's. Differences first: springs are so stiff that the last bit of a coordinate
+ * counts. */
 static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
 {
     const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;

@@ -18,8 +18,8 @@
  *            left: about 1e-5 rad of free turning
  * SLOW [-]   elastic over inertial stiffness of an element in the long step, so that the solver
  *            still sees both
- * FREE [-]   share of the way of a free element that a loose one goes at least; the end of a bar
- *            of n elements that is held goes about n^4/SLOW of it
+ * FREE [-]   share of the way of a free element that a loose one goes at least; the end of a
+ *            clamped bar of n elements goes about n^4/(4 SLOW) of it
  * PARTS [-]  relative motion at a contact, against the largest motion, that is no strain */
 #define LOOSE 1e-10
 #define SLOW 1e9

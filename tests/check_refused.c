@@ -83,6 +83,13 @@ static const outlines OUTLINES[] = {
     { "a sliver through a block", { 4, 4 },
       { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
         { { -5, 0.5 }, { 5, 0.5 }, { 5, 0.5001 }, { -5, 0.5001 } } }, 0.5, 0.5, 0.50005 },
+    { "one micrometre and a half, away from the origin", { 4, 4 },
+      { { { 7, 7 }, { 8, 7 }, { 8, 8 }, { 7, 8 } },
+        { { 7, 8 - 1.5e-6 }, { 8, 8 - 1.5e-6 }, { 8, 9 }, { 7, 9 } } },
+          1.5e-6, 7.5, 8 - 0.75e-6 },
+    { "a block with a corner in its straight side", { 5, 4 },
+      { { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 2, 1 }, { 0, 1 } },
+        { { -1, 0.4 }, { 3, 0.4 }, { 3, 2 }, { -1, 2 } } }, 0.6, 1, 0.7 },
     { "apart, boxes overlap", { 3, 3 },
       { { { 0, 0 }, { 1, 0 }, { 0, 1 } }, { { 1, 1 }, { 0.01, 1 }, { 1, 0.01 } } }, 0, 0, 0 },
 };
@@ -247,8 +254,9 @@ END_TEST
 enum { FREE, CLAMPED, BOTH_CLAMPED, PIN_AND_ROLLER, ROLLERS, PINS };
 
 /* nx times ny squares with nodes off by up to a share of them, held on the left, at both ends, at
- * two nodes below, or as a quarter of a symmetric plate; then turned about the origin. */
-static bbm_model *held_grid(int nx, int ny, double off, int fixed, double angle)
+ * two nodes below, or as a quarter of a symmetric plate; then turned about the origin and made
+ * larger. */
+static bbm_model *held_grid(int nx, int ny, double off, int fixed, double angle, double size)
 {
     bbm_model *m = new_rock();
     unsigned seed = 3;
@@ -269,8 +277,8 @@ static bbm_model *held_grid(int nx, int ny, double off, int fixed, double angle)
         if (fixed == ROLLERS && low)
             ck_ok(bbm_fix_node(m, n, BBM_Y, 0, 0), m);
         const double x = p->x, y = p->y;
-        p->x = cos(angle) * x - sin(angle) * y;
-        p->y = sin(angle) * x + cos(angle) * y;
+        p->x = size * (cos(angle) * x - sin(angle) * y);
+        p->y = size * (sin(angle) * x + cos(angle) * y);
     }
     for (int v = 0; v < m->vertices; v++) {
         m->vertex[v].x = m->node[m->vertex[v].node].x;
@@ -313,7 +321,7 @@ START_TEST(bonds_at_midpoints_that_make_a_mechanism_are_refused)
     /* turned, rollers along x hold every turning */
     const double angle = GRIDS[_i / 2].fixed == ROLLERS ? 0 : _i % 2;
     bbm_model *m = held_grid(GRIDS[_i / 2].nx, GRIDS[_i / 2].ny, GRIDS[_i / 2].off,
-                             GRIDS[_i / 2].fixed, angle);
+                             GRIDS[_i / 2].fixed, angle, _i % 2 ? 100 : 1);
     int element;
 
     m->par.dt = 1e-3;  /* the smallest blocks are free to move as a whole */
@@ -400,7 +408,8 @@ static int free_motions(const bbm_model *m, int whole)
 START_TEST(every_mechanism_that_a_dense_elimination_finds_is_refused)
 {
     unsigned seed = 17u + (unsigned)_i;
-    bbm_model *m = held_grid(1 + _i % 6, 1 + _i / 6 % 5, _i % 4 == 3 ? 0.2 : 0, FREE, 0);
+    bbm_model *m = held_grid(1 + _i % 6, 1 + _i / 6 % 5, _i % 4 == 3 ? 0.2 : 0, FREE, 0,
+                             _i % 3 ? 1 : 0.01);
     int element;
 
     for (int n = 0; n < m->nodes; n++)
@@ -415,7 +424,67 @@ START_TEST(every_mechanism_that_a_dense_elimination_finds_is_refused)
 }
 END_TEST
 
+/* ------------------------------------------------------------------------- what holds a body */
+
+/* A grid held at one node, and in one direction at another: free if the line on which that holds
+ * goes through the first node. */
+START_TEST(a_body_is_held_unless_all_lines_of_action_meet)
+{
+    enum { SIDE = 4, NODES = SIDE * SIDE };
+
+    for (int b = 0; b < 2 * NODES; b++) {
+        bbm_model *m = new_rock();
+        add_rows(m, 0, 1e3, -2, 3, 2, SIDE - 1, SIDE - 1, 0);
+        const bbm_node *p = &m->node[b / 2];
+        const double lever = b % 2 ? p->x - m->node[_i].x : p->y - m->node[_i].y;
+        ck_ok(bbm_fix_node(m, _i, BBM_XY, 0, 0), m);
+        ck_ok(bbm_fix_node(m, b / 2, b % 2 ? BBM_Y : BBM_X, 0, 0), m);
+        ck_ok(bbm_prepare(m), m);
+        ck_assert_int_eq(bbm_check_held(m), fabs(lever) < 0.1 ? BBM_FREE_TO_MOVE : BBM_OK);
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
+/* An edge held in its middle alone is a pin. */
+START_TEST(an_edge_holds_a_body_if_it_has_a_moment)
+{
+    static const bbm_bonding bonding[] = { BBM_MOMENT, BBM_VERTICES, BBM_MIDPOINTS };
+    bbm_model *m = held_grid(1, 1, 0, CLAMPED, 0.3, 1);
+
+    m->beyond->bonding = bonding[_i];
+    ck_assert_int_eq(bbm_check_held(m), _i == 2 ? BBM_FREE_TO_MOVE : BBM_OK);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------- runs that fail */
+
+/* A clamped bar of 20 squares under its weight, and a square far from it that nothing holds. */
+START_TEST(what_is_loose_in_a_static_step_that_failed_is_named)
+{
+    bbm_model *m = new_rock();
+    const int bar = add_rows(m, 3, 0, 0, 20, 1, 20, 1, 0);
+
+    if (_i)
+        add_rows(m, 4, 0, 50, 0.1, 0.1, 1, 1, 0);
+    ck_ok(bbm_fix_node(m, bar, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, bar + 21, BBM_XY, 0, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    m->h = INFINITY;
+    m->acceleration[1] = -9.81;
+    ck_ok(bbm_assemble(m), m);
+    ck_assert_int_eq(bbm_explain(m, BBM_STOPPED), BBM_STOPPED);
+    ck_assert_int_eq(bbm_explain(m, BBM_NOT_CONVERGED),
+                     _i ? BBM_NO_EQUILIBRIUM : BBM_NOT_CONVERGED);
+    if (_i) {
+        ck_assert_int_eq(m->blamed[0], 20);
+        ck_assert_int_eq(m->blamed[1], -1);
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "block 4 (element 20) is free to move"));
+    }
+    bbm_model_free(m);
+}
+END_TEST
 
 /* A block of 2 x 2 elements on a fixed base, both turned about the origin: which begins to slide at
  * tan(angle) = tan(friction), if statics is asked. */
@@ -451,6 +520,30 @@ START_TEST(a_block_that_slides_in_statics_is_named_with_what_it_slides_on)
     }
     ck_assert_ptr_null(strstr(bbm_message(m), "inf"));
     ck_assert_ptr_null(strstr(bbm_message(m), "element -1"));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A tub with a stone in it, which goes where the tub goes: both slide, on the base. */
+START_TEST(of_blocks_that_go_together_the_one_that_parts_is_named)
+{
+    const double angle = _i % 2 ? 30 : -30;
+    bbm_model *m = new_rock();
+    const int base = add_rows(m, 0, -3, -1, 6, 1, 6, 1, angle);
+
+    add_rows(m, 1, -1.5, 0, 3, 1, 3, 2, angle);
+    for (int k = 3; k < 6; k++)         /* the upper row of the tub without its middle */
+        m->element[6 + k].block = k == 4 ? 2 : 1;
+    for (int n = base; n < base + 14; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    m->par.gravity[1] = -9.81;
+    m->par.friction = 10;
+    m->par.p_n = 1e12;
+    m->par.p_s = 4e11;
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_run(m), BBM_NO_EQUILIBRIUM);
+    ck_assert_int_eq(m->element[m->blamed[0]].block, 1);
+    ck_assert_int_eq(m->element[m->blamed[1]].block, 0);
     bbm_model_free(m);
 }
 END_TEST
@@ -700,7 +793,13 @@ Suite *refused_suite(void)
     tcase_add_loop_test(mechanism, every_mechanism_that_a_dense_elimination_finds_is_refused,
                         0, 300);
     suite_add_tcase(s, mechanism);
+    TCase *holds = tcase_create("holds");
+    tcase_add_loop_test(holds, a_body_is_held_unless_all_lines_of_action_meet, 0, 16);
+    tcase_add_loop_test(holds, an_edge_holds_a_body_if_it_has_a_moment, 0, 3);
+    suite_add_tcase(s, holds);
     TCase *failing = tcase_create("failing");
+    tcase_add_loop_test(failing, what_is_loose_in_a_static_step_that_failed_is_named, 0, 2);
+    tcase_add_loop_test(failing, of_blocks_that_go_together_the_one_that_parts_is_named, 0, 2);
     tcase_add_loop_test(failing, a_block_that_slides_in_statics_is_named_with_what_it_slides_on,
                         0, 10);
     tcase_add_loop_test(failing, a_block_that_lifts_off_or_tips_in_statics_is_named, 0, 2);
