@@ -550,9 +550,16 @@ static bbm_status assemble_gap(bbm_model *m, bbm_gap *g)
     return bbm_add_submatrices(m, g->i, g->j, &s);
 }
 
+/* Counts the CPU time since `since` for a phase. */
+static void count_time(bbm_model *m, int phase, clock_t since)
+{
+    m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
+}
+
 /* K, unless it is kept, and F of the present geometry, Eq. (5). */
 bbm_status bbm_assemble(bbm_model *m)
 {
+    const clock_t start = clock();
     bbm_status status = BBM_OK;
 
     if (!m->K_is_kept) {
@@ -564,16 +571,13 @@ bbm_status bbm_assemble(bbm_model *m)
         status = assemble_element(m, i);
     for (int g = 0; g < m->gaps && !status; g++)
         status = assemble_gap(m, &m->gap[g]);
-    return status ? status : bbm_assemble_contacts(m);
+    if (!status)
+        status = bbm_assemble_contacts(m);
+    count_time(m, BBM_ASSEMBLE, start);
+    return status;
 }
 
 /* --------------------------------------------------------------- the time step, Fig. 8 */
-
-/* Counts the CPU time since `since` for a phase. */
-static void count_time(bbm_model *m, int phase, clock_t since)
-{
-    m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
-}
 
 /* Lays out K: a submatrix for each element, each gap between two of them and each contact, Eq. (5).
  * Without memory the old one stays. */
@@ -672,15 +676,6 @@ static bbm_status detect(bbm_model *m, int *other)
     if (!status)
         status = lay_out_matrix(m);
     return status || !m->hook.check_listed ? status : m->hook.check_listed(m);
-}
-
-static bbm_status assemble(bbm_model *m)
-{
-    const clock_t start = clock();
-    const bbm_status status = bbm_assemble(m);
-
-    count_time(m, BBM_ASSEMBLE, start);
-    return status;
 }
 
 /* Solves K D = F, Eq. (5), section 4. */
@@ -790,7 +785,7 @@ static bbm_status update(bbm_model *m)
     memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
     memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);
     m->info = end.info;
-    return bbm_keep_contacts(m);
+    return bbm_store_contacts(m);
 }
 
 static void begin_step(bbm_model *m)
@@ -815,7 +810,7 @@ static bbm_status try_step(bbm_model *m)
     do {
         do {
             if (!status)
-                status = assemble(m);               /* K, F: 3.1 to 3.8                         */
+                status = bbm_assemble(m);           /* K, F: 3.1 to 3.8                         */
             if (!status)
                 status = solve(m);                  /* K D = F: section 4                       */
             if (!status)

@@ -163,21 +163,21 @@ typedef void bbm_field(double x, double y, const void *context, double f[2]);
 typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
 
-typedef struct bbm_method bbm_method;       /* another than the paper's, see the end of this file  */
+typedef struct bbm_method bbm_method;           /* another than the paper's, see section 5      */
 
 typedef struct {
-    double omega;               /* -        relaxation factor of SSOR, in (0, 2)                                */
-    double tolerance;           /* -        of the residual, in the norm of the preconditioner, against F      */
-    int    iterations;          /* at most; both for each connected component of K by itself                    */
-    const bbm_method *method;   /* in place of the paper's; NULL: the paper's                   */
+    double omega;               /* -        relaxation factor of SSOR, in (0, 2)                */
+    double tolerance;           /* -        of the residual, in the preconditioner's norm       */
+    int    iterations;          /* at most; both for each connected component of K by itself    */
+    const bbm_method *method;   /* NULL: the paper's                                            */
 } bbm_pcg;
 
-typedef struct {                /* what a solve did                                                             */
-    int    iterations;          /* of the connected component of K that took most                               */
-    double residual;            /* -        |F - K D| / |F|, computed afresh at the end; of the component where
-                                   it is largest, without those where F is 0                                    */
-    int    element;             /* block row where K is not positive definite, else -1                          */
-    double seconds[2];          /* s        CPU time of the preconditioner and of the iteration                 */
+typedef struct {                /* what a solve did                                             */
+    int    iterations;          /* of the connected component of K that took most               */
+    double residual;            /* -        |F - K D|/|F|, computed afresh at the end; of the   */
+                                /*          component where it is largest, if its F is not 0    */
+    int    element;             /* block row where K is not positive definite, else -1          */
+    double seconds[2];          /* s        CPU time of the preconditioner and of the iteration */
 } bbm_pcg_info;
 
 /* What CPU time is counted for. */
@@ -218,11 +218,11 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
 typedef struct {                /* what the formulas of 3.7 take                                */
     const bbm_element *i, *j;
     const bbm_vertex *P1, *P2, *P3;
-    int exact;                  /* with what (60) drops, see beyond/rotation.c; 0: the paper    */
+    int exact;                  /* with what (60) drops; 0: the paper                           */
     double rest;                /* m        see bbm_contact; 0: the paper                       */
 } bbm_touch;
 
-typedef struct { double d, e[6], g[6]; } bbm_spring;    /* its length is d + e.D_i + g.D_j                      */
+typedef struct { double d, e[6], g[6]; } bbm_spring;        /* length d + e.D_i + g.D_j     */
 
 typedef struct {
     double dt;                  /* s        time step; INFINITY: statics, without inertia        */
@@ -272,7 +272,7 @@ typedef struct {
     void (*begin)(bbm_model *m);                            /* the contacts are listed          */
     bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
-    double (*joint_area)(const bbm_model *m, int corner, int edge); /* of what touches at the start */
+    double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
     /* --- K D = F --- */
     bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
@@ -452,19 +452,20 @@ int        bbm_carries(const bbm_model *m, int corner, int edge);
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
 bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
-bbm_status bbm_keep_contacts(bbm_model *m);
-/* ------------------------------------------------------------------------- the linear solver of section 4: K D = F
- * n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either way round,
- * repeats allowed. Vectors have 6 n entries in the caller's order. Rows that no pairs connect, however indirectly,
- * are solved apart: neither changes a bit of the other's D.                                                    */
+bbm_status bbm_store_contacts(bbm_model *m);
 
+/* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not
+ * zero, in any order, either way round, repeats allowed. Vectors have 6 n entries in the caller's
+ * order. Rows that no pairs connect, however indirectly, are solved apart: neither changes a bit of
+ * the other's D. */
 bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
-void       bbm_matrix_free(bbm_matrix *K);                                             /* takes NULL            */
+void       bbm_matrix_free(bbm_matrix *K);                                      /* takes NULL   */
 void       bbm_matrix_clear(bbm_matrix *K);
-bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]);  /* K_ij, K_ji = B^T; i = j: B symmetric */
-void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);          /* B = K_ij              */
-void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y);       /* y = K x               */
-bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg, bbm_pcg_info *info);
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T */
+void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   /* B = K_ij     */
+void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y); /* y = K x     */
+bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
+                     bbm_pcg_info *info);
 
 /* ---------------------------------------------------- 5. inside the linear solver, see solver.c
  * Block rows are numbered in two ways: by the caller, and by their place in the reverse
@@ -473,13 +474,13 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
 struct bbm_matrix {
     int n;                      /* block rows                                                   */
     int *place, *caller;        /* [n]       place[caller's row], and back                      */
-    int *first, *back;          /* [n+1]     the blocks of row i of L are first[i] .. first[i+1]-1, */
-                                /* [blocks]  their columns i - back[]                           */
+    int *first;                 /* [n+1]     row i of L: the blocks first[i] .. first[i+1]-1    */
+    int *back;                  /* [blocks]  its row less its column                            */
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks]                                */
     /* --- scratch of bbm_solve --- */
     int from, to;               /* the rows of the component in hand: from .. to-1              */
-    double (*G)[6][6], (*S)[6][6];              /* [n], [blocks]  C_i^-1 and w C_i^-1 L_ij C_j^-T */
+    double (*G)[6][6], (*S)[6][6];              /* [n], [blocks]  C_i^-1, w C_i^-1 L_ij C_j^-T  */
     double *x, *r, *p, *q;      /* solution, residual, direction, product                       */
     double *y, *u;              /* results of a sweep forward and of one backward               */
     const bbm_method *method;
@@ -491,7 +492,7 @@ struct bbm_matrix {
 
 /* A method other than the paper's; what is NULL is done the paper's way. */
 struct bbm_method {
-    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);      /* another method or omega for this K */
+    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);      /* changes method or omega          */
     void (*make_ready)(bbm_matrix *K);                      /* G and S are new                  */
     void (*correct)(const bbm_matrix *K, double *y);        /* between the two sweeps           */
     bbm_status (*iterate)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);

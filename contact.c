@@ -14,7 +14,7 @@
  *                                       N < 0
  *
  * N = -p_n d_n is the normal force, T = p_s d_s what the shear spring carries or would carry, s
- * the sign of the slip, A the contact's share of the area of an unbroken joint (beyond/joints.c).
+ * the sign of the slip, A the contact's share of the area of an unbroken joint: 0, or a hook's.
  * d_s counts from the anchor P0, a point of the edge's material: where P1 hit, and there it stays
  * while the contact is locked; while it slides, the anchor follows so that the spring would just
  * carry the friction force of the last step. What is left of s T above the bound is slip; when it
@@ -24,7 +24,7 @@
  * A step reads (bbm_step): detect, assemble, solve, open-close - again until nothing changes -
  * update.
  *
- * Detection. Each corner is compared with each boundary edge (beyond/sweep.c: with those near it).
+ * Detection. Each corner is compared with each boundary edge, or a hook knows which are near it.
  * `corner` c is the vertex that starts boundary edge c, so that (corner, edge) are two indices of
  * edges: the identity of a contact. A corner may touch an edge if neither of its two sides points
  * into it, and if it does not lie behind it from the start: blocks do not overlap then, but for
@@ -33,26 +33,27 @@
  * Where two corners P and Q meet, several of these pairs describe one contact. The entrance lines,
  * along which P can come in, are
  *
- *          \  P  /              |   A                   the two edges of Q (left), or one edge of
- *           \   /               P______                 each block (right). The blocks overlap when
- *            \ /                 Q_____                 both are crossed, and the spring goes on the
- *      _______Q                  |                      one that is crossed last, where P comes in.
- *             |                  |   B                  Two lines that coincide are one contact: of
- *        B    |                  |                      P on Q's edge and Q on P's edge that one
- *                                                       stays whose projection is on its edge; at a
- * tie, the one that it was before, or else the edge that faces up. Both lines at the same time:
- * the one that was closed or else the flatter one counts, the same in any order of the blocks.
+ *          \  P  /              |   A            the two edges of Q (left), or one edge of each
+ *           \   /               P______          block (right). The blocks overlap when both are
+ *            \ /                 Q_____          crossed, and the spring goes on the one that is
+ *      _______Q                  |               crossed last, where P comes in. Two lines that
+ *             |                  |   B           coincide are one contact: of P on Q's edge and Q
+ *        B    |                  |               on P's edge that one stays whose projection is
+ *
+ * on its edge; at a tie, the one that it was before, or else the edge that faces up. Both lines at
+ * the same time: the one that was closed or else the flatter one counts, the same in any order of
+ * the blocks.
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N: solve with
- * the friction of the last N until they agree (beyond/friction.c needs fewer solutions). Only then
- * are the states judged, on forces that belong to them. When a set of states comes back that has
- * been there before, the iteration would cycle: from then on only the first contact that wants to
+ * the friction of the last N until they agree; a hook may need fewer solutions. Only then are the
+ * states judged, on forces that belong to them. When a set of states comes back that has been
+ * there before, the iteration would cycle: from then on only the first contact that wants to
  * change does so in each pass (Murty's rule of the least index), and a contact that closes for a
  * second time starts as SLIDE. Nothing of the model moves before all has settled: a step that does
  * not settle is done again with half the time step, without a trace of the first trial.
  *
- * Deviations from the paper: points and T at the middle of the step (beyond/rotation.c); grid
- * points inside the shorter of two straight sides touch, too (carries), so that a deformable block
+ * Deviations from the paper: with a hook, points and T at the middle of the step; grid points
+ * inside the shorter of two straight sides touch, too (bbm_carries), so that a deformable block
  * rests on its whole side.
  */
 #include "bbm.h"
@@ -70,8 +71,8 @@
  * Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * Deviation: points and T of e and g at the middle of the step (beyond/rotation.c); then only the
- * change of l is dropped. */
+ * Deviation: where a hook says so, points and T of e and g are those of the middle of the step;
+ * then only the change of l is dropped. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
@@ -195,20 +196,20 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
     return c->sign * c->T < strength - tolerance ? BBM_LOCK : BBM_SLIDE;
 }
 
-/* ------------------------------------------------------------------------------------- the data
+/* ---------------------------------------------------------------------------------------- the data
  *
  * Tolerances; none depends on the size of the domain.
- * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and sides
- *                 that differ less in length, relatively, are as long: rounding of a model file
- * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less lies
- *                 on it: what penetration and elastic bending turn
- * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches: soft
- *                 blocks bend more
+ * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and
+ *                 sides that differ less in length, relatively, are as long: rounding of a file
+ * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less
+ *                 lies on it: what penetration and elastic bending turn
+ * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches:
+ *                 soft blocks bend more
  * TOUCH    [-]    d_n below this, in mean edge lengths, is closed at the start, and a projection
- *                 closer to the end of an edge is at the end: rounding of a model file, elastic strain
- * AGREE    [-]    forces that differ by less, against the largest force of what K connects, agree:
- *                 what the solver can tell
- * TIE      [-]    fractions of a step that differ less are the same moment: rounding               */
+ *                 closer to the end of an edge is at the end: rounding of a file, elastic strain
+ * AGREE    [-]    forces that differ by less, against the largest force of what K connects,
+ *                 agree: what the solver can tell
+ * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define BENT 0.1
@@ -220,11 +221,11 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
  * between two of them. */
 enum { PASSES = 60, FRICTION_PASSES = 100 };
 
-typedef struct { int corner, edge, dropped; } pair;             /* what may touch                   */
+typedef struct { int corner, edge, dropped; } pair;         /* what may touch               */
 
 typedef struct {                /* of a block, with the index of its first element              */
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
-    double depth_now;           /* m        the same of the solution, if that is deeper         */
+    double depth_now;           /* m        the same of the solution, or before it if deeper    */
     double travel;              /* m        how far its vertices may move in this step          */
     /* --- of an element --- */
     double turn;                /* rad      how far it may turn in this step                    */
@@ -247,7 +248,7 @@ struct bbm_contact_scratch {
     uint64_t seen[PASSES + 1];  /* the states of each pass                                      */
 };
 
-/* -------------------------------------------------------------------- the boundary of the blocks */
+/* ------------------------------------------------------------------- the boundary of the blocks */
 
 static const bbm_vertex *start_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].a]; }
 static const bbm_vertex *end_of(const bbm_model *m, int e) { return &m->vertex[m->edge[e].b]; }
@@ -331,7 +332,7 @@ static int compare_pairs(const void *p, const void *q)
 /* Finds the first element of each block. */
 static void number_blocks(bbm_model *m)
 {
-    pair *of = m->scratch->pair;                    /* block and edge; edges ascend as elements do */
+    pair *of = m->scratch->pair;                            /* block and edge                   */
 
     for (int e = 0; e < m->edges; e++)
         of[e] = (pair){ m->edge[e].block, e, 0 };
@@ -380,7 +381,7 @@ bbm_status bbm_contact_new(bbm_model *m)
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------ detection: how far blocks may move */
+/* ----------------------------------------------------------- detection: how far blocks may move */
 
 /* Takes for D what the velocities and gravity foretell of the step; in statics a step is as long as
  * the last one at most. */
@@ -440,27 +441,24 @@ static double foresee(bbm_model *m)
     return most;
 }
 
-/* How far two blocks may approach each other in this step. */
-static double approach(const bbm_model *m, int c, int e)
-{
-    return motion_of(m, c)->travel + motion_of(m, e)->travel;
-}
-
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
  * the two blocks do. Nothing comes in from behind. What moves by T of the start of a step may also
- * end it inside; and a corner that slides on along a straight side, which may be bent by now,
- * keeps its contact. */
+ * end it inside, by its way; and a corner that slides on along a straight side, which may be bent
+ * by now, keeps its contact. */
 static double allowed_depth(const bbm_model *m, int c, int e)
 {
-    const double depth = fmin(motion_of(m, c)->depth, motion_of(m, e)->depth);
+    const motion *i = motion_of(m, c), *j = motion_of(m, e);
+    const double way = bbm_is_exact(m) ? 0 : i->travel + j->travel;
 
-    return 2 * depth + m->scratch->touch + (bbm_is_exact(m) ? 0 : approach(m, c, e));
+    return 2 * fmin(i->depth, j->depth) + m->scratch->touch + way;
 }
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
 
-typedef struct { double d, s, beyond; } projection;     /* of P1 on an edge: distance, way along it */
-                                                        /* from P3, how far beyond its ends */
+typedef struct {                /* of P1 on an edge, m                                          */
+    double d, s, beyond;        /* distance; way along the edge from P3; how far beyond an end  */
+} projection;
+
 static projection project(const bbm_model *m, int corner, int e)
 {
     const bbm_vertex *P = start_of(m, corner), *a = start_of(m, e);
@@ -503,7 +501,7 @@ int bbm_carries(const bbm_model *m, int c, int e)
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
     const double mine = m->edge[m->edge[c].side].span, other = m->edge[m->edge[e].side].span;
 
-    if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)           /* they do not face each other */
+    if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
         return 0;
     return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
 }
@@ -532,6 +530,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
 {
     const motion *of = m->scratch->motion;
     const double turns = of[element_of(m, corner)].turn + of[element_of(m, e)].turn;
+    const double approach = motion_of(m, corner)->travel + motion_of(m, e)->travel;
     const double deep = allowed_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
@@ -539,7 +538,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (!is_corner(m, corner) && !bbm_carries(m, corner, e))
         return 0;
-    if (fmax(fabs(f.d), f.beyond) > approach(m, corner, e) + deep)
+    if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
     if (f.beyond <= m->scratch->touch && f.d < -deep && !find_closed(m, corner, e, 1))
         return 0;
@@ -584,7 +583,7 @@ static bbm_status list_pairs(bbm_model *m)
     return status;
 }
 
-/* ------------------------------------------------------------------ detection: where corners meet */
+/* ---------------------------------------------------------------- detection: where corners meet */
 
 /* The index of a pair, or -1. */
 static int find_pair(const bbm_model *m, pair p)
@@ -648,28 +647,23 @@ static void drop_duplicates(bbm_model *m)
 }
 
 /* Another line on which P and an end Q of its edge can enter each other, if both are convex
- * corners that may meet in this step and it is in the list; else -1. In a notch Q both edges hold
- * P at once. */
+ * corners and it is in the list; else -1. In a notch Q both edges hold P at once. */
 static int find_entrance(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair other = meet(m, p, end, kind);
     const int Q = end ? m->edge[p.edge].after : p.edge;
-    const bbm_vertex *a = start_of(m, p.corner), *b = start_of(m, Q);
 
-    if (!is_convex(m, Q) || coincide(m, p.edge, other.edge))
-        return -1;
-    const double reach = approach(m, p.corner, p.edge) + allowed_depth(m, p.corner, p.edge);
-    return hypot(a->x - b->x, a->y - b->y) > 2 * reach ? -1 : find_pair(m, other);
+    return is_convex(m, Q) && !coincide(m, p.edge, other.edge) ? find_pair(m, other) : -1;
 }
 
-/* ---------------------------------------------------- detection: what carries over from step to step */
+/* ----------------------------------------------- detection: what carries over from step to step */
 
 static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_edge *i = &m->edge[c->corner], *j = &m->edge[c->edge];
-    const bbm_vertex *v = m->vertex;
+    const bbm_element *i = &m->element[element_of(m, c->corner)];
+    const bbm_element *j = &m->element[element_of(m, c->edge)];
 
-    return (bbm_touch){ &m->element[i->element], &m->element[j->element], &v[i->a], &v[j->b], &v[j->a],
+    return (bbm_touch){ i, j, start_of(m, c->corner), end_of(m, c->edge), start_of(m, c->edge),
                         bbm_is_exact(m), c->rest };
 }
 
@@ -802,7 +796,7 @@ bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
     return m->scratch->contact;
 }
 
-/* -------------------------------------------------------------------------------------- assembly */
+/* ------------------------------------------------------------------------------------- assembly */
 
 /* The friction of a sliding contact under the N that is taken for it, Eq. (65). It goes on below
  * N = 0, where the strength ends, unless the joint is strong and may be in tension: such a contact
@@ -836,7 +830,7 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
     return status;
 }
 
-/* ----------------------------------------------------------------- the open-close iteration: forces */
+/* ------------------------------------------------------------- the open-close iteration: forces */
 
 /* d = d0 + e.D_i + g.D_j of the solution, Eq. (57), (61). */
 static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
@@ -918,7 +912,7 @@ static bbm_status renew_friction(bbm_model *m)
     return BBM_OK;
 }
 
-/* ----------------------------------------------------------------- the open-close iteration: states */
+/* ------------------------------------------------------------- the open-close iteration: states */
 
 /* Whether the projection of an open contact is on the edge, at the start of the step or at its end:
  * there the way from P3 is -d_s, and that from P2 the d_s of an anchor in P2. */
@@ -990,25 +984,21 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
 }
 
 /* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the distance
- * d0 has closed. Its shear spring feels the share of the slip that is left, so that it never
- * pushes along. Returns the way of P1 along the edge in the step, towards P3. */
-static double anchor_at_hit(const bbm_model *m, bbm_contact *c)
-{
-    const double d0 = fmax(0, c->d_n0), s = project(m, c->corner, c->edge).s;
-
-    c->time_left = 1 - d0 / (d0 - c->d_n);
-    c->anchor = s / m->edge[c->edge].along.length;
-    return c->d_s + s;
-}
-
-/* A contact that closes for a second time in a step was opened by the shear spring of its first
- * trial, which need not be there: it tries to slide. */
+ * d0 has closed. It is anchored where it stood at the start, and its shear spring feels the share
+ * of the slip that is left, so that it never pushes along. One that closes for a second time in a
+ * step was opened by the shear spring of its first trial, which need not be there: it tries to
+ * slide. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
-    const double slip = c->state == BBM_OPEN ? anchor_at_hit(m, c) : c->T;
+    const double d0 = fmax(0, c->d_n0), s = project(m, c->corner, c->edge).s;
+    const int closes = c->state == BBM_OPEN;
+    const double slip = closes ? c->d_s + s : c->T;
 
-    if (c->state == BBM_OPEN && ++c->closings > 1)
-        c->next_state = BBM_SLIDE;
+    if (closes) {
+        c->time_left = 1 - d0 / (d0 - c->d_n);
+        c->anchor = s / m->edge[c->edge].along.length;
+        c->next_state = ++c->closings > 1 ? BBM_SLIDE : BBM_LOCK;
+    }
     if (c->next_state == BBM_SLIDE) {
         c->sign = copysign(1, slip);
         c->N_of_friction = c->N;
@@ -1093,7 +1083,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     return BBM_OK;
 }
 
-/* -------------------------------------------------------------------------------- end of the step */
+/* ------------------------------------------------------------------------------ end of the step */
 
 /* After the positions have moved: the anchor of a sliding contact follows, so that its spring
  * would carry the friction force; a joint that has opened, or slid against a shear strength, is
@@ -1117,7 +1107,7 @@ static void store_contact(bbm_model *m, bbm_contact *c)
 }
 
 /* The list of the step becomes that of the model. */
-bbm_status bbm_keep_contacts(bbm_model *m)
+bbm_status bbm_store_contacts(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
     bbm_contact *last = m->contact;

@@ -37,18 +37,18 @@
  * iteration.
  *
  * Scaling. Factor D_i = C_i C_i^T once, and write r, x, K for C^-1 r, C^T x, C^-1 K C^-T: the
- * iterates stay the same. The diagonal blocks of K become I and those of L C_i^-1 L_ij C_j^-T; let S
- * be w times the latter, and E = I + S. Then
+ * iterates stay the same. The diagonal blocks of K become I and those of L C_i^-1 L_ij C_j^-T; let
+ * S be w times the latter, and E = I + S. Then
  *
  *     K = I + (S + S^T)/w,    M = E E^T/w.
  *
- * Two sweeps over S are M^-1 but for the factor w, and since the second says S^T u = y - u, a product
- * with K takes only one more pass over S:
+ * Two sweeps over S are M^-1 but for the factor w, and since the second says S^T u = y - u, a
+ * product with K takes only one more pass over S:
  *
  *     y = E^-1 r,   u = E^-T y,   w K u = y + (w-1) u + S u,
  *
- * and with p = u + b p also w K p = w K u + b (w K p). The factors w cancel in a and in r, and leave
- * 1/w of x: D = w C^-T x.
+ * and with p = u + b p also w K p = w K u + b (w K p). The factors w cancel in a and in r, and
+ * leave 1/w of x: D = w C^-T x.
  *
  * Another method than this one may make something of K when it has been scaled, correct y between
  * the sweeps, or iterate in a way of its own (bbm_method).
@@ -341,7 +341,7 @@ void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
     }
 }
 
-/* y += c S x. With c = -1 and x = y that is y = E^-1 y: a row takes those before it as they are now. */
+/* y += c S x. With c = -1 and x = y that is y = E^-1 y: a row takes those before it as they are. */
 void bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->from; i < K->to; i++)
@@ -349,7 +349,7 @@ void bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *
             multiply_add(c, K->S[k], x + 6 * (i - K->back[k]), y + 6 * i);
 }
 
-/* y += c S^T x. With c = -1 and x = y that is y = E^-T y: each row is passed on once it is done. */
+/* y += c S^T x. With c = -1 and x = y that is y = E^-T y: a row is passed on once it is done. */
 void bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y)
 {
     for (int i = K->to - 1; i >= K->from; i--)
@@ -417,8 +417,8 @@ static void scale_block(double w, double Gi[6][6], double L[6][6], double Gj[6][
         double t[6] = { 0 };
         for (int c = 0; c <= a; c++)
             for (int b = 0; b < 6; b++)
-                t[b] += Gi[a][c] * L[c][b];
-        multiply_add(w, Gj, t, S[a]);
+                t[b] += w * Gi[a][c] * L[c][b];
+        multiply_add(1, Gj, t, S[a]);
     }
 }
 

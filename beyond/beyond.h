@@ -64,7 +64,8 @@ double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u
 
 /* rotation.c */
 int        bbm_moves_exactly(const bbm_model *m);
-bbm_mode   bbm_middle_matrix;
+void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
+                             double at[2]);             /* a bbm_mode                       */
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);

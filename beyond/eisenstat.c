@@ -68,7 +68,7 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     double *t = K->u, *y = K->y;
 
     bbm_multiply_lower(K, -1, K->r, K->r);
-    double rr = advance(K, 0, K->p, K->q);
+    double rr = dot_sum(K, K->r, K->r, K->q);           /* q = 0 */
     new_direction(K, 0, K->p, t);
     const double stop = pcg->tolerance * sqrt(rr);
     while (!(sqrt(rr) <= stop)) {

@@ -77,7 +77,7 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
 }
 
 /* What the springs of a contact hold; friction holds what its shear spring would, see
- * bbm_keep_contacts. */
+ * bbm_store_contacts. */
 static double contact_energy(const bbm_parameters *p, const bbm_contact *c)
 {
     const double T = c->state == BBM_SLIDE ? bbm_shear_strength(p, c->N, c->area) : c->T;

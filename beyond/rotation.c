@@ -103,8 +103,8 @@ static int is_off(const bbm_model *m, int i)
     return off * (fabs(r) + off) > TURN;
 }
 
-/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone is
- * the start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
+/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone
+ * is the start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
 static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
 {
     const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
@@ -132,8 +132,9 @@ static int turns_otherwise(const bbm_model *m, const bbm_contact *c, int i)
         && fabs(m->D[6 * i + 2] - m->element[i].mode_D[2]) > DIRECTION;
 }
 
-/* Whether the vectors of a contact belong to another step than the solution: forces that are wrong by more than a share
- * of the largest one on its two elements, or in direction, or an open contact on the wrong side. */
+/* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
+ * by more than a share of the largest one on its two elements, or in direction, or an open contact
+ * on the wrong side. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
     int contacts, off = 0;
@@ -142,12 +143,14 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
     for (int k = 0; k < contacts && !off; k++) {
         const bbm_contact *c = &list[k];
         const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
-        const double Fi = hypot(m->F[6 * i], m->F[6 * i + 1]), Fj = hypot(m->F[6 * j], m->F[6 * j + 1]);
+        const double Fi = hypot(m->F[6 * i], m->F[6 * i + 1]);
+        const double Fj = hypot(m->F[6 * j], m->F[6 * j + 1]);
         const double bound = fmax(share * fmax(fabs(c->N), fmax(Fi, Fj)), c->force_tolerance);
         double d[2];
         exact_distances(m, c, d);
         off = turns_otherwise(m, c, i) || turns_otherwise(m, c, j);
-        off |= m->par.p_n * fabs(d[0] - c->d_n) > bound && (c->state != BBM_OPEN || (d[0] < 0) != (c->d_n < 0));
+        off |= m->par.p_n * fabs(d[0] - c->d_n) > bound
+            && (c->state != BBM_OPEN || (d[0] < 0) != (c->d_n < 0));
         off |= m->par.p_s * fabs(d[1] - c->d_s) > bound && c->state == BBM_LOCK;
     }
     return off;

@@ -146,7 +146,7 @@ static bbm_model *model_in_contact(void add(bbm_model *, int), int n)
     m->h = 0.01;
     bbm_guess_step(m);
     case_must(m, bbm_detect_contacts(m, NULL));
-    case_must(m, bbm_keep_contacts(m));
+    case_must(m, bbm_store_contacts(m));
     for (int k = 0; k < m->contacts; k++)
         m->contact[k].state = BBM_LOCK;
     return m;

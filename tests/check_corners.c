@@ -292,7 +292,7 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
                 list[k].d_n = y;
                 found++;
             }
-        ck_ok(bbm_keep_contacts(m), m);
+        ck_ok(bbm_store_contacts(m), m);
     }
     ck_assert_int_eq(found, 2);
     bbm_model_free(m);
@@ -422,7 +422,7 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
     m->D[6 * e] = 4.98 - start[0] - u[0];
     m->D[6 * e + 1] = 3 - deep - start[1] - u[1];
     ck_ok(bbm_open_close(m, &pass), m);
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     for (int k = 0; k < m->contacts; k++) {
         const bbm_vertex *a = start_of(m, m->contact[k].edge), *b = end_of(m, m->contact[k].edge);
         if (m->contact[k].state == BBM_OPEN)

@@ -144,7 +144,7 @@ static void check_list(const bbm_model *m, const outline o[BLOCKS], const double
 
 static const double PLACES[3][2] = { { 0, 0 }, { 70, -40 }, { -30, 60 } };
 
-START_TEST(the_grid_finds_the_pairs_that_comparing_all_with_all_finds)
+START_TEST(the_sweep_finds_the_pairs_that_comparing_all_with_all_finds)
 {
     const double disp = _i % 2 ? 0.15 : 0.01;
     unsigned seed = (unsigned)_i + 1;
@@ -160,6 +160,36 @@ START_TEST(the_grid_finds_the_pairs_that_comparing_all_with_all_finds)
     }
     detect(m);
     check_list(m, o, way);
+    place *swept = list_places(m);
+    const int n = m->contacts;
+    m->hook.find_pairs = NULL;
+    detect(m);
+    place *all = list_places(m);
+    ck_assert_int_eq(n, m->contacts);
+    ck_assert(memcmp(swept, all, (size_t)n * sizeof *all) == 0);
+    ck_assert_int_eq(m->info.candidates, m->edges * m->edges);
+    free(swept);
+    free(all);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Models that lie along a line of any direction, also the one along which the sweep makes no
+ * headway; one that has blown up ends in an error, and soon. */
+START_TEST(the_sweep_finds_the_contacts_of_a_row_in_any_direction)
+{
+    const double angle = _i < 8 ? _i * PI / 4 : atan2(-4, 1);
+    bbm_model *m = new_blocks();
+
+    for (int b = 0; b < 40; b++)
+        add_rectangle(m, b, ROCK, (rectangle){ .x = b, .w = 1, .h = 1,
+                                               .angle = angle * 180 / PI });
+    prepare_apart(m);
+    detect(m);
+    ck_assert_int_eq(m->contacts, 2 * 39);
+    for (int v = 0; v < m->vertices; v += 3)
+        m->vertex[v].x = v % 2 ? NAN : INFINITY;
+    ck_assert_int_ne(bbm_step(m), BBM_OK);
     bbm_model_free(m);
 }
 END_TEST
@@ -746,7 +776,8 @@ Suite *detection_suite(void)
 {
     Suite *s = suite_create("detection");
     const loop_test outlines[] = {
-        { the_grid_finds_the_pairs_that_comparing_all_with_all_finds, 6 },
+        { the_sweep_finds_the_pairs_that_comparing_all_with_all_finds, 6 },
+        { the_sweep_finds_the_contacts_of_a_row_in_any_direction, 9 },
         { the_detection_compares_a_corner_with_the_few_edges_around_it, 4 },
         { a_block_does_not_touch_itself, 1 },
         { an_inner_corner_is_no_corner, 1 },

@@ -241,7 +241,7 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
         m->D[6 * i + 1] = -0.25;
     }
     ck_ok(bbm_open_close(m, &pass), m);
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     for (int k = 0; k < m->contacts; k++)
         closed += m->contact[k].state != BBM_OPEN &&
                   fabs(corner_vertex(m, &m->contact[k])->x) == 5.25;
@@ -281,7 +281,7 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
         m->D[6 * e + a] = -1e-3 * up[a] - tip[a] - u[a];
     bbm_set_middle(m);
     ck_ok(bbm_open_close(m, &pass), m);
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     int hit = 0;
     for (int k = 0; k < m->contacts; k++)
         hit += m->contact[k].state != BBM_OPEN &&
@@ -316,7 +316,7 @@ static bbm_model *slab_at(const double depth[2], double y, int rotation)
         c->d_n = -fabs(depth[k]);
         c->N = fmax(0, depth[k]) * m->par.p_n;
     }
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     for (int k = 0; k < 2; k++) {
         shift_element(m, 1 + k, 0, y - 1e-3);
         set_velocity(m, 1 + k, 0, 0);
@@ -366,7 +366,7 @@ START_TEST(a_point_may_start_as_deep_as_the_contacts_of_both_blocks)
         c->state = closed[k] ? BBM_LOCK : BBM_OPEN;
         c->d_n = -1e-3;
     }
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     shift_element(m, 1, 9.25, -1e-3);
     shift_element(m, 3, -9, 5);
     start_step(m, &n);
@@ -393,7 +393,7 @@ START_TEST(a_millionth_of_an_edge_is_allowed_for_to_the_last_bit)
     bbm_contact *c = find_listed(m, 1, 0, 0, 2);
     c->state = _i / 2 ? BBM_OPEN : BBM_LOCK;
     c->d_n = -1e-3;
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     for (int k = 0; k < m->contacts; k++)
         m->contact[k].state = BBM_OPEN;                 /* and has opened since */
     if (_i / 2 == 0) {
@@ -427,7 +427,7 @@ START_TEST(what_contacts_are_deep_is_that_of_the_last_step)
     ck_assert_int_eq(n, 3);
     for (int k = 0; k < n; k++)
         list[k].state = BBM_OPEN;
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     for (int k = 0; k < 2; k++)
         shift_element(m, 1 + k, 0, -2.5e-3);
     start_step(m, &n);
@@ -463,7 +463,7 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
     c->state = BBM_LOCK;
     c->d_n = -5e-3;
     ck_assert_ptr_nonnull(find_listed(m, f, 0, 0, 2));
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     bbm_vertex *end = &m->vertex[m->element[f].first + (mirrored ? 2 : 1)];
     end->x = flat[0] + way * sqrt(1 - sine * sine);
     end->y = -sine;
@@ -591,7 +591,7 @@ START_TEST(a_contact_that_closes_inside_starts_without_force)
             found++;
         }
         ck_assert_int_eq(found, 1);
-        ck_ok(bbm_keep_contacts(m), m);
+        ck_ok(bbm_store_contacts(m), m);
         start_step(m, &n);
     }
     bbm_model_free(m);
@@ -626,7 +626,7 @@ START_TEST(a_corner_that_opens_inside_may_close_again)
         c->state = BBM_OPEN;
         c->N = 0;
         c->d_n = _i == 2 ? 0 : -3e-3;
-        ck_ok(bbm_keep_contacts(m), m);
+        ck_ok(bbm_store_contacts(m), m);
         ck_assert_int_eq(m->contact[0].inside, inside);
         for (int k = 1; k < 3; k++)
             set_velocity(m, k, 0, -1);
@@ -654,7 +654,7 @@ START_TEST(a_corner_that_left_after_it_opened_inside_comes_in_anew)
 
     c[was]->state = BBM_OPEN;
     c[was]->d_n = -1e-3;
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     shift_element(m, 1, (was == TOP ? out : deep) + 1e-3, (was == TOP ? deep : out) + 1e-3);
     set_velocity(m, 1, -0.5, -0.5);
     start_step(m, &n);

@@ -1038,9 +1038,8 @@ START_TEST(von_mises_stress_is_that_of_its_principal_stresses)
 }
 END_TEST
 
-Suite *formulas_suite(void)
+static void add_elements(Suite *s)
 {
-    Suite *s = suite_create("formulas");
     const int shapes = COUNT(SHAPES);
     const loop_test displacements[] = {
         { the_mode_matrix_moves_points_by_translation_rotation_and_strain, shapes },
@@ -1076,6 +1075,20 @@ Suite *formulas_suite(void)
         { a_volume_force_linear_in_x_and_y_is_the_derivative_of_its_potential, shapes },
         { a_constant_volume_force_is_the_derivative_of_its_potential, shapes },
     };
+
+    add_case(s, "2.1 displacements", displacements, COUNT(displacements));
+    add_case(s, "2.2 stiffness", stiffness, COUNT(stiffness));
+    add_case(s, "3.1 elastic", elastic, COUNT(elastic));
+    add_case(s, "3.2 inertia", inertia, COUNT(inertia));
+    add_case(s, "3.3 bonding", bonding, COUNT(bonding));
+    add_case(s, "3.4 fixed", fixed, COUNT(fixed));
+    add_case(s, "3.5 loads", loads, COUNT(loads));
+    add_case(s, "3.6 volume", volume, COUNT(volume));
+}
+
+static void add_contacts_and_results(Suite *s)
+{
+    const int shapes = COUNT(SHAPES);
     const loop_test contact[] = {
         { the_normal_submatrices_are_derivatives_of_the_normal_springs_energy, 4 },
         { the_shear_submatrices_are_derivatives_of_the_shear_springs_energy, 4 },
@@ -1093,16 +1106,16 @@ Suite *formulas_suite(void)
         { von_mises_stress_is_that_of_its_principal_stresses, 1 },
     };
 
-    add_case(s, "2.1 displacements", displacements, COUNT(displacements));
-    add_case(s, "2.2 stiffness", stiffness, COUNT(stiffness));
-    add_case(s, "3.1 elastic", elastic, COUNT(elastic));
-    add_case(s, "3.2 inertia", inertia, COUNT(inertia));
-    add_case(s, "3.3 bonding", bonding, COUNT(bonding));
-    add_case(s, "3.4 fixed", fixed, COUNT(fixed));
-    add_case(s, "3.5 loads", loads, COUNT(loads));
-    add_case(s, "3.6 volume", volume, COUNT(volume));
     add_case(s, "3.7 contact", contact, COUNT(contact));
     add_case(s, "3.8 friction", friction, COUNT(friction));
     add_case(s, "results", results, COUNT(results));
+}
+
+Suite *formulas_suite(void)
+{
+    Suite *s = suite_create("formulas");
+
+    add_elements(s);
+    add_contacts_and_results(s);
     return s;
 }

@@ -64,7 +64,7 @@ START_TEST(a_solution_that_agrees_ends_the_iteration)
 
     ck_assert_int_eq(feed(m, u, -1e-4, -1e-4, &pass), _i ? 3 : 2);
     ck_assert_int_eq(pass, BBM_PASS_DONE);
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_near(m->info.penetration, 1e-4, 1e-4, ROUNDING);
     for (int k = 0; k < m->contacts; k++)
@@ -92,7 +92,7 @@ START_TEST(a_pass_that_renews_the_vectors_is_no_cycle)
         ck_ok(bbm_open_close(m, &pass), m);
         ck_assert_int_eq(pass, BBM_PASS_AGAIN);
     }
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     ck_assert_int_eq(m->info.contacts, 0);
     bbm_model_free(m);
 }
@@ -109,7 +109,7 @@ START_TEST(a_set_of_states_that_comes_back_is_a_cycle)
         m->D[7] = k % 2 ? 0.01 : -0.01;
         ck_ok(bbm_open_close(m, &pass), m);
     }
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     ck_assert_int_eq(m->info.contacts, 1);
     ck_assert(m->contact[0].state == BBM_SLIDE || m->contact[1].state == BBM_SLIDE);
     bbm_model_free(m);
@@ -317,7 +317,7 @@ START_TEST(a_step_that_starts_again_begins_from_the_last_one)
         ck_assert_int_eq(look_at(m, 1, 0, -1e-3), 1 + _i);
         for (int k = 0; k < n; k++)
             list[k].state = BBM_SLIDE;
-        ck_ok(bbm_keep_contacts(m), m);
+        ck_ok(bbm_store_contacts(m), m);
         start_step(m, &n);
     }
     bbm_model_free(m);

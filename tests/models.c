@@ -457,7 +457,7 @@ void detect(bbm_model *m)
     m->h = m->par.dt;
     bbm_guess_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
 }
 
 const double ANGLES[] = { 0, 20, 90, 135, 180, 270 };
@@ -614,7 +614,7 @@ bbm_model *tip_at(int side, double x, double y, bbm_contact *touched[2])
     c->state = BBM_LOCK;
     c->d_n = -2e-3;
     c->N = 2e-3 * m->par.p_n;
-    ck_ok(bbm_keep_contacts(m), m);
+    ck_ok(bbm_store_contacts(m), m);
     shift_element(m, 1, x - tip[0], y - tip[1]);
     set_velocity(m, 1, 0, 0);
     start_step(m, &n);
