@@ -191,11 +191,11 @@ static int is_other_line(const bbm_model *m, const bbm_contact *c, const bbm_ver
               0.01 * hypot(x, y) * hypot(b->x - a->x, b->y - a->y);
 }
 
-/* Fails unless the rivals of each contact, two at each end of its edge, are these other lines, as
+/* Fails unless the entrance lines of each contact, two at each end of its edge, are these, as
  * far as they can be entered as the corners stand. Their number. */
-static int check_rivals(const bbm_model *m)
+static int check_entrances(const bbm_model *m)
 {
-    int rivals = 0;
+    int others = 0;
 
     for (int k = 0; k < m->contacts; k++)
         for (int end = 0; end < 2; end++) {
@@ -210,15 +210,15 @@ static int check_rivals(const bbm_model *m)
             ck_assert(c->entrance[2 * end] < 0 || c->entrance[2 * end] != c->entrance[2 * end + 1]);
             for (int r = 2 * end; r < 2 * end + 2; r++)
                 ck_assert(c->entrance[r] < 0 || is_other_line(m, c, Q, &m->contact[c->entrance[r]]));
-            rivals += lines;
+            others += lines;
         }
-    return rivals;
+    return others;
 }
 
 /* Two unit squares corner against corner, block 1 above and to the right of block 0 or to the left,
- * 1 cm away: each corner may meet two edges of the other block, along two lines, which are rivals.
- * In a heap of polygons all corners that are near enough have such rivals. */
-START_TEST(the_two_lines_between_two_corners_are_rivals)
+ * 1 cm away: each corner may meet two edges of the other block, along two entrance lines.
+ * In a heap of polygons all corners that are near enough have such lines. */
+START_TEST(the_two_lines_between_two_corners_are_entrance_lines)
 {
     for (int k = 0; k < 2 * COUNT(ANGLES); k++) {
         bbm_model *m = new_blocks();
@@ -230,13 +230,13 @@ START_TEST(the_two_lines_between_two_corners_are_rivals)
         set_velocity(m, e, _i ? 2 : -2, 0);
         detect(m);
         ck_assert_int_eq(m->contacts, 4);
-        ck_assert_int_eq(check_rivals(m), 8);
+        ck_assert_int_eq(check_entrances(m), 8);
         bbm_model_free(m);
     }
 }
 END_TEST
 
-START_TEST(rivals_in_a_heap_are_all_other_lines_between_two_corners)
+START_TEST(entrance_lines_in_a_heap_are_all_other_lines_between_two_corners)
 {
     unsigned seed = (unsigned)_i;
     bbm_model *m = new_blocks();
@@ -249,7 +249,7 @@ START_TEST(rivals_in_a_heap_are_all_other_lines_between_two_corners)
     for (int e = 0; e < m->elements; e++)
         set_velocity(m, e, 10 * random_number(&seed), 10 * random_number(&seed));
     detect(m);
-    ck_assert_int_gt(check_rivals(m), 20);
+    ck_assert_int_gt(check_entrances(m), 20);
     bbm_model_free(m);
 }
 END_TEST
@@ -554,8 +554,8 @@ Suite *corners_suite(void)
         { corners_that_meet_as_deep_along_x_as_along_y_part_in_the_same_way_whichever_block_comes_first, 1 },
         { of_two_lines_as_steep_the_one_that_rises_to_the_right_counts, 2 },
         { a_corner_beside_a_corner_meets_the_side_that_lies_there, 2 },
-        { the_two_lines_between_two_corners_are_rivals, 2 },
-        { rivals_in_a_heap_are_all_other_lines_between_two_corners, 4 },
+        { the_two_lines_between_two_corners_are_entrance_lines, 2 },
+        { entrance_lines_in_a_heap_are_all_other_lines_between_two_corners, 4 },
         { a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one, 4 * COUNT(PASSED) },
         { the_ends_of_a_joint_open_and_close_by_themselves, 1 },
         { the_other_corner_takes_over_the_force_when_one_has_left, 2 },
