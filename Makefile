@@ -104,7 +104,7 @@ $(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failin
 $(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$(PROGRAMS:%=$O/tests/%.o): CPPFLAGS += -DBUILD='"$O"'
+$(PROGRAMS:%=$O/tests/%.o): override CPPFLAGS += -DBUILD='"$O"'
 
 $O/tests/check_all.o: DEFINE = -DCASES
 $O/tests/check_paper.o: DEFINE = -DPAPER
