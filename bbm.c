@@ -18,7 +18,8 @@
  * Statics has no inertia, Eq. (16), (17): one step is one iteration of Newton-Raphson on the moved
  * geometry.
  *
- * What the paper does not have is not here. It comes in through m->hook, see bbm_hooks in bbm.h.
+ * What the paper does not have comes in through m->hook, see bbm_hooks in bbm.h. What is left of it
+ * here is a pressure on an edge, and that a step that fails is done again in parts.
  */
 #include <math.h>
 #include <stdarg.h>
@@ -382,7 +383,7 @@ void bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6])
     F[1] += e->A * f[1];
 }
 
-/* The weight of an element, the volume force f = M g with the acceleration g of gravity [m/s^2]. */
+/* The weight of an element, Eq. (47) with f = M g, g the acceleration of gravity [m/s^2]. */
 void bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6])
 {
     const double M = bbm_mass_per_area(e), f[2] = { M * g[0], M * g[1] };
@@ -752,7 +753,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
 }
 
 /* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one
- * that shares all but what moves; the first stays as it is. */
+ * that shares all but what moves; the first stays as it is. How small the step was against all so
+ * far, Eq. (71), goes to info.change. */
 static bbm_model move_model(const bbm_model *m)
 {
     bbm_model end = *m;
@@ -769,7 +771,7 @@ static bbm_model move_model(const bbm_model *m)
         step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
     }
-    end.info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;        /* Eq. (71) */
+    end.info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
     end.info.t += bbm_is_static(m) ? 0 : m->h;
     return end;
 }

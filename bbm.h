@@ -22,8 +22,8 @@
  *     bbm_nodal_result(m, 2, -1, &result);
  *     bbm_model_free(m);
  *
- * Read the structs from small to large, then the functions in four tiers: run a model, build one,
- * single formulas, and what the files of the library share. SI units, plane stress, indices from 0,
+ * Read the structs from small to large, then the functions in tiers: run a model, build one, single
+ * formulas; what the files of the library share comes last. SI units, plane stress, indices from 0,
  * elements counter-clockwise. What can fail returns a bbm_status.
  */
 #ifndef BBM_H
@@ -290,7 +290,7 @@ typedef struct {
     void (*turn)(const bbm_model *m, const bbm_element *start, bbm_element *e,
                  const bbm_vertex vertex[]);                /* an element that has moved        */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
-    bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why statics failed               */
+    bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
 } bbm_hooks;
 
 struct bbm_model {
@@ -455,10 +455,10 @@ bbm_status bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
 bbm_status bbm_store_contacts(bbm_model *m);
 
-/* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is not
- * zero, in any order, either way round, repeats allowed. Vectors have 6 n entries in the caller's
- * order. Rows that no pairs connect, however indirectly, are solved apart: neither changes a bit of
- * the other's D. */
+/* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is
+ * not zero, in any order, either way round, repeats allowed. Vectors have 6 n entries in the
+ * caller's order. Rows that no pairs connect, however indirectly, are solved apart: neither changes
+ * a bit of the other's D. */
 bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                                      /* takes NULL   */
 void       bbm_matrix_clear(bbm_matrix *K);

@@ -21,7 +21,7 @@
  * turns against the friction, s T falls below the bound and the contact locks with the force it
  * had.
  *
- * A step reads (bbm_step): detect, assemble, solve, open-close - again until nothing changes -
+ * A step reads (try_step): detect, assemble, solve, open-close - again until nothing changes -
  * update.
  *
  * Detection. Each corner is compared with each boundary edge, or a hook knows which are near it.
@@ -387,7 +387,8 @@ bbm_status bbm_contact_new(bbm_model *m)
  * the last one at most. */
 void bbm_guess_step(bbm_model *m)
 {
-    const double h = m->h, *g = m->acceleration, fall[6] = { g[0] * h * h / 2, g[1] * h * h / 2 };
+    const double h = bbm_is_static(m) ? 0 : m->h, *g = m->acceleration;
+    const double fall[6] = { g[0] * h * h / 2, g[1] * h * h / 2 };
 
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
