@@ -828,6 +828,9 @@ static bbm_status check_parameters(bbm_model *m)
         if (!(check[i].value >= check[i].low && check[i].value <= check[i].high))
             return bbm_fail(m, BBM_BAD_PARAMETER, "%s = %g, expected %s", check[i].name,
                             check[i].value, check[i].expected);
+    if ((p->cohesion > 0 || p->tension > 0) && !m->hook.joint_area)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "cohesion = %g, tension = %g, expected 0 where no "
+                        "hook knows the area of a joint", p->cohesion, p->tension);
     return BBM_OK;
 }
 

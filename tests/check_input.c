@@ -455,6 +455,21 @@ START_TEST(parameters_outside_their_range_are_refused_by_name)
 }
 END_TEST
 
+/* Without a hook that knows the area of a joint a strength would be of no effect. */
+START_TEST(a_strength_that_would_have_no_effect_is_refused)
+{
+    for (int k = 0; k < 2; k++) {
+        bbm_model *m = held_square();
+        *(k ? &m->par.cohesion : &m->par.tension) = 1e3;
+        ck_ok(bbm_step(m), m);
+        m->hook.joint_area = NULL;
+        check_error(m, bbm_step(m), BBM_BAD_PARAMETER,
+                    k ? "cohesion = 1000, tension = 0" : "cohesion = 0, tension = 1000");
+        bbm_model_free(m);
+    }
+}
+END_TEST
+
 START_TEST(counts_below_one_are_refused_by_name)
 {
     bbm_model *m = held_square();
@@ -663,6 +678,7 @@ Suite *input_suite(void)
     };
     const loop_test bad_parameters[] = {
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
+        { a_strength_that_would_have_no_effect_is_refused, 1 },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_step_before_bbm_prepare_is_refused, 1 },
