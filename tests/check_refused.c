@@ -90,6 +90,9 @@ static const outlines OUTLINES[] = {
     { "a block with a corner in its straight side", { 5, 4 },
       { { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 2, 1 }, { 0, 1 } },
         { { -1, 0.4 }, { 3, 0.4 }, { 3, 2 }, { -1, 2 } } }, 0.6, 1, 0.7 },
+    { "a triangle over a corner, 0.37/sqrt(1.3^2 + 0.4^2)", { 4, 3 },
+      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 1.6 }, { 0.4, 0.9 }, { 1.7, 0.5 } } },
+          0.27202941017470887, (2.4 + 2.9 / 7) / 4, (2.9 + 9.3 / 13) / 4 },
     { "apart, boxes overlap", { 3, 3 },
       { { { 0, 0 }, { 1, 0 }, { 0, 1 } }, { { 1, 1 }, { 0.01, 1 }, { 1, 0.01 } } }, 0, 0, 0 },
 };
@@ -331,6 +334,22 @@ START_TEST(bonds_at_midpoints_that_make_a_mechanism_are_refused)
     ck_assert_msg(status == (GRIDS[_i / 2].refused ? BBM_MECHANISM : BBM_OK), "%s", bbm_message(m));
     m->beyond->bonding = BBM_MOMENT;
     ck_ok(bbm_step(m), m);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Two rows that are clamped, a chain of another block, and a single element. */
+START_TEST(a_mechanism_is_named_by_an_element_of_its_own)
+{
+    bbm_model *m = held_grid(6, 2, 0, CLAMPED, 0, 1);
+    int element;
+
+    add_rows(m, 1, 10, 0, 4, 1, 4, 1, 0);
+    add_rows(m, 2, 20, 0, 1, 1, 1, 1, 0);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_find_mechanism(m, &element), BBM_OK);
+    ck_assert_int_ge(element, 12);
+    ck_assert_int_lt(element, 16);
     bbm_model_free(m);
 }
 END_TEST
@@ -802,6 +821,7 @@ Suite *refused_suite(void)
     TCase *mechanism = tcase_create("mechanism");
     tcase_add_loop_test(mechanism, bonds_at_midpoints_that_make_a_mechanism_are_refused, 0,
                         2 * (int)(sizeof GRIDS / sizeof *GRIDS));
+    tcase_add_test(mechanism, a_mechanism_is_named_by_an_element_of_its_own);
     tcase_add_loop_test(mechanism, every_mechanism_that_a_dense_elimination_finds_is_refused,
                         0, 300);
     suite_add_tcase(s, mechanism);
