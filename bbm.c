@@ -616,7 +616,9 @@ static bbm_status lay_out_matrix(bbm_model *m)
     m->K = K;
     m->pair = pair;
     m->pairs = n;
-    return m->hook.lay_out ? m->hook.lay_out(m) : BBM_OK;
+    const bbm_status status = m->hook.lay_out ? m->hook.lay_out(m) : BBM_OK;
+    m->pairs = status ? 0 : n;                      /* what fails is laid out anew the next time */
+    return status;
 }
 
 /* Whether the step has had all the work that it may take. */

@@ -211,6 +211,7 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
                                 /*          acts                                                */
     double d_n, d_s;            /* m        normal distance and slip at the end                 */
     double N_of_friction;       /* N        the N that friction is taken for                    */
+    int    friction_in_K;       /* that is the N of the solution itself                         */
     double force_tolerance;     /* N        forces that differ by less agree                    */
     bbm_contact_state next_state;
     int    closings;
@@ -279,8 +280,8 @@ typedef struct {
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
-    bbm_status (*friction)(bbm_model *m, int pass);         /* the next N of friction forces;   */
-                                                            /* pass 0: of new states            */
+    int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
+                                                            /* 1: added for the N of the solution */
     int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */
     int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
     int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
@@ -472,6 +473,12 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *p
  * Block rows are numbered in two ways: by the caller, and by their place in the reverse
  * Cuthill-McKee order. Vectors here have 6 n entries in the order of the places. */
 
+/* What is not symmetric in K: K += u v^T. */
+typedef struct {
+    int    row[2];              /* two block rows, all others of u and v are 0                  */
+    double u[2][6], v[2][6];
+} bbm_term;
+
 struct bbm_matrix {
     int n;                      /* block rows                                                   */
     int *place, *caller;        /* [n]       place[caller's row], and back                      */
@@ -489,6 +496,11 @@ struct bbm_matrix {
     int ready;                  /* G, S and what the method made belong to D, L and these two   */
     void *extra;                /* what a method keeps with K                                   */
     void (*free_extra)(void *extra);
+    /* --- beside D and L; given by a hook --- */
+    int terms;
+    bbm_term *term;             /* [terms]                                                      */
+    bbm_status (*solve_terms)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
+    bbm_beyond *beyond;         /* of that, which solves components with terms for the method   */
 };
 
 /* A method other than the paper's; what is NULL is done the paper's way. */

@@ -812,6 +812,12 @@ bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
 
 /* ------------------------------------------------------------------------------------- assembly */
 
+/* Whether a strong joint under N has no shear strength left. */
+static int is_strengthless(const bbm_parameters *p, const bbm_contact *c, double N)
+{
+    return is_strong(p, c) && bbm_shear_strength(p, N, c->area) == 0;
+}
+
 /* The friction of a sliding contact under the N that is taken for it, Eq. (65). It goes on below
  * N = 0, where the strength ends, unless the joint is strong and may be in tension: such a contact
  * opens when it is judged, and until then N depends on N without a kink. */
@@ -822,6 +828,15 @@ static double friction_force(const bbm_parameters *p, const bbm_contact *c)
     return c->sign * (is_strong(p, c) ? bbm_shear_strength(p, N, c->area) : N * tan_friction(p));
 }
 
+/* Friction as a load under the N of the last solution, Eq. (65), (69), or as a hook has it. */
+static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
+{
+    c->friction_in_K = m->hook.friction && !is_strengthless(&m->par, c, c->N_of_friction)
+                    && m->hook.friction(m, c, t, s);
+    if (!c->friction_in_K)
+        bbm_friction_submatrices(t, c->anchor, friction_force(&m->par, c), s);
+}
+
 /* Adds the springs of the closed contacts, Eq. (58) and (63), or spring and friction, Eq. (65),
  * (69), to K and F. */
 bbm_status bbm_assemble_contacts(bbm_model *m)
@@ -829,7 +844,7 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
     bbm_status status = BBM_OK;
 
     for (int k = 0; k < m->scratch->contacts && !status; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
+        bbm_contact *c = &m->scratch->contact[k];
         const bbm_touch t = touch_of(m, c);
         bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
         if (c->state == BBM_OPEN)
@@ -838,7 +853,7 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
         if (c->state == BBM_LOCK)
             bbm_shear_submatrices(&t, c->anchor, c->time_left * m->par.p_s, &s);
         else
-            bbm_friction_submatrices(&t, c->anchor, friction_force(&m->par, c), &s);
+            add_friction(m, c, &t, &s);
         status = bbm_add_submatrices(m, element_of(m, c->corner), element_of(m, c->edge), &s);
     }
     return status;
@@ -873,6 +888,8 @@ static void measure(const bbm_model *m, bbm_contact *c)
     c->d_s = c->time_left * spring_length(m, c, &s);
     c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
     c->T = open ? 0 : m->par.p_s * c->d_s;
+    if (c->friction_in_K && !is_strengthless(&m->par, c, c->N))
+        c->N_of_friction = c->N;
 }
 
 /* The largest force in the component of K that a contact belongs to. */
@@ -913,17 +930,12 @@ static int forces_agree(const bbm_model *m)
     return agree;
 }
 
-/* Takes the N of the solution for the friction of the next one, or what a hook finds better. */
-static bbm_status renew_friction(bbm_model *m)
+/* Takes the N of the solution for the friction of the next one. */
+static void renew_friction(bbm_contact_scratch *w)
 {
-    bbm_contact_scratch *w = m->scratch;
-
-    if (m->hook.friction)
-        return m->hook.friction(m, w->friction_passes++);
     for (int k = 0; k < w->contacts; k++)
         w->contact[k].N_of_friction = w->contact[k].N;
     w->friction_passes++;
-    return BBM_OK;
 }
 
 /* ------------------------------------------------------------- the open-close iteration: states */
@@ -1084,7 +1096,8 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     find_tolerances(m);
     if (!forces_agree(m)) {
         *pass = w->friction_passes < FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
-        return renew_friction(m);
+        renew_friction(w);
+        return BBM_OK;
     }
     w->friction_passes = 0;
     note_states(w);

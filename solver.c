@@ -8,7 +8,8 @@
  * Only D and those blocks of L that are not zero are stored, row by row: `first` says where the
  * blocks of a row begin and `back` how far left of the diagonal each of them is. The block rows are
  * not in the caller's order but in the reverse Cuthill-McKee order: number the elements from one
- * end of the body to the other, breadth first, and reverse the numbers. The blocks of L then lie in
+ * end of the body to the other, breadth first, and reverse the numbers; rows with many neighbours,
+ * as a base under all has, come last. The blocks of L then lie in
  * a narrow band below the diagonal, and what a sweep reads was written shortly before. The band
  * itself is not stored: an element has three or four neighbours and a band has sqrt(n) places, all
  * but those few zero for ever, because an iteration, unlike a factorisation, fills nothing in. The
@@ -74,6 +75,8 @@
 
 /* Against the largest entry of F. */
 #define NEGLIGIBLE 1e-100
+/* A row has many neighbours: more than so many times the mean of its component. */
+#define HUB 3.0
 
 /* -------------------------------------------------------------------- the pattern and its order */
 
@@ -161,6 +164,29 @@ static int order_component(graph *g, int start, int *order)
     }
 }
 
+/* The rows of a component in the order to reverse: first those with many neighbours, as a base
+ * under all has; they come last then and widen no envelope. `rows`: scratch. Returns their
+ * number. */
+static int order_with_hubs(graph *g, int start, int *order, int *rows)
+{
+    const int count = breadth_first(g, start, rows);
+    int done = 0, ends = 0;
+
+    for (int k = 0; k < count; k++)
+        ends += degree(g, rows[k]);
+    for (int k = 0; k < count; k++)
+        if (degree(g, rows[k]) > HUB * ends / count)
+            order[done++] = rows[k];
+        else
+            g->level[rows[k]] = -1;
+    for (int k = 0; k < count; k++)
+        if (g->level[rows[k]] < 0)
+            done += order_component(g, rows[k], order + done);
+    for (int k = 0; k < count; k++)
+        g->level[order[k]] = k > 0;
+    return count;
+}
+
 /* place[i] of row i: all components one after the other, then the whole order reversed. */
 static void reverse_cuthill_mckee(graph *g, int place[])
 {
@@ -168,7 +194,7 @@ static void reverse_cuthill_mckee(graph *g, int place[])
 
     for (int i = 0; i < g->n; i++)
         if (g->level[i] < 0)
-            done += order_component(g, i, g->order + done);
+            done += order_with_hubs(g, i, g->order + done, place);
     for (int i = 0; i < g->n; i++)
         place[g->order[i]] = g->n - 1 - i;
 }
@@ -258,7 +284,7 @@ void bbm_matrix_clear(bbm_matrix *K)
 {
     memset(K->D, 0, (size_t)K->n * sizeof *K->D);
     memset(K->L, 0, (size_t)K->first[K->n] * sizeof *K->L);
-    K->ready = 0;
+    K->ready = K->terms = 0;
 }
 
 /* Where K_ij, or K_ji if i comes before j, is stored; NULL: nowhere. A row has one to three blocks
@@ -290,7 +316,7 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
     return BBM_OK;
 }
 
-/* B = K_ij; 0 where the pattern has no block. */
+/* B = K_ij, without terms; 0 where the pattern has no block. */
 void bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6])
 {
     double (*from)[6] = find_block(K, i, j);
@@ -326,6 +352,22 @@ static void multiply_add_transposed(double c, double B[6][6], const double *rest
                      + (B[4][b] * x[4] + B[5][b] * x[5]));
 }
 
+static int is_in_hand(const bbm_matrix *K, const bbm_term *t)
+{
+    return t->row[0] >= K->from && t->row[0] < K->to;
+}
+
+/* y += u v^T x in the caller's order. */
+static void multiply_term(const bbm_matrix *K, const bbm_term *t, const double *x, double *y)
+{
+    double vx = 0;
+
+    for (int k = 0; k < 12; k++)
+        vx += t->v[k / 6][k % 6] * x[6 * K->caller[t->row[k / 6]] + k % 6];
+    for (int k = 0; k < 12; k++)
+        y[6 * K->caller[t->row[k / 6]] + k % 6] += t->u[k / 6][k % 6] * vx;
+}
+
 /* y = K x in the caller's order, for the rows in hand. */
 void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
 {
@@ -339,6 +381,9 @@ void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
             multiply_add_transposed(1, K->L[k], x + row, y + column);
         }
     }
+    for (int t = 0; t < K->terms; t++)
+        if (is_in_hand(K, &K->term[t]))
+            multiply_term(K, &K->term[t], x, y);
 }
 
 /* y += c S x. With c = -1 and x = y that is y = E^-1 y: a row takes those before it as they are. */
@@ -554,6 +599,15 @@ static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
     return all_finite(6 * (size_t)n, F) ? BBM_OK : BBM_NOT_FINITE;
 }
 
+/* From x = 0 and r = F, scaled, to x for the rows in hand. */
+static bbm_status solve_rows(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    for (int t = 0; t < K->terms; t++)
+        if (is_in_hand(K, &K->term[t]))
+            return K->solve_terms(K, pcg, info);
+    return (K->method->iterate ? K->method->iterate : iterate)(K, pcg, info);
+}
+
 /* The rows of D in hand. Where the iteration ends early, they are those of its last iterate. */
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                                   bbm_pcg_info *info)
@@ -564,7 +618,7 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, con
     if (scale == 0)
         return BBM_OK;
     scale_load(K, F, scale);
-    const bbm_status status = (K->method->iterate ? K->method->iterate : iterate)(K, pcg, info);
+    const bbm_status status = solve_rows(K, pcg, info);
     unscale_solution(K, scale, D);
     bbm_matrix_multiply(K, D, K->q);
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
@@ -601,10 +655,11 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
         return status;
     info->residual = 0;
     for (int c = 0; c < K->components; c++) {
-        bbm_pcg_info one = { 0 };
+        bbm_pcg_info one = { .element = -1 };
         K->from = K->start[c];
         K->to = K->start[c + 1];
         const bbm_status s = solve_component(K, F, D, &pcg, &one);
+        info->element = status ? info->element : one.element;
         status = status ? status : s;
         info->iterations = one.iterations > info->iterations ? one.iterations : info->iterations;
         info->residual = one.residual <= info->residual ? info->residual : one.residual;

@@ -8,7 +8,7 @@ static void release(bbm_model *m)
 {
     if (!m->beyond)
         return;
-    free(m->beyond->friction.x);
+    bbm_free_factor(&m->beyond->factor);
     free(m->beyond->girth);
     free(m->beyond);
 }
@@ -50,6 +50,12 @@ static void accelerate(bbm_model *m)
 
     for (int a = 0; a < 2; a++)
         m->acceleration[a] -= b->shake[a] * swing;
+}
+
+static bbm_status lay_out(bbm_model *m)
+{
+    const bbm_status status = bbm_lay_out_coarse(m);
+    return status ? status : bbm_lay_out_sliding(m);
 }
 
 static void begin(bbm_model *m)
@@ -106,10 +112,10 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_listed = check_listed,
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
-        .friction = bbm_find_friction,
+        .friction = bbm_put_friction_in_K,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,
-        .lay_out = bbm_lay_out_coarse,
+        .lay_out = lay_out,
         .before_solution = bbm_interpolate_elements,
         .renew = bbm_renew_middle,
         .settled = bbm_take_over,

@@ -7,6 +7,8 @@
 #ifndef BBM_BEYOND_H
 #define BBM_BEYOND_H
 
+#include <stddef.h>
+
 #include "../bbm.h"
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */
@@ -17,13 +19,14 @@ typedef enum {                  /* how two quadrilaterals are bonded; others at 
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
-enum { BBM_FRICTION_DIRECTIONS = 16 };
-
-typedef struct {                /* friction.c                                                   */
-    int directions, room;
-    double *x, *r;              /* [room] N     that friction takes; what the solution adds     */
-    double *dx, *dr;            /* [(BBM_FRICTION_DIRECTIONS + 1) room] their changes           */
-} bbm_friction_search;
+typedef struct {                /* sliding.c: LU of K where contacts slide                      */
+    bbm_term *term;             /* [pairs]   of K                                               */
+    int *pays;                  /* [n]       in the component of a block row                    */
+    int *left;                  /* [6 n]     the first column of a row that is not zero         */
+    size_t *diagonal;           /* [6 n]     where L_ii is; the row left of it lies before it   */
+    size_t room;
+    double *L, *U;              /* [room]    U by columns                                       */
+} bbm_factor;
 
 struct bbm_beyond {
     /* --- settings --- */
@@ -33,7 +36,7 @@ struct bbm_beyond {
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
-    bbm_friction_search friction;
+    bbm_factor factor;
     double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
@@ -53,6 +56,7 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
 void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int middles, int a,
                              double P[6][2]);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
+double     bbm_dot(int n, const double *x, const double *y);
 void       bbm_interpolate_elements(bbm_model *m);
 
 /* energy.c. The energies after the last step; kinetic: with the velocity before its factor. */
@@ -86,10 +90,15 @@ void       bbm_start_multipliers(bbm_model *m);
 int        bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);
 
-/* sweep.c, joints.c, friction.c */
+/* sliding.c */
+bbm_status bbm_lay_out_sliding(bbm_model *m);
+int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
+                                 bbm_submatrices *s);
+void       bbm_free_factor(bbm_factor *f);
+
+/* sweep.c, joints.c */
 bbm_status bbm_sweep(bbm_model *m, double search);
 double     bbm_joint_area(const bbm_model *m, int corner, int edge);
-bbm_status bbm_find_friction(bbm_model *m, int pass);
 
 /* refuse.c, statics.c */
 bbm_status bbm_check_solution(bbm_model *m);

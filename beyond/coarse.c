@@ -297,7 +297,7 @@ static void make_ready(bbm_matrix *K)
 }
 
 /* x.y in four partial sums */
-static double dot(int n, const double *x, const double *y)
+double bbm_dot(int n, const double *x, const double *y)
 {
     double sum[4] = { 0 };
     int k = 0;
@@ -319,7 +319,7 @@ static void solve(const coarse_space *c, int from, int to, double *restrict x)
     for (int i = from; i < to; i++) {
         const double *row = entry(c, i, c->left[i]);
         const int n = i - c->left[i];
-        x[i] = (x[i] - dot(n, row, x + c->left[i])) * row[n];
+        x[i] = (x[i] - bbm_dot(n, row, x + c->left[i])) * row[n];
     }
     for (int i = to - 2; i >= from; i -= 2) {
         const double *p = entry(c, i, c->left[i]), *q = entry(c, i + 1, c->left[i]);

@@ -117,8 +117,7 @@ START_TEST(a_set_of_states_that_comes_back_is_a_cycle)
 END_TEST
 
 /* Twenty piles of polygons that fall or are thrown about, 60 steps each: none fails, hardly any is
- * cut, and most settle in some passes, 6.4 in the mean. With a kink in the friction at N = 0 it is
- * 8.7, a dozen are cut, and in longer runs some end in NaN. */
+ * cut, and most settle in few passes, 3.6 in the mean. */
 START_TEST(piles_settle_in_few_passes)
 {
     int passes = 0, cuts = 0;
@@ -136,33 +135,38 @@ START_TEST(piles_settle_in_few_passes)
         }
         bbm_model_free(m);
     }
-    ck_assert_msg(passes < 8 * 20 * 60 && cuts < 6, "%d passes, %d cuts", passes, cuts);
+    ck_assert_msg(passes < 5 * 20 * 60 && cuts < 6, "%d passes, %d cuts", passes, cuts);
 }
 END_TEST
 
 /* A block twice as high as broad on 45 degrees slides without turning when tan(phi) < 1/2. Just
  * below, an error of 1 in N changes the next N by tan(phi) h/(2 b) = 0.45; under a block in six
- * pieces seven forces depend on each other. The right ones are found in one pass for each sliding
- * contact, one to see that they are, and one more to put the terms of second order right. Not in
- * the first steps, while the block bounces on its springs and states change. */
-START_TEST(friction_forces_are_found_in_one_pass_for_each_sliding_contact)
+ * pieces seven forces depend on each other. In the matrix the right ones are those of the first
+ * solution, and one more puts the vectors of the step right. Not in the first steps, while the block
+ * bounces on its springs and states change. As loads they are found in the end, too. */
+START_TEST(friction_in_the_matrix_takes_no_passes)
 {
-    const double slope = _i ? 30 : 45;
+    const int pieces = _i % 2, loads = _i / 2;
+    const double slope = pieces ? 30 : 45;
     bbm_model *m = new_blocks();
     double turned = 0;
+    int most = 0;
 
-    m->par.friction = _i ? 20 : 24;
+    m->par.friction = pieces ? 20 : 24;
     add_rectangle(m, 0, BASE, (rectangle){ -12, -1, 16, 1, slope, .fixed = 1 });
-    const int e = add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, _i ? 3 : 1, _i ? 1 : 2, slope,
-                                                         .nx = _i ? 6 : 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, pieces ? 3 : 1, pieces ? 1 : 2, slope,
+                                                         .nx = pieces ? 6 : 1 });
+    if (loads)
+        m->hook.friction = NULL;
     ck_ok(bbm_prepare(m), m);
     for (int i = 0; i < 30; i++) {
         run_steps(m, 1);
         turned += m->element[e].D[2];
-        ck_assert_int_eq(m->info.contacts, _i ? 7 : 2);
-        ck_assert(m->info.passes <= m->info.contacts + 2 || i < 5);
+        ck_assert_int_eq(m->info.contacts, pieces ? 7 : 2);
+        most = i >= 5 && m->info.passes > most ? m->info.passes : most;
     }
     ck_near(turned, 0, 1, 1e-4);
+    ck_assert_msg(loads ? most > 2 : most <= 2, "%d passes", most);
     bbm_model_free(m);
 }
 END_TEST
@@ -472,7 +476,7 @@ Suite *open_close_suite(void)
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
         { a_set_of_states_that_comes_back_is_a_cycle, 1 },
         { piles_settle_in_few_passes, 1 },
-        { friction_forces_are_found_in_one_pass_for_each_sliding_contact, 2 },
+        { friction_in_the_matrix_takes_no_passes, 4 },
         { blocks_without_any_force_settle_at_once, 1 },
         { contacts_that_never_settle_end_with_a_status_and_the_numbers, 1 },
     };
