@@ -251,6 +251,60 @@ START_TEST(each_equation_has_functions_that_cite_it_and_tests_that_exist)
 }
 END_TEST
 
+/* Whether a word stands in the text by itself. */
+static int has_word(const char *text, const char *word)
+{
+    const size_t length = strlen(word);
+
+    for (const char *p = strstr(text, word); p; p = strstr(p + 1, word))
+        if ((p == text || (!isalnum((unsigned char)p[-1]) && p[-1] != '_'))
+            && !isalnum((unsigned char)p[length]) && p[length] != '_')
+            return 1;
+    return 0;
+}
+
+/* Each name in the picture of the house, a word with an underscore in it, is one of the sources; each
+ * file is there. */
+START_TEST(the_picture_of_the_house_names_what_there_is)
+{
+    const char *const path[] = { "bbm.h", "bbm.c", "contact.c", "solver.c", "beyond/beyond.c" };
+    char *picture = slurp("doc/house.svg"), *source[5], word[NAME], file[NAME + 16];
+    int names = 0, files = 0;
+
+    for (int k = 0; k < 5; k++)
+        source[k] = slurp(path[k]);
+    for (const char *p = picture; *p;) {
+        const size_t n = strspn(p, "abcdefghijklmnopqrstuvwxyz_0123456789");
+        if (n == 0 || n >= NAME || *p == '_') {
+            p += n == 0 ? 1 : n;
+            continue;
+        }
+        snprintf(word, sizeof word, "%.*s", (int)n, p);
+        p += n;
+        int known = 0;
+        for (int k = 0; k < 5; k++)
+            known |= has_word(source[k], word);
+        if (strchr(word, '_') && word[n - 1] != '_') {
+            ck_assert_msg(known, "doc/house.svg names %s", word);
+            names++;
+        }
+        if (p[0] == '.' && p[1] == 'c' && !isalpha((unsigned char)p[2])) {
+            snprintf(file, sizeof file, "%s.c", word);
+            FILE *top = fopen(file, "r");
+            snprintf(file, sizeof file, "beyond/%s.c", word);
+            FILE *f = top ? top : fopen(file, "r");
+            ck_assert_msg(f != NULL, "doc/house.svg names %s.c", word);
+            fclose(f);
+            files++;
+        }
+    }
+    ck_assert(names > 30 && files > 15);
+    for (int k = 0; k < 5; k++)
+        free(source[k]);
+    free(picture);
+}
+END_TEST
+
 Suite *equations_suite(void)
 {
     Suite *s = suite_create("equations");
@@ -259,6 +313,7 @@ Suite *equations_suite(void)
     tcase_add_test(t, citations_are_read_as_they_are_meant);
     tcase_add_test(t, the_comment_of_a_function_is_the_one_right_above_it);
     tcase_add_test(t, each_equation_has_functions_that_cite_it_and_tests_that_exist);
+    tcase_add_test(t, the_picture_of_the_house_names_what_there_is);
     suite_add_tcase(s, t);
     return s;
 }
