@@ -205,8 +205,9 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
  *                 lies on it: what penetration and elastic bending turn
  * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches:
  *                 soft blocks bend more
- * TOUCH    [-]    d_n below this, in mean edge lengths, is closed at the start, and a projection
- *                 closer to the end of an edge is at the end: rounding of a file, elastic strain
+ * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
+ *                 projection closer to the end of an edge is at the end: rounding of a model file,
+ *                 elastic strain
  * AGREE    [-]    forces that differ by less, against the largest force of what K connects,
  *                 agree: what the solver can tell
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
@@ -227,12 +228,13 @@ typedef struct {                /* of a block, with the index of its first eleme
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
     double depth_now;           /* m        the same of the solution, or before it if deeper    */
     double travel;              /* m        how far its vertices may move in this step          */
+    double touch;               /* m        TOUCH times its mean boundary edge at the start     */
+    int    edges;               /* of its boundary                                              */
     /* --- of an element --- */
     double turn;                /* rad      how far it may turn in this step                    */
 } motion;
 
 struct bbm_contact_scratch {
-    double touch;               /* m        TOUCH times the mean edge at the start              */
     motion *motion;             /* [elements] of blocks                                         */
     int pairs, pair_room;
     pair *pair;                 /* [pairs]  that may touch, by corner and edge                  */
@@ -374,10 +376,13 @@ bbm_status bbm_contact_new(bbm_model *m)
     find_directions(m);
     find_sides(m);
     for (int e = 0; e < m->edges; e++) {
-        w->touch += m->edge[e].along.length / m->edges;
-        motion_of(m, e)->depth = m->info.penetration;   /* in a run contacts may be as deep */
+        motion *b = motion_of(m, e);
+        b->depth = m->info.penetration;         /* in a run contacts may be as deep */
+        b->touch += m->edge[e].along.length;
+        b->edges++;
     }
-    w->touch *= TOUCH;
+    for (int i = 0; i < m->elements; i++)
+        w->motion[i].touch *= TOUCH / fmax(1, w->motion[i].edges);
     return BBM_OK;
 }
 
@@ -436,10 +441,16 @@ static double foresee(bbm_model *m)
     }
     for (int e = 0; e < m->edges; e++) {
         motion *b = motion_of(m, e);
-        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + m->scratch->touch / 2);
+        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + b->touch / 2);
         most = fmax(most, b->travel);
     }
     return most;
+}
+
+/* Distances of a corner and an edge up to this are rounding. */
+static double touch_between(const bbm_model *m, int c, int e)
+{
+    return (motion_of(m, c)->touch + motion_of(m, e)->touch) / 2;
 }
 
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
@@ -451,7 +462,7 @@ static double allowed_depth(const bbm_model *m, int c, int e)
     const motion *i = motion_of(m, c), *j = motion_of(m, e);
     const double way = bbm_is_exact(m) ? 0 : i->travel + j->travel;
 
-    return 2 * fmin(i->depth, j->depth) + m->scratch->touch + way;
+    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e) + way;
 }
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
@@ -541,7 +552,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
-    if (f.beyond <= m->scratch->touch && f.d < -deep && !find_closed(m, corner, e, 1))
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, 1))
         return 0;
     return find_closed(m, corner, e, 0)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -636,7 +647,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     if (kind == NEXT)
         return end ? f.s >= t.length : g.s < u.length;
     const double beside = fabs(f.s - (end ? t.length : 0));
-    if (fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond))) > m->scratch->touch)
+    const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
+    if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
     const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
     const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
@@ -736,6 +748,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
     const int same = old && old->corner == p.corner && old->edge == p.edge;
     const projection f = project(m, p.corner, p.edge);
+    const double touch = touch_between(m, p.corner, p.edge);
 
     *c = old ? *old : (bbm_contact){ 0 };
     c->corner = p.corner;
@@ -745,12 +758,12 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     c->N_of_friction = c->N;
     c->was_closed = c->state != BBM_OPEN;
     c->closings = 0;
-    c->beyond_end = f.beyond > m->scratch->touch
+    c->beyond_end = f.beyond > touch
                  && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
     for (int k = 0; k < 4; k++)
         c->entrance[k] = find_entrance(m, p, k / 2, k % 2 ? FLUSH : NEXT);
     if (!old && m->info.step == 0 && m->info.t == 0
-        && fmax(fabs(f.d), f.beyond) <= m->scratch->touch) {
+        && fmax(fabs(f.d), f.beyond) <= touch) {
         c->area = m->hook.joint_area ? m->hook.joint_area(m, p.corner, p.edge) : 0;
         c->state = is_strong(&m->par, c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
     }
@@ -972,7 +985,9 @@ static int admits(const bbm_model *m, const bbm_contact *c)
  * contacts are. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    return c->d_n0 <= m->scratch->touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
+    const double touch = touch_between(m, c->corner, c->edge);
+
+    return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
 }
 
 /* The sine by which a line is steep; one that rises to the right passes for flatter. */

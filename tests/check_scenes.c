@@ -163,6 +163,20 @@ START_TEST(a_scene_in_another_order_is_the_same) { check_twin(_i, RULE_ORDER); }
 START_TEST(a_scene_in_another_frame_is_the_same) { check_twin(_i, RULE_FRAME); } END_TEST
 START_TEST(a_stone_far_away_does_not_matter) { check_twin(_i, RULE_FAR); } END_TEST
 
+/* Walls in which bricks lie as far from each other as what once was a share of the mean edge of all
+ * blocks, the stone's among them. */
+START_TEST(the_size_of_a_stone_far_away_does_not_matter)
+{
+    static const uint64_t seed[] = { 1153, 1571, 1881, 2081 };
+    test_scene s;
+    scene_trial t = { .status = BBM_OK };
+
+    scene_make(seed[_i], -1, &s);
+    scene_try_twin(&s, RULE_FAR, &t);
+    check_rules(&s, &t);
+}
+END_TEST
+
 Suite *scenes_suite(void)
 {
     Suite *s = suite_create("scenes");
@@ -186,6 +200,7 @@ Suite *scenes_suite(void)
     tcase_add_loop_test(c, a_scene_in_another_order_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, a_scene_in_another_frame_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, a_stone_far_away_does_not_matter, 0, TWIN_SEEDS * SCENE_KINDS);
+    tcase_add_loop_test(c, the_size_of_a_stone_far_away_does_not_matter, 0, 4);
     suite_add_tcase(s, c);
     return s;
 }
