@@ -280,6 +280,8 @@ typedef struct {
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
+    bbm_status (*find_friction)(bbm_model *m, int pass);    /* the next N of friction as a load; */
+                                                            /* pass 0: of new states            */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
     int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */

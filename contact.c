@@ -943,12 +943,17 @@ static int forces_agree(const bbm_model *m)
     return agree;
 }
 
-/* Takes the N of the solution for the friction of the next one. */
-static void renew_friction(bbm_contact_scratch *w)
+/* Takes the N of the solution for the friction of the next one, or what a hook finds better. */
+static bbm_status renew_friction(bbm_model *m)
 {
+    bbm_contact_scratch *w = m->scratch;
+
+    if (m->hook.find_friction)
+        return m->hook.find_friction(m, w->friction_passes++);
     for (int k = 0; k < w->contacts; k++)
         w->contact[k].N_of_friction = w->contact[k].N;
     w->friction_passes++;
+    return BBM_OK;
 }
 
 /* ------------------------------------------------------------- the open-close iteration: states */
@@ -1111,8 +1116,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     find_tolerances(m);
     if (!forces_agree(m)) {
         *pass = w->friction_passes < FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
-        renew_friction(w);
-        return BBM_OK;
+        return renew_friction(m);
     }
     w->friction_passes = 0;
     note_states(w);

@@ -28,6 +28,14 @@ typedef struct {                /* sliding.c: LU of K where contacts slide      
     double *L, *U;              /* [room]    U by columns                                       */
 } bbm_factor;
 
+enum { BBM_FRICTION_DIRECTIONS = 16 };
+
+typedef struct {                /* friction.c                                                   */
+    int directions, room;
+    double *x, *r;              /* [room] N     that friction takes; what the solution adds     */
+    double *dx, *dr;            /* [(BBM_FRICTION_DIRECTIONS + 1) room] their changes           */
+} bbm_friction_search;
+
 struct bbm_beyond {
     /* --- settings --- */
     bbm_bonding  bonding;       /* bending.c                                                    */
@@ -38,6 +46,7 @@ struct bbm_beyond {
     int rounds_done;            /* in this step                                                 */
     bbm_factor factor;
     double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
+    bbm_friction_search friction;
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
@@ -92,6 +101,7 @@ void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */
 bbm_status bbm_lay_out_sliding(bbm_model *m);
+bbm_status bbm_find_friction(bbm_model *m, int pass);
 int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                                  bbm_submatrices *s);
 void       bbm_free_factor(bbm_factor *f);

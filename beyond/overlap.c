@@ -17,8 +17,8 @@
 
 #include "beyond.h"
 
-/* TOUCH [-]  overlaps up to this, in mean boundary edges, are rounding of a model file, as in
- *            contact.c */
+/* TOUCH [-]  overlaps up to this, in mean boundary edges of all blocks, are rounding of a model
+ *            file */
 #define TOUCH 1e-6
 
 typedef struct {                /* a convex part of an element                                  */

@@ -134,6 +134,26 @@ END_TEST
 
 /* A free block whose K a term u v^T changes: at 0 the first unknown's column is half as long again;
  * then it vanishes, is no number, or is infinite. The dense oracle: K D = F row by row. */
+/* A block slides down an incline of 30 degrees onto a stop, in one step of statics; its friction, a
+ * load there, all but holds it. */
+START_TEST(a_block_comes_to_rest_against_a_stop_in_statics)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.dt = INFINITY;
+    m->par.velocity_factor = 0;
+    m->par.friction = 29;
+    m->par.p_n = 5e11;
+    m->par.p_s = 2e11;
+    add_rectangle(m, 0, BASE, (rectangle){ -8, -1, 16, 1, 30, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ -2, 0, 1, 0.5, 30, .fixed = 1 });
+    add_rectangle(m, 2, ROCK, (rectangle){ -1, 0, 1, 1 + _i, 30, .nx = 1 });
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    bbm_model_free(m);
+}
+END_TEST
+
 START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
 {
     bbm_model *m = new_blocks();
@@ -427,6 +447,7 @@ Suite *sliding_suite(void)
     const loop_test friction[] = {
         { a_block_slides_down_an_incline_as_the_closed_form_says, 2 * COUNT(SLIDING) },
         { the_plain_way_to_agree_finds_the_same_friction, 1 },
+        { a_block_comes_to_rest_against_a_stop_in_statics, 3 },
         { a_matrix_that_is_not_symmetric_is_solved_or_refused, 4 },
         { a_block_that_slides_from_the_start_keeps_the_initial_velocity, 1 },
         { a_block_thrown_uphill_stops_where_it_should_and_stays_there, 1 },
