@@ -130,8 +130,22 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
-check: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
+# --- exercises, see doc/exercises/README.md: a copy of a source in out/exercise/N, and its tests ---
+ALONE = $(CORE:%=$O/%.o)
+EXERCISE = O="$O" COMPILE="$(CC) $(STRICT) -Wno-unused -Wno-unused-parameter $(CPPFLAGS) $(CFLAGS) -O0" FAILING="$(FAILING)" \
+LINK="$(CC) $(CFLAGS) $(LDFLAGS)" LIBS="$(CHECK) -lm" TESTED="$O/tests/check_main.o $(TESTED)" ALONE="$(ALONE)" \
+MAKE="$(MAKE) -s" sh tests/exercise.sh
+
+exercise:
+	@$(EXERCISE) begin $(or $(N),0)
+
+check-exercises: $O/quick $(ALONE)
+	@$(EXERCISE) prove
+
+check: $O/check $O/quick $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm $(ALONE)
 	$O/check
+	@$(EXERCISE) prove
+	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
 	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
 
 memcheck:
@@ -171,8 +185,9 @@ fuzz:
 	cases/model.c cases/msh.c $(LIBRARY:%=%.c) -lm
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
+# What a student has written in out/exercise stays.
 clean:
-	rm -rf out bbm
+	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
-.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean exercise check-exercises
 .DELETE_ON_ERROR:
