@@ -18,9 +18,11 @@ function run(command)
     lines = 0
     at = 1
     skip = 0
-    while (("{ " command "; } 2>&1" | getline printed[lines + 1]) > 0)
+    said = "out/said"
+    system("(" command ") > " said " 2>&1")
+    while ((getline printed[lines + 1] < said) > 0)
         lines++
-    close("{ " command "; } 2>&1")
+    close(said)
     commands++
 }
 

@@ -81,7 +81,7 @@ int main(void)
     for (int r = 0; r < 4; r++) {
         printf("%-7g %-6g", rule[r][0], rule[r][1]);
         for (int w = 0; w < 4; w++)
-            printf(" %-12.4g", amplitude(rule[r][0], rule[r][1], W[w]));
+            printf(" %-*.4g", w < 3 ? 12 : 0, amplitude(rule[r][0], rule[r][1], W[w]));
         putchar('\n');
     }
     return EXIT_SUCCESS;
