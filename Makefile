@@ -74,6 +74,13 @@ $O/paper/formulas: $O/tests/check_paper.o $O/tests/check_formulas.o $O/tests/sha
 bbm: $O/bbm
 	cp $O/bbm bbm
 
+# The figures of the documents, by doc/figures.c; a test compares them.
+figures: $O/figures
+	$O/figures doc/figures
+
+$O/figures: $O/doc/figures.o $O/cases/plot.o $O/cases/output.o $(CORE:%=$O/%.o)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
 $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
@@ -142,9 +149,11 @@ exercise:
 check-exercises: $O/quick $(ALONE)
 	@$(EXERCISE) prove
 
-check: $O/check $O/quick $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm $(ALONE)
+check: $O/check $O/quick $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm $(ALONE) $O/figures
 	$O/check
 	@$(EXERCISE) prove
+	@rm -rf $O/drawn && mkdir $O/drawn && $O/figures $O/drawn && diff -r $O/drawn doc/figures || \
+	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
 	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
 
@@ -189,5 +198,6 @@ fuzz:
 clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
-.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean exercise check-exercises
+.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean exercise check-exercises \
+        figures
 .DELETE_ON_ERROR:

@@ -94,8 +94,18 @@ prove_one()
     echo "$page: red, then green"
 }
 
+# What is not there, or there twice, is no exercise.
+prove_cut()
+{
+    for function in no_such_function bbm_add_pair; do
+        ! NAME=$function awk -f $CUT bbm.c > /dev/null 2>&1 || { echo "$CUT found $function"; exit 1; }
+    done
+    ! FROM='return' TO='' awk -f $CUT bbm.c > /dev/null 2>&1 || { echo "$CUT took the first of many"; exit 1; }
+}
+
 prove()
 {
+    prove_cut
     count=0
     for p in $PAGES/[0-9]*.md; do
         number=$(basename "$p" | sed 's/-.*//')
