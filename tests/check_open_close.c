@@ -238,6 +238,26 @@ START_TEST(friction_in_the_matrix_takes_no_passes)
 }
 END_TEST
 
+/* A block on a base that is held at all its vertices: multipliers have nothing to do in dynamics,
+ * and a settled step is one solution. In statics they hold the base; so they do in dynamics where
+ * one vertex of it is free. */
+START_TEST(a_base_needs_no_multipliers_in_dynamics)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.friction = 30;
+    add_rectangle(m, 0, BASE, (rectangle){ -2, -1, 5, 1, 0, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, 1, 0 });
+    m->node[0].held = _i == 2 ? BBM_X : BBM_XY;
+    m->par.dt = _i == 1 ? INFINITY : m->par.dt;
+    m->beyond->multiplier_rounds = 2;
+    ck_ok(bbm_prepare(m), m);
+    run_steps(m, 20);
+    ck_assert_int_eq(m->info.passes, _i ? 3 : 1);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* A glued pair of blocks that nothing loads has settled at the first look, though all forces are
  * zero. */
 START_TEST(blocks_without_any_force_settle_at_once)
@@ -542,6 +562,7 @@ Suite *open_close_suite(void)
         { a_solution_that_agrees_ends_the_iteration, 3 },
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
         { a_set_of_states_that_comes_back_is_a_cycle, 1 },
+        { a_base_needs_no_multipliers_in_dynamics, 3 },
         { a_cycle_is_broken_one_by_one_for_as_many_passes_again, 1 },
         { a_contact_that_closes_outside_the_cone_of_friction_slides, 4 },
         { a_contact_that_its_shear_spring_pulls_open_slides_first, 2 },
