@@ -7,6 +7,8 @@
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
 # make windows   ./bbm for Windows (mingw-w64)
+# make exercise N=07   a copy without one function, and its tests; doc/exercises
+# make figures   draws doc/figures             make check-exercises   each red as it begins, green in the end
 
 CC      ?= cc
 CFLAGS  ?= -O2

@@ -1,4 +1,5 @@
-# documents.awk - the commands of the documents, and what they print:
+# documents.awk - the commands of the documents, and what they print; the files to which they lead,
+# and the names of the library in them:
 #     awk -v O=out/build -f tests/documents.awk doc/*.md
 #
 # In a block of the kind "console" a line "$ COMMAND" is run by the shell in the project's top folder
@@ -9,6 +10,30 @@ function fail(why)
 {
     print FILENAME ":" FNR ": " why > "/dev/stderr"
     failed = 1
+}
+
+# Each [text](path), seen from the folder of the document.
+function follow_links(line,    path, folder)
+{
+    folder = FILENAME
+    sub(/[^\/]*$/, "", folder)
+    while (match(line, /\]\([^)#:]+/)) {
+        path = folder substr(line, RSTART + 2, RLENGTH - 2)
+        line = substr(line, RSTART + RLENGTH)
+        if (path !~ /https?$/ && system("test -e '" path "'") != 0)
+            fail(path " is not there")
+    }
+}
+
+# Each `bbm_name` is a word of the sources.
+function check_names(line,    name)
+{
+    while (match(line, /`bbm_[a-z_0-9]+`/)) {
+        name = substr(line, RSTART + 1, RLENGTH - 2)
+        line = substr(line, RSTART + RLENGTH)
+        if (!(name in known))
+            fail("the sources have no " name)
+    }
 }
 
 function run(command)
@@ -44,6 +69,12 @@ function finish()
     running = 0
 }
 
+BEGIN {
+    words = "cat *.h *.c */*.h */*.c | grep -o 'bbm_[a-z_0-9]*' | sort -u"
+    while ((words | getline word) > 0)
+        known[word] = 1
+}
+
 FNR == 1 && inside { fail("a block without end in the file before"); inside = 0 }
 /^```console$/ { inside = 1; next }
 inside && /^```$/ { finish(); inside = 0; next }
@@ -57,7 +88,8 @@ inside && /^\$ / {
     next
 }
 inside && /^\.\.\.$/ { skip = 1; next }
-inside { compare($0) }
+inside { compare($0); next }
+{ follow_links($0); check_names($0) }
 
 END {
     print commands + 0, "commands of the documents print what stands there"
