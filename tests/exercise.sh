@@ -56,7 +56,7 @@ build()
         $LINK -o "$2/tests" "$2/copy.o" $ALONE $LIBS
     else
         others=$(for o in $TESTED; do [ "$o" = "$O/failing/${file%.c}.o" ] || echo "$o"; done)
-        $COMPILE $FAILING -I. -c -o "$2/copy.o" "$1"
+        $COMPILE $FAILING -I. -I"$(dirname "$file")" -c -o "$2/copy.o" "$1"
         $LINK -o "$2/tests" "$2/copy.o" $others $LIBS
     fi
 }
