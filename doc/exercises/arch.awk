@@ -14,7 +14,7 @@ BEGIN {
     print "title An arch of 15 voussoirs\nmaterial rigid E 1e14 nu 0.25 density 2500"
     print "material rock E 1e10 nu 0.2 density 2500\nfixblock left\nfixblock right"
     print "gravity 0 -9.81\ncontact kn 1e10 ks 4e9 friction", phi
-    print "dynamic dt 0.01 steps 400 settle 100\nmonitor crown at 0 " o
+    print "dynamic dt 0.01 steps 400 settle 100\nmonitor crown node 38"
     block("right", "rigid", i - 1, -1, o + 1, -1, o + 1, 0, i - 1, 0)
     block("left", "rigid", -o - 1, -1, 1 - i, -1, 1 - i, 0, -o - 1, 0)
     for (k = 0; k < 15; k++) {
