@@ -128,6 +128,7 @@ typedef struct {                /* elements i < j that overlap                  
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
+bbm_status bbm_check_passed(bbm_model *m, int corner, int edge);
 bbm_status bbm_find_mechanism(bbm_model *m, int *element);          /* of BBM_MIDPOINTS; or -1  */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
 

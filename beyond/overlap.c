@@ -237,3 +237,53 @@ bbm_status bbm_check_overlap(bbm_model *m)
     return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d "
                     "with element %d, block %d with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
 }
+
+/* --------------------------------------------------------------------- blocks that passed by */
+
+/* How deep P lies in a block, the distance from its boundary; 0 outside. Edges that cross the
+ * horizontal line through P on its right count up or down: 1 inside, 0 outside or in a hole. An
+ * edge ends where the next one starts, for bonds may have opened there. */
+static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int block)
+{
+    double depth = INFINITY;
+    int winding = 0;
+
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *a = &m->vertex[m->edge[e].a];
+        const bbm_vertex *b = &m->vertex[m->edge[m->edge[e].after].a];
+        const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
+        const double px = P->x - a->x, py = P->y - a->y, d = px * y - py * x, s = px * x + py * y;
+        const int up = (py >= 0) - (P->y >= b->y);
+        if (m->edge[e].block != block)
+            continue;
+        depth = fmin(depth, hypot(d, fmax(0, fmax(-s, s - l * l))) / l);
+        winding += up * d < 0 ? up : 0;
+    }
+    return winding > 0 ? depth : 0;
+}
+
+/* Refuses a step that starts with a corner in another block, deeper than contacts are, which no
+ * contact holds: the last step let it pass. Told for an edge near it. */
+bbm_status bbm_check_passed(bbm_model *m, int corner, int edge)
+{
+    const bbm_vertex *P = &m->vertex[m->edge[corner].a], *a = &m->vertex[m->edge[edge].a];
+    const bbm_direction t = m->edge[edge].along;
+    const int block = m->edge[edge].block, other = m->edge[corner].block;
+    const double d = (P->x - a->x) * t.y - (P->y - a->y) * t.x;
+    const double depth = bbm_allowed_depth(m, corner, edge);
+
+    if (block == other || d >= -depth || m->edge[corner].side != corner)
+        return BBM_OK;
+    for (int k = 0; k < m->contacts; k++) {
+        const int i = m->edge[m->contact[k].corner].block, j = m->edge[m->contact[k].edge].block;
+        if (((i == block && j == other) || (i == other && j == block))
+            && (m->contact[k].state != BBM_OPEN || m->contact[k].inside))
+            return BBM_OK;
+    }
+    const double deep = depth_in_block(m, P, block);
+    if (deep <= depth)
+        return BBM_OK;
+    return bbm_fail(m, BBM_BLOCKS_OVERLAP, "step %d: a corner of block %d passed into block %d at "
+                    "(%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
+                    other, block, P->x, P->y, deep);
+}

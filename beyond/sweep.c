@@ -50,7 +50,8 @@ static bbm_status compare(bbm_model *m, const box *c, const box *e)
     for (int k = X; k <= Y; k++)
         if (c->at[k] < e->low[k] || c->at[k] > e->high[k])
             return BBM_OK;
-    return bbm_add_pair(m, c->edge, e->edge);
+    const bbm_status status = bbm_check_passed(m, c->edge, e->edge);
+    return status ? status : bbm_add_pair(m, c->edge, e->edge);
 }
 
 bbm_status bbm_sweep(bbm_model *m, double search)
