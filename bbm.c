@@ -657,7 +657,7 @@ static bbm_status describe_failure(bbm_model *m, bbm_status status)
 
 /* Lists the contacts that may close in the step: first by what its velocities foretell, then again
  * if the solution moves further than that. `other`: they are other ones, the solution is void. */
-static bbm_status detect(bbm_model *m, int *other)
+bbm_status bbm_detect(bbm_model *m, int *other)
 {
     const clock_t start = clock();
     int same = 1;
@@ -792,7 +792,7 @@ static bbm_status update(bbm_model *m)
     return bbm_store_contacts(m);
 }
 
-static void begin_step(bbm_model *m)
+void bbm_begin_step(bbm_model *m)
 {
     m->detections = m->K_is_kept = 0;
     for (int i = 0; i < m->elements; i++)
@@ -854,8 +854,8 @@ static bbm_status try_step(bbm_model *m)
     bbm_status status;
     int other, changed;
 
-    begin_step(m);
-    status = detect(m, &other);                     /* 3.7: which contacts may close            */
+    bbm_begin_step(m);
+    status = bbm_detect(m, &other);                 /* 3.7: which contacts may close            */
     do {
         do {
             if (!status)
@@ -866,7 +866,7 @@ static bbm_status try_step(bbm_model *m)
                 status = open_close(m, &changed);   /* 3.8: do the contacts fit the solution?   */
         } while (!status && changed);
         if (!status)
-            status = detect(m, &other);             /* has it moved too far for them?           */
+            status = bbm_detect(m, &other);         /* has it moved too far for them?           */
     } while (!status && other);
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
@@ -1397,33 +1397,6 @@ static bbm_status place_line_loads(bbm_model *m)
         load->b = is_there ? m->edge[there].b : m->edge[back].a;
     }
     return BBM_OK;
-}
-
-/* The root of element e in the forest up[], with the path halved on the way. */
-int bbm_root_of(int up[], int e)
-{
-    while (up[e] != e)
-        e = up[e] = up[up[e]];
-    return e;
-}
-
-/* Joins what gaps and contacts connect to bodies, known by their root in up[]. */
-void bbm_join_elements(const bbm_model *m, int up[])
-{
-    int contacts;
-    const bbm_contact *c = bbm_list_contacts(m, &contacts);
-
-    for (int e = 0; e < m->elements; e++)
-        up[e] = e;
-    for (int g = 0; g < m->gaps; g++)
-        if (m->gap[g].j >= 0)
-            up[bbm_root_of(up, m->gap[g].j)] = bbm_root_of(up, m->gap[g].i);
-    for (int k = 0; k < contacts; k++) {
-        const int i = m->edge[c[k].corner].element, j = m->edge[c[k].edge].element;
-        up[bbm_root_of(up, j)] = bbm_root_of(up, i);
-    }
-    for (int e = 0; e < m->elements; e++)
-        up[e] = bbm_root_of(up, e);
 }
 
 /* The arrays that the steps need. */

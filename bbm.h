@@ -438,12 +438,12 @@ bbm_status bbm_list_bond(bbm_model *m, const bbm_bond *b);
 bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions);
 void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */
 bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's    */
+void       bbm_begin_step(bbm_model *m);
+bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
 bbm_status bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
 bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
 void       bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
                     double u[2]);
-int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
-void       bbm_join_elements(const bbm_model *m, int up[]);     /* by bonds and contacts        */
 
 /* contact.c: the parts of a step with contacts, for bbm_step */
 bbm_status bbm_contact_new(bbm_model *m);
@@ -487,6 +487,7 @@ struct bbm_matrix {
     int *first;                 /* [n+1]     row i of L: the blocks first[i] .. first[i+1]-1    */
     int *back;                  /* [blocks]  its row less its column                            */
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
+    int *component;             /* [n]       of a caller's row                                  */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks]                                */
     /* --- scratch of bbm_solve --- */
     int from, to;               /* the rows of the component in hand: from .. to-1              */

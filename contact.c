@@ -242,8 +242,7 @@ struct bbm_contact_scratch {
     int is_listed;
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
-    int *component;             /* [elements] of K: one of the elements that it connects        */
-    double *force;              /* [elements] N, of a component: the largest one in it          */
+    double *force;              /* [elements] N, of a component of K: the largest one in it     */
     /* --- the iteration --- */
     int passes, friction_passes;
     int one_by_one;             /* one contact changes its state in a pass                      */
@@ -352,7 +351,6 @@ void bbm_contact_free(bbm_contact_scratch *w)
     free(w->motion);
     free(w->pair);
     free(w->contact);
-    free(w->component);
     free(w->force);
     free(w);
 }
@@ -366,9 +364,8 @@ bbm_status bbm_contact_new(bbm_model *m)
         return BBM_NO_MEMORY;
     w->motion = calloc(n, sizeof *w->motion);
     w->pair = calloc((size_t)m->edges, sizeof *w->pair);
-    w->component = calloc(n, sizeof *w->component);
     w->force = calloc(n, sizeof *w->force);
-    if (!w->motion || !w->pair || !w->component || !w->force)
+    if (!w->motion || !w->pair || !w->force)
         return BBM_NO_MEMORY;
     w->pair_room = m->edges;
     number_blocks(m);
@@ -809,7 +806,6 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
     w->contacts = w->pairs;
     for (int k = 0; k < w->pairs; k++)
         make_contact(m, w->pair[k], &list[k]);
-    bbm_join_elements(m, w->component);
     w->is_listed = 1;
     w->passes = w->friction_passes = 0;
     w->one_by_one = m->one_by_one;
@@ -905,10 +901,10 @@ static void measure(const bbm_model *m, bbm_contact *c)
         c->N_of_friction = c->N;
 }
 
-/* The largest force in the component of K that a contact belongs to. */
-static double *force_on(const bbm_model *m, const bbm_contact *c)
+/* The largest force in the component of K that an element belongs to. */
+static double *force_on(const bbm_model *m, int element)
 {
-    return &m->scratch->force[m->scratch->component[element_of(m, c->corner)]];
+    return &m->scratch->force[m->K->component[element]];
 }
 
 /* The largest force in each component: on an element, inertia included, or in a contact. What the
@@ -920,15 +916,15 @@ static void find_tolerances(const bbm_model *m)
 
     memset(w->force, 0, (size_t)m->elements * sizeof *w->force);
     for (int i = 0; i < m->elements; i++) {
-        double *most = &w->force[w->component[i]];
+        double *most = force_on(m, i);
         *most = fmax(*most, hypot(m->F[6 * i], m->F[6 * i + 1]));
     }
     for (int k = 0; k < w->contacts; k++) {
-        double *most = force_on(m, &w->contact[k]);
+        double *most = force_on(m, element_of(m, w->contact[k].corner));
         *most = fmax(*most, fabs(w->contact[k].N));
     }
     for (int k = 0; k < w->contacts; k++)
-        w->contact[k].force_tolerance = AGREE * *force_on(m, &w->contact[k]);
+        w->contact[k].force_tolerance = AGREE * *force_on(m, element_of(m, w->contact[k].corner));
 }
 
 /* Whether every friction force belongs to its N. */

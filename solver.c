@@ -207,7 +207,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
 
     K->n = K->to = g->n;
-    K->place = calloc(4 * n + 2 + blocks, sizeof *K->place);
+    K->place = calloc(5 * n + 2 + blocks, sizeof *K->place);
     K->D = calloc(2 * (n + blocks), sizeof *K->D);
     K->x = calloc(6 * 6 * n, sizeof *K->x);
     if (!K->place || !K->D || !K->x)
@@ -215,7 +215,8 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->caller = K->place + n;
     K->first = K->caller + n;
     K->start = K->first + n + 1;
-    K->back = K->start + n + 1;
+    K->component = K->start + n + 1;
+    K->back = K->component + n;
     K->L = K->D + n;
     K->G = K->L + blocks;
     K->S = K->G + n;
@@ -227,7 +228,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     return BBM_OK;
 }
 
-/* caller, first, back and start. A component ends with the row where the search began. */
+/* caller, component, first, back and start. A component ends with the row where the search began. */
 static void lay_out_rows(bbm_matrix *K, const graph *g)
 {
     int count = 0;
@@ -240,6 +241,7 @@ static void lay_out_rows(bbm_matrix *K, const graph *g)
             if (K->place[g->end[k][1]] < i)
                 K->back[count++] = i - K->place[g->end[k][1]];
         K->first[i + 1] = count;
+        K->component[row] = K->components;
         if (g->level[row] == 0)
             K->start[++K->components] = i + 1;
     }
