@@ -22,18 +22,12 @@ static bbm_status check(bbm_model *m)
     return status ? status : bbm_check_overlap(m);
 }
 
-/* The settings of all subjects, and before the first step bonds that hold. */
+/* Parameters and settings, and before the first step bonds that hold. */
 static bbm_status check_step(bbm_model *m)
 {
-    const bbm_beyond *b = m->beyond;
-
-    if (b->multiplier_rounds < 0)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "multiplier_rounds = %d, expected 0 or more",
-                        b->multiplier_rounds);
-    if (!isfinite(b->shake[0]) || !isfinite(b->shake[1]) || !isfinite(b->shake_omega))
-        return bbm_fail(m, BBM_BAD_PARAMETER, "shake = (%g, %g), shake_omega = %g, expected finite "
-                        "numbers", b->shake[0], b->shake[1], b->shake_omega);
-    if (m->info.step > 0 || b->bonding != BBM_MIDPOINTS)
+    if (bbm_check_parameters(m))
+        return BBM_BAD_PARAMETER;
+    if (m->info.step > 0 || m->beyond->bonding != BBM_MIDPOINTS)
         return BBM_OK;
     if (bbm_find_mechanism(m, &m->blamed[0]))
         return BBM_NO_MEMORY;

@@ -111,6 +111,7 @@ bbm_status bbm_sweep(bbm_model *m, double search);
 double     bbm_joint_area(const bbm_model *m, int corner, int edge);
 
 /* refuse.c, statics.c */
+bbm_status bbm_check_parameters(bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
 bbm_status bbm_measure_blocks(bbm_model *m);
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
