@@ -944,34 +944,11 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
 
 /* ------------------------------------------------------------------- building a model */
 
+#define BBM_TEXT_OF(name, text) [name] = text,
+
 const char *bbm_status_text(bbm_status s)
 {
-    static const char *const text[BBM_STATUS_COUNT] = {
-        [BBM_OK] = "no error",
-        [BBM_NO_MEMORY] = "out of memory",
-        [BBM_NO_ELEMENT] = "the model has no element",
-        [BBM_NOT_FINITE] = "a number is NaN or infinite",
-        [BBM_BAD_INDEX] = "no such node, element or material",
-        [BBM_BAD_MATERIAL] = "a material is impossible",
-        [BBM_BAD_PARAMETER] = "a parameter is outside its range",
-        [BBM_BAD_ELEMENT] = "an element is no polygon",
-        [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
-        [BBM_OVERLAP] = "elements of one block overlap",
-        [BBM_BLOCKS_OVERLAP] = "blocks overlap at the start",
-        [BBM_UNUSED_NODE] = "a node belongs to no element",
-        [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
-        [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
-        [BBM_MECHANISM] = "elements bonded at midpoints alone can turn against each other",
-        [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
-        [BBM_NOT_CONVERGED] = "the equations were not solved",
-        [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
-        [BBM_NO_EQUILIBRIUM] = "statics finds no equilibrium",
-        [BBM_STEP_TOO_LONG] = "the step is too long",
-        [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
-        [BBM_TOO_SOFT] = "the contacts are too soft",
-        [BBM_ENERGY] = "the step makes energy",
-        [BBM_STOPPED] = "stopped from outside",
-    };
+    static const char *const text[BBM_STATUS_COUNT] = { BBM_STATUSES(BBM_TEXT_OF) };
 
     return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
 }

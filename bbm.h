@@ -38,35 +38,37 @@
 enum { BBM_GAUSS = 4 };                     /* Gauss points of a line load: exact to degree 7   */
 enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };  /* directions in which a point is held; they add up */
 
-typedef enum {
-    BBM_OK,
-    BBM_NO_MEMORY,
-    /* --- the model is wrong: bbm_message() names the element, node or parameter --- */
-    BBM_NO_ELEMENT,             /* the model is empty                                       */
-    BBM_NOT_FINITE,             /* a coordinate, load or parameter is NaN or infinite       */
-    BBM_BAD_INDEX,              /* a node, element or material that does not exist          */
-    BBM_BAD_MATERIAL,           /* E, nu, density or thickness outside its range            */
-    BBM_BAD_PARAMETER,          /* dt, alpha, omega, ... outside its range                  */
-    BBM_BAD_ELEMENT,            /* fewer than three vertices, or without area               */
-    BBM_SELF_CROSSING,          /* an element whose boundary meets itself                   */
-    BBM_OVERLAP,                /* elements of one block overlap                            */
-    BBM_BLOCKS_OVERLAP,         /* blocks that overlap at the start                         */
-    BBM_UNUSED_NODE,            /* a node that no element has                               */
-    BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                  */
-    BBM_FREE_TO_MOVE,           /* statics, and nothing holds a body                        */
-    BBM_MECHANISM,              /* bonded elements that turn against each other for nothing */
-    /* --- the solution failed: the numbers are in bbm_info --- */
-    BBM_NOT_POSITIVE_DEFINITE,  /* K; info.pcg.element is the row, -1: found by iteration   */
-    BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                  */
-    BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps         */
-    BBM_NO_EQUILIBRIUM,         /* statics, and a block slides, tips or falls               */
-    BBM_STEP_TOO_LONG,          /* elements turn or strain too far, even in the least step  */
-    BBM_OPEN_CLOSE,             /* contacts do not settle, even in the least step           */
-    BBM_TOO_SOFT,               /* contacts are as deep as a tenth of a block               */
-    BBM_ENERGY,                 /* even the least step makes energy                         */
-    BBM_STOPPED,                /* the monitor said so                                      */
-    BBM_STATUS_COUNT
-} bbm_status;
+/* What a call returns, and what that says; bbm_message() adds where, and what was expected. */
+#define BBM_STATUSES(status)                                                                      \
+    status(BBM_OK,                    "no error")                                                 \
+    status(BBM_NO_MEMORY,             "out of memory")                                            \
+    /* --- the model is wrong --- */                                                              \
+    status(BBM_NO_ELEMENT,            "the model has no element")                                 \
+    status(BBM_NOT_FINITE,            "a number is NaN or infinite")                              \
+    status(BBM_BAD_INDEX,             "no such node, element or material")                        \
+    status(BBM_BAD_MATERIAL,          "a material is impossible")                                 \
+    status(BBM_BAD_PARAMETER,         "a parameter is outside its range")                         \
+    status(BBM_BAD_ELEMENT,           "an element is no polygon")                                 \
+    status(BBM_SELF_CROSSING,         "the boundary of an element meets itself")                  \
+    status(BBM_OVERLAP,               "elements of one block overlap")                            \
+    status(BBM_BLOCKS_OVERLAP,        "blocks overlap at the start")                              \
+    status(BBM_UNUSED_NODE,           "a node belongs to no element")                             \
+    status(BBM_NOT_BOUNDARY,          "a line load needs a boundary edge")                        \
+    status(BBM_FREE_TO_MOVE,          "statics needs bodies that are held")                       \
+    status(BBM_MECHANISM, "elements bonded at midpoints alone can turn against each other")       \
+    /* --- the solution failed: the numbers are in bbm_info --- */                                \
+    status(BBM_NOT_POSITIVE_DEFINITE, "the stiffness matrix is not positive definite")            \
+    status(BBM_NOT_CONVERGED,         "the equations were not solved")                            \
+    status(BBM_STEPS_EXHAUSTED,       "no equilibrium in the given steps")                        \
+    status(BBM_NO_EQUILIBRIUM,        "statics finds no equilibrium")                             \
+    status(BBM_STEP_TOO_LONG,         "the step is too long")                                     \
+    status(BBM_OPEN_CLOSE,            "the open-close iteration does not settle")                 \
+    status(BBM_TOO_SOFT,              "the contacts are too soft")                                \
+    status(BBM_ENERGY,                "the step makes energy")                                    \
+    status(BBM_STOPPED,               "stopped from outside")
+
+#define BBM_STATUS_NAME(name, text) name,
+typedef enum { BBM_STATUSES(BBM_STATUS_NAME) BBM_STATUS_COUNT } bbm_status;
 
 /* ------------------------------------------------------------------------------------ the data */
 
