@@ -399,18 +399,9 @@ int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
 int bbm_is_exact(const bbm_model *m) { return m->hook.is_exact && m->hook.is_exact(m); }
 
 /* The next gap of the list, between the elements i and j; it keeps its multiplier from the last
- * list. NULL: no memory. */
+ * list. */
 bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 {
-    if (m->gaps == m->gap_room) {
-        const int room = 2 * m->gap_room + 64;
-        bbm_gap *larger = realloc(m->gap, (size_t)room * sizeof *larger);
-        if (!larger)
-            return NULL;
-        memset(larger + m->gap_room, 0, (size_t)(room - m->gap_room) * sizeof *larger);
-        m->gap = larger;
-        m->gap_room = room;
-    }
     bbm_gap *g = &m->gap[m->gaps++];
     *g = (bbm_gap){ .i = i, .j = j, .f = { g->f[0], g->f[1] },
                     .f_before = { g->f_before[0], g->f_before[1] } };
@@ -418,50 +409,40 @@ bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 }
 
 /* Lists the springs of a bond, one at each vertex. */
-bbm_status bbm_list_bond(bbm_model *m, const bbm_bond *b)
+void bbm_list_bond(bbm_model *m, const bbm_bond *b)
 {
     const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
 
-    for (int end = 0; end < 2; end++) {
-        bbm_gap *g = bbm_add_gap(m, b->i, b->j);
-        if (!g)
-            return BBM_NO_MEMORY;
+    for (int end = 0; end < 2; end++)
         bbm_bonding_gap(i, &m->vertex[b->p[end]], j, &m->vertex[b->q[end]],
-                        bbm_bonding_stiffness(m->par.alpha, i, j), g);
-    }
-    return BBM_OK;
+                        bbm_bonding_stiffness(m->par.alpha, i, j), bbm_add_gap(m, b->i, b->j));
 }
 
 /* Lists the spring of a vertex that is held in the given directions, none: 0. */
-bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions)
+void bbm_list_fixed_point(bbm_model *m, int v, int directions)
 {
     const bbm_vertex *P = &m->vertex[v];
     const bbm_element *e = &m->element[P->element];
     bbm_node W = m->node[P->node];
 
-    if (!directions)
-        return BBM_OK;
-    bbm_gap *g = bbm_add_gap(m, P->element, -1);
-    if (!g)
-        return BBM_NO_MEMORY;
     W.held = directions;
-    bbm_fixed_gap(e, P, &W, bbm_fixed_stiffness(m->par.alpha, e), g);
-    return BBM_OK;
+    if (directions)
+        bbm_fixed_gap(e, P, &W, bbm_fixed_stiffness(m->par.alpha, e),
+                      bbm_add_gap(m, P->element, -1));
 }
 
 /* Lists what glues, with T of the step: in the paper bonds and fixed points. */
-bbm_status bbm_list_gaps(bbm_model *m)
+void bbm_list_gaps(bbm_model *m)
 {
-    bbm_status status = BBM_OK;
-
     m->gaps = 0;
-    if (m->hook.list_gaps)
-        return m->hook.list_gaps(m);
-    for (int b = 0; b < m->bonds && !status; b++)
-        status = bbm_list_bond(m, &m->bond[b]);
-    for (int v = 0; v < m->vertices && !status; v++)
-        status = bbm_list_fixed_point(m, v, m->node[m->vertex[v].node].held);
-    return status;
+    if (m->hook.list_gaps) {
+        m->hook.list_gaps(m);
+        return;
+    }
+    for (int b = 0; b < m->bonds; b++)
+        bbm_list_bond(m, &m->bond[b]);
+    for (int v = 0; v < m->vertices; v++)
+        bbm_list_fixed_point(m, v, m->node[m->vertex[v].node].held);
 }
 
 /* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
@@ -675,9 +656,8 @@ bbm_status bbm_detect(bbm_model *m, int *other)
     *other = 1;
     if (m->hook.begin)
         m->hook.begin(m);
-    status = bbm_list_gaps(m);
-    if (!status)
-        status = lay_out_matrix(m);
+    bbm_list_gaps(m);
+    status = lay_out_matrix(m);
     return status || !m->hook.check_listed ? status : m->hook.check_listed(m);
 }
 
@@ -1023,7 +1003,7 @@ static void free_prepared(bbm_model *m)
     m->contact = NULL;
     m->K = NULL;
     m->scratch = NULL;
-    m->bonds = m->edges = m->gaps = m->gap_room = m->pairs = m->contacts = 0;
+    m->bonds = m->edges = m->gaps = m->pairs = m->contacts = 0;
 }
 
 void bbm_model_free(bbm_model *m)
@@ -1348,18 +1328,20 @@ static bbm_status place_line_loads(bbm_model *m)
     return BBM_OK;
 }
 
-/* The arrays that the steps need. */
+/* The arrays that the steps need. A bond has two gaps; a vertex that is held has one, and may have
+ * two of the edge from it on. */
 static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
     m->end_element = calloc((size_t)m->elements, sizeof *m->element);
     m->end_vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
-    if (!m->F || !m->end_element || !m->end_vertex)
+    m->gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *m->gap);
+    if (!m->F || !m->end_element || !m->end_vertex || !m->gap)
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;
     m->load = m->D + 6 * (size_t)m->elements;
-    const int failed = bbm_list_gaps(m) || lay_out_matrix(m) || bbm_contact_new(m);
-    return failed ? BBM_NO_MEMORY : BBM_OK;
+    bbm_list_gaps(m);
+    return lay_out_matrix(m) || bbm_contact_new(m) ? BBM_NO_MEMORY : BBM_OK;
 }
 
 /* Checks the model and makes all that the steps need. */

@@ -278,7 +278,7 @@ typedef struct {
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
     double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
     /* --- K D = F --- */
-    bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bonds, fixed points  */
+    void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
@@ -322,7 +322,7 @@ struct bbm_model {
     bbm_matrix *K;
     double *F, *D;              /* [6 elements]                                                 */
     double *load;               /* [6 elements] the part of F from outside: loads, gravity      */
-    int gaps, gap_room;
+    int gaps;
     bbm_gap *gap;               /* [gaps]    bonds and fixed points                             */
     bbm_element *end_element;   /* [elements] the end of the step, see move_model               */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
@@ -434,10 +434,10 @@ int        bbm_is_static(const bbm_model *m);
 int        bbm_is_exact(const bbm_model *m);                    /* see bbm_hooks                */
 double     bbm_mass_per_area(const bbm_element *e);             /* M of (11)                    */
 int        bbm_next_vertex(const bbm_element *e, int v);
-bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);             /* NULL: no memory              */
-bbm_status bbm_list_gaps(bbm_model *m);
-bbm_status bbm_list_bond(bbm_model *m, const bbm_bond *b);
-bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions);
+bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);
+void       bbm_list_gaps(bbm_model *m);
+void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
+void       bbm_list_fixed_point(bbm_model *m, int v, int directions);
 void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */
 bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's    */
 void       bbm_begin_step(bbm_model *m);

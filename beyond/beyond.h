@@ -90,9 +90,8 @@ void       bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_el
 
 /* bending.c */
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
-void       bbm_edge_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
-                        const bbm_vertex *const Q[2], double W[2][2], double sign, bbm_gap *g);
-bbm_status bbm_list_edge_gaps(bbm_model *m);
+void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
+void       bbm_list_edge_gaps(bbm_model *m);
 
 /* multipliers.c */
 void       bbm_start_multipliers(bbm_model *m);

@@ -183,7 +183,7 @@ int bbm_renew_middle(bbm_model *m)
     if (!bbm_middle_is_off(m))
         return 0;
     bbm_set_middle(m);
-    (void)bbm_list_gaps(m);             /* as many as before: there is room */
+    bbm_list_gaps(m);
     return 1;
 }
 
