@@ -23,6 +23,7 @@
  */
 #include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -978,7 +979,7 @@ bbm_status bbm_model_new(bbm_model **out)
     return BBM_OK;
 }
 
-/* What bbm_prepare made. */
+/* What bbm_prepare made, the members from `bonds` up to `h`. */
 static void free_prepared(bbm_model *m)
 {
     free(m->bond);
@@ -992,18 +993,8 @@ static void free_prepared(bbm_model *m)
     free(m->contact);
     bbm_matrix_free(m->K);
     bbm_contact_free(m->scratch);
-    m->bond = NULL;
-    m->edge = NULL;
-    m->adjacent_first = NULL;
-    m->F = NULL;
-    m->end_element = NULL;
-    m->end_vertex = NULL;
-    m->gap = NULL;
-    m->pair = NULL;
-    m->contact = NULL;
-    m->K = NULL;
-    m->scratch = NULL;
-    m->bonds = m->edges = m->gaps = m->pairs = m->contacts = 0;
+    memset((char *)m + offsetof(bbm_model, bonds), 0,
+           offsetof(bbm_model, h) - offsetof(bbm_model, bonds));
 }
 
 void bbm_model_free(bbm_model *m)
@@ -1299,31 +1290,22 @@ static bbm_status connect_elements(bbm_model *m)
     return BBM_OK;
 }
 
-/* The first boundary edge from node p to node q, or -1. */
-static int find_edge(const bbm_model *m, int p, int q)
-{
-    int found = -1;
-
-    for (int a = m->adjacent_first[p]; a < m->adjacent_first[p + 1]; a++) {
-        const int e = m->vertex[m->adjacent[a]].edge;
-        if (e >= 0 && m->vertex[m->edge[e].b].node == q && (found < 0 || e < found))
-            found = e;
-    }
-    return found;
-}
-
 /* Finds the vertices of each line load: those of the first boundary edge between its nodes. */
 static bbm_status place_line_loads(bbm_model *m)
 {
     for (int l = 0; l < m->line_loads; l++) {
         bbm_line_load *load = &m->line_load[l];
-        const int p = load->node[0], q = load->node[1];
-        const int there = find_edge(m, p, q), back = find_edge(m, q, p);
-        const int is_there = back < 0 || (there >= 0 && there < back);
-        if (there < 0 && back < 0)
-            return bbm_fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", p, q);
-        load->a = is_there ? m->edge[there].a : m->edge[back].b;
-        load->b = is_there ? m->edge[there].b : m->edge[back].a;
+        int found = 0;
+        for (int e = 0; e < m->edges && !found; e++) {
+            const int a = m->edge[e].a, b = m->edge[e].b;
+            const int back = m->vertex[b].node == load->node[0];
+            load->a = back ? b : a;
+            load->b = back ? a : b;
+            found = m->vertex[load->a].node == load->node[0]
+                 && m->vertex[load->b].node == load->node[1];
+        }
+        if (!found)
+            return bbm_fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", load->node[0], load->node[1]);
     }
     return BBM_OK;
 }

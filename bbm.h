@@ -313,12 +313,7 @@ struct bbm_model {
     bbm_edge *edge;             /* [edges]   the boundary edges                                 */
     int *adjacent_first;        /* [nodes+1] the vertices at node n are                         */
     int *adjacent;              /* [vertices]    adjacent[adjacent_first[n] ..]                 */
-    /* --- the step in hand --- */
-    double h;                   /* s        dt, or a part of it                                 */
-    double acceleration[2];     /* m/s^2    of gravity                                          */
-    int detections;             /* of contacts                                                  */
-    int one_by_one;             /* one contact changes its state in a pass                      */
-    int K_is_kept;              /* F alone is assembled                                         */
+    /* --- K D = F --- */
     bbm_matrix *K;
     double *F, *D;              /* [6 elements]                                                 */
     double *load;               /* [6 elements] the part of F from outside: loads, gravity      */
@@ -331,6 +326,12 @@ struct bbm_model {
     bbm_contact *contact;       /* [contacts] at the end of the last step, by corner and edge   */
     bbm_contact_scratch *scratch;
     int pairs, (*pair)[2];      /* elements of the contacts and bonds that K has room for       */
+    /* --- the step in hand --- */
+    double h;                   /* s        dt, or a part of it                                 */
+    double acceleration[2];     /* m/s^2    of gravity                                          */
+    int detections;             /* of contacts                                                  */
+    int one_by_one;             /* one contact changes its state in a pass                      */
+    int K_is_kept;              /* F alone is assembled                                         */
     /* --- results --- */
     bbm_info info;
     bbm_status status;          /* the first error while building                               */
@@ -450,6 +451,7 @@ void       bbm_move(const bbm_model *m, const bbm_element *e, const double D[6],
 /* contact.c: the parts of a step with contacts, for bbm_step */
 bbm_status bbm_contact_new(bbm_model *m);
 void       bbm_contact_free(bbm_contact_scratch *w);
+double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
 void       bbm_guess_step(bbm_model *m);                        /* D as far as it is foretold   */
 int        bbm_moved_too_far(bbm_model *m);
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);

@@ -228,8 +228,8 @@ typedef struct {                /* of a block, with the index of its first eleme
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
     double depth_now;           /* m        the same of the solution, or before it if deeper    */
     double travel;              /* m        how far its vertices may move in this step          */
-    double touch;               /* m        TOUCH times its mean boundary edge at the start     */
-    int    edges;               /* of its boundary                                              */
+    double girth;               /* m        its boundary at the start                           */
+    int    edges;               /* of it                                                        */
     /* --- of an element --- */
     double turn;                /* rad      how far it may turn in this step                    */
 } motion;
@@ -259,6 +259,15 @@ static double cross(bbm_direction p, bbm_direction q) { return p.x * q.y - p.y *
 static motion *motion_of(const bbm_model *m, int e)
 {
     return &m->scratch->motion[m->edge[e].first];
+}
+
+/* The length of the boundary of the block of edge e. */
+double bbm_girth(const bbm_model *m, int e) { return motion_of(m, e)->girth; }
+
+/* Distances up to this are rounding: TOUCH times the mean boundary edge of the block of edge e. */
+static double rounding_of(const bbm_model *m, int e)
+{
+    return motion_of(m, e)->girth * (TOUCH / motion_of(m, e)->edges);
 }
 
 /* A vertex inside a straight side is no corner. */
@@ -375,11 +384,9 @@ bbm_status bbm_contact_new(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         motion *b = motion_of(m, e);
         b->depth = m->info.penetration;         /* in a run contacts may be as deep */
-        b->touch += m->edge[e].along.length;
+        b->girth += m->edge[e].along.length;
         b->edges++;
     }
-    for (int i = 0; i < m->elements; i++)
-        w->motion[i].touch *= TOUCH / fmax(1, w->motion[i].edges);
     return BBM_OK;
 }
 
@@ -438,7 +445,7 @@ static double foresee(bbm_model *m)
     }
     for (int e = 0; e < m->edges; e++) {
         motion *b = motion_of(m, e);
-        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + b->touch / 2);
+        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + rounding_of(m, e) / 2);
         most = fmax(most, b->travel);
     }
     return most;
@@ -447,7 +454,7 @@ static double foresee(bbm_model *m)
 /* Distances of a corner and an edge up to this are rounding. */
 static double touch_between(const bbm_model *m, int c, int e)
 {
-    return (motion_of(m, c)->touch + motion_of(m, e)->touch) / 2;
+    return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of

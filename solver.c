@@ -228,7 +228,8 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     return BBM_OK;
 }
 
-/* caller, component, first, back and start. A component ends with the row where the search began. */
+/* caller, component, first, back and start. A component ends with the row where the search
+ * began. */
 static void lay_out_rows(bbm_matrix *K, const graph *g)
 {
     int count = 0;

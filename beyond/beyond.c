@@ -10,7 +10,6 @@ static void release(bbm_model *m)
         return;
     bbm_free_factor(&m->beyond->factor);
     free(m->beyond->friction.x);
-    free(m->beyond->girth);
     free(m->beyond);
 }
 
@@ -18,8 +17,7 @@ static void release(bbm_model *m)
 static bbm_status check(bbm_model *m)
 {
     m->beyond->springs = bbm_spring_energy(m);
-    const bbm_status status = bbm_measure_blocks(m);
-    return status ? status : bbm_check_overlap(m);
+    return bbm_check_overlap(m);
 }
 
 /* Parameters and settings, and before the first step bonds that hold. */

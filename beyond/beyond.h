@@ -45,7 +45,6 @@ struct bbm_beyond {
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
     bbm_factor factor;
-    double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
     bbm_friction_search friction;
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
@@ -112,7 +111,6 @@ double     bbm_joint_area(const bbm_model *m, int corner, int edge);
 /* refuse.c, statics.c */
 bbm_status bbm_check_parameters(bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
-bbm_status bbm_measure_blocks(bbm_model *m);
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */

@@ -5,7 +5,6 @@
  * the model stays as it was.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include "beyond.h"
 
@@ -22,7 +21,8 @@
 #define FAR_TURN 1.0
 #define DEEP 0.1
 
-/* Refuses parameters and settings that mean nothing; a comparison with NaN is false, so NaN is refused too. */
+/* Refuses parameters and settings that mean nothing; a comparison with NaN is false, so NaN is
+ * refused too. */
 bbm_status bbm_check_parameters(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
@@ -86,28 +86,17 @@ bbm_status bbm_check_solution(bbm_model *m)
                                                  : "a smaller dt, velocity or load helps");
 }
 
-/* Measures the boundaries of the blocks of a prepared model. */
-bbm_status bbm_measure_blocks(bbm_model *m)
-{
-    free(m->beyond->girth);
-    m->beyond->girth = calloc((size_t)m->elements, sizeof *m->beyond->girth);
-    for (int e = 0; e < m->edges && m->beyond->girth; e++)
-        m->beyond->girth[m->edge[e].first] += m->edge[e].along.length;
-    return m->beyond->girth ? BBM_OK : BBM_NO_MEMORY;
-}
-
 /* The closed contact that is deepest against the size of its smaller block, a quarter of its
  * boundary; returns that share, or 0 if none is closed. */
 double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
 {
-    const double *girth = m->beyond->girth;
     int contacts;
     const bbm_contact *c = bbm_list_contacts(m, &contacts);
     double most = 0;
 
     for (int k = 0; k < contacts; k++) {
-        const double i = girth[m->edge[c[k].corner].first], j = girth[m->edge[c[k].edge].first];
-        const double share = -c[k].d_n / (fmin(i, j) / 4);
+        const double girth = fmin(bbm_girth(m, c[k].corner), bbm_girth(m, c[k].edge));
+        const double share = -c[k].d_n / (girth / 4);
         if (c[k].state != BBM_OPEN && share > most) {
             most = share;
             *deepest = &c[k];
