@@ -18,8 +18,7 @@
  * Statics has no inertia, Eq. (16), (17): one step is one iteration of Newton-Raphson on the moved
  * geometry.
  *
- * What the paper does not have comes in through m->hook, see bbm_hooks in bbm.h. What is left of it
- * here is a pressure on an edge, and that a step that fails is done again in parts.
+ * What the paper does not have comes in through m->hook, see bbm_hooks in bbm.h.
  */
 #include <math.h>
 #include <stdarg.h>
@@ -458,24 +457,6 @@ void bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2])
     d[1] = g->d0[1] + ui[1] - uj[1];
 }
 
-/* The block lies on the left of a pressed edge, from a to b: the pressure pushes that way. */
-static void load_line(bbm_model *m, const bbm_line_load *l)
-{
-    const bbm_vertex *a = &m->vertex[l->a], *b = &m->vertex[l->b];
-    const bbm_element *e = &m->element[a->element];
-    const double p = l->pressure / hypot(b->x - a->x, b->y - a->y);
-    double *F = &m->load[6 * a->element], T[2][6], am[2], bm[2];
-
-    if (!l->constant) {
-        bbm_varying_load_submatrix(e, a, b, l->f, F);
-        return;
-    }
-    bbm_step_matrix(e, a->x, a->y, T, am);
-    bbm_step_matrix(e, b->x, b->y, T, bm);
-    const double f[2] = { l->f[0][0] - p * (bm[1] - am[1]), l->f[0][1] + p * (bm[0] - am[0]) };
-    bbm_constant_load_submatrix(e, a, b, f, F);
-}
-
 /* The part of F that comes from outside: gravity, 3.5, 3.6. A load at a node is shared by the
  * elements that meet there. */
 static void gather_loads(bbm_model *m)
@@ -489,8 +470,17 @@ static void gather_loads(bbm_model *m)
         const double share[2] = { m->node[n].load[0] / adjacent, m->node[n].load[1] / adjacent };
         bbm_point_load(&m->element[i], &m->vertex[v], share, &m->load[6 * i]);
     }
-    for (int l = 0; l < m->line_loads; l++)
-        load_line(m, &m->line_load[l]);
+    for (int l = 0; l < m->line_loads; l++) {
+        const bbm_line_load *line = &m->line_load[l];
+        const bbm_vertex *a = &m->vertex[line->a], *b = &m->vertex[line->b];
+        const bbm_element *e = &m->element[a->element];
+        if (line->constant)
+            bbm_constant_load_submatrix(e, a, b, line->f[0], &m->load[6 * a->element]);
+        else
+            bbm_varying_load_submatrix(e, a, b, line->f, &m->load[6 * a->element]);
+    }
+    if (m->hook.load)
+        m->hook.load(m);
 }
 
 /* Adds the submatrices of two elements, or of i and the wall (j < 0), to F, and to K unless it is
@@ -1152,7 +1142,7 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
 static bbm_status add_line_load(bbm_model *m, const bbm_line_load *load)
 {
     for (int g = 0; g < BBM_GAUSS; g++)
-        if (!isfinite(load->pressure) || !isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
+        if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
             return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0],
                           load->node[1]);
     if (!make_room((void **)&m->line_load, m->line_loads, sizeof *load))
@@ -1190,23 +1180,6 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
         bbm_gauss_point(g, &s, &weight);
         f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
     }
-    return add_line_load(m, &load);
-}
-
-/* Adds a load [N/m] on a boundary edge of the prepared model: a force and a pressure that turns
- * with the edge. */
-bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure)
-{
-    bbm_line_load load = { .constant = 1, .f = { { fx, fy } }, .pressure = pressure };
-
-    if (m->status)
-        return m->status;
-    if (!m->K || edge < 0 || edge >= m->edges)
-        return REFUSE(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges);
-    load.a = m->edge[edge].a;
-    load.b = m->edge[edge].b;
-    load.node[0] = m->vertex[load.a].node;
-    load.node[1] = m->vertex[load.b].node;
     return add_line_load(m, &load);
 }
 

@@ -154,8 +154,6 @@ typedef struct {                /* a load along a boundary edge                 
     int    node[2];             /* its ends                                  */
     int    constant;            /* then f[0] is all of it, Eq. (43)          */
     double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to [1], Eq. (42)   */
-    double pressure;            /* N/m      against the outward normal, besides f[0]; turns with */
-                                /*          the edge         */
     int    a, b;                /* the vertices at its ends, by bbm_prepare  */
 } bbm_line_load;
 
@@ -278,6 +276,7 @@ typedef struct {
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
     double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
     /* --- K D = F --- */
+    void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
@@ -379,8 +378,6 @@ bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, doub
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
                                      const void *context);
 bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
-/* After bbm_prepare: on a boundary edge, N/m. */
-bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
 
 /* ---------------------------------------------------------------- 3. single formulas, each alone
  * A submatrix function adds to what it is given. */

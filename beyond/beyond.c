@@ -10,6 +10,7 @@ static void release(bbm_model *m)
         return;
     bbm_free_factor(&m->beyond->factor);
     free(m->beyond->friction.x);
+    free(m->beyond->edge_load);
     free(m->beyond);
 }
 
@@ -107,6 +108,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .joint_area = bbm_joint_area,
         .friction = bbm_put_friction_in_K,
         .find_friction = bbm_find_friction,
+        .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,
         .lay_out = lay_out,

@@ -36,6 +36,11 @@ typedef struct {                /* friction.c                                   
     double *dx, *dr;            /* [(BBM_FRICTION_DIRECTIONS + 1) room] their changes           */
 } bbm_friction_search;
 
+typedef struct {                /* pressure.c: on the edge that starts at the vertex a          */
+    int    a;
+    double f[2], pressure;      /* N/m      pressure: against the outward normal, turns with it */
+} bbm_edge_load;
+
 struct bbm_beyond {
     /* --- settings --- */
     bbm_bonding  bonding;       /* bending.c                                                    */
@@ -46,6 +51,8 @@ struct bbm_beyond {
     int rounds_done;            /* in this step                                                 */
     bbm_factor factor;
     bbm_friction_search friction;
+    int edge_loads;
+    bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
@@ -91,6 +98,10 @@ void       bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_el
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
 void       bbm_list_edge_gaps(bbm_model *m);
+
+/* pressure.c. After bbm_prepare: a load on a boundary edge, N/m. */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
+void       bbm_gather_edge_loads(bbm_model *m);
 
 /* multipliers.c */
 void       bbm_start_multipliers(bbm_model *m);

@@ -174,6 +174,8 @@ int bbm_middle_is_off(const bbm_model *m)
     }
     for (int l = 0; l < m->line_loads && !off; l++)
         off = is_off(m, m->vertex[m->line_load[l].a].element);
+    for (int l = 0; l < m->beyond->edge_loads && !off; l++)
+        off = is_off(m, m->vertex[m->beyond->edge_load[l].a].element);
     return off || bbm_contacts_are_off(m, SHARE);
 }
 
