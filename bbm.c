@@ -485,25 +485,23 @@ static void gather_loads(bbm_model *m)
 
 /* Adds the submatrices of two elements, or of i and the wall (j < 0), to F, and to K unless it is
  * kept. */
-bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
+void bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
 {
-    bbm_status status = BBM_OK;
-
     for (int a = 0; a < 6; a++) {
         m->F[6 * i + a] += s->Fi[a];
         if (j >= 0)
             m->F[6 * j + a] += s->Fj[a];
     }
-    if (!m->K_is_kept)
-        status = bbm_matrix_add(m->K, i, i, s->Kii);
-    if (!m->K_is_kept && !status && j >= 0)
-        status = bbm_matrix_add(m->K, i, j, s->Kij);
-    if (!m->K_is_kept && !status && j >= 0)
-        status = bbm_matrix_add(m->K, j, j, s->Kjj);
-    return status;
+    if (m->K_is_kept)
+        return;
+    bbm_matrix_add(m->K, i, i, s->Kii);
+    if (j >= 0) {
+        bbm_matrix_add(m->K, i, j, s->Kij);
+        bbm_matrix_add(m->K, j, j, s->Kjj);
+    }
 }
 
-static bbm_status assemble_element(bbm_model *m, int i)
+static void assemble_element(bbm_model *m, int i)
 {
     bbm_submatrix s = { { { 0 } }, { 0 } };
 
@@ -512,15 +510,16 @@ static bbm_status assemble_element(bbm_model *m, int i)
         bbm_inertia_submatrix(&m->element[i], m->h, &s);
     for (int a = 0; a < 6; a++)
         m->F[6 * i + a] += s.F[a];
-    return m->K_is_kept ? BBM_OK : bbm_matrix_add(m->K, i, i, s.K);
+    if (!m->K_is_kept)
+        bbm_matrix_add(m->K, i, i, s.K);
 }
 
-static bbm_status assemble_gap(bbm_model *m, bbm_gap *g)
+static void assemble_gap(bbm_model *m, bbm_gap *g)
 {
     bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
 
     bbm_bonding_submatrices(g, &s);
-    return bbm_add_submatrices(m, g->i, g->j, &s);
+    bbm_add_submatrices(m, g->i, g->j, &s);
 }
 
 /* Counts the CPU time since `since` for a phase. */
@@ -530,24 +529,21 @@ static void count_time(bbm_model *m, int phase, clock_t since)
 }
 
 /* K, unless it is kept, and F of the present geometry, Eq. (5). */
-bbm_status bbm_assemble(bbm_model *m)
+void bbm_assemble(bbm_model *m)
 {
     const clock_t start = clock();
-    bbm_status status = BBM_OK;
 
     if (!m->K_is_kept) {
         gather_loads(m);
         bbm_matrix_clear(m->K);
     }
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
-    for (int i = 0; i < m->elements && !status; i++)
-        status = assemble_element(m, i);
-    for (int g = 0; g < m->gaps && !status; g++)
-        status = assemble_gap(m, &m->gap[g]);
-    if (!status)
-        status = bbm_assemble_contacts(m);
+    for (int i = 0; i < m->elements; i++)
+        assemble_element(m, i);
+    for (int g = 0; g < m->gaps; g++)
+        assemble_gap(m, &m->gap[g]);
+    bbm_assemble_contacts(m);
     count_time(m, BBM_ASSEMBLE, start);
-    return status;
 }
 
 /* ------------------------------------------------------------- the parts of a time step */
@@ -802,7 +798,7 @@ static bbm_status try_step(bbm_model *m)
     do {
         do {
             if (!status)
-                status = bbm_assemble(m);           /* K, F: 3.1 to 3.8                         */
+                bbm_assemble(m);                    /* K, F: 3.1 to 3.8                         */
             if (!status)
                 status = solve(m);                  /* K D = F: section 4                       */
             if (!status)

@@ -440,8 +440,8 @@ void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         
 bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's    */
 void       bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
-bbm_status bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
-bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
+void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
+void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
 void       bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
                     double u[2]);
 
@@ -455,7 +455,7 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
 int        bbm_carries(const bbm_model *m, int corner, int edge);
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
-bbm_status bbm_assemble_contacts(bbm_model *m);
+void       bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
 bbm_status bbm_store_contacts(bbm_model *m);
 
@@ -466,7 +466,8 @@ bbm_status bbm_store_contacts(bbm_model *m);
 bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                                      /* takes NULL   */
 void       bbm_matrix_clear(bbm_matrix *K);
-bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T */
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
+                                   what the pattern does not have fails here and in bbm_solve   */
 void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   /* B = K_ij     */
 void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y); /* y = K x     */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
@@ -497,6 +498,7 @@ struct bbm_matrix {
     double *y, *u;              /* results of a sweep forward and of one backward               */
     const bbm_method *method;
     double omega;
+    int lacks;                  /* what was added to a block that the pattern does not have     */
     int ready;                  /* G, S and what the method made belong to D, L and these two   */
     void *extra;                /* what a method keeps with K                                   */
     void (*free_extra)(void *extra);

@@ -230,8 +230,9 @@ typedef struct {                /* of a block, with the index of its first eleme
     double travel;              /* m        how far its vertices may move in this step          */
     double girth;               /* m        its boundary at the start                           */
     int    edges;               /* of it                                                        */
-    /* --- of an element --- */
+    /* --- of an element; of a component of K, with its number --- */
     double turn;                /* rad      how far it may turn in this step                    */
+    double force;               /* N        the largest one in it                               */
 } motion;
 
 struct bbm_contact_scratch {
@@ -242,7 +243,6 @@ struct bbm_contact_scratch {
     int is_listed;
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
-    double *force;              /* [elements] N, of a component of K: the largest one in it     */
     /* --- the iteration --- */
     int passes, friction_passes;
     int one_by_one;             /* one contact changes its state in a pass                      */
@@ -360,21 +360,18 @@ void bbm_contact_free(bbm_contact_scratch *w)
     free(w->motion);
     free(w->pair);
     free(w->contact);
-    free(w->force);
     free(w);
 }
 
 bbm_status bbm_contact_new(bbm_model *m)
 {
-    const size_t n = (size_t)m->elements;
     bbm_contact_scratch *w = m->scratch = calloc(1, sizeof *w);
 
     if (!w)
         return BBM_NO_MEMORY;
-    w->motion = calloc(n, sizeof *w->motion);
+    w->motion = calloc((size_t)m->elements, sizeof *w->motion);
     w->pair = calloc((size_t)m->edges, sizeof *w->pair);
-    w->force = calloc(n, sizeof *w->force);
-    if (!w->motion || !w->pair || !w->force)
+    if (!w->motion || !w->pair)
         return BBM_NO_MEMORY;
     w->pair_room = m->edges;
     number_blocks(m);
@@ -855,11 +852,9 @@ static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_s
 
 /* Adds the springs of the closed contacts, Eq. (58) and (63), or spring and friction, Eq. (65),
  * (69), to K and F. */
-bbm_status bbm_assemble_contacts(bbm_model *m)
+void bbm_assemble_contacts(bbm_model *m)
 {
-    bbm_status status = BBM_OK;
-
-    for (int k = 0; k < m->scratch->contacts && !status; k++) {
+    for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         const bbm_touch t = touch_of(m, c);
         bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
@@ -870,9 +865,8 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
             bbm_shear_submatrices(&t, c->anchor, c->time_left * m->par.p_s, &s);
         else
             add_friction(m, c, &t, &s);
-        status = bbm_add_submatrices(m, element_of(m, c->corner), element_of(m, c->edge), &s);
+        bbm_add_submatrices(m, element_of(m, c->corner), element_of(m, c->edge), &s);
     }
-    return status;
 }
 
 /* ------------------------------------------------------------- the open-close iteration: forces */
@@ -911,7 +905,7 @@ static void measure(const bbm_model *m, bbm_contact *c)
 /* The largest force in the component of K that an element belongs to. */
 static double *force_on(const bbm_model *m, int element)
 {
-    return &m->scratch->force[m->K->component[element]];
+    return &m->scratch->motion[m->K->component[element]].force;
 }
 
 /* The largest force in each component: on an element, inertia included, or in a contact. What the
@@ -921,7 +915,8 @@ static void find_tolerances(const bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
-    memset(w->force, 0, (size_t)m->elements * sizeof *w->force);
+    for (int i = 0; i < m->elements; i++)
+        w->motion[i].force = 0;
     for (int i = 0; i < m->elements; i++) {
         double *most = force_on(m, i);
         *most = fmax(*most, hypot(m->F[6 * i], m->F[6 * i + 1]));

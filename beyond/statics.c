@@ -121,12 +121,12 @@ static bbm_status take_long_step(bbm_model *m, double *far)
     *far = load / mass * h2 / 2;
     m->h = sqrt(h2);
     m->K_is_kept = 0;
-    const bbm_status status = bbm_assemble(m);
+    bbm_assemble(m);
     m->h = INFINITY;
     for (int i = 0; i < m->elements; i++)
         bbm_gravity_submatrix(&m->element[i], push, &m->F[6 * i]);
     pcg.method = &bbm_eisenstat;
-    return status ? status : bbm_solve(m->K, m->F, m->D, &pcg, &info);
+    return bbm_solve(m->K, m->F, m->D, &pcg, &info);
 }
 
 static double way(const bbm_model *m, int i) { return hypot(m->D[6 * i], m->D[6 * i + 1]); }
