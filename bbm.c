@@ -679,14 +679,14 @@ static bbm_status open_close(bbm_model *m, int *changed)
     return pass == BBM_PASS_DONE || *changed ? BBM_OK : unsettled(m);
 }
 
-/* Displacement of the point (x, y) by D: u = T D, or where it is exact a hook's. */
+/* Displacement of the point (x, y) by D: u = T D, or a hook's. */
 void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
               double u[2])
 {
     double T[2][6];
 
-    if (bbm_is_exact(m)) {
-        m->hook.move(D, x - e->x, y - e->y, u);
+    if (m->hook.move) {
+        m->hook.move(m, D, x - e->x, y - e->y, u);
         return;
     }
     bbm_mode_matrix(e, x, y, T);

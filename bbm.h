@@ -285,13 +285,14 @@ typedef struct {
                                                             /* pass 0: of new states            */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
-    int (*is_exact)(const bbm_model *m);                    /* T of the middle; `move`, `turn`  */
+    int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */
     int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
     int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
     /* --- the end of the step --- */
-    void (*move)(const double D[6], double X, double Y, double u[2]);   /* exact, for u = T D   */
+    void (*move)(const bbm_model *m, const double D[6], double X, double Y, double u[2]);
+                                                            /* in place of u = T D              */
     void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
-                                                            /* an element that has moved so     */
+                                                            /* an element that has moved, if so */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
 } bbm_hooks;

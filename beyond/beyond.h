@@ -89,7 +89,8 @@ void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
-void       bbm_move_exactly(const double D[6], double X, double Y, double u[2]);
+void       bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y,
+                            double u[2]);
 void       bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
 
 /* bending.c */

@@ -48,14 +48,17 @@ int bbm_moves_exactly(const bbm_model *m)
 }
 
 /* How a point at (X, Y) from the barycentre moves: translation, strain, then the exact rotation,
- * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X. */
-void bbm_move_exactly(const double D[6], double X, double Y, double u[2])
+ * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X; where rotations
+ * are linear, its first order in r0, u = T D. */
+void bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y, double u[2])
 {
     const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
-    const double s = sin(D[2]), c1 = -2 * sin(D[2] / 2) * sin(D[2] / 2);
+    const int exact = bbm_moves_exactly(m);
+    const double s = exact ? sin(D[2]) : D[2], c1 = exact ? -2 * pow(sin(D[2] / 2), 2) : 0;
+    const double x = exact ? X + ux : X, y = exact ? Y + uy : Y;
 
-    u[0] = D[0] + ux + c1 * (X + ux) - s * (Y + uy);
-    u[1] = D[1] + uy + c1 * (Y + uy) + s * (X + ux);
+    u[0] = D[0] + ux + c1 * x - s * y;
+    u[1] = D[1] + uy + c1 * y + s * x;
 }
 
 /* T_m at the point that starts the step in (x, y), and where it is in the middle of the step:
@@ -63,12 +66,11 @@ void bbm_move_exactly(const double D[6], double X, double Y, double u[2])
 void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6], double at[2])
 {
     const double X = x - e->x, Y = y - e->y, *D = e->mode_D, r = D[2];
+    const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
     const double t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
-    const double strained[6] = { 0, 0, r, D[3], D[4], D[5] };
-    double u[2];
-
-    bbm_move_exactly(strained, X, Y, u);
-    const double Xm = X + u[0] / 2, Ym = Y + u[1] / 2;
+    const double s = 2 * t / (1 + t * t), c1 = -t * s;                  /* sin(r), cos(r) - 1   */
+    const double Xm = X + (ux + c1 * (X + ux) - s * (Y + uy)) / 2;
+    const double Ym = Y + (uy + c1 * (Y + uy) + s * (X + ux)) / 2;
     const double matrix[2][6] = {
         /* u0  v0  r0       ex     ey      gxy               */
         {  1,  0,  -f * Ym, X,     -t * Y, (Y - t * X) / 2 },
