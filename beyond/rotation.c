@@ -157,7 +157,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
 }
 
 /* Whether the vectors of bonds, fixed points, loads or contacts belong to another step than the
- * solution. */
+ * solution. Gravity has none; a load that depends on T has a moment, or strains its element. */
 int bbm_middle_is_off(const bbm_model *m)
 {
     int off = 0;
@@ -166,14 +166,8 @@ int bbm_middle_is_off(const bbm_model *m)
         return 0;
     for (int k = 0; k < m->gaps && !off; k++)
         off = is_off(m, m->gap[k].i) || (m->gap[k].j >= 0 && is_off(m, m->gap[k].j));
-    for (int v = 0; v < m->vertices && !off; v++) {
-        const double *load = m->node[m->vertex[v].node].load;
-        off = (load[0] != 0 || load[1] != 0) && is_off(m, m->vertex[v].element);
-    }
-    for (int l = 0; l < m->line_loads && !off; l++)
-        off = is_off(m, m->vertex[m->line_load[l].a].element);
-    for (int l = 0; l < m->beyond->edge_loads && !off; l++)
-        off = is_off(m, m->vertex[m->beyond->edge_load[l].a].element);
+    for (int a = 0; a < 6 * m->elements && !off; a++)
+        off = a % 6 >= 2 && m->load[a] != 0 && is_off(m, a / 6);
     return off || bbm_contacts_are_off(m, SHARE);
 }
 
