@@ -770,8 +770,8 @@ void bbm_begin_step(bbm_model *m)
     bbm_guess_step(m);
 }
 
-/* What must hold before a step: a prepared model, and parameters that a hook finds in their
- * ranges. */
+/* What must hold before a step: a prepared model, and parameters in their ranges; a comparison with
+ * NaN is false. A hook may say which one is not. */
 bbm_status bbm_check_step(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
@@ -779,10 +779,18 @@ bbm_status bbm_check_step(bbm_model *m)
     if (!m->K)
         return m->status ? m->status
                          : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    if ((p->cohesion > 0 || p->tension > 0) && !m->hook.joint_area)
+    const bbm_status status = m->hook.check_step ? m->hook.check_step(m) : BBM_OK;
+    if (status)
+        return status;
+    if (!(p->dt > 0 && p->alpha > 0 && p->p_n > 0 && p->p_s > 0 && p->friction >= 0
+          && p->friction < 90 && p->velocity_factor >= 0 && p->velocity_factor <= 1
+          && p->tolerance >= 0))
+        return bbm_fail(m, BBM_BAD_PARAMETER, "expected dt, alpha, p_n, p_s above 0, tolerance 0 or "
+                        "more, friction 0 to less than 90 degrees, velocity_factor 0 to 1");
+    if ((p->cohesion != 0 || p->tension != 0) && !m->hook.joint_area)
         return bbm_fail(m, BBM_BAD_PARAMETER, "cohesion = %g, tension = %g, expected 0 where no "
                         "hook knows the area of a joint", p->cohesion, p->tension);
-    return m->hook.check_step ? m->hook.check_step(m) : BBM_OK;
+    return BBM_OK;
 }
 
 /* --------------------------------------------------------------- the time step, Fig. 8 */

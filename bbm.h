@@ -269,7 +269,7 @@ typedef struct {
     bbm_status (*check_polygon)(bbm_model *m, int n, const int node[]);     /* of a new element */
     bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
     /* --- a step begins --- */
-    bbm_status (*check_step)(bbm_model *m);
+    bbm_status (*check_step)(bbm_model *m);                 /* parameters in their ranges       */
     void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
     void (*begin)(bbm_model *m);                            /* the contacts are listed          */
     bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
