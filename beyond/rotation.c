@@ -38,7 +38,7 @@
  * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is
  *               1e-5 of that */
 #define TURN 1e-8
-#define SHARE 1e-5
+#define SHARE 3e-6
 #define DIRECTION 1e-4
 
 /* Whether points move by the exact rotation. */
