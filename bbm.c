@@ -101,13 +101,13 @@ static void multiply_mode(double T[2][6], const double D[6], double u[2])
     }
 }
 
-/* Displacement u = T D of the last step at (x, y), a point given before the step, Eq. (1). */
-void bbm_displacement(const bbm_element *e, double x, double y, double u[2])
+/* Displacement u = T D at (x, y), a point given before the step, Eq. (1). */
+void bbm_displacement(const bbm_element *e, const double D[6], double x, double y, double u[2])
 {
     double T[2][6];
 
     bbm_mode_matrix(e, x, y, T);
-    multiply_mode(T, e->D, u);
+    multiply_mode(T, D, u);
 }
 
 /* ------------------------------------------------------------- 2.2 Element connections */
@@ -683,14 +683,10 @@ static bbm_status open_close(bbm_model *m, int *changed)
 void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
               double u[2])
 {
-    double T[2][6];
-
-    if (m->hook.move) {
+    if (m->hook.move)
         m->hook.move(m, D, x - e->x, y - e->y, u);
-        return;
-    }
-    bbm_mode_matrix(e, x, y, T);
-    multiply_mode(T, D, u);
+    else
+        bbm_displacement(e, D, x, y, u);
 }
 
 /* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */

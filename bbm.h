@@ -356,7 +356,8 @@ bbm_status  bbm_run(bbm_model *m);                          /* all steps        
 bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8                 */
 /* The mean over the elements of a block (-1: of all) at a node. */
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
-void        bbm_displacement(const bbm_element *e, double x, double y, double u[2]);    /* (1)  */
+void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
+                             double u[2]);                  /* (1)                              */
 double      bbm_mises(const double stress[3]);
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */
