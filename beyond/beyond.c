@@ -58,11 +58,6 @@ static void begin(bbm_model *m)
     bbm_start_multipliers(m);
 }
 
-static bbm_status check_listed(bbm_model *m)
-{
-    return bbm_is_static(m) ? bbm_check_supports(m) : BBM_OK;
-}
-
 /* A step that went well: right as far as one can tell, and without energy from nowhere. */
 static bbm_status accept(bbm_model *m, const bbm_model *end)
 {
@@ -103,7 +98,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_step = check_step,
         .accelerate = accelerate,
         .begin = begin,
-        .check_listed = check_listed,
+        .check_listed = bbm_check_supports,
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
         .friction = bbm_put_friction_in_K,

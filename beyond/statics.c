@@ -64,10 +64,13 @@ bbm_status bbm_check_supports(bbm_model *m)
 {
     const bbm_element *e = m->element;
     const int *body = m->K->component;
-    int *first = calloc((size_t)m->elements, sizeof *first), loose = -1;
+    int loose = -1;
+
+    if (!bbm_is_static(m))
+        return BBM_OK;
+    int *first = calloc((size_t)m->elements, sizeof *first);
     double (*G)[3][3] = calloc((size_t)m->elements, sizeof *G);
     const bbm_status status = first && G ? BBM_OK : BBM_NO_MEMORY;
-
     for (int i = m->elements - 1; i >= 0 && !status; i--)
         first[body[i]] = i;
     for (int g = 0; g < m->gaps && !status; g++) {
