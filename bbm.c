@@ -399,7 +399,7 @@ int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
 int bbm_is_exact(const bbm_model *m) { return m->hook.is_exact && m->hook.is_exact(m); }
 
 /* The next gap of the list, between the elements i and j; it keeps its multiplier from the last
- * list. */
+ * list. There is room for two of each bond and three of each vertex (allocate). */
 bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 {
     bbm_gap *g = &m->gap[m->gaps++];
@@ -781,8 +781,8 @@ bbm_status bbm_check_step(bbm_model *m)
     if (!(p->dt > 0 && p->alpha > 0 && p->p_n > 0 && p->p_s > 0 && p->friction >= 0
           && p->friction < 90 && p->velocity_factor >= 0 && p->velocity_factor <= 1
           && p->tolerance >= 0))
-        return bbm_fail(m, BBM_BAD_PARAMETER, "expected dt, alpha, p_n, p_s above 0, tolerance 0 or "
-                        "more, friction 0 to less than 90 degrees, velocity_factor 0 to 1");
+        return bbm_fail(m, BBM_BAD_PARAMETER, "expected dt, alpha, p_n, p_s above 0, tolerance 0 "
+                        "or more, friction 0 to less than 90 degrees, velocity_factor 0 to 1");
     if ((p->cohesion != 0 || p->tension != 0) && !m->hook.joint_area)
         return bbm_fail(m, BBM_BAD_PARAMETER, "cohesion = %g, tension = %g, expected 0 where no "
                         "hook knows the area of a joint", p->cohesion, p->tension);
