@@ -440,63 +440,9 @@ void case_draw_panels(case_results *r, const char *file, const bbm_model *m, con
     finish(r, path, scene_write_panels(s, m, case_path(r, file, path), n, time));
 }
 
-/* The arrays of a map: [nodes] x, y, u, v and the quantity; [elements+1] first; [vertices]
- * corner. */
-static void fill_map(const bbm_model *m, const char *quantity, double *at, int *first, int *corner)
-{
-    for (int n = 0; n < m->nodes; n++) {
-        bbm_result here;
-        bbm_nodal_result(m, n, -1, &here);
-        const double value[5] = { m->node[n].x, m->node[n].y, here.u, here.v,
-                                  case_quantity(&here, quantity) };
-        for (int k = 0; k < 5; k++)
-            at[k * m->nodes + n] = value[k];
-    }
-    for (int e = 0; e < m->elements; e++)
-        first[e + 1] = m->element[e].first + m->element[e].n;
-    for (int v = 0; v < m->vertices; v++)
-        corner[v] = m->vertex[v].node;
-}
-
-int case_write_map(const char *path, const bbm_model *m, const char *quantity, plot_map *map)
-{
-    const size_t n = (size_t)m->nodes;
-    double *at = calloc(5 * n, sizeof *at);
-    int *first = calloc((size_t)m->elements + 1, sizeof *first);
-    int *corner = calloc((size_t)m->vertices, sizeof *corner);
-    int done = at && first && corner;
-
-    if (done) {
-        fill_map(m, quantity, at, first, corner);
-        map->mesh = (plot_mesh){ m->nodes, m->elements, at, at + n, first, corner };
-        map->value = at + 4 * n;
-        map->quantity.name = quantity[1] == 'v' ? "von Mises stress" : quantity;
-        map->quantity.unit = quantity[0] == 's' ? "Pa" : "m";
-        if (map->magnify >= 0)
-            map->u = at + 2 * n, map->v = at + 3 * n;
-        done = plot_write_map(path, map);
-    } else {
-        errno = ENOMEM;
-    }
-    free(at);
-    free(first);
-    free(corner);
-    return done;
-}
-
-void case_draw_map(case_results *r, const char *file, const bbm_model *m, const char *quantity,
-                   const char *title)
+void case_draw_map(case_results *r, const char *file, const bbm_model *m, const scene_map *map)
 {
     char path[128];
 
-    finish(r, path, case_write_map(case_path(r, file, path), m, quantity,
-                                   &(plot_map){ .title = title, .magnify = -1 }));
-}
-
-void case_draw_deformed(case_results *r, const char *file, const bbm_model *m, const char *title)
-{
-    char path[128];
-
-    finish(r, path, case_write_map(case_path(r, file, path), m, "svm",
-                                   &(plot_map){ .title = title }));
+    finish(r, path, scene_write_map(m, case_path(r, file, path), map));
 }

@@ -73,7 +73,7 @@ int main(void)
     bbm_model *m = build_column();
     case_results r;
     case_effort effort = { 0, 0 };
-    scene s = { .title = "Column of ten blocks: contact forces" };
+    scene s = { .title = "Contact forces in a column of ten blocks" };
     double place[BLOCKS + 1][2], speed, drift;
 
     printf("\n# Column of ten blocks at rest\n\n");

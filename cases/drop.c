@@ -107,7 +107,7 @@ static void draw(case_results *r, const double ratio[2][STEPS])
 static void draw_movie(case_results *r)
 {
     bbm_model *m = build_drop(1e-3, 1);
-    scene s = { .title = "Dropped on a corner, dt = 1 ms", .play = 8, .most = 120 };
+    scene s = { .title = "A block is dropped on its corner", .play = 8, .most = 120 };
 
     scene_record(&s, m, 0, 0, NULL);
     while (m->info.t < 1.2) {

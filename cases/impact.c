@@ -139,7 +139,7 @@ static void swing(case_results *r, double dt, double e, scene *s)
 int main(void)
 {
     case_results r;
-    scene s = { .title = "Separate cradle", .play = 8, .most = 120 };
+    scene s = { .title = "A block hits a row of four", .play = 8, .most = 120 };
     double error[3];
 
     printf("\n# Impact\n\n");

@@ -87,7 +87,7 @@ static bbm_model *build_block(const rocker *k)
 static int rock(const rocker *k, int peaks, double share[MOST], case_results *movie)
 {
     bbm_model *m = build_block(k);
-    scene film = { .title = "A block rocks", .play = 8 };
+    scene film = { .title = "A tall block rocks", .play = 8 };
     int n = 0;
 
     if (movie)

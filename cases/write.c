@@ -189,8 +189,8 @@ static void draw_pictures(write_results *w)
     const bbm_model *m = w->p->m;
     const double now = m->info.t;
     scene end = { .title = w->p->title };
-    plot_map map = { .title = w->p->title, .magnify = w->p->dynamic ? 1 : 0 };     /* 0: a static one is magnified */
-    char path[LONGEST];
+    scene_map map = w->p->picture;
+    char path[LONGEST], name[20];
 
     case_record(&end, m);
     if (!scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now))
@@ -199,7 +199,11 @@ static void draw_pictures(write_results *w)
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed))    /* neither: the start has failed */
         if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
             fail(w, path, strerror(errno));
-    if (!case_write_map(path_of(w, "mises.svg", path), m, "svm", &map))
+    map.title = w->p->title;
+    if (w->p->dynamic && map.scale == 0)
+        map.scale = 1;                          /* a static one is magnified */
+    snprintf(name, sizeof name, "%s.svg", map.field ? map.field : "mises");
+    if (!scene_write_map(m, path_of(w, name, path), &map))
         fail(w, path, strerror(errno));
 }
 
@@ -280,7 +284,8 @@ void write_matrix(write_results *w)
 static size_t is_ours(const char *name, long *process)
 {
     static const char *const all[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv",
-                                       "contacts.svg", "movie.svg", "mises.svg" };
+                                       "contacts.svg", "movie.svg" };
+    static const char *const field[] = SCENE_FIELDS;
     const size_t temporary = output_is_temporary(name, process), n = temporary ? temporary : strlen(name);
     const size_t digits = strncmp(name, "step_", 5) == 0 ? strspn(name + 5, "0123456789") : 0;
 
@@ -290,6 +295,10 @@ static size_t is_ours(const char *name, long *process)
         return n;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
+            return n;
+    for (size_t k = 0; field[k]; k++)
+        if (n == strlen(field[k]) + 4 && strncmp(name, field[k], n - 4) == 0
+            && strncmp(name + n - 4, ".svg", 4) == 0)
             return n;
     return 0;
 }
