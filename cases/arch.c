@@ -243,12 +243,12 @@ static void draw_thrusts(case_results *r)
 static int show(case_results *r, double ratio, double friction, const char *name, const char *title)
 {
     bbm_model *m = build_arch(N, ratio, friction);
-    scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 }, .most = 80, .longest = 5e5 };
+    scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 }, .longest = 5e5 };
     char file[60];
 
     case_settle(m, SETTLE);
     m->info.t = 0;
-    case_record(&s, m);
+    scene_record(&s, m);
     for (int i = 0; i < STEPS && moved(m) < 8; i++)
         case_step(m, NULL, &s);
     const int stood = moved(m) < 0.2;

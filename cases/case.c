@@ -217,7 +217,7 @@ void case_step(bbm_model *m, case_effort *e, scene *s)
         e->cuts += m->info.cuts;
     }
     if (s)
-        case_record(s, m);
+        scene_record(s, m);
 }
 
 void case_settle(bbm_model *m, int steps)
@@ -226,33 +226,6 @@ void case_settle(bbm_model *m, int steps)
     for (int i = 0; i < steps; i++)
         case_step(m, NULL, NULL);
     m->par.velocity_factor = 1;
-}
-
-/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's
- * block; turned round if it points down, so that arrows stand on what carries and point into what
- * is carried. */
-static scene_force force_of(const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a], *P2 = &m->vertex[m->edge[c->edge].b];
-    const bbm_vertex *P3 = &m->vertex[m->edge[c->edge].a];
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
-    const double f[2] = { -c->N * y - c->T * x, c->N * x - c->T * y }, up = f[1] < 0 ? -1 : 1;
-
-    return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], (int)c->state };
-}
-
-void case_record(scene *s, const bbm_model *m)
-{
-    scene_force *force = calloc((size_t)m->contacts + 1, sizeof *force);
-
-    for (int k = 0; k < m->contacts && force; k++)
-        force[k] = force_of(m, &m->contact[k]);
-    if (force)
-        scene_record(s, m, m->info.t, m->contacts, force);
-    else
-        s->failed = 1;
-    free(force);
 }
 
 /* ----------------------------------------------------------------------------- reference values */

@@ -66,8 +66,6 @@ double case_percent(double computed, double reference);
 
 typedef struct { int passes, cuts; } case_effort;   /* most passes of a step; all halvings of dt */
 void   case_step(bbm_model *m, case_effort *e, scene *s);       /* one step; e and s may be NULL */
-/* Positions, and contact forces as arrows; without memory the scene has failed. */
-void   case_record(scene *s, const bbm_model *m);
 /* Quasi-static steps, to start a run in equilibrium: springs that are loaded suddenly would
  * swing. */
 void   case_settle(bbm_model *m, int steps);

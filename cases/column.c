@@ -99,7 +99,7 @@ int main(void)
     case_compare(&r, "largest drift [m]", drift, 0);
     printf("\nAt most %d solution%s in a step, dt halved %d times\n", effort.passes, effort.passes > 1 ? "s" : "",
            effort.cuts);
-    case_record(&s, m);
+    scene_record(&s, m);
     case_draw_panels(&r, "forces.svg", m, &s, 1, (double[]){ 0 });
     printf("\nNumbers and picture: %s/results.csv, forces.svg\n", r.folder);
     scene_free(&s);

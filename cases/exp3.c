@@ -101,7 +101,7 @@ static void run(slide *s, const exp3_variant *v, scene *film)
     measure(s, s->start);
     s->m->info.t = 0;
     if (film)
-        case_record(film, s->m);
+        scene_record(film, s->m);
     for (int i = 0; i <= STEPS; i++) {
         if (i > 0)
             case_step(s->m, &s->effort, film);

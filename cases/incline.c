@@ -193,10 +193,10 @@ static void draw_ways(case_results *r)
 
 static void draw_film(case_results *r)
 {
-    scene film = { .title = "A block on an incline of 30 degrees, friction 20 degrees", .window = { -2.5, 1.5, -1.5, 1.4 }, .most = 64 };
+    scene film = { .title = "A block on an incline of 30 degrees, friction 20 degrees", .window = { -2.5, 1.5, -1.5, 1.4 } };
     bbm_model *m = start(&(slide){ A, 20, 0.01, 1e9, 0, 1, 13, 20 });
 
-    case_record(&film, m);
+    scene_record(&film, m);
     for (int i = 0; i < 120; i++)
         case_step(m, NULL, &film);
     case_draw_movie(r, "slide.svg", m, &film);

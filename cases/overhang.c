@@ -61,7 +61,7 @@ static double let_go(double f, int steps, scene *s, bbm_model **kept)
     case_settle(m, SETTLE);
     m->info.t = 0;
     if (s)
-        case_record(s, m);
+        scene_record(s, m);
     for (int i = 0; i < steps; i++)
         case_step(m, NULL, s);
     const double d = moved(m);

@@ -75,7 +75,7 @@ void plot_text(plot *p, double x, double y, const char *attributes, const char *
 {
     const unsigned char *s = (const unsigned char *)text;
 
-    if (!text)
+    if (!text || !*text)
         return;
     plot_put(p, "<text x=\"%.2f\" y=\"%.2f\" %s>", x, y, attributes);
     for (int n; *s; s += n ? n : 1) {

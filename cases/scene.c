@@ -34,7 +34,7 @@
 
 #include "plot.h"
 
-enum { FRAMES = 60, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
+enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
 enum { LEFT = 84, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 
@@ -82,8 +82,6 @@ void scene_free(scene *s)
     s->frames = s->vertices = s->calls = s->every = s->failed = 0;
 }
 
-static int most_frames(const scene *s) { return s->most >= 2 ? s->most : FRAMES; }
-
 /* Makes room for one more: the last frame only stays if its turn has come, and half of them go if
  * all have come. */
 static void thin_out(scene *s)
@@ -92,11 +90,10 @@ static void thin_out(scene *s)
 
     if (kept && s->frame[kept - 1].call % s->every)
         drop_frame(&s->frame[--kept]);
-    if (kept == most_frames(s)) {
-        const int n = kept;
+    if (kept == FRAMES) {
         s->every *= 2;
         kept = 0;
-        for (int k = 0; k < n; k++)
+        for (int k = 0; k < FRAMES; k++)
             if (s->frame[k].call % s->every)
                 drop_frame(&s->frame[k]);
             else
@@ -105,11 +102,24 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-static int copy_frame(scene_frame *f, const bbm_model *m, int forces, const scene_force *force)
+/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's
+ * block; turned round if it points down, so that it points into what is carried. */
+static scene_force force_of(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a], *P2 = &m->vertex[m->edge[c->edge].b];
+    const bbm_vertex *P3 = &m->vertex[m->edge[c->edge].a];
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
+    const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+    const double f[2] = { -c->N * y - c->T * x, c->N * x - c->T * y }, up = f[1] < 0 ? -1 : 1;
+
+    return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], c->state };
+}
+
+static int copy_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
-    f->force = forces ? malloc((size_t)forces * sizeof *f->force) : NULL;
-    if (!f->at || (forces && !f->force)) {
+    f->force = malloc(((size_t)m->contacts + 1) * sizeof *f->force);
+    if (!f->at || !f->force) {
         drop_frame(f);
         return 0;
     }
@@ -117,24 +127,25 @@ static int copy_frame(scene_frame *f, const bbm_model *m, int forces, const scen
         f->at[v][0] = m->vertex[v].x;
         f->at[v][1] = m->vertex[v].y;
     }
-    if (forces)
-        memcpy(f->force, force, (size_t)forces * sizeof *force);
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            f->force[f->forces++] = force_of(m, &m->contact[k]);
     return 1;
 }
 
-int scene_record(scene *s, const bbm_model *m, double time, int forces, const scene_force *force)
+int scene_record(scene *s, const bbm_model *m)
 {
-    scene_frame f = { .time = time, .call = s->calls++, .forces = forces };
+    scene_frame f = { .time = m->info.t, .call = s->calls++ };
 
     for (int v = 0; v < m->vertices; v++)
         if (!isfinite(m->vertex[v].x + m->vertex[v].y))
             return 0;
     if (!s->frame) {
-        s->frame = calloc((size_t)most_frames(s), sizeof *s->frame);
+        s->frame = calloc(FRAMES, sizeof *s->frame);
         s->vertices = m->vertices;
         s->every = 1;
     }
-    if (!s->frame || m->vertices != s->vertices || !copy_frame(&f, m, forces, force))
+    if (!s->frame || m->vertices != s->vertices || !copy_frame(&f, m))
         s->failed = 1;
     if (s->failed) {
         drop_frame(&f);
@@ -452,7 +463,7 @@ static void draw_blocks(film *f, int frame)
 
 /* ------------------------------------------------------------------- forces, loads and supports */
 
-enum { LOCKED = SCENE_LOCK, SLIDING = SCENE_SLIDE, LOAD = 0, LINE_LOAD = 3, KINDS = 4 };
+enum { LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, LOAD = 0, LINE_LOAD = 3, KINDS = 4 };
 
 static const char *const style[KINDS] = {
     "stroke=\"#aa2288\" stroke-width=\"2\"", "stroke=\"#004488\" stroke-width=\"1.8\"",
@@ -516,7 +527,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++)
         visit_edge(f, frame, &m->line_load[i], &last, visit);
     for (int i = 0; (kind == LOCKED || kind == SLIDING) && i < g->forces; i++)
-        if (g->force[i].state == kind)
+        if ((int)g->force[i].state == kind)
             visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },
                         (point){ g->force[i].fx, g->force[i].fy }, (point){ 0, 0 }, visit);
 }
@@ -813,7 +824,7 @@ static void end_panel(film *f, plot_box b)
 
 static int is_whole(double x) { return fabs(x - floor(x + 0.5)) <= 1e-6 * fabs(x); }
 
-/* As many decimals as all frames' times have, within a hundredth of their distance. */
+/* As many decimals as all frames' times have, within a tenth of their distance. */
 static void put_time(film *f, plot_box b, int frame)
 {
     const scene_frame *g = f->s->frame;
@@ -823,7 +834,7 @@ static void put_time(film *f, plot_box b, int frame)
     int decimals = 0;
 
     for (int i = 0; i < f->s->frames; i++)
-        for (; decimals < 9 && unit > apart / 100 && !is_whole(g[i].time / unit); decimals++)
+        for (; decimals < 9 && unit > apart / 10 && !is_whole(g[i].time / unit); decimals++)
             unit /= 10;
     snprintf(text, sizeof text, "t = %.*f s", decimals, g[frame].time);
     plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", text);
@@ -904,8 +915,7 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
     layout l;
 
     if (s->frames > 1)
-        f.seconds = s->play > 0 ? s->play
-                    : fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 4), 12);
+        f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
     int done = begin_film(&f) && open_page(&f, path, 1, 0, &l);
     if (done) {
         const plot_box b = begin_panel(&f, &l, 0);

@@ -2,33 +2,30 @@
  *
  * A scene is a recording. The choices are set first, one call per step records, one call writes;
  * the first frame is the start, the last one the end of the run. However long the run is, at most
- * `most` frames stay: whenever they are full, every second one is given up.
+ * 64 frames stay: whenever they are full, every second one is given up.
  *
  *     scene s = { .title = "Block on an incline" };
- *     scene_record(&s, m, 0, 0, NULL);
+ *     scene_record(&s, m);
  *     for (int i = 0; i < steps; i++) {
  *         case_must(m, bbm_step(m));
- *         scene_record(&s, m, m->info.t, 0, NULL);
+ *         scene_record(&s, m);
  *     }
  *     if (!scene_write_movie(&s, m, "out/incline/slide.svg")) ...
  *     if (!scene_write_panels(&s, m, "out/incline/states.svg", 2, (double[]){ 0, 1 })) ...
  *     scene_free(&s);
  *
  * The film is one SVG that a browser plays over and over, a click stops it, the arrow keys step; a
- * viewer that cannot play shows the first frame. Supports and loads are drawn, and contact forces
- * if they are recorded.
+ * viewer that cannot play shows the first frame. Supports, loads and contact forces are drawn.
  */
 #ifndef SCENE_H
 #define SCENE_H
 
 #include "../bbm.h"
 
-enum { SCENE_OPEN, SCENE_LOCK, SCENE_SLIDE };   /* state of a contact, in the library's order       */
-
-typedef struct {                /* a contact force, drawn as an arrow that starts at its point      */
+typedef struct {                /* of a closed contact                                              */
     double x, y;                /* m                                                                */
-    double fx, fy;              /* N        on the block that it is to point into                   */
-    int    state;               /*          the colour; an open contact is not drawn                */
+    double fx, fy;              /* N        upwards, so that arrows stand on what carries           */
+    bbm_contact_state state;
 } scene_force;
 
 typedef struct {                /* what was recorded at one time                                    */
@@ -36,7 +33,7 @@ typedef struct {                /* what was recorded at one time                
     int    call;                /* of scene_record, from 0                                          */
     int    forces;
     double (*at)[2];            /* m        [vertices]                                              */
-    scene_force *force;         /*          [forces], or NULL                                       */
+    scene_force *force;         /*          [forces]                                                */
 } scene_frame;
 
 typedef struct {
@@ -44,9 +41,7 @@ typedef struct {
     const char *title;
     double window[4];           /* m        x from, x to, y from, y to: at least this, and what is  */
                                 /*          not fixed; zeros: everything                            */
-    double play;                /* s        one pass of the film; zero: the run's time, 4 to 12 s   */
     double longest;             /* N        force of the longest arrow; zero: the largest recorded  */
-    int    most;                /*          frames to keep; zero: 60                                */
     int    mark;                /*          a vertex to mark                                        */
     const char *mark_name;      /*          in the legend; NULL: none                               */
     /* --- the recording --- */
@@ -54,10 +49,9 @@ typedef struct {
     scene_frame *frame;         /*          [frames]; every-th call, and the last one               */
 } scene;
 
-/* Records the present positions, and `forces` contact forces (0, NULL: none). Returns 1, or 0: no
- * memory (then the scene cannot be written), or a position that is not finite (then this frame
- * alone is left out). */
-int  scene_record(scene *s, const bbm_model *m, double time, int forces, const scene_force *force);
+/* Records the present positions, contact forces and time. Returns 1, or 0: no memory (then the scene
+ * cannot be written), or a position that is not finite (then this frame alone is left out). */
+int  scene_record(scene *s, const bbm_model *m);
 void scene_free(scene *s);      /* the recording; the choices stay                                  */
 
 /* They return 1 when the complete file stands under its name, else 0 and errno. Nothing recorded is

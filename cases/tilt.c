@@ -82,7 +82,7 @@ static int stands(double tilt, double far, case_results *r, const char *title)
 
     case_settle(m, SETTLE);
     m->info.t = 0;
-    case_record(&s, m);
+    scene_record(&s, m);
     for (int i = 0; i < STEPS && moved(m) < far; i++)
         case_step(m, NULL, r && i % 20 == 19 ? &s : NULL);
     const int stood = moved(m) < 0.1;

@@ -211,7 +211,7 @@ static void draw_charts(case_results *r, const chart c[SHAPES])
 static void draw_film(case_results *r)
 {
     static const struct { double a, k, x; } at[4] = { { 20, 0.5, 0 }, { 40, 1, 5 }, { 32, 0.5, 10 }, { 60, 0.5, 14 } };
-    scene film = { .title = "Friction 30 degrees: stands, slides, topples, slides and topples", .most = 64 };
+    scene film = { .title = "Friction 30 degrees: stands, slides, topples, slides and topples" };
     bbm_model *m = case_model();
 
     bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
@@ -232,7 +232,7 @@ static void draw_film(case_results *r)
     m->par.friction = 30;
     m->par.pcg.tolerance = 1e-13;
     case_must(m, bbm_prepare(m));
-    case_record(&film, m);
+    scene_record(&film, m);
     for (int i = 0; i < 120; i++)
         case_step(m, NULL, &film);
     case_draw_movie(r, "regimes.svg", m, &film);

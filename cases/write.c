@@ -192,7 +192,7 @@ static void draw_pictures(write_results *w)
     scene_map map = w->p->picture;
     char path[LONGEST], name[20];
 
-    case_record(&end, m);
+    scene_record(&end, m);
     if (!scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now))
         fail(w, path, strerror(errno));
     scene_free(&end);
@@ -364,7 +364,7 @@ int write_step(write_results *w, int step)
     if (step > 0)
         put_summary(w, step);
     if (p->svg && p->dynamic && (p->every == 0 || step % p->every == 0))
-        case_record(&w->film, p->m);
+        scene_record(&w->film, p->m);
     if (p->vtk && p->every && step % p->every == 0)
         write_vtk(w, step);
     if (ferror(w->history.file) || ferror(w->summary.file))
