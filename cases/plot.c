@@ -352,14 +352,20 @@ static void place_axes(plot *p, plot_box b)
     p->y.to = b.y;
 }
 
+/* The unit is that of the larger extent, not of the distance from the origin. */
 void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 {
-    const double step = plot_nice((x[1] - x[0]) * 60 / b.w);
+    static const plot_quantity q[2] = { { .name = "x", .unit = "m" }, { .name = "y", .unit = "m" } };
+    const double *const end[2] = { x, y };
 
-    p->x = make_axis(&(plot_quantity){ .name = "x", .unit = "m" }, x[0], x[1], 1);
-    p->y = make_axis(&(plot_quantity){ .name = "y", .unit = "m" }, y[0], y[1], 1);
-    p->x.step = step * p->x.scale;
-    p->y.step = step * p->y.scale;
+    for (int k = 0; k < 2; k++) {
+        plot_axis *a = k ? &p->y : &p->x;
+        *a = (plot_axis){ 0 };
+        scale_axis(a, &q[k], fmax(x[1] - x[0], y[1] - y[0]));
+        a->lo = end[k][0] * a->scale;
+        a->hi = end[k][1] * a->scale;
+        a->step = plot_nice((x[1] - x[0]) * a->scale * 60 / b.w);
+    }
     place_axes(p, b);
     draw_axes(p, b, 0);
 }

@@ -35,7 +35,7 @@
 #include "plot.h"
 
 enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
-enum { LEFT = 84, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
+enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays, what bends less is rigid  */
