@@ -1,17 +1,9 @@
 /* scene.c - blocks as SVG: states, films, contours.
  *
  * All frames of a scene share one window, so that panels can be compared and the film stands still.
- * A block is one group of two paths: its elements, filled, with thin lines, and over them its
- * boundary edges. In the film a block is moved in the cheapest way that is right to a third of a
- * pixel:
- *
- *     it stays                              the group alone
- *     it moves like a rigid body            the group is shifted and turned: a few numbers per frame
- *     it visibly changes its shape          both paths are given anew for each frame
- *
- * A browser plays <animate> elements of equal duration side by side; each lists one value per frame
- * and goes in a straight line from one to the next. The last value is repeated, so that the end can
- * be looked at. What cannot be interpolated, the time, forces and supports, is a group per frame
+ * A browser plays the <animate> elements of the blocks that move side by side; each lists one
+ * outline per frame and goes in a straight line from one to the next. The last one is repeated, so
+ * that the end can be looked at. What cannot be interpolated, the time, forces and supports, is a group per frame
  * that is visible at its turn.
  *
  * A block that is fixed as a whole is hatched in grey. The other fills carry no meaning but tell
@@ -38,7 +30,7 @@ enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the 
 enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 
-static const double VISIBLE = 0.3;      /* pixels: what moves less stays, what bends less is rigid  */
+static const double VISIBLE = 0.3;      /* pixels: what moves less stays                             */
 static const double FAIR = 0.3;         /* of an edge's length: how much its ends may move apart    */
 
 typedef struct { double x, y; } point;
@@ -307,152 +299,77 @@ static int begin_film(film *f)
     return done;
 }
 
-/* The polygons of a block's elements, in pixels from o. */
-static void put_elements(film *f, int frame, const body *b, point o)
+/* The polygons of a block's elements. */
+static void put_elements(film *f, int frame, const body *b)
 {
     for (int k = b->first; k < b->first + b->n; k++) {
         const int v = f->vertex[k];
         const point a = at(f, frame, v);
-        plot_point(&f->p, v == f->m->element[f->m->vertex[v].element].first ? "M" : " ", a.x - o.x,
-                   a.y - o.y);
+        plot_point(&f->p, v == f->m->element[f->m->vertex[v].element].first ? "M" : " ", a.x, a.y);
         if (next_vertex(f->m, v) < v)
             plot_put(&f->p, "z");
     }
 }
 
-/* The boundary edges of a block, one that starts where the last one ended without a new start. */
-static void put_outline(film *f, int frame, const body *b, point o)
+/* The boundaries of a block: each from its first edge on. */
+static void put_outline(film *f, int frame, const body *b)
 {
-    int last = -1;
+    const bbm_edge *edge = f->m->edge;
 
     for (int k = b->first; k < b->first + b->n; k++) {
-        const int v = f->vertex[k], w = next_vertex(f->m, v);
-        const point x = at(f, frame, v), y = at(f, frame, w);
-        if (f->m->vertex[v].edge < 0)
+        const int first = f->m->vertex[f->vertex[k]].edge;
+        int e = first;
+        while (e >= 0 && edge[e].after > first)
+            e = edge[e].after;
+        if (first < 0 || edge[e].after < first)
             continue;
-        if (v != last)
-            plot_point(&f->p, "M", x.x - o.x, x.y - o.y);
-        plot_point(&f->p, " ", y.x - o.x, y.y - o.y);
-        last = w;
+        e = first;
+        do {
+            const point a = at(f, frame, edge[e].a);
+            plot_point(&f->p, e == first ? "M" : " ", a.x, a.y);
+            e = edge[e].after;
+        } while (e != first);
+        plot_put(&f->p, "z");
     }
 }
 
-typedef void part(film *f, int frame, const body *b, point o);
-
-/* What it is, with its attributes; a list of values follows. */
-static void begin_animation(film *f, const char *what)
-{
-    plot_put(&f->p, "<%s dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"", what, f->seconds);
-}
-
-/* The frame of the i-th value of an animation; the number of values. */
-static int shown_frame(const film *f, int i) { return i < f->s->frames ? i : f->s->frames - 1; }
+/* The number of values of an animation: a frame each, the last one again and again. */
 static int value_count(const film *f) { return f->s->frames + HOLD; }
 
-static void put_part(film *f, int frame, const body *b, point o, int changes, part *draw)
+static int is_moving(const film *f, const body *b)
 {
-    plot_put(&f->p, "<path %s d=\"", draw == put_outline
-             ? "fill=\"none\" stroke=\"#000000\" stroke-width=\"1.3\"" : "");
-    draw(f, frame, b, o);
-    plot_put(&f->p, changes ? "\">" : "\"/>\n");
-    if (!changes)
-        return;
-    begin_animation(f, "animate attributeName=\"d\"");
-    for (int i = 0; i < value_count(f); i++) {
-        draw(f, shown_frame(f, i), b, o);
-        plot_put(&f->p, i + 1 < value_count(f) ? ";" : "\"/></path>\n");
-    }
+    for (int i = 1; i < f->s->frames && f->seconds > 0; i++)
+        for (int k = b->first; k < b->first + b->n; k++) {
+            const point A = at(f, 0, f->vertex[k]), a = at(f, i, f->vertex[k]);
+            if (hypot(a.x - A.x, a.y - A.y) > VISIBLE)
+                return 1;
+        }
+    return 0;
 }
 
-typedef struct {                        /* of a block from the first frame to another, in pixels    */
-    point  C, c;                        /* centre then and now                                      */
-    double angle;                       /* rad      as a rigid body turns, clockwise                */
-    double error;                       /* largest distance of a vertex from there                  */
-    double moved;                       /* largest distance of a vertex from its first place        */
-} motion;
-
-/* The rigid motion that fits best: with X, x from the centre then and now, tan(angle) = sum X cross
- * x / sum X.x; of all such angles the one nearest to `before`. */
-static motion fit(const film *f, int frame, const body *b, double before)
-{
-    const double turn = 2 * acos(-1);
-    motion r = { { 0, 0 }, { 0, 0 }, 0, 0, 0 };
-    double cross = 0, dot = 0;
-
-    for (int k = 0; k < b->n; k++) {
-        const point A = at(f, 0, f->vertex[b->first + k]), a = at(f, frame, f->vertex[b->first + k]);
-        r.C = (point){ r.C.x + (A.x - r.C.x) / (k + 1), r.C.y + (A.y - r.C.y) / (k + 1) };
-        r.c = (point){ r.c.x + (a.x - r.c.x) / (k + 1), r.c.y + (a.y - r.c.y) / (k + 1) };
-        r.moved = fmax(r.moved, hypot(a.x - A.x, a.y - A.y));
-    }
-    for (int k = b->first; k < b->first + b->n; k++) {
-        const point A = at(f, 0, f->vertex[k]), a = at(f, frame, f->vertex[k]);
-        cross += (A.x - r.C.x) * (a.y - r.c.y) - (A.y - r.C.y) * (a.x - r.c.x);
-        dot += (A.x - r.C.x) * (a.x - r.c.x) + (A.y - r.C.y) * (a.y - r.c.y);
-    }
-    r.angle = atan2(cross, dot);
-    r.angle += turn * floor((before - r.angle) / turn + 0.5);
-    for (int k = b->first; k < b->first + b->n; k++) {
-        const point A = at(f, 0, f->vertex[k]), a = at(f, frame, f->vertex[k]);
-        const point X = { A.x - r.C.x, A.y - r.C.y };
-        r.error = fmax(r.error, hypot(a.x - r.c.x - cos(r.angle) * X.x + sin(r.angle) * X.y,
-                                      a.y - r.c.y - sin(r.angle) * X.x - cos(r.angle) * X.y));
-    }
-    return r;
-}
-
-typedef enum { STAYS, IS_RIGID, CHANGES } movement;
-
-static movement find_movement(const film *f, const body *b)
-{
-    movement k = STAYS;
-
-    for (int i = 1; i < f->s->frames && f->seconds > 0; i++) {
-        const motion r = fit(f, i, b, 0);
-        if (r.error > VISIBLE)
-            return CHANGES;
-        if (r.moved > VISIBLE)
-            k = IS_RIGID;
-    }
-    return k;
-}
-
-/* The animations of a group that is shifted, and of the group in it that is turned. */
-static void put_motion(film *f, const body *b)
-{
-    double angle = 0;
-
-    begin_animation(f, "animateTransform attributeName=\"transform\" type=\"translate\"");
-    for (int i = 0; i < value_count(f); i++) {
-        const motion r = fit(f, shown_frame(f, i), b, 0);
-        plot_point(&f->p, i ? ";" : "", r.c.x, r.c.y);
-    }
-    plot_put(&f->p, "\"/><g>");
-    begin_animation(f, "animateTransform attributeName=\"transform\" type=\"rotate\"");
-    for (int i = 0; i < value_count(f); i++) {
-        angle = fit(f, shown_frame(f, i), b, angle).angle;
-        plot_put(&f->p, "%s%.6g", i ? ";" : "", floor(angle * 18000 / acos(-1) + 0.5) / 100);
-    }
-    plot_put(&f->p, "\"/>\n");
-}
-
+/* A block that does not move in the film is drawn with its elements. */
 static void draw_block(film *f, int frame, const body *b)
 {
     static const char *const tint[TINTS] = { "#f6cf8b", "#b3dcf5", "#8fd3bd", "#f7f0a6", "#e6c3d7",
                                              "#eba98f" };
-    const movement k = find_movement(f, b);
-    const point o = k == IS_RIGID ? fit(f, frame, b, 0).c : (point){ 0, 0 };
+    const int moving = is_moving(f, b), last = f->s->frames - 1;
 
-    plot_put(&f->p, "<g fill=\"%s\" stroke=\"#667788\" stroke-width=\"0.5\"",
+    plot_put(&f->p, "<path fill=\"%s\" stroke=\"#000000\" stroke-width=\"1.3\" d=\"",
              b->held ? "url(#held)" : tint[b->tint]);
-    if (k == IS_RIGID)
-        plot_put(&f->p, " transform=\"translate(%.2f %.2f)\"", o.x, o.y);
-    plot_put(&f->p, ">\n");
-    if (k == IS_RIGID)
-        put_motion(f, b);
-    put_part(f, frame, b, o, k == CHANGES, put_elements);
-    put_part(f, frame, b, o, k == CHANGES, put_outline);
-    plot_put(&f->p, k == IS_RIGID ? "</g></g>\n" : "</g>\n");
+    put_outline(f, frame, b);
+    if (moving) {
+        plot_put(&f->p, "\"><animate attributeName=\"d\" dur=\"%.3gs\" "
+                 "repeatCount=\"indefinite\" values=\"", f->seconds);
+        for (int i = 0; i < value_count(f); i++) {
+            plot_put(&f->p, i ? ";" : "");
+            put_outline(f, i < last ? i : last, b);
+        }
+        plot_put(&f->p, "\"/></path>\n");
+    } else {
+        plot_put(&f->p, "\"/>\n<path fill=\"none\" stroke=\"#667788\" stroke-width=\"0.5\" d=\"");
+        put_elements(f, frame, b);
+        plot_put(&f->p, "\"/>\n");
+    }
 }
 
 static void draw_blocks(film *f, int frame)
@@ -779,7 +696,7 @@ static void measure(film *f, int n, layout *l)
 }
 
 /* Statics takes no time. */
-static int is_timed(const film *f) { return f->s->frames > 1 || f->s->frame[0].time > 0; }
+static int is_timed(const film *f) { return f->s->frame[f->s->frames - 1].time > 0; }
 
 /* Opens a page for n panels and, `below` them, something else; draws title and legend. */
 static int open_page(film *f, const char *path, int n, double below, layout *l)
@@ -1025,7 +942,7 @@ static void put_share(film *f, const corner triangle[3], const double level[2])
 
 static corner corner_of(const film *f, const nodal *n, int v)
 {
-    return (corner){ at(f, 0, v).x, at(f, 0, v).y, n[f->m->vertex[v].node].value };
+    return (corner){ at(f, 1, v).x, at(f, 1, v).y, n[f->m->vertex[v].node].value };
 }
 
 static void put_element_share(film *f, const nodal *n, const bbm_element *e, const double level[2])
@@ -1067,51 +984,31 @@ static void draw_bands(film *f, const nodal *n, const plot_axis *bar)
     }
 }
 
-/* Bands, the lines of the mesh, the boundaries: where they were, if that is to be seen, and are. */
-static void draw_field(film *f, const nodal *n, const plot_axis *bar, int moved)
+static void draw_outlines(film *f, int frame, const char *stroke)
 {
-    const bbm_model *m = f->m;
-    const point o = { 0, 0 };
-
-    draw_bands(f, n, bar);
+    plot_put(&f->p, "<path fill=\"none\" stroke=\"%s\" d=\"", stroke);
     for (int b = 0; b < f->bodies; b++)
-        if (f->body[b].held)
-            draw_block(f, 0, &f->body[b]);
-    plot_put(&f->p, "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"0.4\" "
-             "stroke-opacity=\"0.45\" d=\"");
-    for (int b = 0; b < f->bodies; b++)
-        put_elements(f, 0, &f->body[b], o);
-    plot_put(&f->p, "\"/>\n<path fill=\"none\" stroke=\"#666666\" stroke-width=\"1.4\" d=\"");
-    for (int v = 0; v < m->vertices && moved; v++)
-        if (m->vertex[v].edge >= 0) {
-            const bbm_node *i = &m->node[m->vertex[v].node];
-            const bbm_node *j = &m->node[m->vertex[next_vertex(m, v)].node];
-            const point a = pixel(f, (point){ i->x, i->y }), b = pixel(f, (point){ j->x, j->y });
-            plot_point(&f->p, "M", a.x, a.y);
-            plot_point(&f->p, " ", b.x, b.y);
-        }
-    plot_put(&f->p, "\"/>\n<path fill=\"none\" stroke=\"#000000\" d=\"");
-    for (int b = 0; b < f->bodies; b++)
-        put_outline(f, 0, &f->body[b], o);
+        put_outline(f, frame, &f->body[b]);
     plot_put(&f->p, "\"/>\n");
 }
 
-/* Where the vertices are with magnified displacements; the starting places belong to the window. */
-static void magnify(scene *s, const bbm_model *m, const nodal *n, double scale)
+/* Bands, the lines of the mesh, the boundaries where they were and are. */
+static void draw_field(film *f, const nodal *n, const plot_axis *bar)
 {
-    double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
-
-    for (int v = 0; v < m->vertices; v++) {
-        const int i = m->vertex[v].node;
-        s->frame[0].at[v][0] = m->node[i].x + scale * n[i].u;
-        s->frame[0].at[v][1] = m->node[i].y + scale * n[i].v;
-        widen(range[0], m->node[i].x);
-        widen(range[1], m->node[i].y);
-    }
-    memcpy(s->window, range, sizeof s->window);
+    draw_bands(f, n, bar);
+    for (int b = 0; b < f->bodies; b++)
+        if (f->body[b].held)
+            draw_block(f, 1, &f->body[b]);
+    plot_put(&f->p, "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"0.4\" "
+             "stroke-opacity=\"0.45\" d=\"");
+    for (int b = 0; b < f->bodies; b++)
+        put_elements(f, 1, &f->body[b]);
+    plot_put(&f->p, "\"/>\n");
+    draw_outlines(f, 0, "#666666");
+    draw_outlines(f, 1, "#000000");
 }
 
-static int write_field(film *f, const char *path, const nodal *n, const char *field, int moved)
+static int write_field(film *f, const char *path, const nodal *n, const char *field)
 {
     const int stress = strcmp(field, "u") && strcmp(field, "v");
     const plot_quantity q = { .name = strcmp(field, "mises") ? field : "von Mises stress",
@@ -1130,9 +1027,9 @@ static int write_field(film *f, const char *path, const nodal *n, const char *fi
         return 0;
     const plot_axis bar = plot_bar_axis(&q, range[0], range[1]);
     const plot_box b = begin_panel(f, &l, 0);
-    draw_field(f, n, &bar, moved);
+    draw_field(f, n, &bar);
     end_panel(f, b);
-    draw_state(f, b, 0);
+    draw_state(f, b, 1);
     plot_draw_bar(&f->p, (plot_box){ b.x, b.y + b.h + UNDER + 4, b.w, 16 }, &bar, range);
     return plot_close(&f->p);
 }
@@ -1140,14 +1037,17 @@ static int write_field(film *f, const char *path, const nodal *n, const char *fi
 int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
 {
     const char *field = map->field ? map->field : "mises";
-    scene_frame state = { .at = malloc((size_t)m->vertices * sizeof *state.at) };
+    const size_t all = (size_t)m->vertices;
+    double (*place)[2] = malloc(2 * all * sizeof *place);       /* at the start, and magnified */
     nodal *n = malloc((size_t)m->nodes * sizeof *n);
-    scene s = { .frames = 1, .vertices = m->vertices, .frame = &state };
+    scene_frame state[2] = { { .at = place }, { .at = place ? place + all : NULL } };
+    scene s = { .frames = 2, .vertices = m->vertices, .frame = state };
     film f = { .s = &s, .m = m };
     char title[300];
     int done = 0, finite = 1;
 
-    if (state.at && n) {
+    errno = ENOMEM;
+    if (place && n) {
         for (int i = 0; i < m->nodes; i++) {
             bbm_result r;
             bbm_nodal_result(m, i, -1, &r);
@@ -1155,17 +1055,20 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
             finite &= isfinite(r.u + r.v + n[i].value);
         }
         const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
-        magnify(&s, m, n, scale);
+        for (int v = 0; v < 2 * m->vertices; v++) {
+            const int i = m->vertex[v % m->vertices].node;
+            const double times = v < m->vertices ? 0 : scale;
+            place[v][0] = m->node[i].x + times * n[i].u;
+            place[v][1] = m->node[i].y + times * n[i].v;
+        }
         snprintf(title, sizeof title, "%s%sdisplacements × %g", map->title ? map->title : "",
                  map->title ? ", " : "", scale);
         s.title = scale == 0 || scale == 1 ? map->title : title;
         errno = EDOM;
-        done = finite && write_field(&f, path, n, field, scale > 0);
-    } else {
-        errno = ENOMEM;
+        done = finite && write_field(&f, path, n, field);
     }
     end_film(&f);
-    free(state.at);
+    free(place);
     free(n);
     return done;
 }

@@ -134,29 +134,32 @@ static int is_in(const box *b, point p)
            && p.y <= b->y + b->h + 0.1;
 }
 
-/* Arrows, supports and, where they do not move, tinted blocks are in one of the frames. */
-static void check_places(const char *path, const char *text)
+/* Every point of a list of paths, with ; between them, is in one of the frames. */
+static void check_path(const char *path, const char *d, const box frame[], int n)
 {
-    box frame[9];
-    const int n = find_frames(text, frame, 9);
-    int tinted = 0;
-
-    for (const char *s = strstr(text, "<clipPath"); s; s = strstr(s + 1, "<")) {
-        if (strncmp(s, "<g", 2) == 0)
-            tinted = has(s, "fill=\"#") && !has(s, "transform");
-        const int force = has(s, "stroke-linejoin") && has(s, "<path");
-        const int support = has(s, "fill=\"#ffffff\"");
-        if (strncmp(s, "<path", 5) || !(tinted || force || support))
-            continue;
+    do {
         point p = { 0, 0 };
-        int new;
-        for (const char *d = path_of(s); next_point(&d, &p, &new); ) {
+        ck_assert_msg(strchr("M\"", *d), "%s: a path begins with %.10s", path, d);
+        for (int new; next_point(&d, &p, &new); ) {
             int inside = 0;
             for (int k = 0; k < n; k++)
                 inside |= is_in(&frame[k], p);
             ck_assert_msg(inside, "%s: (%g, %g) is outside the frame", path, p.x, p.y);
         }
-    }
+    } while (*d++ == ';');
+}
+
+/* Arrows, supports and blocks that are not held, in all frames of a film. */
+static void check_places(const char *path, const char *text)
+{
+    box frame[9];
+    const int n = find_frames(text, frame, 9);
+
+    for (const char *s = strstr(text, "<clipPath"); s; s = strstr(s + 1, "<"))
+        if (strncmp(s, "<animate attributeName=\"d\"", 26) == 0)
+            check_path(path, strstr(s, " values=\"") + 9, frame, n);
+        else if (strncmp(s, "<path", 5) == 0 && (has(s, "fill=\"#") || has(s, "stroke-linejoin")))
+            check_path(path, path_of(s), frame, n);
 }
 
 typedef struct { box b; int time; char words[40]; } label;
@@ -400,7 +403,7 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
 
     for (size_t k = 0; k < sizeof drawn / sizeof *drawn; k++) {
         const char *name = drawn[k].model;
-        ck_assert_int_eq(count(name, "<g fill=\"url(#held)\""), drawn[k].hatched);
+        ck_assert_int_eq(count(name, "<path fill=\"url(#held)\""), drawn[k].hatched);
         ck_assert_int_eq(count(name, ">fixed point<"), drawn[k].fixed);
         ck_assert_int_eq(count(name, ">fixed in one direction<"), drawn[k].roller);
         ck_assert_int_eq(count(name, ">load "), drawn[k].load);
@@ -414,16 +417,18 @@ START_TEST(blocks_that_touch_have_other_tints)
     char *text = read_all("out/model/drawn-wall/contacts.svg");
     int n = 0, touching = 0;
 
-    for (const char *s = strstr(text, "<g fill=\"#"); s && n < 300; s = strstr(s + 1, "<g fill=\"#"), n++) {
+    for (const char *s = strstr(text, "<path fill=\"#"); s && n < 300; s = strstr(s + 1, "<path fill=\"#")) {
+        if (has(s, "#ffffff"))
+            continue;
         point p = { 0, 0 };
         int new;
         box b = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-        memcpy(block[n].tint, s + 9, 7);
+        memcpy(block[n].tint, s + 12, 7);
         for (const char *d = path_of(s); next_point(&d, &p, &new); ) {
             b.x = fmin(b.x, p.x), b.y = fmin(b.y, p.y);
             b.w = fmax(b.w, p.x), b.h = fmax(b.h, p.y);
         }
-        block[n].b = (box){ b.x, b.y, b.w - b.x, b.h - b.y };
+        block[n++].b = (box){ b.x, b.y, b.w - b.x, b.h - b.y };
     }
     free(text);
     for (int i = 0; i < n; i++)
