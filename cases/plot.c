@@ -355,7 +355,7 @@ static void place_axes(plot *p, plot_box b)
 /* The unit is that of the larger extent, not of the distance from the origin. */
 void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 {
-    static const plot_quantity q[2] = { { .name = "x", .unit = "m" }, { .name = "y", .unit = "m" } };
+    static const plot_quantity q[2] = { { "x", "m", 0, 0, 0 }, { "y", "m", 0, 0, 0 } };
     const double *const end[2] = { x, y };
 
     for (int k = 0; k < 2; k++) {
@@ -582,7 +582,7 @@ static void range_text(char *text, size_t size, const plot_axis *bar, const doub
     snprintf(text, size, "%s, from %s to %s", bar->label, end[0], end[1]);
 }
 
-/* The bands side by side, their levels as far as there is room, and below them what they measure. */
+/* The bands side by side, their levels as far as there is room, below them what they measure. */
 void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2])
 {
     const int bands = plot_bands(bar), first = (int)floor(bar->lo / bar->step + 0.5);

@@ -21,32 +21,32 @@
 #include "output.h"
 
 typedef enum {
-    PLOT_LINE,                  /* the first such series solid, each later one with its own dashes  */
-    PLOT_DASHED,                /* as PLOT_LINE, but never solid                                    */
-    PLOT_MARKS,                 /* a mark at each point                                             */
-    PLOT_BOTH                   /* a solid line, marks along it at least 14 pixels apart            */
+    PLOT_LINE,                  /* the first such series solid, later ones with dashes            */
+    PLOT_DASHED,                /* as PLOT_LINE, but never solid                                  */
+    PLOT_MARKS,                 /* a mark at each point                                           */
+    PLOT_BOTH                   /* a solid line, marks along it at least 14 pixels apart          */
 } plot_style;
 
-typedef struct {                /* what an axis or a colour bar measures                            */
-    const char *name, *unit;    /* a unit m, N, Pa, s, alone or before a slash, may get a prefix    */
-    int    log;                 /* logarithmic axis; values <= 0 are left out                       */
-    double low, high;           /* low < high: show at least these, e.g. zero                       */
+typedef struct {                /* what an axis or a colour bar measures                          */
+    const char *name, *unit;    /* a unit m, N, Pa, s, alone or before a slash, may get a prefix  */
+    int    log;                 /* logarithmic axis; values <= 0 are left out                     */
+    double low, high;           /* low < high: show at least these, e.g. zero                     */
 } plot_quantity;
 
 typedef struct {
-    const char   *name;         /* in the legend                                                    */
+    const char   *name;         /* in the legend                                                  */
     int           n;
-    const double *x, *y;        /* [n]; NaN leaves a gap                                            */
+    const double *x, *y;        /* [n]; NaN leaves a gap                                          */
     plot_style    style;
-    int           look;         /* 1, 2, ..: colour and mark; 0: the place in the chart. The same   */
-                                /* in each chart lets the reader know a method again                */
+    int           look;         /* 1, 2, ..: colour and mark; 0: the place in the chart. The same */
+                                /* in each chart lets the reader know a method again              */
 } plot_series;
 
 typedef struct {
     const char        *title;
     plot_quantity      x, y;
     int                count;
-    const plot_series *series;  /* [count]                                                          */
+    const plot_series *series;  /* [count]                                                        */
 } plot_chart;
 
 /* Returns 1 when the complete file stands under its name, else 0, with the reason in errno. */
@@ -58,29 +58,29 @@ int plot_write_chart(const char *path, const plot_chart *c);
 typedef struct { double x, y, w, h; } plot_box;
 
 typedef struct {
-    double lo, hi, step;        /* ends and distance of the ticks, in the shown unit; log: powers   */
-    double scale;               /* shown value = scale * value                                      */
-    double from, to;            /* pixels of lo and hi                                              */
+    double lo, hi, step;        /* ends and distance of the ticks, in the shown unit; log: powers */
+    double scale;               /* shown value = scale * value                                    */
+    double from, to;            /* pixels of lo and hi                                            */
     int    log;
-    char   label[160];          /* v [mm]                                                           */
+    char   label[160];          /* v [mm]                                                         */
 } plot_axis;
 
 typedef struct {
     output    out;
-    int       failed;           /* the first error, as errno has it                                 */
-    plot_axis x, y;             /* of the last panel                                                */
+    int       failed;           /* the first error, as errno has it                               */
+    plot_axis x, y;             /* of the last panel                                              */
 } plot;
 
-int    plot_open(plot *p, const char *path, double width, double height);   /* 1; 0: it cannot be   */
-int    plot_close(plot *p);                         /* 1: complete, 0: nothing is there             */
-void   plot_put(plot *p, const char *format, ...);  /* SVG, as by printf                            */
-void   plot_point(plot *p, const char *before, double x, double y);         /* of a path            */
+int    plot_open(plot *p, const char *path, double width, double height);   /* 1; 0: it cannot be */
+int    plot_close(plot *p);                         /* 1: complete, 0: nothing is there           */
+void   plot_put(plot *p, const char *format, ...);  /* SVG, as by printf                          */
+void   plot_point(plot *p, const char *before, double x, double y);         /* of a path          */
 void   plot_rectangle(plot *p, plot_box b, const char *attributes);
-void   plot_text(plot *p, double x, double y, const char *attributes, const char *text); /* escaped */
-double plot_text_width(const char *text);           /* pixels, generous                             */
-void   plot_title(plot *p, double x, double y, const char *text);           /* x: its middle        */
-double plot_pixel(const plot_axis *a, double value);        /* p->x, p->y: value to pixel           */
-double plot_nice(double x);                         /* 1, 2 or 5 times a power of ten, near x       */
+void   plot_text(plot *p, double x, double y, const char *attributes, const char *text);
+double plot_text_width(const char *text);           /* pixels, generous                           */
+void   plot_title(plot *p, double x, double y, const char *text);           /* x: its middle      */
+double plot_pixel(const plot_axis *a, double value);        /* p->x, p->y: value to pixel         */
+double plot_nice(double x);                         /* 1, 2 or 5 times a power of ten, near x     */
 void   plot_draw_chart(plot *p, plot_box box, const plot_chart *c);
 /* Axes in metres, from x[0] to x[1] over the width of the frame b, likewise y. */
 void   plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2]);
@@ -89,7 +89,7 @@ void   plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2]
 typedef struct { char text[8]; } plot_colour;
 plot_axis   plot_bar_axis(const plot_quantity *q, double low, double high);
 int         plot_bands(const plot_axis *bar);
-plot_colour plot_band_colour(double s);             /* 0 <= s <= 1                                  */
+plot_colour plot_band_colour(double s);             /* 0 <= s <= 1                                */
 void        plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2]);
 
 #endif

@@ -3,8 +3,8 @@
  * All frames of a scene share one window, so that panels can be compared and the film stands still.
  * A browser plays the <animate> elements of the blocks that move side by side; each lists one
  * outline per frame and goes in a straight line from one to the next. The last one is repeated, so
- * that the end can be looked at. What cannot be interpolated, the time, forces and supports, is a group per frame
- * that is visible at its turn.
+ * that the end can be looked at. What cannot be interpolated, the time, forces and supports, is a
+ * group per frame that is visible at its turn.
  *
  * A block that is fixed as a whole is hatched in grey. The other fills carry no meaning but tell
  * blocks apart: each block takes the tint whose nearest bearer is farthest. They are those of Okabe
@@ -30,30 +30,33 @@ enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the 
 enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 
-static const double VISIBLE = 0.3;      /* pixels: what moves less stays                             */
-static const double FAIR = 0.3;         /* of an edge's length: how much its ends may move apart    */
+static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
+static const double FAIR = 0.3;         /* of an edge's length: how much its ends may move apart  */
 
 typedef struct { double x, y; } point;
 
-typedef struct {                        /* a block                                                  */
-    int first, n;                       /* its vertices are film.vertex[first .. first+n-1]         */
+typedef struct {                        /* a block                                                */
+    int first, n;                       /* its vertices are film.vertex[first .. first+n-1]       */
     int held, tint;
-    double box[2][2];                   /* m        x from, to; y from, to, in the first frame      */
+    double box[2][2];                   /* m        x from, to; y from, to, in the first frame    */
 } body;
 
-typedef struct {                        /* what the functions below draw with                       */
+typedef struct { int columns; double left, top, over, w, h; } layout;   /* of w x h pixels */
+
+typedef struct {                        /* what the functions below draw with                     */
     plot         p;
+    layout       l;
     const scene *s;
     const bbm_model *m;
     int          bodies;
     body        *body;
-    int         *vertex;                /*          [vertices], block by block                      */
-    point       *normal;                /*          [nodes] outward, of the boundary there          */
-    double       window[2][2];          /* m                                                        */
-    double       scale;                 /* pixels/m                                                 */
-    double       most[4], length[4];    /* of each kind of arrow: the largest force, its pixels     */
-    int          supports[4];           /* how many held in each way                                */
-    double       seconds;               /* of one pass; zero: nothing moves                         */
+    int         *vertex;                /*          [vertices], block by block                    */
+    point       *normal;                /*          [nodes] outward, of the boundary there        */
+    double       window[2][2];          /* m                                                      */
+    double       scale;                 /* pixels/m                                               */
+    double       most[4], length[4];    /* of each kind of arrow: the largest force, its pixels   */
+    int          supports[4];           /* how many held in each way                              */
+    double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
 /* ----------------------------------------------------------------------------------- recording */
@@ -238,15 +241,13 @@ static void find_bodies(film *f, int (*element)[2])
         f->body[b].tint = choose_tint(f, b);
 }
 
-/* Of boundary edges whose two ends are held alike, or else of all: the normals that supports take. */
+/* Of boundary edges whose two ends are held alike, or else of all: where supports stand. */
 static void find_normals(film *f)
 {
     const bbm_model *m = f->m;
 
-    for (int v = 0; v < m->vertices; v++) {
-        if (m->vertex[v].edge < 0)
-            continue;
-        const int a = m->vertex[v].node, b = m->vertex[next_vertex(m, v)].node;
+    for (int e = 0; e < m->edges; e++) {
+        const int a = m->vertex[m->edge[e].a].node, b = m->vertex[m->edge[e].b].node;
         const int alike = m->node[a].held && m->node[a].held == m->node[b].held;
         const double weight = alike ? 1 : 1e-6;
         for (int k = 0; k < 2; k++) {
@@ -397,9 +398,7 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
     const double pixels = f->most[kind] > 0 ? f->length[kind] / f->most[kind] : 0;
     const point d = { pixels * force.x, pixels * force.y };
 
-    if (!isfinite(size + from.x + from.y) || size <= 0)
-        return;
-    if (visit && hypot(d.x, d.y) < 2)
+    if (!isfinite(size + from.x + from.y) || (visit && hypot(d.x, d.y) < 2))
         return;
     if (!visit)                         /* the largest is looked for */
         f->most[kind] = fmax(f->most[kind], size);
@@ -463,6 +462,7 @@ static void visit_supports(film *f, int frame, visitor *visit)
             if (held == 0 || hypot(x.x - last[held].x, x.y - last[held].y) * f->scale < 8)
                 continue;
             last[held] = x;
+            f->supports[held] = 1;
             if (held != BBM_XY)                         /* a roller stands along an axis */
                 d = held == BBM_X ? (point){ d.x < 0 ? -1 : 1, 0 } : (point){ 0, d.y > 0 ? 1 : -1 };
             const double l = hypot(d.x, d.y);
@@ -502,15 +502,11 @@ static void put_support(film *f, int held, point from, point size)
     plot_point(&f->p, " ", b.x + 0.7 * d.y, b.y - 0.7 * d.x);
 }
 
-static void draw_supports(film *f, int frame)
+static void draw_forces(film *f, int frame)
 {
     plot_put(&f->p, "<path fill=\"#ffffff\" stroke=\"#333333\" d=\"");
     visit_supports(f, frame, put_support);
     plot_put(&f->p, "\"/>\n");
-}
-
-static void draw_forces(film *f, int frame)
-{
     for (int kind = 0; kind < KINDS; kind++) {
         if (f->most[kind] <= 0)
             continue;
@@ -522,7 +518,7 @@ static void draw_forces(film *f, int frame)
 
 /* ------------------------------------------------------------------------------------- legend */
 
-typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row   */
+typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row */
 
 /* One more symbol and its text. Before the file is open this only counts the rows. */
 static void put_entry(film *f, legend *l, const char *symbol, const char *text)
@@ -584,16 +580,15 @@ static int draw_legend(film *f, double x, double y, double width)
     put_force_entry(f, &l, LOCKED, "", "N");
     if (f->s->mark_name)
         put_entry(f, &l, "<circle cx=\"40\" r=\"4.5\"/>", f->s->mark_name);
-    plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
-    if (f->seconds > 0)
+    if (f->seconds > 0) {
+        plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
         put_entry(f, &l, "", "click: stop or play; arrow keys: step");
-    plot_put(&f->p, "</g>\n");
+        plot_put(&f->p, "</g>\n");
+    }
     return l.rows;
 }
 
 /* ----------------------------------------------------------------------------------- the pages */
-
-typedef struct { int columns; double left, top, over, w, h; } layout;   /* of panels, w x h pixels  */
 
 static void widen_window(film *f, int kind, point from, point size)
 {
@@ -604,16 +599,11 @@ static void widen_window(film *f, int kind, point from, point size)
     widen(f->window[1], from.y + size.y / f->scale);
 }
 
-static void widen_by_support(film *f, int held, point from, point size)
-{
-    f->supports[held] = 1;
-    widen_window(f, held, from, size);
-}
-
 /* The number of columns that makes n panels largest, on a page of about 1100 x 760 pixels (one
  * panel: 860 x 660), and the scale that they have then. */
-static void arrange(film *f, int n, layout *l)
+static void arrange(film *f, int n)
 {
+    layout *l = &f->l;
     const double w = f->window[0][1] - f->window[0][0], h = f->window[1][1] - f->window[1][0];
     const double around = LEFT + RIGHT, over = l->over + UNDER;
 
@@ -669,8 +659,8 @@ static double block_size(const film *f)
 }
 
 /* Window and scales. How long an arrow is in metres depends on the scale of the panel, and that on
- * the window, which holds all arrows: by repetition. Arrows of contacts are not longer than blocks. */
-static void measure(film *f, int n, layout *l)
+ * the window, which holds all arrows: by repetition. Those of contacts are no longer than blocks. */
+static void measure(film *f, int n)
 {
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
@@ -679,7 +669,7 @@ static void measure(film *f, int n, layout *l)
         f->most[LOCKED] = f->s->longest;
     f->most[LOCKED] = f->most[SLIDING] = fmax(f->most[LOCKED], f->most[SLIDING]);
     find_window(f);
-    arrange(f, n, l);
+    arrange(f, n);
     for (int round = 0; round < 4; round++) {
         f->length[LOAD] = ARROW;
         f->length[LINE_LOAD] = ARROW / 2;
@@ -687,11 +677,11 @@ static void measure(film *f, int n, layout *l)
         f->length[SLIDING] = f->length[LOCKED];
         find_window(f);
         for (int i = 0; i < f->s->frames; i++) {
-            visit_supports(f, i, widen_by_support);
+            visit_supports(f, i, widen_window);
             for (int kind = 0; kind < KINDS; kind++)
                 visit_forces(f, i, kind, widen_window);
         }
-        arrange(f, n, l);
+        arrange(f, n);
     }
 }
 
@@ -699,10 +689,12 @@ static void measure(film *f, int n, layout *l)
 static int is_timed(const film *f) { return f->s->frame[f->s->frames - 1].time > 0; }
 
 /* Opens a page for n panels and, `below` them, something else; draws title and legend. */
-static int open_page(film *f, const char *path, int n, double below, layout *l)
+static int open_page(film *f, const char *path, int n, double below)
 {
+    layout *l = &f->l;
+
     *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0, .over = is_timed(f) ? OVER : 14 };
-    measure(f, n, l);
+    measure(f, n);
     const double width = fmax(l->columns * l->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
     const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
@@ -719,8 +711,9 @@ static int open_page(film *f, const char *path, int n, double below, layout *l)
 }
 
 /* The frame of a panel with its axes; what follows until end_panel is cut off at it. */
-static plot_box begin_panel(film *f, const layout *l, int k)
+static plot_box begin_panel(film *f, int k)
 {
+    const layout *l = &f->l;
     const plot_box b = { l->left + k % l->columns * l->w + LEFT,
                          l->top + k / l->columns * l->h + l->over, l->w - LEFT - RIGHT,
                          l->h - l->over - UNDER };
@@ -745,7 +738,7 @@ static int is_whole(double x) { return fabs(x - floor(x + 0.5)) <= 1e-6 * fabs(x
 static void put_time(film *f, plot_box b, int frame)
 {
     const scene_frame *g = f->s->frame;
-    const double apart = f->s->frames > 1 ? g[1].time - g[0].time : g[0].time;
+    const double apart = f->s->frames > 1 ? g[1].time - g[0].time : 1e-4 * g[0].time;
     double unit = 1;
     char text[60];
     int decimals = 0;
@@ -762,7 +755,6 @@ static void draw_state(film *f, plot_box b, int frame)
 {
     const point a = at(f, frame, f->s->mark);
 
-    draw_supports(f, frame);
     draw_forces(f, frame);
     if (f->s->mark_name)
         plot_put(&f->p, "<circle r=\"4.5\" cx=\"%.2f\" cy=\"%.2f\"/>\n", a.x, a.y);
@@ -774,11 +766,10 @@ int scene_write_panels(const scene *s, const bbm_model *m, const char *path, int
                        const double time[])
 {
     film f = { .s = s, .m = m };
-    layout l;
-    int done = n > 0 && begin_film(&f) && open_page(&f, path, n, 0, &l);
+    int done = n > 0 && begin_film(&f) && open_page(&f, path, n, 0);
 
     for (int k = 0; done && k < n; k++) {
-        const plot_box b = begin_panel(&f, &l, k);
+        const plot_box b = begin_panel(&f, k);
         int i = 0;
         for (int j = 1; j < s->frames; j++)
             if (fabs(s->frame[j].time - time[k]) < fabs(s->frame[i].time - time[k]))
@@ -829,13 +820,12 @@ static void put_script(film *f)
 int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 {
     film f = { .s = s, .m = m };
-    layout l;
 
     if (s->frames > 1)
         f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
-    int done = begin_film(&f) && open_page(&f, path, 1, 0, &l);
+    int done = begin_film(&f) && open_page(&f, path, 1, 0);
     if (done) {
-        const plot_box b = begin_panel(&f, &l, 0);
+        const plot_box b = begin_panel(&f, 0);
         draw_blocks(&f, 0);
         end_panel(&f, b);
         for (int k = 0; k < s->frames; k++) {
@@ -1014,7 +1004,6 @@ static int write_field(film *f, const char *path, const nodal *n, const char *fi
     const plot_quantity q = { .name = strcmp(field, "mises") ? field : "von Mises stress",
                               .unit = stress ? "Pa" : "m" };
     double range[2] = { INFINITY, -INFINITY };
-    layout l;
 
     if (!begin_film(f))
         return 0;
@@ -1023,10 +1012,10 @@ static int write_field(film *f, const char *path, const nodal *n, const char *fi
             widen(range, n[f->m->vertex[f->vertex[f->body[b].first + i]].node].value);
     if (range[0] > range[1])
         range[0] = range[1] = 0;
-    if (!open_page(f, path, 1, BAR, &l))
+    if (!open_page(f, path, 1, BAR))
         return 0;
     const plot_axis bar = plot_bar_axis(&q, range[0], range[1]);
-    const plot_box b = begin_panel(f, &l, 0);
+    const plot_box b = begin_panel(f, 0);
     draw_field(f, n, &bar);
     end_panel(f, b);
     draw_state(f, b, 1);

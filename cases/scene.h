@@ -22,37 +22,37 @@
 
 #include "../bbm.h"
 
-typedef struct {                /* of a closed contact                                              */
-    double x, y;                /* m                                                                */
-    double fx, fy;              /* N        upwards, so that arrows stand on what carries           */
+typedef struct {                /* of a closed contact                                            */
+    double x, y;                /* m                                                              */
+    double fx, fy;              /* N        upwards, so that arrows stand on what carries         */
     bbm_contact_state state;
 } scene_force;
 
-typedef struct {                /* what was recorded at one time                                    */
-    double time;                /* s                                                                */
-    int    call;                /* of scene_record, from 0                                          */
+typedef struct {                /* what was recorded at one time                                  */
+    double time;                /* s                                                              */
+    int    call;                /* of scene_record, from 0                                        */
     int    forces;
-    double (*at)[2];            /* m        [vertices]                                              */
-    scene_force *force;         /*          [forces]                                                */
+    double (*at)[2];            /* m        [vertices]                                            */
+    scene_force *force;         /*          [forces]                                              */
 } scene_frame;
 
 typedef struct {
     /* --- choices: what is left out (zero) is chosen by the writer --- */
     const char *title;
-    double window[4];           /* m        x from, x to, y from, y to: at least this, and what is  */
-                                /*          not fixed; zeros: everything                            */
-    double longest;             /* N        force of the longest arrow; zero: the largest recorded  */
-    int    mark;                /*          a vertex to mark                                        */
-    const char *mark_name;      /*          in the legend; NULL: none                               */
+    double window[4];           /* m        x from, x to, y from, y to: this, and all that is     */
+                                /*          not fixed; zeros: everything                          */
+    double longest;             /* N        force of the longest arrow; zero: the largest one     */
+    int    mark;                /*          a vertex to mark                                      */
+    const char *mark_name;      /*          in the legend; NULL: none                             */
     /* --- the recording --- */
     int    frames, vertices, calls, every, failed;
-    scene_frame *frame;         /*          [frames]; every-th call, and the last one               */
+    scene_frame *frame;         /*          [frames]; every-th call, and the last one             */
 } scene;
 
-/* Records the present positions, contact forces and time. Returns 1, or 0: no memory (then the scene
- * cannot be written), or a position that is not finite (then this frame alone is left out). */
+/* Records the present positions, contact forces and time. Returns 1, or 0: no memory (then the
+ * scene cannot be written), or a position that is not finite (then this frame is left out). */
 int  scene_record(scene *s, const bbm_model *m);
-void scene_free(scene *s);      /* the recording; the choices stay                                  */
+void scene_free(scene *s);      /* the recording; the choices stay                                */
 
 /* They return 1 when the complete file stands under its name, else 0 and errno. Nothing recorded is
  * nothing to write. Panels: the recorded frames nearest to the n times. */
@@ -63,12 +63,12 @@ int  scene_write_panels(const scene *s, const bbm_model *m, const char *path, in
 /* Von Mises stress; stresses; principal stresses, the larger first; displacements. */
 #define SCENE_FIELDS { "mises", "sxx", "syy", "sxy", "s1", "s2", "u", "v", NULL }
 
-typedef struct {                /* contours of a field over the present state                       */
+typedef struct {                /* contours of a field over the present state                     */
     const char *title;
-    const char *field;          /* one of SCENE_FIELDS; NULL: the first                             */
-    double scale;               /* -        of the displacements; 0: the largest is about a tenth   */
-                                /*          of the model, and less where an element or an edge      */
-                                /*          would change too much; < 0: they are not shown          */
+    const char *field;          /* one of SCENE_FIELDS; NULL: the first                           */
+    double scale;               /* -        of the displacements; 0: the largest is about a tenth */
+                                /*          of the model, and less where an element or an edge    */
+                                /*          would change too much; < 0: they are not shown        */
 } scene_map;
 
 int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
