@@ -659,7 +659,8 @@ static double block_size(const film *f)
 }
 
 /* Window and scales. How long an arrow is in metres depends on the scale of the panel, and that on
- * the window, which holds all arrows: by repetition. Those of contacts are no longer than blocks. */
+ * the window, which holds all arrows: by repetition. Those of contacts are not longer than
+ * blocks. */
 static void measure(film *f, int n)
 {
     for (int i = 0; i < f->s->frames; i++)

@@ -79,8 +79,8 @@ static void make_pictures(void)
 {
     ck_assert_int_eq(shell("mkdir -p out/model; for m in cases/models/*.model; do "
                            "sed -e 's/steps [12]00/steps 20/' "
-                           "-e 's|^mesh |mesh ../../cases/models/|' $m > out/model/drawn.model; %s/bbm -q out/model/drawn.model "
-                           "-o out/model/drawn-$(basename $m .model) || exit 1; done", BUILD), 0);
+                           "-e 's|^mesh |mesh ../../cases/models/|' $m > out/model/drawn.model; "
+                           "%s/bbm -q out/model/drawn.model -o out/model/drawn-$(basename $m .model) || exit 1; done", BUILD), 0);
     ck_assert_int_eq(shell("for p in arch overhang topple; do %s/$p > out/model/drawn.log || "
                            "exit 1; done", BUILD), 0);
     ck_assert_int_eq(glob("out/model/drawn-*/*.svg", 0, NULL, &pictures), 0);
@@ -402,7 +402,8 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
 {
     static const struct { const char *model; int hatched, fixed, roller, load; } drawn[] = {
         { "exp1", 0, 1, 0, 1 }, { "exp2", 0, 0, 1, 1 }, { "exp3", 1, 0, 0, 1 },
-        { "dam", 0, 1, 1, 1 }, { "disc", 0, 1, 1, 1 }, { "incline", 1, 0, 0, 0 }, { "arch", 2, 0, 0, 0 },
+        { "dam", 0, 1, 1, 1 }, { "disc", 0, 1, 1, 1 },
+        { "incline", 1, 0, 0, 0 }, { "arch", 2, 0, 0, 0 },
     };
 
     for (size_t k = 0; k < sizeof drawn / sizeof *drawn; k++) {
