@@ -12,7 +12,6 @@
 #define MODEL_H
 
 #include "../beyond/beyond.h"
-#include "scene.h"
 
 typedef struct { const char *name; int nodes, *node; } model_monitor;      /* the mean of u, v over library nodes   */
 typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s                       */
@@ -22,7 +21,8 @@ typedef struct {
     char  *title;               /* or NULL                                                                      */
     int    dynamic, settle;     /* quasi-static steps before t = 0                                              */
     int    every, vtk, svg;     /* every: 0, the end only                                                       */
-    scene_map picture;          /* field and scale; zeros: the writer chooses                                   */
+    const char *field;          /* of the picture: mises, sxx, syy, sxy, s1, s2, u or v                         */
+    double scale;               /* by which it enlarges displacements; 0: as the picture chooses                */
     int    slippery;            /* several blocks, which may touch, and no friction given                       */
     int    blocks, monitors;
     const char **block;         /* [blocks]     names                                                           */

@@ -189,7 +189,8 @@ static void draw_pictures(write_results *w)
     const bbm_model *m = w->p->m;
     const double now = m->info.t;
     scene end = { .title = w->p->title };
-    scene_map map = w->p->picture;
+    const char *field = w->p->field ? w->p->field : "mises";
+    scene_map map = { w->p->title, field, w->p->scale };
     char path[LONGEST], name[20];
 
     scene_record(&end, m);
@@ -199,10 +200,9 @@ static void draw_pictures(write_results *w)
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed))    /* neither: the start has failed */
         if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
             fail(w, path, strerror(errno));
-    map.title = w->p->title;
     if (w->p->dynamic && map.scale == 0)
         map.scale = 1;                          /* a static one is magnified */
-    snprintf(name, sizeof name, "%s.svg", map.field ? map.field : "mises");
+    snprintf(name, sizeof name, "%s.svg", field);
     if (!scene_write_map(m, path_of(w, name, path), &map))
         fail(w, path, strerror(errno));
 }
@@ -280,12 +280,23 @@ void write_matrix(write_results *w)
 
 /* ------------------------------------------------------------------------------------------------- the run */
 
+/* Whether a name of n letters is that of a field's picture. */
+static int is_map(const char *name, size_t n)
+{
+    static const char *const field[] = SCENE_FIELDS;
+
+    for (int k = 0; field[k]; k++)
+        if (n == strlen(field[k]) + 4 && strncmp(name, field[k], n - 4) == 0
+            && strncmp(name + n - 4, ".svg", 4) == 0)
+            return 1;
+    return 0;
+}
+
 /* The length of a name that a run writes, without the ending of a temporary file; 0: it is another one. */
 static size_t is_ours(const char *name, long *process)
 {
     static const char *const all[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv",
-                                       "contacts.svg", "movie.svg" };
-    static const char *const field[] = SCENE_FIELDS;
+                                       "contacts.svg", "movie.svg", "mises.svg" };
     const size_t temporary = output_is_temporary(name, process), n = temporary ? temporary : strlen(name);
     const size_t digits = strncmp(name, "step_", 5) == 0 ? strspn(name + 5, "0123456789") : 0;
 
@@ -296,11 +307,7 @@ static size_t is_ours(const char *name, long *process)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
             return n;
-    for (size_t k = 0; field[k]; k++)
-        if (n == strlen(field[k]) + 4 && strncmp(name, field[k], n - 4) == 0
-            && strncmp(name + n - 4, ".svg", 4) == 0)
-            return n;
-    return 0;
+    return is_map(name, n) ? n : 0;
 }
 
 /* Looks through the folder: whether another run writes there (some systems do not let its files be removed, others can
