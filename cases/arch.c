@@ -243,7 +243,7 @@ static void draw_thrusts(case_results *r)
 static int show(case_results *r, double ratio, double friction, const char *name, const char *title)
 {
     bbm_model *m = build_arch(N, ratio, friction);
-    scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 }, .longest = 5e5 };
+    scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 } };
     char file[60];
 
     case_settle(m, SETTLE);

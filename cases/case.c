@@ -168,13 +168,7 @@ double case_percent(double computed, double reference)
 
 double case_quantity(const bbm_result *r, const char *quantity)
 {
-    const char *const name[] = { "u", "v", "sxx", "syy", "sxy", "svm" };
-    const double value[] = { r->u, r->v, r->stress[0], r->stress[1], r->stress[2], r->mises };
-
-    for (int i = 0; i < 6; i++)
-        if (strcmp(quantity, name[i]) == 0)
-            return value[i];
-    return NAN;
+    return scene_field(r, strcmp(quantity, "svm") ? quantity : "mises");
 }
 
 /* ---------------------------------------------------------------------------- blocks that touch */

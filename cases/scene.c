@@ -666,8 +666,6 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
-    if (f->s->longest > 0)
-        f->most[LOCKED] = f->s->longest;
     f->most[LOCKED] = f->most[SLIDING] = fmax(f->most[LOCKED], f->most[SLIDING]);
     find_window(f);
     arrange(f, n);
@@ -847,7 +845,7 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } corner;          /* pixels */
 
-static double field_value(const bbm_result *r, const char *field)
+double scene_field(const bbm_result *r, const char *field)
 {
     static const char *const name[] = SCENE_FIELDS;
     const double *s = r->stress, mean = (s[0] + s[1]) / 2, radius = hypot((s[0] - s[1]) / 2, s[2]);
@@ -1041,7 +1039,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
         for (int i = 0; i < m->nodes; i++) {
             bbm_result r;
             bbm_nodal_result(m, i, -1, &r);
-            n[i] = (nodal){ r.u, r.v, field_value(&r, field) };
+            n[i] = (nodal){ r.u, r.v, scene_field(&r, field) };
             finite &= isfinite(r.u + r.v + n[i].value);
         }
         const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);

@@ -41,7 +41,6 @@ typedef struct {
     const char *title;
     double window[4];           /* m        x from, x to, y from, y to: this, and all that is     */
                                 /*          not fixed; zeros: everything                          */
-    double longest;             /* N        force of the longest arrow; zero: the largest one     */
     int    mark;                /*          a vertex to mark                                      */
     const char *mark_name;      /*          in the legend; NULL: none                             */
     /* --- the recording --- */
@@ -71,6 +70,7 @@ typedef struct {                /* contours of a field over the present state   
                                 /*          would change too much; < 0: they are not shown        */
 } scene_map;
 
+double scene_field(const bbm_result *r, const char *field);     /* NaN: there is none */
 int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
 
 #endif
