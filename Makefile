@@ -7,6 +7,11 @@
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
 # make windows   ./bbm for Windows (mingw-w64)
+# One goal is made with as many jobs as there are processors, unless -j says how many.
+
+ifeq ($(MAKELEVEL)$(word 2,$(MAKECMDGOALS))$(filter -j%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+endif
 
 CC      ?= cc
 CFLAGS  ?= -O2
@@ -130,8 +135,48 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
-check: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
-	$O/check
+# The tests in two parts side by side, each to a file: those of what the experiments print, and all others.
+PARTS = others experiments
+SAY   = $O/check > $O/$*.said 2>&1 || echo "ended with status $$?" >> $O/$*.said
+
+check: $(PARTS:%=check-%) check-smoke
+	@cat $(PARTS:%=$O/%.said)
+	@awk -F '[:,]' '/^[0-9]+%: Checks:/ { run += $$3; failed += $$5 + $$7 } /^ended with status/ { bad = 1 } \
+	END { print run " checks, " failed " failed" (bad ? ": not passed" : ""); exit bad }' $(PARTS:%=$O/%.said)
+
+check-others: check-%: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
+	CK_EXCLUDE_TAGS=experiments $(SAY)
+
+check-experiments: check-%: $O/check experiments
+	CK_RUN_SUITE=cases $(SAY)
+
+# Everything that the experiments print, the longest first, but after what the tests beside them need; what hangs is
+# ended after ten minutes of the processor.
+CONVERGE = exp1 exp2
+CALLS    = $(CASES:%=run-%) $(CONVERGE:%=converge-%) again without-beyond
+LIMIT    = mkdir -p out; ulimit -t 600;
+
+experiments: run-incline $(CALLS)
+
+$(CALLS): | $O/check $(CASES:%=$O/failing/%)
+
+$(CASES:%=run-%): run-%: $O/%
+	@$(LIMIT) $O/$* > out/$*.log
+
+$(CONVERGE:%=converge-%): converge-%: $O/%
+	@$(LIMIT) $O/$* converge > out/converge-$*.log
+
+again: $O/exp1
+	@rm -rf out/again && mkdir -p out/again/cases && cp cases/fem.csv out/again/cases
+	@$(LIMIT) cd out/again && ../../$O/exp1 > exp1.log
+
+# `make paper` in the tree without beyond/.
+without-beyond:
+	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h cases tests out/paper
+	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
+	> out/paper/paper.log 2>&1
+
+check-smoke:
 	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
 
 memcheck:
@@ -174,5 +219,6 @@ fuzz:
 clean:
 	rm -rf out bbm
 
-.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: check $(PARTS:%=check-%) check-smoke experiments $(CALLS)
 .DELETE_ON_ERROR:
