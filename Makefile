@@ -1,7 +1,7 @@
 # make           builds the experiments        make check     every test (needs libcheck)
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
-# make bench     time ratios of the solver     make memcheck  the tests under valgrind
+# make bench     solver, friction: ratios      make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
@@ -82,7 +82,7 @@ bbm: $O/bbm
 $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
@@ -117,7 +117,7 @@ $O/tests/check_all.o $O/tests/check_paper.o: tests/check_main.c $(HEADERS) Makef
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(DEFINE) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
+TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/rock.o $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm

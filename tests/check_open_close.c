@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "models.h"
+#include "rock.h"
 
 /* --------------------------------------------------------------------- the open-close iteration */
 
@@ -167,6 +168,29 @@ START_TEST(friction_in_the_matrix_takes_no_passes)
     }
     ck_near(turned, 0, 1, 1e-4);
     ck_assert_msg(loads ? most > 2 : most <= 2, "%d passes", most);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A slope whose columns lean on each other while they slide: 10 solutions a step are the promise,
+ * friction as a load takes 210. Two blocks on an incline: one, but in the first steps. */
+static const struct { int scene; double most; } FEW[] = {
+    { ROCK_SLOPE, 10 }, { ROCK_INCLINE, 1.1 },
+};
+
+START_TEST(blocks_that_slide_take_few_solutions_a_step)
+{
+    const rock_scene *s = &rock[FEW[_i].scene];
+    bbm_model *m = s->make();
+    int solutions = 0;
+
+    ck_ok(bbm_prepare(m), m);
+    for (int i = 0; i < s->steps; i++) {
+        ck_ok(bbm_step(m), m);
+        solutions += m->info.passes;
+    }
+    ck_assert_msg(solutions <= FEW[_i].most * s->steps, "%s: %d solutions in %d steps", s->name,
+                  solutions, s->steps);
     bbm_model_free(m);
 }
 END_TEST
@@ -477,6 +501,7 @@ Suite *open_close_suite(void)
         { a_set_of_states_that_comes_back_is_a_cycle, 1 },
         { piles_settle_in_few_passes, 1 },
         { friction_in_the_matrix_takes_no_passes, 4 },
+        { blocks_that_slide_take_few_solutions_a_step, COUNT(FEW) },
         { blocks_without_any_force_settle_at_once, 1 },
         { contacts_that_never_settle_end_with_a_status_and_the_numbers, 1 },
     };
