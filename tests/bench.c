@@ -101,7 +101,8 @@ static double median(double v[TURNS])
 static void print_forms(void)
 {
     printf("SSOR-PCG, omega = 1, alpha = 100: microseconds an iteration, medians of %d turns\n\n"
-           "| unknowns | textbook | Eisenstat | ratio | iterations to 1e-10, textbook | Eisenstat |\n"
+           "| unknowns | textbook | Eisenstat | ratio | iterations to 1e-10, textbook | Eisenstat "
+           "|\n"
            "|---|---|---|---|---|---|\n", TURNS);
     for (int n = 1; n <= 4; n *= 2) {
         bbm_model *m = beam(24 * n, 6 * n, CASE_CROSSED, 100);
@@ -112,7 +113,8 @@ static void print_forms(void)
             ratio[i] = eisenstat[i] / textbook[i];
         }
         printf("| %d | %.1f | %.1f | %.2f | %d | %d |\n", 6 * m->elements, median(textbook),
-               median(eisenstat), median(ratio), iterations(m, NULL), iterations(m, &bbm_eisenstat));
+               median(eisenstat), median(ratio), iterations(m, NULL),
+               iterations(m, &bbm_eisenstat));
         fflush(stdout);
         bbm_model_free(m);
     }
@@ -137,8 +139,8 @@ static void add_long_sides(bbm_model *m, int n)
     case_add_box(m, &(case_box){ .block = 1, .nx = n, .ny = 1, .x = 0, .y = 0, .w = n, .h = 1 });
 }
 
-/* A model whose contacts have been found once and are closed, as in the middle of a run; they have a
- * cohesion, so that the length of each joint is looked up, too. */
+/* A model whose contacts have been found once and are closed, as in the middle of a run; they have
+ * a cohesion, so that the length of each joint is looked up, too. */
 static bbm_model *model_in_contact(void add(bbm_model *, int), int n)
 {
     bbm_model *m = case_model();
@@ -262,8 +264,8 @@ static effort run_rock(const rock_scene *s, int friction_is_a_load)
 
 static void print_contact(void)
 {
-    printf("\nFriction in K, and as the paper has it, a load with the N of the last solution until both\n"
-           "agree: means of all steps; ratio: of the times\n\n"
+    printf("\nFriction in K, and as the paper has it, a load with the N of the last solution until\n"
+           "both agree: means of all steps; ratio: of the times\n\n"
            "| scene | steps | in K: solutions a step | ms | load: solutions a step | ms | ratio |\n"
            "|---|---|---|---|---|---|---|\n");
     for (int k = 0; k < ROCK_SCENES; k++) {
@@ -314,9 +316,10 @@ int main(int count, char **argument)
     print_forms();
     print_levels();
     print_contact();
-    printf("\nDetection of contacts: edges that a corner is compared with, nanoseconds a boundary edge, and\n"
-           "that against the smallest model\n\n"
-           "| model | edges | contacts | compared | ns an edge | ratio |\n|---|---|---|---|---|---|\n");
+    printf("\nDetection of contacts: edges that a corner is compared with, nanoseconds a boundary\n"
+           "edge, and that against the smallest model\n\n"
+           "| model | edges | contacts | compared | ns an edge | ratio |\n"
+           "|---|---|---|---|---|---|\n");
     bench_detection("wall of bricks", add_wall, (const int[]){ 16, 50, 158 });
     bench_detection("two long sides", add_long_sides, (const int[]){ 166, 1666, 16666 });
     return 0;

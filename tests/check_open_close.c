@@ -173,7 +173,7 @@ START_TEST(friction_in_the_matrix_takes_no_passes)
 END_TEST
 
 /* A slope whose columns lean on each other while they slide: 10 solutions a step are the promise,
- * friction as a load takes 210. Two blocks on an incline: one, but in the first steps. */
+ * friction as the paper's load takes 210. Two blocks on an incline: one, but in the first steps. */
 static const struct { int scene; double most; } FEW[] = {
     { ROCK_SLOPE, 10 }, { ROCK_INCLINE, 1.1 },
 };
