@@ -176,8 +176,9 @@ without-beyond:
 	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
 	> out/paper/paper.log 2>&1
 
+# Not optimized, since compiling takes most of it.
 check-smoke:
-	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
+	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) O=out/smoke CFLAGS="-g $(SANITIZERS)" smoke
 
 memcheck:
 	$(MAKE) O=out/memcheck CPPFLAGS=-DGUARD=0 out/memcheck/quick
