@@ -3,7 +3,8 @@
  * A contact keeps a corner out of an edge that it comes to from outside. Blocks that overlap from
  * the start have no such history: the corner is behind the edge, no spring pushes it out, and the
  * blocks fall through each other without a word. Such a model is refused, with the place and the
- * depth. Elements of one block may not overlap, either, and no element may meet itself.
+ * depth. Elements of one block may not overlap, either, and no element may meet itself. Should a
+ * step let a corner pass into a block all the same, the next one is refused.
  *
  * From an element that is not convex triangles are cut, ear by ear, until the rest is. Two convex
  * pieces overlap when no edge of either has the other piece wholly outside, and by the least way
@@ -262,28 +263,38 @@ static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int block)
     return winding > 0 ? depth : 0;
 }
 
-/* Refuses a step that starts with a corner in another block, deeper than contacts are, which no
- * contact holds: the last step let it pass. Told for an edge near it. */
-bbm_status bbm_check_passed(bbm_model *m, int corner, int edge)
+/* How deep a corner lies in the block of an edge near it, deeper than contacts are, where no
+ * contact of the two blocks accounts for it: the last step let it pass. Else 0. */
+double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
     const bbm_vertex *P = &m->vertex[m->edge[corner].a], *a = &m->vertex[m->edge[edge].a];
     const bbm_direction t = m->edge[edge].along;
     const int block = m->edge[edge].block, other = m->edge[corner].block;
-    const double d = (P->x - a->x) * t.y - (P->y - a->y) * t.x;
-    const double depth = bbm_allowed_depth(m, corner, edge);
+    const double allowed = bbm_allowed_depth(m, corner, edge);
+    const double before = (P->x - a->x) * t.y - (P->y - a->y) * t.x;
 
-    if (block == other || d >= -depth || m->edge[corner].side != corner)
-        return BBM_OK;
+    if (block == other || before >= -allowed || m->edge[corner].side != corner)
+        return 0;
     for (int k = 0; k < m->contacts; k++) {
         const int i = m->edge[m->contact[k].corner].block, j = m->edge[m->contact[k].edge].block;
-        if (((i == block && j == other) || (i == other && j == block))
-            && (m->contact[k].state != BBM_OPEN || m->contact[k].inside))
-            return BBM_OK;
+        const int both = (i == block && j == other) || (i == other && j == block);
+        if (both && (m->contact[k].state != BBM_OPEN || m->contact[k].inside))
+            return 0;
     }
-    const double deep = depth_in_block(m, P, block);
-    if (deep <= depth)
+    const double depth = depth_in_block(m, P, block);
+    return depth > allowed ? depth : 0;
+}
+
+/* Refuses a step that starts so. */
+bbm_status bbm_check_passed(bbm_model *m)
+{
+    const int corner = m->beyond->passed[0], edge = m->beyond->passed[1];
+
+    if (corner < 0)
         return BBM_OK;
+    const bbm_vertex *P = &m->vertex[m->edge[corner].a];
     return bbm_fail(m, BBM_BLOCKS_OVERLAP, "step %d: a corner of block %d passed into block %d at "
                     "(%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
-                    other, block, P->x, P->y, deep);
+                    m->edge[corner].block, m->edge[edge].block, P->x, P->y,
+                    bbm_depth_passed(m, corner, edge));
 }
