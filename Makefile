@@ -1,7 +1,7 @@
 # make           builds the experiments        make check     every test (needs libcheck)
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
-# make bench     time ratios of the solver     make memcheck  the tests under valgrind
+# make bench     solver, friction: ratios      make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
@@ -9,13 +9,18 @@
 # make windows   ./bbm for Windows (mingw-w64)
 # make exercise N=07   a copy without one function, and its tests; doc/exercises
 # make figures   draws doc/figures             make check-exercises   each red as it begins, green in the end
+# One goal is made with as many jobs as there are processors, unless -j says how many.
+
+ifeq ($(MAKELEVEL)$(word 2,$(MAKECMDGOALS))$(filter -j%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+endif
 
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CORE     = bbm contact solver
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy friction joints mechanism multipliers overlap pieces \
+BEYOND   = beyond bending coarse eisenstat energy friction joints mechanism multipliers overlap pieces pressure \
            refuse rotation sliding statics sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
@@ -24,7 +29,7 @@ COMMON   = case output plot scene theory
 SHARED   = $(COMMON) beyond
 PROGRAM  = bbm model msh write
 TORTURE  = scenes ledger trial
-PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
+PROGRAMS = check_cases check_model check_files check_pictures programs check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
@@ -86,7 +91,7 @@ $O/figures: $O/doc/figures.o $O/cases/plot.o $O/cases/output.o $(CORE:%=$O/%.o)
 $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
@@ -121,7 +126,7 @@ $O/tests/check_all.o $O/tests/check_paper.o: tests/check_main.c $(HEADERS) Makef
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(DEFINE) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
+TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/rock.o $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
@@ -146,18 +151,61 @@ LINK="$(CC) $(CFLAGS) $(LDFLAGS)" LIBS="$(CHECK) -lm" TESTED="$O/tests/check_mai
 MAKE="$(MAKE) -s" sh tests/exercise.sh
 
 exercise:
-	@$(EXERCISE) begin $(or $(N),0)
+	+@$(EXERCISE) begin $(or $(N),0)
 
 check-exercises: $O/quick $(ALONE)
 	@$(EXERCISE) prove
 
-check: $O/check $O/quick $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm $(ALONE) $O/figures
-	$O/check
-	@$(EXERCISE) prove
+# The figures of the documents, their commands and what these print.
+check-documents: $O/figures $O/bbm experiments
 	@rm -rf $O/drawn && mkdir $O/drawn && $O/figures $O/drawn && diff -r $O/drawn doc/figures || \
 	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
-	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
+
+# The tests in two parts side by side, each to a file: those of what the experiments print, and all others.
+PARTS = others experiments
+SAY   = $O/check > $O/$*.said 2>&1 || echo "ended with status $$?" >> $O/$*.said
+
+check: $(PARTS:%=check-%) check-exercises check-documents check-smoke
+	@cat $(PARTS:%=$O/%.said)
+	@awk -F '[:,]' '/^[0-9]+%: Checks:/ { run += $$3; failed += $$5 + $$7 } /^ended with status/ { bad = 1 } \
+	END { print run " checks, " failed " failed" (bad ? ": not passed" : ""); exit bad }' $(PARTS:%=$O/%.said)
+
+check-others: check-%: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
+	CK_EXCLUDE_TAGS=experiments $(SAY)
+
+check-experiments: check-%: $O/check experiments
+	CK_RUN_SUITE=cases $(SAY)
+
+# Everything that the experiments print, the longest first, but after what the tests beside them need; what hangs is
+# ended after ten minutes of the processor.
+CONVERGE = exp1 exp2
+CALLS    = $(CASES:%=run-%) $(CONVERGE:%=converge-%) again without-beyond
+LIMIT    = mkdir -p out; ulimit -t 600;
+
+experiments: run-incline $(CALLS)
+
+$(CALLS): | $O/check $(CASES:%=$O/failing/%)
+
+$(CASES:%=run-%): run-%: $O/%
+	@$(LIMIT) $O/$* > out/$*.log
+
+$(CONVERGE:%=converge-%): converge-%: $O/%
+	@$(LIMIT) $O/$* converge > out/converge-$*.log
+
+again: $O/exp1
+	@rm -rf out/again && mkdir -p out/again/cases && cp cases/fem.csv out/again/cases
+	@$(LIMIT) cd out/again && ../../$O/exp1 > exp1.log
+
+# `make paper` in the tree without beyond/.
+without-beyond:
+	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h cases tests out/paper
+	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
+	> out/paper/paper.log 2>&1
+
+# Not optimized, since compiling takes most of it.
+check-smoke:
+	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) O=out/smoke CFLAGS="-g $(SANITIZERS)" smoke
 
 memcheck:
 	$(MAKE) O=out/memcheck CPPFLAGS=-DGUARD=0 out/memcheck/quick
@@ -200,6 +248,6 @@ fuzz:
 clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
-.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean exercise check-exercises \
-        figures
+.PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: check $(PARTS:%=check-%) check-smoke check-exercises check-documents experiments exercise figures $(CALLS)
 .DELETE_ON_ERROR:

@@ -94,7 +94,6 @@ prove_one()
     grep -q 'Failures: [1-9]\|Errors: [1-9]\|^wrong: ' "$here/said" || complain "no test is red"
     if [ "$tests" = program ]; then build "$file" "$here"; else cp "$O/quick" "$here/tests"; fi
     CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "red with $file itself"
-    echo "$page: red, then green"
 }
 
 # What is not there, or there twice, is no exercise.
@@ -115,7 +114,7 @@ prove()
         (prove_one "$number")
         count=$((count + 1))
     done
-    echo "$count exercises"
+    echo "$count exercises: red as they begin, green with the sources"
 }
 
 case $1 in
