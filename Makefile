@@ -160,6 +160,8 @@ check-exercises: $O/quick $(ALONE)
 check-documents: $O/figures $O/bbm experiments
 	@rm -rf $O/drawn && mkdir $O/drawn && $O/figures $O/drawn && diff -r $O/drawn doc/figures || \
 	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
+	@for f in $$(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do \
+	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
 
 # The tests in two parts side by side, each to a file: those of what the experiments print, and all others.

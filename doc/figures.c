@@ -396,12 +396,12 @@ static void draw_flow(drawing *d)
                            { x - 150, -43 } };
     const double end[6] = { 66, 142, 218, 294, 400, 500 };
 
-    draw_box(d, x, 20, "geometry of the elements, gravity", "begin_step");
-    draw_box(d, x, 96, "3.7: which contacts may close?", "detect");
+    draw_box(d, x, 20, "geometry of the elements, gravity", "bbm_begin_step");
+    draw_box(d, x, 96, "3.7: which contacts may close?", "bbm_detect");
     draw_box(d, x, 172, "3.1 to 3.8: K and F", "bbm_assemble");
     draw_box(d, x, 248, "4: K D = F by SSOR-PCG", "solve");
     draw_question(d, x, 324, "did a contact change?", "open_close");
-    draw_question(d, x, 424, "moved further than foreseen?", "detect");
+    draw_question(d, x, 424, "moved further than foreseen?", "bbm_detect");
     draw_box(d, x, 530, "positions, stresses, velocities", "update");
     for (int k = 0; k < 6; k++)
         arrow(d, (point){ x, -end[k] }, (point){ x, -end[k] - (k < 4 || k > 4 ? 30 : 24) }, SOLID);

@@ -23,31 +23,28 @@ static const bolt BOLT[BOLTS] = { { 11, 0, 2e7 }, { 10, 1, 2e7 }, { 8, 5, 1e7 } 
 /* Adds a gap for each bolt to the list of what glues. P and Q are points of two elements, and
  * bbm_bonding_gap gives d = (uP - uQ) + Ti(P) Di - Tj(Q) Dj with a weight k in all directions. A
  * bolt along the unit vector n from P to Q resists along n alone: W = k n n^T. It is no penalty:
- * its stiffness is its own. */
-static bbm_status add_bolts(bbm_model *m)
+ * its stiffness is its own. The list has room for three gaps of each vertex. */
+static void add_bolts(bbm_model *m)
 {
     for (int b = 0; b < BOLTS; b++) {
         const bbm_vertex *P = &m->vertex[BOLT[b].P], *Q = &m->vertex[BOLT[b].Q];
         const double l = hypot(Q->x - P->x, Q->y - P->y);
         const double n[2] = { (Q->x - P->x) / l, (Q->y - P->y) / l };
         bbm_gap *g = bbm_add_gap(m, P->element, Q->element);
-        if (!g)
-            return BBM_NO_MEMORY;
         bbm_bonding_gap(&m->element[P->element], P, &m->element[Q->element], Q, BOLT[b].k, g);
         for (int k = 0; k < 4; k++)
             g->W[k / 2][k % 2] = BOLT[b].k * n[k / 2] * n[k % 2];
         g->penalty = 0;
     }
-    return BBM_OK;
 }
 
 /* Bonds and fixed points as in the paper, and the bolts. */
-static bbm_status list_gaps(bbm_model *m)
+static void list_gaps(bbm_model *m)
 {
     m->hook.list_gaps = NULL;
-    const bbm_status status = bbm_list_gaps(m);
+    bbm_list_gaps(m);
     m->hook.list_gaps = list_gaps;
-    return status ? status : add_bolts(m);
+    add_bolts(m);
 }
 
 static void add_rectangle(bbm_model *m, int block, double x, double y, double w, double h)
