@@ -127,7 +127,7 @@ static void draw_unknown(drawing *d, int unknown, double size)
     for (int k = 0; k < 4; k++) {
         const point p = k < 3 ? TRIANGLE[k] : (point){ e.x, e.y };
         double u[2];
-        bbm_displacement(&e, p.x, p.y, u);
+        bbm_displacement(&e, e.D, p.x, p.y, u);
         moved[k] = (point){ p.x + u[0], p.y + u[1] };
     }
     polygon(d, 3, moved, BLUE);
