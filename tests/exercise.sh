@@ -13,6 +13,7 @@
 # `make exercise` gives O, where the objects are; COMPILE, FAILING, LINK, LIBS, parts of commands;
 # TESTED and ALONE, the objects for tests and for programs; MAKE.
 set -eu
+unset CK_RUN_SUITE CK_INCLUDE_TAGS CK_EXCLUDE_TAGS
 PAGES=doc/exercises
 CUT=tests/exercise.awk
 
