@@ -60,9 +60,11 @@ bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with a
 extern const bbm_method bbm_eisenstat, bbm_two_level;
 
 /* coarse.c */
-bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node);
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
-void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int middles, int a,
+typedef enum { BBM_CORNERS, BBM_MIDDLES, BBM_ALTERNATING } bbm_fit;
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int sets, int nodes, const int *first,
+                             const int *node);
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int set, int i, int k, double P[6][2]);
+void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], bbm_fit fit, int a,
                              double P[6][2]);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
 double     bbm_dot(int n, const double *x, const double *y);
