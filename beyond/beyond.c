@@ -8,8 +8,7 @@ static void release(bbm_model *m)
 {
     if (!m->beyond)
         return;
-    bbm_free_factor(&m->beyond->factor);
-    free(m->beyond->friction.x);
+    bbm_free_sliding(&m->beyond->sliding);
     free(m->beyond->girth);
     free(m->beyond);
 }
@@ -114,7 +113,6 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
         .friction = bbm_put_friction_in_K,
-        .find_friction = bbm_find_friction,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,
         .lay_out = lay_out,

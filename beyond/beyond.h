@@ -19,22 +19,11 @@ typedef enum {                  /* how two quadrilaterals are bonded; others at 
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
-typedef struct {                /* sliding.c: LU of K where contacts slide                      */
-    bbm_term *term;             /* [pairs]   of K                                               */
-    int *pays;                  /* [n]       in the component of a block row                    */
-    int *left;                  /* [6 n]     the first column of a row that is not zero         */
-    size_t *diagonal;           /* [6 n]     where L_ii is; the row left of it lies before it   */
-    size_t room;
-    double *L, *U;              /* [room]    U by columns                                       */
-} bbm_factor;
-
-enum { BBM_FRICTION_DIRECTIONS = 16 };
-
-typedef struct {                /* friction.c                                                   */
-    int directions, room;
-    double *x, *r;              /* [room] N     that friction takes; what the solution adds     */
-    double *dx, *dr;            /* [(BBM_FRICTION_DIRECTIONS + 1) room] their changes           */
-} bbm_friction_search;
+typedef struct {                /* sliding.c: friction in K                                     */
+    bbm_term *term, *scaled;    /* [pairs]   of K; of the rows in hand in the solver's scale    */
+    int terms;                  /* of those                                                     */
+    double *r0, *Ap;            /* [6 n]     the first residual; a product                      */
+} bbm_sliding;
 
 struct bbm_beyond {
     /* --- settings --- */
@@ -44,9 +33,8 @@ struct bbm_beyond {
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
-    bbm_factor factor;
+    bbm_sliding sliding;
     double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
-    bbm_friction_search friction;
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
@@ -103,10 +91,9 @@ void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */
 bbm_status bbm_lay_out_sliding(bbm_model *m);
-bbm_status bbm_find_friction(bbm_model *m, int pass);
 int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                                  bbm_submatrices *s);
-void       bbm_free_factor(bbm_factor *f);
+void       bbm_free_sliding(bbm_sliding *s);
 
 /* sweep.c, joints.c */
 bbm_status bbm_sweep(bbm_model *m, double search);

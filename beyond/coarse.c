@@ -617,7 +617,7 @@ void bbm_interpolate_elements(bbm_model *m)
         for (int a = 0; a < e->n; a++) {
             bbm_interpolation(e, &m->vertex[e->first], fit_of(m, e), a, P);
             (void)bbm_matrix_interpolate(m->K, 0, i, a, P);
-            if (fit_of(m, e) == BBM_CORNERS)
+            if (c->sets == 1 || fit_of(m, e) == BBM_CORNERS)
                 continue;
             bbm_interpolation(e, &m->vertex[e->first], BBM_ALTERNATING, a, P);
             for (int k = 0; k < 12; k++)
