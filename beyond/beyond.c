@@ -10,6 +10,7 @@ static void release(bbm_model *m)
         return;
     bbm_free_sliding(&m->beyond->sliding);
     free(m->beyond->girth);
+    free(m->beyond->sign);
     free(m->beyond);
 }
 

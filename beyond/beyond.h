@@ -34,6 +34,7 @@ struct bbm_beyond {
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
     bbm_sliding sliding;
+    int *sign;                  /* [elements] or NULL, interpolation.c: of the second set       */
     double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
@@ -48,14 +49,17 @@ bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with a
 extern const bbm_method bbm_eisenstat, bbm_two_level;
 
 /* coarse.c */
-typedef enum { BBM_CORNERS, BBM_MIDDLES, BBM_ALTERNATING } bbm_fit;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int sets, int nodes, const int *first,
                              const int *node);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int set, int i, int k, double P[6][2]);
+void       bbm_matrix_use_coarse(bbm_matrix *K, int pays);
+double     bbm_dot(int n, const double *x, const double *y);
+
+/* interpolation.c */
+typedef enum { BBM_CORNERS, BBM_MIDDLES, BBM_ALTERNATING } bbm_fit;
 void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], bbm_fit fit, int a,
                              double P[6][2]);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
-double     bbm_dot(int n, const double *x, const double *y);
 void       bbm_interpolate_elements(bbm_model *m);
 
 /* energy.c. The energies after the last step; kinetic: with the velocity before its factor. */

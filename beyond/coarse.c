@@ -20,23 +20,13 @@
  *
  *     y = E^-1 r,   y += S Q Kc^-1 Q^T S^T y,   u = E^-T y,
  *
- * positive definite by its form. Some 15 iterations suffice on a mesh of any fineness.
+ * positive definite by its form. Some 15 iterations suffice on a mesh of any fineness. What the
+ * nodes of a model are, and P, is in interpolation.c.
  *
- * Quadrilaterals bonded in the middles of their sides need a second set of displacements. Their
- * springs hardly feel (-1)^(i+j) (a s + b t), where s and t run across the element i, j of a grid
- * and a and b vary slowly: at a common side both elements move almost alike. Since
- * the gaps there are da/ds and db/dt, times the size of an element squared, no gap opens for a =
- * df/dt, b = df/ds, and these are what nodes move that go up and down by turns: they are in the
- * space. What is not is the rest, orthogonal to it, a = dg/ds, b = -dg/dt. So each node has two
- * more unknowns, g of u and of v. A side moves by the mean of g at its ends, with signs that
- * alternate around an element and from one element to the next,
- *
- *        - g           + g
- *     + g   + g  ,  - g   - g  ,   and so on: a side has not the same sign in its two elements,
- *        - g           + g
- *
- * and an element by the linear displacement that is nearest to that of its sides. Springs join the
- * two sets weakly: each has a Kc of its own, and their corrections are added.
+ * Quadrilaterals need a second set of displacements of the nodes. No stiff spring joins the two:
+ * each has a Kc of its own, and their corrections are added. In the second set little joins u and
+ * v, and the matrices of both are much alike, so that the mean of these two is enough for either:
+ * half as many unknowns in half as wide an envelope, an eighth of the work.
  *
  * Kc has an envelope: from the first entry of each row that is not zero to the diagonal, everything
  * is stored and factored by Cholesky. The nodes are numbered by the last row that has them, so that
@@ -54,9 +44,6 @@
 
 /* Of a pivot, against its share of P^T D P. */
 #define VANISHING 1e-12
-/* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured,
- * with blocks of 2 to 300 elements they break even at 1 to 4. */
-#define CROSSED 3.0
 
 typedef struct {                /* displacements of the nodes and their Kc                      */
     int unknowns, apart;        /* of a node in Kc: u and v, or one matrix for both alike; from */
@@ -74,7 +61,6 @@ typedef struct {
                                 /*           start[i] .. start[j]-1, and start[i] is even       */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
     coarse_set set[2];
-    int *sign;                  /* [rows]    of the second set, in the caller's order, or NULL  */
     int pays;                   /* in the step in hand                                          */
 } coarse_space;
 
@@ -174,12 +160,11 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
 
     c->n = (nodes + K->components + 1) / 2 * 2;
     c->pays = 1;
-    c->start = calloc((size_t)(1 + c->sets) * rows + corners, sizeof *c->start);
+    c->start = calloc(2 * rows + corners, sizeof *c->start);
     if (!c->start)
         return BBM_NO_MEMORY;
     c->first = c->start + rows;
     c->node = c->first + rows;
-    c->sign = c->sets == 2 ? c->node + corners : NULL;
     for (int k = 0; k < c->sets && !status; k++)
         status = allocate_set(c, corners, 2 - k, &c->set[k]);
     if (!status)
@@ -250,6 +235,15 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int set, int i, int k, double P
     return BBM_OK;
 }
 
+/* Whether it is worth its while in the step in hand. */
+void bbm_matrix_use_coarse(bbm_matrix *K, int pays)
+{
+    coarse_space *c = K->extra;
+
+    if (c)
+        c->pays = pays;
+}
+
 /* ---------------------------------------------------------------------------- Kc and its factor */
 
 /* Kc_ij, left of the diagonal or on it; those right of it in the same row lie after it. */
@@ -282,7 +276,8 @@ static void add_block(const coarse_set *s, double f, double P[6][2], int i, doub
         for (int k = 0; k < 4; k++)
             sum[k / 2][k % 2] += P[b][k / 2] * Y[b][k % 2];
     if (s->unknowns == 1)
-        *(i > j ? entry(s, i, j) : entry(s, j, i)) += (i == j ? f : f / 2) * (sum[0][0] + sum[1][1]);
+        *(i > j ? entry(s, i, j) : entry(s, j, i))
+            += (i == j ? f : f / 2) * (sum[0][0] + sum[1][1]);
     for (int k = 0; k < 4 && s->unknowns == 2; k++) {
         const int p = 2 * i + k / 2, q = 2 * j + k % 2;
         *(p > q ? entry(s, p, q) : entry(s, q, p)) += (p == q ? 2 : 1) * f * sum[k / 2][k % 2];
@@ -469,160 +464,3 @@ static void choose(const bbm_matrix *K, bbm_pcg *pcg)
 }
 
 const bbm_method bbm_two_level = { .choose = choose, .make_ready = make_ready, .correct = correct };
-
-/* ------------------------------------------------------------------ the coarse space of a model */
-
-/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
- * displacements linear in x, y the one nearest to those of all n corners, by least squares; on a
- * triangle it is exact. At the middles it is the one nearest to the means over the sides, for
- * elements that are bonded there, and alternating the same with every other mean negative. Fitted
- * about the mean of the corners, a linear function has the
- * value mean(u) there and the gradient g = M^-1 sum_a d_a u_a, M = sum d d^T:
- *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx,
- *     r0 = (vx - uy)/2. */
-void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], bbm_fit fit, int a,
-                       double P[6][2])
-{
-    const int middles = fit != BBM_CORNERS;
-    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0, mean = 0;
-
-    for (int k = 0; k < e->n; k++) {
-        x += v[k].x / e->n;
-        y += v[k].y / e->n;
-    }
-    for (int k = 0; k < e->n; k++) {
-        const int next = (k + 1) % e->n;
-        const double dx = (middles ? (v[k].x + v[next].x) / 2 : v[k].x) - x;
-        const double dy = (middles ? (v[k].y + v[next].y) / 2 : v[k].y) - y;
-        const double sign = fit == BBM_ALTERNATING && k % 2 ? -1 : 1;
-        const double share = sign * (middles ? (k == a || next == a) / 2.0 : k == a);
-        mean += share / e->n;
-        xx += dx * dx;
-        yy += dy * dy;
-        xy += dx * dy;
-        X += share * dx;
-        Y += share * dy;
-    }
-    const double det = xx * yy - xy * xy;
-    const double gx = (yy * X - xy * Y) / det, gy = (xx * Y - xy * X) / det;
-    const double u0 = mean + gx * (e->x - x) + gy * (e->y - y);
-    const double matrix[6][2] = {
-        { u0, 0 }, { 0, u0 }, { -gy / 2, gx / 2 }, { gx, 0 }, { 0, gy }, { gy, gx }
-    };
-
-    memcpy(P, matrix, sizeof matrix);
-}
-
-static bbm_fit fit_of(const bbm_model *m, const bbm_element *e)
-{
-    return m->beyond->bonding != BBM_VERTICES && e->n == 4 ? BBM_MIDDLES : BBM_CORNERS;
-}
-
-/* Whether fixed points hold every corner of an element. */
-static int held_all_round(const bbm_model *m, const bbm_element *e)
-{
-    int held = 0;
-
-    for (int v = e->first; v < e->first + e->n; v++)
-        held += m->node[m->vertex[v].node].held == BBM_XY;
-    return held == e->n;
-}
-
-/* For each element the sign of its first side in the second set. A side has not the same sign in
- * its two elements, so the sign of i fixes that of j: join i as it is with j as it follows, and the
- * opposites, unless that makes an element its own opposite, as around three quadrilaterals. */
-static void choose_signs(const bbm_model *m, int up[], int sign[])
-{
-    for (int k = 0; k < 2 * m->elements; k++)
-        up[k] = k;
-    for (int k = 0; k < m->bonds; k++) {
-        const bbm_bond *b = &m->bond[k];
-        const int sides = b->p[0] - m->element[b->i].first + b->q[1] - m->element[b->j].first;
-        const int same = 2 * b->j + (sides + 1) % 2, opposite = 2 * b->j + sides % 2;
-        if (bbm_root_of(up, 2 * b->i) == bbm_root_of(up, opposite))
-            continue;
-        up[bbm_root_of(up, 2 * b->i)] = bbm_root_of(up, same);
-        up[bbm_root_of(up, 2 * b->i + 1)] = bbm_root_of(up, opposite);
-    }
-    for (int i = 0; i < m->elements; i++)
-        sign[i] = bbm_root_of(up, 2 * i) % 2 ? -1 : 1;
-}
-
-/* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
- * them. An element without bonds is not in it, for there would be as many coarse unknowns as it has
- * of its own; nor is one held at every corner, which hardly moves. SSOR alone is faster for both.
- * */
-bbm_status bbm_lay_out_coarse(bbm_model *m)
-{
-    const size_t v = (size_t)m->vertices;
-    int *up = calloc(3 * v + (size_t)m->elements + 1, sizeof *up), nodes = 0, sets = 1;
-
-    if (!up)
-        return BBM_NO_MEMORY;
-    int *number = up + v, *node = number + v, *first = node + v;
-    for (int k = 0; k < m->vertices; k++)
-        up[k] = k;
-    for (int k = 0; k < m->bonds; k++) {
-        const bbm_bond *b = &m->bond[k];
-        for (int end = 0; end < 2; end++)
-            up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
-        first[b->i + 1] = first[b->j + 1] = 1;                  /* it has a bond */
-    }
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        const int count = first[i + 1] && !held_all_round(m, e) ? e->n : 0;
-        for (int k = 0; k < count; k++) {
-            int *n = &number[bbm_root_of(up, e->first + k)];
-            if (*n == 0)
-                *n = ++nodes;
-            node[first[i] + k] = *n - 1;
-        }
-        first[i + 1] = first[i] + count;
-        if (count > 0 && fit_of(m, e) == BBM_MIDDLES)
-            sets = 2;
-    }
-    const bbm_status status = bbm_matrix_coarse(m->K, sets, nodes, first, node);
-    if (!status && sets == 2)
-        choose_signs(m, up, ((coarse_space *)m->K->extra)->sign);
-    free(up);
-    return status;
-}
-
-/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element
- * by itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs
- * to cross some elements. */
-static int step_is_long(const bbm_model *m)
-{
-    for (int b = 0; b < m->bonds; b++) {
-        const bbm_element *e = &m->element[m->bond[b].i];
-        const double way2 = e->material.E / e->material.density * m->h * m->h;
-        if (way2 > CROSSED * CROSSED * e->A && !held_all_round(m, e))
-            return 1;
-    }
-    return 0;
-}
-
-/* The coarse space of the present geometry, unless it is that already. Elements that are not in it
- * are refused, which does no harm. */
-void bbm_interpolate_elements(bbm_model *m)
-{
-    coarse_space *c = m->K->extra;
-    double P[6][2];
-
-    if (!c || m->K->ready || m->par.pcg.method != &bbm_two_level)
-        return;
-    c->pays = step_is_long(m);
-    for (int i = 0; i < m->elements && c->pays; i++) {
-        const bbm_element *e = &m->element[i];
-        for (int a = 0; a < e->n; a++) {
-            bbm_interpolation(e, &m->vertex[e->first], fit_of(m, e), a, P);
-            (void)bbm_matrix_interpolate(m->K, 0, i, a, P);
-            if (c->sets == 1 || fit_of(m, e) == BBM_CORNERS)
-                continue;
-            bbm_interpolation(e, &m->vertex[e->first], BBM_ALTERNATING, a, P);
-            for (int k = 0; k < 12; k++)
-                P[k / 2][k % 2] *= c->sign[i];
-            (void)bbm_matrix_interpolate(m->K, 1, i, a, P);
-        }
-    }
-}

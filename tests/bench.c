@@ -1,6 +1,7 @@
 /* bench.c - `make bench`: how long the linear solver takes, and finding the contacts. First an iteration of the paper's
  * SSOR-PCG, in its textbook form and in Eisenstat's, then whole solutions of it and on two levels, up to 221,952
- * unknowns; then how the time to find the contacts grows with the model. What is compared is timed in turn in one run;
+ * unknowns; quadrilaterals beside triangles, and walls whose bricks slide; then how the time to find the contacts grows
+ * with the model. What is compared is timed in turn in one run;
  * printed are medians and their ratio, since these survive a busy machine.
  *
  *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix Market form, so that
@@ -232,6 +233,71 @@ static void print_levels(void)
     }
 }
 
+/* Quadrilaterals, bonded in their middles, beside triangles. */
+static void print_elements(void)
+{
+    static const char *const name[] = { "quadrilaterals", "triangles" };
+
+    printf("\nIterations to 1e-10 on two levels, and milliseconds of the whole solution\n\n"
+           "| elements | alpha | 16 x 4 cells | 32 x 8 | 64 x 16 | 128 x 32 |\n|---|---|---|---|---|---|\n");
+    for (int k = 0; k < 6; k++) {
+        const double alpha = pow(10, 1 + k % 3);
+        printf("| %s | %g |", name[k / 3], alpha);
+        for (int rows = 4; rows <= 32; rows *= 2) {
+            bbm_model *m = beam(4 * rows, rows, k < 3 ? CASE_QUADS : CASE_ALTERNATING, alpha);
+            int count;
+            const double t = whole_time(m, &bbm_two_level, TURNS, &count);
+            printf(" %d, %.2f |", count, t);
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+}
+
+/* A wall of about n x n flat bricks that wants to slide: friction 30, tilted by 20 degrees. */
+static bbm_model *tilted_wall(int n)
+{
+    bbm_model *m = case_model();
+
+    bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
+    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -3, .y = -1, .w = n + 6, .h = 1 });
+    case_fix_block(m, 0);
+    for (int row = 0, block = 1; row < n; row++)
+        for (int i = 0; i < n + row % 2; i++, block++) {
+            const double left = fmax(0, i - row % 2 / 2.0), right = fmin(n, i + 1 - row % 2 / 2.0);
+            case_add_box(m, &(case_box){ .block = block, .nx = 1, .ny = 1, .x = left,
+                                         .y = row / 2.0, .w = right - left, .h = 0.5 });
+        }
+    m->par.gravity[0] = -9.81 * sin(acos(-1) / 9);
+    m->par.gravity[1] = -9.81 * cos(acos(-1) / 9);
+    m->par.dt = 0.01;
+    m->par.friction = 30;
+    m->par.p_n = 1e9;
+    m->par.p_s = 4e8;
+    case_must(m, bbm_prepare(m));
+    return m;
+}
+
+static void print_walls(void)
+{
+    printf("\nThe first 4 steps of a tilted wall\n\n"
+           "| bricks | solutions a step | iterations a solution | ms a step |\n|---|---|---|---|\n");
+    for (int n = 8; n <= 32; n *= 2) {
+        bbm_model *m = tilted_wall(n);
+        int solutions = 0, count = 0;
+        const clock_t start = clock();
+        for (int step = 0; step < 4; step++) {
+            case_must(m, bbm_step(m));
+            solutions += m->info.passes;
+            count += m->info.iterations;
+        }
+        printf("| %d | %.1f | %.1f | %.1f |\n", m->elements - 1, solutions / 4.0,
+               (double)count / solutions, 250.0 * (double)(clock() - start) / CLOCKS_PER_SEC);
+        fflush(stdout);
+        bbm_model_free(m);
+    }
+}
+
 static void write_block(FILE *f, const bbm_matrix *K, int i, int j)
 {
     double B[6][6];
@@ -269,6 +335,8 @@ int main(int count, char **argument)
         return write_matrix(argument[2], atoi(argument[3]));
     print_forms();
     print_levels();
+    print_elements();
+    print_walls();
     printf("\nDetection of contacts: edges that a corner is compared with, nanoseconds a boundary edge, and that against\n"
            "the smallest model\n\n"
            "| model | edges | contacts | compared | ns an edge | ratio |\n|---|---|---|---|---|---|\n");

@@ -314,7 +314,8 @@ START_TEST(coarse_nodes_and_corners_that_do_not_exist_are_refused)
     double P[6][2] = { { 0 } };
 
     for (int k = 0; k < COUNT(wrong); k++)
-        ck_assert_int_eq(bbm_matrix_interpolate(s->K, 0, wrong[k][0], wrong[k][1], P), BBM_BAD_INDEX);
+        ck_assert_int_eq(bbm_matrix_interpolate(s->K, 0, wrong[k][0], wrong[k][1], P),
+                         BBM_BAD_INDEX);
     c->node[3] = -1;
     ck_assert_int_eq(bbm_matrix_coarse(s->K, c->sets, c->nodes, c->first, c->node), BBM_BAD_INDEX);
     c->node[3] = c->nodes;
@@ -566,7 +567,8 @@ END_TEST
 
 /* ------------------------------------------------------------------------- two levels on meshes */
 
-enum { TRIANGLES, QUADRILATERALS, DISTORTED, GRADED_HOLE, CRACKED, BENDING, BENDING_DISTORTED, MESHES };
+enum { TRIANGLES, QUADRILATERALS, DISTORTED, GRADED_HOLE, CRACKED, BENDING, BENDING_DISTORTED,
+       MESHES };
 
 static void mesh_node(bbm_model *m, int mesh, double s, double t, double size, unsigned *seed)
 {
@@ -583,7 +585,8 @@ static void mesh_node(bbm_model *m, int mesh, double s, double t, double size, u
 
 /* n rows of 4 n cells, held on the left and loaded on the right: a beam 4 x 1, or a quarter of a
  * plate with a hole, whose elements differ in area by 100. The crack runs from a quarter of the
- * length to the right end, through all bonds of the line. One step leaves K and F. */
+ * length to the right end, through all bonds of the line. Where signs alternate the elements begin
+ * with any of their corners. One step leaves K and F. */
 static bbm_model *new_mesh(int mesh, int n, double alpha)
 {
     const int nx = 4 * n, across = nx + 1;
@@ -601,10 +604,13 @@ static bbm_model *new_mesh(int mesh, int n, double alpha)
         for (int i = 0; i < nx; i++) {
             const int a = j * across + i, rising = (i + j) % 2;
             const int q[4] = { a, a + 1, a + across + 1, a + across };
+            const int start = bending ? i + j / 2 : 0;
+            const int turned[4] = { q[start % 4], q[(start + 1) % 4], q[(start + 2) % 4],
+                                    q[(start + 3) % 4] };
             const int lower[3] = { q[0], q[1], q[rising ? 3 : 2] };
             const int upper[3] = { q[2], q[3], q[rising ? 1 : 0] };
 
-            bbm_add_element(m, 0, 0, quadrilaterals ? 4 : 3, quadrilaterals ? q : lower, NULL);
+            bbm_add_element(m, 0, 0, quadrilaterals ? 4 : 3, quadrilaterals ? turned : lower, NULL);
             if (!quadrilaterals)
                 bbm_add_element(m, 0, 0, 3, upper, NULL);
         }
@@ -674,21 +680,26 @@ START_TEST(two_levels_and_one_reach_the_same_displacements)
 }
 END_TEST
 
-/* Two triangles with a side in common have four nodes. */
+/* Two triangles with a side in common have four nodes; a quadrilateral apart has none. */
 START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
 {
-    static const int node[2][3] = { { 0, 1, 2 }, { 1, 3, 2 } }, first[] = { 0, 3, 6 };
-    static const double xy[4][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 } };
-    double P[2][3][6][2], E[12];
+    static const int node[2][3] = { { 0, 1, 2 }, { 1, 3, 2 } }, first[] = { 0, 3, 6, 6 };
+    static const int apart[4] = { 4, 5, 7, 6 };
+    static const double xy[8][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 },
+                                     { 5, 0 }, { 6, 0 }, { 5, 1 }, { 6, 1 } };
+    double P[2][3][6][2], E[18];
     bbm_pcg_info info;
     bbm_model *m;
 
     ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 8; i++)
         bbm_add_node(m, xy[i][0], xy[i][1], NULL);
     for (int i = 0; i < 2; i++)
         bbm_add_element(m, 0, 0, 3, node[i], NULL);
+    bbm_add_element(m, 1, 0, 4, apart, NULL);
+    bbm_fix_node(m, 4, BBM_XY, 0, 0);
+    bbm_fix_node(m, 5, BBM_XY, 0, 0);
     bbm_fix_node(m, 0, BBM_XY, 0, 0);
     bbm_fix_node(m, 2, BBM_X, 0, 0);
     bbm_add_load(m, 3, 100, -1000);
