@@ -778,7 +778,7 @@ START_TEST(linear_displacements_of_the_corners_are_those_of_the_element)
     corners(n, &e, v);
     for (int a = 0; a < n; a++) {
         bbm_mode_matrix(&e, v[a].x, v[a].y, T);
-        bbm_interpolation(&e, v, _i % 2, a, P);
+        bbm_interpolation(&e, v, _i % 2 ? BBM_MIDDLES : BBM_CORNERS, a, P);
         for (int i = 0; i < 6; i++)
             sum[i] += P[i][0] * inner_product(6, T[0], D) + P[i][1] * inner_product(6, T[1], D);
     }
@@ -819,7 +819,7 @@ START_TEST(interpolation_is_the_nearest_linear_displacement)
 
     corners(n, &e, v);
     for (int a = 0; a < n; a++) {
-        bbm_interpolation(&e, v, middles, a, P);
+        bbm_interpolation(&e, v, middles ? BBM_MIDDLES : BBM_CORNERS, a, P);
         for (int k = 0; k < 2; k++) {
             u[a][k] = random_entry(&seed);
             for (int i = 0; i < 6; i++)
