@@ -83,7 +83,9 @@ static void add_terms(const bbm_sliding *s, const double *x, double *y)
     for (int k = 0; k < s->terms; k++) {
         const bbm_term *t = &s->scaled[k];
         const int i = 6 * t->row[0], j = 6 * t->row[1];
-        const double vx = bbm_dot(6, t->v[0], x + i) + bbm_dot(6, t->v[1], x + j);
+        double vx = 0;
+        for (int a = 0; a < 6; a++)
+            vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a];
         for (int a = 0; a < 6; a++) {
             y[i + a] += t->u[0][a] * vx;
             y[j + a] += t->u[1][a] * vx;
@@ -94,14 +96,14 @@ static void add_terms(const bbm_sliding *s, const double *x, double *y)
 /* u = E^-T B p and q = A p = u + E^-1 (B p - (2-w) u + w sum u v^T u). */
 static void multiply(const bbm_matrix *K, const double *p, double *q)
 {
-    double *y = K->y, *u = K->u;
+    double *u = K->u;
 
-    bbm_combine(K, p, 0, p, y);
+    bbm_combine(K, p, 0, p, K->y);
     if (K->method->correct)
-        K->method->correct(K, y);
-    bbm_combine(K, y, 0, y, u);
+        K->method->correct(K, K->y);
+    bbm_combine(K, K->y, 0, K->y, u);
     bbm_multiply_upper(K, -1, u, u);
-    bbm_combine(K, y, K->omega - 2, u, q);
+    bbm_combine(K, K->y, K->omega - 2, u, q);
     add_terms(&K->beyond->sliding, u, q);
     bbm_multiply_lower(K, -1, q, q);
     bbm_combine(K, q, 1, u, q);
