@@ -23,6 +23,11 @@ typedef struct {                /* sliding.c: friction in K                     
     bbm_term *term, *scaled;    /* [pairs]   of K; of the rows in hand in the solver's scale    */
     int terms;                  /* of those                                                     */
     double *r0, *Ap;            /* [6 n]     the first residual; a product                      */
+    int may_factor;             /* K is regular: in dynamics                                    */
+    int *left;                  /* [6 n]     the first column of a row that is not zero         */
+    size_t *diagonal;           /* [6 n]     where L_ii is; the row left of it lies before it   */
+    size_t room;
+    double *L, *U;              /* [room]    U by columns                                       */
 } bbm_sliding;
 
 struct bbm_beyond {
