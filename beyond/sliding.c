@@ -71,6 +71,25 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
     return 1;
 }
 
+/* The terms of the rows in hand, scaled: w G u and G v. */
+static void scale_terms(const bbm_matrix *K, bbm_sliding *s)
+{
+    s->terms = 0;
+    for (int k = 0; k < K->terms; k++) {
+        const bbm_term *t = &K->term[k];
+        if (t->row[0] < K->from || t->row[0] >= K->to)
+            continue;
+        bbm_term *to = &s->scaled[s->terms++];
+        *to = (bbm_term){ .row = { t->row[0], t->row[1] } };
+        for (int a = 0; a < 72; a++) {
+            const int end = a / 36, i = a / 6 % 6, j = a % 6;
+            const double G = K->G[t->row[end]][i][j];
+            to->u[end][i] += K->omega * G * t->u[end][j];
+            to->v[end][i] += G * t->v[end][j];
+        }
+    }
+}
+
 /* ----------------------------------------------------------------------------------- the factor */
 
 /* L_ij and U_ji for j <= i: what lies at the same place of row i and of column i. */
@@ -110,38 +129,24 @@ static bbm_status lay_out(const bbm_matrix *K, bbm_sliding *f)
     return f->L ? BBM_OK : BBM_NO_MEMORY;
 }
 
-/* K += G u (G v)^T */
-static void add_term(const bbm_matrix *K, const bbm_sliding *f, const bbm_term *t)
-{
-    double u[12] = { 0 }, v[12] = { 0 };
-
-    for (int a = 0; a < 72; a++) {
-        u[a / 6] += K->G[t->row[a / 36]][a / 6 % 6][a % 6] * t->u[a / 36][a % 6];
-        v[a / 6] += K->G[t->row[a / 36]][a / 6 % 6][a % 6] * t->v[a / 36][a % 6];
-    }
-    for (int a = 0; a < 12; a++)
-        for (int b = 0; b < 12; b++) {
-            const int i = 6 * t->row[a / 6] + a % 6, j = 6 * t->row[b / 6] + b % 6;
-            *(i >= j ? lower(f, i, j) : upper(f, i, j)) += u[a] * v[b];
-        }
-}
-
-/* The rows in hand of the scaled K = I + (S + S^T)/w and its terms. */
+/* The rows in hand of the scaled w K = w I + S + S^T and its terms. */
 static void fill(const bbm_matrix *K, const bbm_sliding *f)
 {
     for (int i = K->from; i < K->to; i++) {
         for (int row = 6 * i; row < 6 * i + 6; row++)
-            *lower(f, row, row) = 1;
+            *lower(f, row, row) = K->omega;
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
             for (int a = 0; a < 36; a++) {
                 const int row = 6 * i + a / 6, column = 6 * (i - K->back[k]) + a % 6;
-                *lower(f, row, column) = *upper(f, column, row)
-                    = K->S[k][a / 6][a % 6] / K->omega;
+                *lower(f, row, column) = *upper(f, column, row) = K->S[k][a / 6][a % 6];
             }
     }
-    for (int t = 0; t < K->terms; t++)
-        if (K->term[t].row[0] >= K->from && K->term[t].row[0] < K->to)
-            add_term(K, f, &K->term[t]);
+    for (const bbm_term *t = f->scaled; t < f->scaled + f->terms; t++)
+        for (int a = 0; a < 144; a++) {
+            const int p = a / 12, q = a % 12;
+            const int i = 6 * t->row[p / 6] + p % 6, j = 6 * t->row[q / 6] + q % 6;
+            *(i >= j ? lower(f, i, j) : upper(f, i, j)) += t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
+        }
 }
 
 /* L and U in place of K. Returns the row of a pivot that vanishes or is no number, or -1. */
@@ -184,32 +189,12 @@ static bbm_status solve_directly(bbm_matrix *K, bbm_pcg_info *info)
         const double *U = upper(f, f->left[i], i);
         for (int k = f->left[i]; k < i; k++)
             x[k] -= U[k - f->left[i]] * x[i];
-        x[i] /= K->omega;
     }
     info->iterations++;
     return BBM_OK;
 }
 
 /* ------------------------------------------------------------------------------- the iteration */
-
-/* The terms of the rows in hand, scaled: w G u and G v. */
-static void scale_terms(const bbm_matrix *K, bbm_sliding *s)
-{
-    s->terms = 0;
-    for (int k = 0; k < K->terms; k++) {
-        const bbm_term *t = &K->term[k];
-        if (t->row[0] < K->from || t->row[0] >= K->to)
-            continue;
-        bbm_term *to = &s->scaled[s->terms++];
-        *to = (bbm_term){ .row = { t->row[0], t->row[1] } };
-        for (int a = 0; a < 72; a++) {
-            const int end = a / 36, i = a / 6 % 6, j = a % 6;
-            const double G = K->G[t->row[end]][i][j];
-            to->u[end][i] += K->omega * G * t->u[end][j];
-            to->v[end][i] += G * t->v[end][j];
-        }
-    }
-}
 
 static void add_terms(const bbm_sliding *s, const double *x, double *y)
 {
@@ -260,7 +245,6 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     bbm_sliding *s = &K->beyond->sliding;
     double *r = K->r, *p = K->p, *Ar = K->q, *Ap = s->Ap, *r0 = s->r0, b = 0, w = 0;
 
-    scale_terms(K, s);
     bbm_multiply_lower(K, -1, r, r);
     bbm_combine(K, r, 0, r, r0);
     bbm_combine(K, p, 0, p, Ap);
@@ -288,10 +272,11 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 /* In dynamics LU has the last word, after no more iterations than there are unknowns. */
 static bbm_status solve_sliding(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    const bbm_sliding *s = &K->beyond->sliding;
+    bbm_sliding *s = &K->beyond->sliding;
     const int unknowns = 6 * (K->to - K->from);
     bbm_pcg few = *pcg;
 
+    scale_terms(K, s);
     if (s->may_factor && unknowns <= 6 * SMALL)
         return solve_directly(K, info);
     if (s->may_factor && few.iterations > unknowns)
