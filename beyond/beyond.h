@@ -30,6 +30,11 @@ typedef struct {                /* sliding.c: friction in K                     
     double *L, *U;              /* [room]    U by columns                                       */
 } bbm_sliding;
 
+typedef struct {                /* pressure.c: on the edge that starts at the vertex a          */
+    int    a;
+    double f[2], pressure;      /* N/m      pressure: against the outward normal, turns with it */
+} bbm_edge_load;
+
 struct bbm_beyond {
     /* --- settings --- */
     bbm_bonding  bonding;       /* bending.c                                                    */
@@ -38,9 +43,12 @@ struct bbm_beyond {
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
+    int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
+                                /* -1: none                                                     */
     bbm_sliding sliding;
     int *sign;                  /* [elements] or NULL, interpolation.c: of the second set       */
-    double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
+    int edge_loads;
+    bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
@@ -82,16 +90,18 @@ void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
-void       bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6], double X,
-                            double Y, double u[2]);
-void       bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_element *e,
-                            const bbm_vertex vertex[]);
+void       bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y,
+                            double u[2]);
+void       bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
 
 /* bending.c */
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
-void       bbm_edge_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
-                        const bbm_vertex *const Q[2], double W[2][2], double sign, bbm_gap *g);
-bbm_status bbm_list_edge_gaps(bbm_model *m);
+void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
+void       bbm_list_edge_gaps(bbm_model *m);
+
+/* pressure.c. After bbm_prepare: a load on a boundary edge, N/m. */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
+void       bbm_gather_edge_loads(bbm_model *m);
 
 /* multipliers.c */
 void       bbm_start_multipliers(bbm_model *m);
@@ -109,8 +119,8 @@ bbm_status bbm_sweep(bbm_model *m, double search);
 double     bbm_joint_area(const bbm_model *m, int corner, int edge);
 
 /* refuse.c, statics.c */
+bbm_status bbm_check_parameters(bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
-bbm_status bbm_measure_blocks(bbm_model *m);
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
@@ -126,7 +136,10 @@ typedef struct {                /* elements i < j that overlap                  
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
+double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
+bbm_status bbm_check_passed(bbm_model *m);              /* of the pairs that the sweep has met  */
 bbm_status bbm_find_mechanism(bbm_model *m, int *element);          /* of BBM_MIDPOINTS; or -1  */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
+int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
 
 #endif

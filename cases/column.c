@@ -73,7 +73,7 @@ int main(void)
     bbm_model *m = build_column();
     case_results r;
     case_effort effort = { 0, 0 };
-    scene s = { .title = "Column of ten blocks: contact forces" };
+    scene s = { .title = "Contact forces in a column of ten blocks" };
     double place[BLOCKS + 1][2], speed, drift;
 
     printf("\n# Column of ten blocks at rest\n\n");
@@ -99,7 +99,7 @@ int main(void)
     case_compare(&r, "largest drift [m]", drift, 0);
     printf("\nAt most %d solution%s in a step, dt halved %d times\n", effort.passes, effort.passes > 1 ? "s" : "",
            effort.cuts);
-    case_record(&s, m);
+    scene_record(&s, m);
     case_draw_panels(&r, "forces.svg", m, &s, 1, (double[]){ 0 });
     printf("\nNumbers and picture: %s/results.csv, forces.svg\n", r.folder);
     scene_free(&s);

@@ -165,7 +165,7 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         double u[2];
         x[i] = 6 * i;
         const struct case_value *f = case_find(ref, "v", x[i], 0);
-        bbm_displacement(&dda->element[0], x[i], 0, u);
+        bbm_displacement(&dda->element[0], dda->element[0].D, x[i], 0, u);
         v[0][i] = u[1];
         v[1][i] = case_at(bbm, x[i], 0).v;
         v[2][i] = f->six_node;
@@ -243,10 +243,15 @@ static void print_summary(const bbm_model *const m[3], const case_reference ref[
 /* Fig. 11-13: contours, and the deformed mesh. */
 static void draw_maps(case_results *r, const bbm_model *m)
 {
-    case_draw_map(r, "fig11.svg", m, "u", "Fig. 11: displacement u, load a");
-    case_draw_map(r, "fig12.svg", m, "v", "Fig. 12: displacement v, load a");
-    case_draw_map(r, "fig13.svg", m, "svm", "Fig. 13: von Mises stress, load a");
-    case_draw_deformed(r, "deformed.svg", m, "Deformed beam, von Mises stress");
+    static const struct { const char *file; scene_map map; } map[] = {
+        { "fig11.svg", { "Fig. 11: displacement u, load a", "u", -1 } },
+        { "fig12.svg", { "Fig. 12: displacement v, load a", "v", -1 } },
+        { "fig13.svg", { "Fig. 13: von Mises stress, load a", "mises", -1 } },
+        { "deformed.svg", { "Deformed beam, von Mises stress", "mises", 0 } },
+    };
+
+    for (int k = 0; k < 4; k++)
+        case_draw_map(r, map[k].file, m, &map[k].map);
 }
 
 /* ---------------------------------------------------------------------------------- convergence */

@@ -133,7 +133,7 @@ static void print_sweep(case_results *r, int settle)
     case_write_curves(r, settle ? "settled.csv" : "sudden.csv", "dt,p_n=1e7,1e8,1e9,1e10,1e11,1e12", ROWS, 1 + COLUMNS,
                       &table[0][0]);
     if (!settle)
-        case_draw_chart(r, "sudden.svg", &(plot_chart){ .title = "Error at 1 s, phi = 25, gravity switched on suddenly",
+        case_draw_chart(r, "sudden.svg", &(plot_chart){ .title = "Distance slid in 1 s: error if gravity sets in suddenly",
                         .x = { "dt", "s", 1, 0, 0 }, .y = { "relative error", "", 1, 0, 0 }, .count = COLUMNS,
                         .series = s });
 }
@@ -185,7 +185,7 @@ static void draw_ways(case_results *r)
                                   .look = k + 2 };
     }
     s[0] = (plot_series){ .name = "theory", .n = ANGLES * (N + 1), .x = t[0], .y = exact[0], .look = 1 };
-    case_draw_chart(r, "distance.svg", &(plot_chart){ .title = "Distance slid on 30 degrees", .count = 1 + ANGLES,
+    case_draw_chart(r, "distance.svg", &(plot_chart){ .title = "Distance slid on an incline of 30 degrees", .count = 1 + ANGLES,
                     .series = s, .x = { "t", "s", 0, 0, 0 }, .y = { "s", "m", 0, 0, 0 } });
     case_write_curves(r, "distance.csv", "t,phi=0,theory,phi=10,theory,phi=20,theory,phi=25,theory,phi=29,theory,"
                       "phi=31,theory,phi=40,theory", N, 1 + 2 * ANGLES, &table[0][0]);
@@ -193,10 +193,10 @@ static void draw_ways(case_results *r)
 
 static void draw_film(case_results *r)
 {
-    scene film = { .title = "A block on 30 degrees, phi = 20", .window = { -2.5, 1.5, -1.5, 1.4 }, .most = 64 };
+    scene film = { .title = "A block on an incline of 30 degrees, friction 20 degrees", .window = { -2.5, 1.5, -1.5, 1.4 } };
     bbm_model *m = start(&(slide){ A, 20, 0.01, 1e9, 0, 1, 13, 20 });
 
-    case_record(&film, m);
+    scene_record(&film, m);
     for (int i = 0; i < 120; i++)
         case_step(m, NULL, &film);
     case_draw_movie(r, "slide.svg", m, &film);

@@ -61,7 +61,7 @@ static double let_go(double f, int steps, scene *s, bbm_model **kept)
     case_settle(m, SETTLE);
     m->info.t = 0;
     if (s)
-        case_record(s, m);
+        scene_record(s, m);
     for (int i = 0; i < steps; i++)
         case_step(m, NULL, s);
     const double d = moved(m);
@@ -92,8 +92,8 @@ int main(void)
     static const double factor[] = { 0.98, 0.995, 1.005, 1.02 };
     case_results r;
     bbm_model *m;
-    scene stands = { .title = "0.98 of the greatest overhang stands", .window = { -1.5, 1.2, -0.5, 1.2 } };
-    scene falls = { .title = "1.02 of the greatest overhang falls", .window = { -1.5, 1.7, -2, 1.2 } };
+    scene stands = { .title = "A stack with 0.98 of the greatest overhang stands", .window = { -1.5, 1.2, -0.5, 1.2 } };
+    scene falls = { .title = "A stack with 1.02 of the greatest overhang falls", .window = { -1.5, 1.7, -2, 1.2 } };
 
     printf("\n# Overhang of four blocks\n\n| of 25/24 m | moved after 3 s [m] | it |\n|---|---|---|\n");
     case_open(&r, "overhang");

@@ -87,11 +87,11 @@ static bbm_model *build_block(const rocker *k)
 static int rock(const rocker *k, int peaks, double share[MOST], case_results *movie)
 {
     bbm_model *m = build_block(k);
-    scene film = { .title = "A block rocks", .play = 8 };
+    scene film = { .title = "A tall block rocks" };
     int n = 0;
 
     if (movie)
-        case_record(&film, m);
+        scene_record(&film, m);
     for (; n < MOST && peaks > 0; n++) {
         case_step(m, NULL, movie && n % 50 == 49 ? &film : NULL);
         share[n] = k->share + m->element[1].sum[2] / slope(k);

@@ -83,7 +83,7 @@ static int run(const shaking *k, double t[MOST], double s[MOST], case_results *m
     m->info.t = 0;
     const double start = case_slid(m, k->angle);
     if (movie)
-        case_record(&film, m);
+        scene_record(&film, m);
     for (int i = 0; i < steps && i < MOST; i++) {
         m->par.gravity[0] = -k->A * sin(k->w * (m->info.t + k->dt / 2));
         case_step(m, NULL, movie ? &film : NULL);

@@ -126,7 +126,7 @@ static double let_go(double phi, double far, scene *s, bbm_model **kept)
     case_settle(m, SETTLE);
     m->info.t = 0;
     if (s)
-        case_record(s, m);
+        scene_record(s, m);
     for (int i = 0; i < STEPS && moved(m) < far; i++)
         case_step(m, NULL, s);
     const double d = moved(m);
@@ -183,14 +183,14 @@ static void compare_pushes(case_results *r, double phi)
           .style = PLOT_MARKS, .look = 2 },
     };
     case_draw_chart(r, "pushes.svg", &(plot_chart){
-        .title = "Push of column n + 1 on column n, just above the limit", .x = { .name = "n" },
+        .title = "Push of column n + 1 on column n at the limit", .x = { .name = "n" },
         .y = { .name = "P", .unit = "N" }, .count = 2, .series = s });
     bbm_model_free(m);
 }
 
 static void draw_fall(case_results *r, double phi)
 {
-    scene s = { .title = "Sixteen columns, phi one degree below the limit" };
+    scene s = { .title = "Columns on a slope, friction one degree below the limit" };
     bbm_model *m;
 
     let_go(phi, 12, &s, &m);

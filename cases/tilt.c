@@ -82,7 +82,7 @@ static int stands(double tilt, double far, case_results *r, const char *title)
 
     case_settle(m, SETTLE);
     m->info.t = 0;
-    case_record(&s, m);
+    scene_record(&s, m);
     for (int i = 0; i < STEPS && moved(m) < far; i++)
         case_step(m, NULL, r && i % 20 == 19 ? &s : NULL);
     const int stood = moved(m) < 0.1;
@@ -111,9 +111,9 @@ int main(void)
         *(stands((low + high) / 2, 0.1, NULL, NULL) ? &low : &high) = (low + high) / 2;
     case_compare(&r, "largest tilt [degree]", (low + high) / 2, limit);
     case_compare(&r, "stands 0.1 degrees below (1 yes, 0 no)",
-                 stands(limit - 0.1, 0.1, &r, "0.1 degrees below the limit"), 1);
+                 stands(limit - 0.1, 0.1, &r, "A wall stands, 0.1 degrees before its limit"), 1);
     case_compare(&r, "stands 0.1 degrees above",
-                 stands(limit + 0.1, 3, &r, "0.1 degrees above the limit"), 0);
+                 stands(limit + 0.1, 3, &r, "A wall falls, 0.1 degrees beyond its limit"), 0);
     printf("\nNumbers and pictures: %s/results.csv, stands.svg, states.svg, falls.svg (it moves)\n",
            r.folder);
     return case_close(&r) || r.worst > 1e-3;
