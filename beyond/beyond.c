@@ -8,8 +8,8 @@ static void release(bbm_model *m)
 {
     if (!m->beyond)
         return;
-    bbm_free_factor(&m->beyond->factor);
-    free(m->beyond->friction.x);
+    bbm_free_sliding(&m->beyond->sliding);
+    free(m->beyond->sign);
     free(m->beyond->edge_load);
     free(m->beyond);
 }
@@ -110,7 +110,6 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
         .friction = bbm_put_friction_in_K,
-        .find_friction = bbm_find_friction,
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,

@@ -19,22 +19,16 @@ typedef enum {                  /* how two quadrilaterals are bonded; others at 
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
-typedef struct {                /* sliding.c: LU of K where contacts slide                      */
-    bbm_term *term;             /* [pairs]   of K                                               */
-    int *pays;                  /* [n]       in the component of a block row                    */
+typedef struct {                /* sliding.c: friction in K                                     */
+    bbm_term *term, *scaled;    /* [pairs]   of K; of the rows in hand in the solver's scale    */
+    int terms;                  /* of those                                                     */
+    double *r0, *Ap;            /* [6 n]     the first residual; a product                      */
+    int may_factor;             /* K is regular: in dynamics                                    */
     int *left;                  /* [6 n]     the first column of a row that is not zero         */
     size_t *diagonal;           /* [6 n]     where L_ii is; the row left of it lies before it   */
     size_t room;
     double *L, *U;              /* [room]    U by columns                                       */
-} bbm_factor;
-
-enum { BBM_FRICTION_DIRECTIONS = 16 };
-
-typedef struct {                /* friction.c                                                   */
-    int directions, room;
-    double *x, *r;              /* [room] N     that friction takes; what the solution adds     */
-    double *dx, *dr;            /* [(BBM_FRICTION_DIRECTIONS + 1) room] their changes           */
-} bbm_friction_search;
+} bbm_sliding;
 
 typedef struct {                /* pressure.c: on the edge that starts at the vertex a          */
     int    a;
@@ -51,8 +45,8 @@ struct bbm_beyond {
     int rounds_done;            /* in this step                                                 */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
-    bbm_factor factor;
-    bbm_friction_search friction;
+    bbm_sliding sliding;
+    int *sign;                  /* [elements] or NULL, interpolation.c: of the second set       */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
@@ -68,12 +62,17 @@ bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with a
 extern const bbm_method bbm_eisenstat, bbm_two_level;
 
 /* coarse.c */
-bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node);
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
-void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int middles, int a,
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int sets, int nodes, const int *first,
+                             const int *node);
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int set, int i, int k, double P[6][2]);
+void       bbm_matrix_use_coarse(bbm_matrix *K, int pays);
+double     bbm_dot(int n, const double *x, const double *y);
+
+/* interpolation.c */
+typedef enum { BBM_CORNERS, BBM_MIDDLES, BBM_ALTERNATING } bbm_fit;
+void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], bbm_fit fit, int a,
                              double P[6][2]);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
-double     bbm_dot(int n, const double *x, const double *y);
 void       bbm_interpolate_elements(bbm_model *m);
 
 /* energy.c. The energies after the last step; kinetic: with the velocity before its factor. */
@@ -111,10 +110,9 @@ void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */
 bbm_status bbm_lay_out_sliding(bbm_model *m);
-bbm_status bbm_find_friction(bbm_model *m, int pass);
 int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                                  bbm_submatrices *s);
-void       bbm_free_factor(bbm_factor *f);
+void       bbm_free_sliding(bbm_sliding *s);
 
 /* sweep.c, joints.c */
 bbm_status bbm_sweep(bbm_model *m, double search);

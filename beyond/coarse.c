@@ -20,7 +20,13 @@
  *
  *     y = E^-1 r,   y += S Q Kc^-1 Q^T S^T y,   u = E^-T y,
  *
- * positive definite by its form. Some 15 iterations suffice on a mesh of any fineness.
+ * positive definite by its form. Some 15 iterations suffice on a mesh of any fineness. What the
+ * nodes of a model are, and P, is in interpolation.c.
+ *
+ * Quadrilaterals need a second set of displacements of the nodes. No stiff spring joins the two:
+ * each has a Kc of its own, and their corrections are added. In the second set little joins u and
+ * v, and the matrices of both are much alike, so that the mean of these two is enough for either:
+ * half as many unknowns in half as wide an envelope, an eighth of the work.
  *
  * Kc has an envelope: from the first entry of each row that is not zero to the diagonal, everything
  * is stored and factored by Cholesky. The nodes are numbered by the last row that has them, so that
@@ -38,20 +44,23 @@
 
 /* Of a pivot, against its share of P^T D P. */
 #define VANISHING 1e-12
-/* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured,
- * with blocks of 2 to 300 elements they break even at 1 to 4. */
-#define CROSSED 3.0
+
+typedef struct {                /* displacements of the nodes and their Kc                      */
+    int unknowns, apart;        /* of a node in Kc: u and v, or one matrix for both alike; from */
+                                /*           u to v of a node in x                              */
+    double (*P)[6][2], (*Q)[6][2];  /* as node   given; C_i^T P                                 */
+    int *left;                  /* [n unknowns]  the first column of row i of Kc that is not 0  */
+    size_t *diagonal;           /* [n unknowns]  where Kc_ii is; the row lies before it         */
+    double *A;                  /* Kc, then its factor, with 1/C_ii on the diagonal             */
+    double *size, *x;           /* [n unknowns], [2 n]  what a pivot is measured by; a vector   */
+} coarse_set;
 
 typedef struct {
-    int n;                      /* nodes, two unknowns each                                     */
+    int n, sets;                /* nodes, some without a corner; 1 or 2                         */
     int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
-                                /*           start[i] .. start[j]-1                             */
+                                /*           start[i] .. start[j]-1, and start[i] is even       */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
-    double (*P)[6][2], (*Q)[6][2];  /* as node   given; C_i^T P                                 */
-    int *left;                  /* [2 n]     the first column of row i of Kc that is not zero   */
-    size_t *diagonal;           /* [2 n]     where Kc_ii is; the row left of it lies before it  */
-    double *A;                  /* Kc, then its factor, with 1/C_ii on the diagonal             */
-    double *size, *x;           /* [2 n]     what a pivot is measured by; a vector              */
+    coarse_set set[2];
     int pays;                   /* in the step in hand                                          */
 } coarse_space;
 
@@ -75,6 +84,7 @@ static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *n
                     return BBM_BAD_INDEX;               /* it is in two components */
                 c->node[a] = number[*row] - 1;
             }
+            c->start[i] -= i == K->start[k] ? c->start[i] % 2 : 0;
         }
     return BBM_OK;
 }
@@ -92,72 +102,101 @@ static int share_a_side(const coarse_space *c, int i, int j)
     return common == 2;
 }
 
-/* left and diagonal. Returns the number of entries. */
-static size_t lay_out_envelope(const bbm_matrix *K, coarse_space *c)
+/* left of the first set. */
+static void find_neighbours(const bbm_matrix *K, const coarse_space *c, int *left)
 {
-    size_t entries = 0;
-
     for (int k = 0; k < 2 * c->n; k++)
-        c->left[k] = k / 2 * 2;
+        left[k] = k / 2 * 2;
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
             const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = share_a_side(c, i, j);
             for (int a = c->first[i]; a < c->first[i + 1] && !side; a++)
                 for (int b = c->first[j]; b < c->first[j + 1]; b++) {
                     const int p = 2 * c->node[a], q = 2 * c->node[b], row = p > q ? p : q;
-                    if (p + q - row < c->left[row])
-                        c->left[row] = c->left[row + 1] = p + q - row;
+                    if (p + q - row < left[row])
+                        left[row] = left[row + 1] = p + q - row;
                 }
         }
-    for (int k = 0; k < 2 * c->n; k++) {
-        c->diagonal[k] = entries + (size_t)(k - c->left[k]);
-        entries = c->diagonal[k] + 1;
+}
+
+/* Room for Kc. Two rows of it, of one node or of two, begin in the same even column. */
+static bbm_status lay_out_envelope(const coarse_space *c, coarse_set *s)
+{
+    const int *left = c->set[0].left;
+    size_t entries = 0;
+
+    for (int k = 0; k < s->unknowns * c->n; k++) {
+        if (s->unknowns == 1) {
+            const int p = left[k / 2 * 4], q = left[k / 2 * 4 + 2];
+            s->left[k] = (p < q ? p : q) / 4 * 2;
+        }
+        s->diagonal[k] = entries + (size_t)(k - s->left[k]);
+        entries = s->diagonal[k] + 1;
     }
-    return entries;
+    s->A = calloc(entries, sizeof *s->A);
+    return s->A ? BBM_OK : BBM_NO_MEMORY;
+}
+
+static bbm_status allocate_set(const coarse_space *c, size_t corners, int unknowns, coarse_set *s)
+{
+    const size_t n = (size_t)c->n;
+
+    s->unknowns = unknowns;
+    s->apart = unknowns == 2 ? 1 : c->n;
+    s->P = calloc(2 * corners, sizeof *s->P);
+    s->left = calloc(2 * n, sizeof *s->left);
+    s->diagonal = calloc(2 * n, sizeof *s->diagonal);
+    s->size = calloc(4 * n, sizeof *s->size);
+    s->Q = s->P + corners;
+    s->x = s->size + 2 * n;
+    return s->P && s->left && s->diagonal && s->size ? BBM_OK : BBM_NO_MEMORY;
 }
 
 static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
                           coarse_space *c)
 {
-    const size_t rows = (size_t)K->n + 1, corners = (size_t)first[K->n], n = (size_t)nodes;
+    const size_t rows = (size_t)K->n + 1, corners = (size_t)first[K->n];
+    bbm_status status = BBM_OK;
 
-    c->n = nodes;
+    c->n = (nodes + K->components + 1) / 2 * 2;
     c->pays = 1;
-    c->start = calloc(2 * rows + corners + 2 * n, sizeof *c->start);
-    c->diagonal = calloc(2 * n, sizeof *c->diagonal);
-    c->size = calloc(4 * n, sizeof *c->size);
-    c->P = calloc(2 * corners, sizeof *c->P);
-    if (!c->start || !c->diagonal || !c->size || !c->P)
+    c->start = calloc(2 * rows + corners, sizeof *c->start);
+    if (!c->start)
         return BBM_NO_MEMORY;
     c->first = c->start + rows;
     c->node = c->first + rows;
-    c->left = c->node + corners;
-    c->x = c->size + 2 * n;
-    c->Q = c->P + corners;
-    if (list_nodes(K, first, node, c->left, c))
-        return BBM_BAD_INDEX;
-    c->A = calloc(lay_out_envelope(K, c), sizeof *c->A);
-    return c->A ? BBM_OK : BBM_NO_MEMORY;
+    for (int k = 0; k < c->sets && !status; k++)
+        status = allocate_set(c, corners, 2 - k, &c->set[k]);
+    if (!status)
+        status = list_nodes(K, first, node, c->set[0].left, c);
+    if (!status)
+        find_neighbours(K, c, c->set[0].left);
+    for (int k = 0; k < c->sets && !status; k++)
+        status = lay_out_envelope(c, &c->set[k]);
+    return status;
 }
 
 static void coarse_free(void *extra)
 {
     coarse_space *c = extra;
 
-    if (!c)
-        return;
-    free(c->start);
-    free(c->diagonal);
-    free(c->size);
-    free(c->A);
-    free(c->P);
+    for (int k = 0; c && k < c->sets; k++) {
+        free(c->set[k].P);
+        free(c->set[k].left);
+        free(c->set[k].diagonal);
+        free(c->set[k].size);
+        free(c->set[k].A);
+    }
+    if (c)
+        free(c->start);
     free(c);
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
  * node[first[i+1]-1], all different, or none, and no two components the same node. Rows of three
- * nodes that share two of them must be triangles bonded along that side. */
-bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node)
+ * nodes that share two of them must be triangles bonded along that side. There are one or two sets
+ * of displacements of the nodes. */
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int sets, int nodes, const int *first, const int *node)
 {
     for (int k = 0; k < first[K->n]; k++)
         if (node[k] < 0 || node[k] >= nodes)
@@ -169,7 +208,10 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     if (first[K->n] == 0)
         return BBM_OK;
     coarse_space *c = calloc(1, sizeof *c);
-    const bbm_status status = c ? lay_out(K, nodes, first, node, c) : BBM_NO_MEMORY;
+    if (!c)
+        return BBM_NO_MEMORY;
+    c->sets = sets;
+    const bbm_status status = lay_out(K, nodes, first, node, c);
     if (status)
         coarse_free(c);
     else
@@ -177,76 +219,96 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     return status;
 }
 
-/* The displacement of the k-th node of block row i alone gives the row's unknowns P (u, v). */
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
+/* The displacement of the k-th node of block row i alone, in one of the sets, gives the row's
+ * unknowns P (u, v). */
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int set, int i, int k, double P[6][2])
 {
     const coarse_space *c = K->extra;
 
-    if (!c || i < 0 || i >= K->n)
+    if (!c || set < 0 || set >= c->sets || i < 0 || i >= K->n)
         return BBM_BAD_INDEX;
     const int *first = &c->first[K->place[i]];
     if (k < 0 || k >= first[1] - first[0])
         return BBM_BAD_INDEX;
-    memcpy(c->P[first[0] + k], P, sizeof *c->P);
+    memcpy(c->set[set].P[first[0] + k], P, sizeof *c->set[set].P);
     K->ready = 0;
     return BBM_OK;
+}
+
+/* Whether it is worth its while in the step in hand. */
+void bbm_matrix_use_coarse(bbm_matrix *K, int pays)
+{
+    coarse_space *c = K->extra;
+
+    if (c)
+        c->pays = pays;
 }
 
 /* ---------------------------------------------------------------------------- Kc and its factor */
 
 /* Kc_ij, left of the diagonal or on it; those right of it in the same row lie after it. */
-static double *entry(const coarse_space *c, int i, int j)
+static double *entry(const coarse_set *s, int i, int j)
 {
-    return &c->A[c->diagonal[i] - (size_t)(i - j)];
+    return &s->A[s->diagonal[i] - (size_t)(i - j)];
 }
 
 /* Y = B X */
 static void multiply(double B[6][6], double X[6][2], double Y[6][2])
 {
-    for (int a = 0; a < 6; a++)
-        for (int b = 0; b < 2; b++) {
-            Y[a][b] = 0;
-            for (int k = 0; k < 6; k++)
-                Y[a][b] += B[a][k] * X[k][b];
+    for (int a = 0; a < 6; a++) {
+        double u = 0, v = 0;
+        for (int k = 0; k < 6; k++) {
+            u += B[a][k] * X[k][0];
+            v += B[a][k] * X[k][1];
         }
+        Y[a][0] = u;
+        Y[a][1] = v;
+    }
 }
 
-/* Kc += f (P^T Y + its transpose), where P is that of corner a and Y belongs to node j. */
-static void add_block(coarse_space *c, double f, int a, double Y[6][2], int j)
+/* Kc += f (P^T Y + its transpose), where P is that of corner a of node i and Y belongs to node j;
+ * of one matrix for u and v alike, the mean of both. */
+static void add_block(const coarse_set *s, double f, double P[6][2], int i, double Y[6][2], int j)
 {
-    for (int k = 0; k < 4; k++) {
-        const int p = 2 * c->node[a] + k / 2, q = 2 * j + k % 2;
-        double s = 0;
-        for (int b = 0; b < 6; b++)
-            s += c->P[a][b][k / 2] * Y[b][k % 2];
-        *(p > q ? entry(c, p, q) : entry(c, q, p)) += p == q ? 2 * f * s : f * s;
+    double sum[2][2] = { { 0 } };
+
+    for (int b = 0; b < 6; b++)
+        for (int k = 0; k < 4; k++)
+            sum[k / 2][k % 2] += P[b][k / 2] * Y[b][k % 2];
+    if (s->unknowns == 1)
+        *(i > j ? entry(s, i, j) : entry(s, j, i))
+            += (i == j ? f : f / 2) * (sum[0][0] + sum[1][1]);
+    for (int k = 0; k < 4 && s->unknowns == 2; k++) {
+        const int p = 2 * i + k / 2, q = 2 * j + k % 2;
+        *(p > q ? entry(s, p, q) : entry(s, q, p)) += (p == q ? 2 : 1) * f * sum[k / 2][k % 2];
     }
 }
 
 /* Q = C^T P = C^-1 D P, and Kc = P^T (D + L + L^T) P, of which the first is what pivots are
  * measured by. */
-static void sum_coarse(const bbm_matrix *K, coarse_space *c)
+static void sum_coarse(const bbm_matrix *K, const coarse_space *c, const coarse_set *s)
 {
+    const int n = s->unknowns * c->n;
     double Y[6][2];
 
-    memset(c->A, 0, (c->diagonal[2 * c->n - 1] + 1) * sizeof *c->A);
+    memset(s->A, 0, (s->diagonal[n - 1] + 1) * sizeof *s->A);
     for (int i = 0; i < K->n; i++)
         for (int b = c->first[i]; b < c->first[i + 1]; b++) {
-            multiply(K->D[i], c->P[b], Y);
-            multiply(K->G[i], Y, c->Q[b]);
+            multiply(K->D[i], s->P[b], Y);
+            multiply(K->G[i], Y, s->Q[b]);
             for (int a = c->first[i]; a <= b; a++)
-                add_block(c, a == b ? 0.5 : 1, a, Y, c->node[b]);
+                add_block(s, a == b ? 0.5 : 1, s->P[a], c->node[a], Y, c->node[b]);
         }
-    for (int k = 0; k < 2 * c->n; k++)
-        c->size[k] = *entry(c, k, k);
+    for (int k = 0; k < n; k++)
+        s->size[k] = *entry(s, k, k);
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
             const int j = i - K->back[k], side = share_a_side(c, i, j);
             for (int b = c->first[j]; b < c->first[j + 1]; b++) {
-                multiply(K->L[k], c->P[b], Y);
+                multiply(K->L[k], s->P[b], Y);
                 for (int a = c->first[i]; a < c->first[i + 1]; a++)
                     if (!side || c->node[a] == c->node[b])
-                        add_block(c, 1, a, Y, c->node[b]);
+                        add_block(s, 1, s->P[a], c->node[a], Y, c->node[b]);
             }
         }
 }
@@ -270,30 +332,34 @@ static void multiply_rows(int n, const double *a0, const double *a1, const doubl
 }
 
 /* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk)/C_jj, two rows and two columns at a time. */
-static void factor(coarse_space *c)
+static void factor(const coarse_set *s, int n)
 {
-    for (int i = 0; i < 2 * c->n; i += 2)
-        for (int j = c->left[i]; j <= i; j += 2) {
-            const int from = c->left[i] > c->left[j] ? c->left[i] : c->left[j];
-            double s[4];
-            multiply_rows(j - from, entry(c, i, from), entry(c, i + 1, from), entry(c, j, from),
-                          entry(c, j + 1, from), s);
+    for (int i = 0; i < n; i += 2)
+        for (int j = s->left[i]; j <= i; j += 2) {
+            const int from = s->left[i] > s->left[j] ? s->left[i] : s->left[j];
+            double sum[4];
+            multiply_rows(j - from, entry(s, i, from), entry(s, i + 1, from), entry(s, j, from),
+                          entry(s, j + 1, from), sum);
             for (int a = 0; a < 2; a++)
                 for (int b = 0; b < 2 && j + b <= i + a; b++) {
-                    double *to = entry(c, i + a, j + b), *pivot = entry(c, j + b, j + b);
-                    const double t = *to - s[2 * a + b] - (b ? to[-1] * pivot[-1] : 0);
+                    double *to = entry(s, i + a, j + b), *pivot = entry(s, j + b, j + b);
+                    const double t = *to - sum[2 * a + b] - (b ? to[-1] * pivot[-1] : 0);
                     if (to != pivot)
                         *to = t * *pivot;
                     else
-                        *to = t > VANISHING * c->size[i + a] ? 1 / sqrt(t) : 0;
+                        *to = t > VANISHING * s->size[i + a] ? 1 / sqrt(t) : 0;
                 }
         }
 }
 
 static void make_ready(bbm_matrix *K)
 {
-    sum_coarse(K, K->extra);
-    factor(K->extra);
+    const coarse_space *c = K->extra;
+
+    for (int k = 0; k < c->sets; k++) {
+        sum_coarse(K, c, &c->set[k]);
+        factor(&c->set[k], c->set[k].unknowns * c->n);
+    }
 }
 
 /* x.y in four partial sums */
@@ -314,18 +380,18 @@ double bbm_dot(int n, const double *x, const double *y)
 }
 
 /* x = C^-T C^-1 x for the unknowns from .. to-1 of Kc; on the way back two rows at a time. */
-static void solve(const coarse_space *c, int from, int to, double *restrict x)
+static void solve(const coarse_set *s, int from, int to, double *restrict x)
 {
     for (int i = from; i < to; i++) {
-        const double *row = entry(c, i, c->left[i]);
-        const int n = i - c->left[i];
-        x[i] = (x[i] - bbm_dot(n, row, x + c->left[i])) * row[n];
+        const double *row = entry(s, i, s->left[i]);
+        const int n = i - s->left[i];
+        x[i] = (x[i] - bbm_dot(n, row, x + s->left[i])) * row[n];
     }
     for (int i = to - 2; i >= from; i -= 2) {
-        const double *p = entry(c, i, c->left[i]), *q = entry(c, i + 1, c->left[i]);
-        const int n = i - c->left[i];
+        const double *p = entry(s, i, s->left[i]), *q = entry(s, i + 1, s->left[i]);
+        const int n = i - s->left[i];
         const double x1 = x[i + 1] * q[n + 1], x0 = (x[i] - q[n] * x1) * p[n];
-        double *restrict y = x + c->left[i];
+        double *restrict y = x + s->left[i];
         for (int k = 0; k < n; k += 2) {
             y[k] -= p[k] * x0 + q[k] * x1;
             y[k + 1] -= p[k + 1] * x0 + q[k + 1] * x1;
@@ -335,35 +401,55 @@ static void solve(const coarse_space *c, int from, int to, double *restrict x)
     }
 }
 
-/* y += S Q Kc^-1 Q^T S^T y; u is free between the sweeps. */
+/* x = Kc^-1 Q^T u for the rows in hand. */
+static void solve_set(const bbm_matrix *K, const coarse_space *c, const coarse_set *s,
+                      const double *u)
+{
+    const int from = s->unknowns * c->start[K->from], to = s->unknowns * c->start[K->to];
+    const int vectors = 3 - s->unknowns;
+
+    for (int k = 0; k < vectors; k++)
+        memset(s->x + k * c->n + from, 0, (size_t)(to - from) * sizeof *s->x);
+    for (int i = K->from; i < K->to; i++)
+        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
+            double *x = &s->x[s->unknowns * c->node[a]], sum[2] = { 0 };
+            for (int k = 0; k < 6; k++) {
+                sum[0] += s->Q[a][k][0] * u[6 * i + k];
+                sum[1] += s->Q[a][k][1] * u[6 * i + k];
+            }
+            x[0] += sum[0];
+            x[s->apart] += sum[1];
+        }
+    for (int k = 0; k < vectors; k++)
+        solve(s, from, to, s->x + k * c->n);
+}
+
+/* u += Q x for the rows in hand. */
+static void interpolate_set(const bbm_matrix *K, const coarse_space *c, const coarse_set *s,
+                            double *u)
+{
+    for (int i = K->from; i < K->to; i++)
+        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
+            const double *x = &s->x[s->unknowns * c->node[a]], x0 = x[0], x1 = x[s->apart];
+            for (int k = 0; k < 6; k++)
+                u[6 * i + k] += s->Q[a][k][0] * x0 + s->Q[a][k][1] * x1;
+        }
+}
+
+/* y += S sum(Q Kc^-1 Q^T) S^T y over the sets; u is free between the sweeps. */
 static void correct(const bbm_matrix *K, double *y)
 {
     const coarse_space *c = K->extra;
-    const int from = 2 * c->start[K->from], to = 2 * c->start[K->to];
-    double *u = K->u;
+    const size_t bytes = 6 * (size_t)(K->to - K->from) * sizeof *y;
 
-    memset(u + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *u);
-    memset(c->x + from, 0, (size_t)(to - from) * sizeof *c->x);
-    bbm_multiply_upper(K, 1, y, u);
-    for (int i = K->from; i < K->to; i++)
-        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
-            double s[2] = { 0 };
-            for (int k = 0; k < 6; k++) {
-                s[0] += c->Q[a][k][0] * u[6 * i + k];
-                s[1] += c->Q[a][k][1] * u[6 * i + k];
-            }
-            c->x[2 * c->node[a]] += s[0];
-            c->x[2 * c->node[a] + 1] += s[1];
-        }
-    solve(c, from, to, c->x);
-    memset(u + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *u);
-    for (int i = K->from; i < K->to; i++)
-        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
-            const double *x = &c->x[2 * c->node[a]], x0 = x[0], x1 = x[1];
-            for (int k = 0; k < 6; k++)
-                u[6 * i + k] += c->Q[a][k][0] * x0 + c->Q[a][k][1] * x1;
-        }
-    bbm_multiply_lower(K, 1, u, y);
+    memset(K->u + 6 * K->from, 0, bytes);
+    bbm_multiply_upper(K, 1, y, K->u);
+    for (int k = 0; k < c->sets; k++)
+        solve_set(K, c, &c->set[k], K->u);
+    memset(K->u + 6 * K->from, 0, bytes);
+    for (int k = 0; k < c->sets; k++)
+        interpolate_set(K, c, &c->set[k], K->u);
+    bbm_multiply_lower(K, 1, K->u, y);
 }
 
 /* Without a coarse space, or where it does not pay, Eisenstat's form. */
@@ -378,122 +464,3 @@ static void choose(const bbm_matrix *K, bbm_pcg *pcg)
 }
 
 const bbm_method bbm_two_level = { .choose = choose, .make_ready = make_ready, .correct = correct };
-
-/* ------------------------------------------------------------------ the coarse space of a model */
-
-/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
- * displacements linear in x, y the one nearest to those of all n corners, by least squares; on a
- * triangle it is exact. With `middles` it is the one nearest to the means over the sides, for
- * elements that are bonded there. Fitted about the mean of the corners, a linear function has the
- * value mean(u) there and the gradient g = M^-1 sum_a d_a u_a, M = sum d d^T:
- *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx,
- *     r0 = (vx - uy)/2. */
-void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int middles, int a,
-                       double P[6][2])
-{
-    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0;
-
-    for (int k = 0; k < e->n; k++) {
-        x += v[k].x / e->n;
-        y += v[k].y / e->n;
-    }
-    for (int k = 0; k < e->n; k++) {
-        const int next = (k + 1) % e->n;
-        const double dx = (middles ? (v[k].x + v[next].x) / 2 : v[k].x) - x;
-        const double dy = (middles ? (v[k].y + v[next].y) / 2 : v[k].y) - y;
-        const double share = middles ? (k == a || next == a) / 2.0 : k == a;
-        xx += dx * dx;
-        yy += dy * dy;
-        xy += dx * dy;
-        X += share * dx;
-        Y += share * dy;
-    }
-    const double det = xx * yy - xy * xy;
-    const double gx = (yy * X - xy * Y) / det, gy = (xx * Y - xy * X) / det;
-    const double u0 = 1.0 / e->n + gx * (e->x - x) + gy * (e->y - y);
-    const double matrix[6][2] = {
-        { u0, 0 }, { 0, u0 }, { -gy / 2, gx / 2 }, { gx, 0 }, { 0, gy }, { gy, gx }
-    };
-
-    memcpy(P, matrix, sizeof matrix);
-}
-
-/* Whether fixed points hold every corner of an element. */
-static int held_all_round(const bbm_model *m, const bbm_element *e)
-{
-    int held = 0;
-
-    for (int v = e->first; v < e->first + e->n; v++)
-        held += m->node[m->vertex[v].node].held == BBM_XY;
-    return held == e->n;
-}
-
-/* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
- * them. An element without bonds is not in it, for there would be as many coarse unknowns as it has
- * of its own; nor is one held at every corner, which hardly moves. SSOR alone is faster for both.
- * */
-bbm_status bbm_lay_out_coarse(bbm_model *m)
-{
-    const size_t v = (size_t)m->vertices;
-    int *up = calloc(3 * v + (size_t)m->elements + 1, sizeof *up), nodes = 0;
-
-    if (!up)
-        return BBM_NO_MEMORY;
-    int *number = up + v, *node = number + v, *first = node + v;
-    for (int k = 0; k < m->vertices; k++)
-        up[k] = k;
-    for (int k = 0; k < m->bonds; k++) {
-        const bbm_bond *b = &m->bond[k];
-        for (int end = 0; end < 2; end++)
-            up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
-        first[b->i + 1] = first[b->j + 1] = 1;                  /* it has a bond */
-    }
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        const int count = first[i + 1] && !held_all_round(m, e) ? e->n : 0;
-        for (int k = 0; k < count; k++) {
-            int *n = &number[bbm_root_of(up, e->first + k)];
-            if (*n == 0)
-                *n = ++nodes;
-            node[first[i] + k] = *n - 1;
-        }
-        first[i + 1] = first[i] + count;
-    }
-    const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node);
-    free(up);
-    return status;
-}
-
-/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element
- * by itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs
- * to cross some elements. */
-static int step_is_long(const bbm_model *m)
-{
-    for (int b = 0; b < m->bonds; b++) {
-        const bbm_element *e = &m->element[m->bond[b].i];
-        const double way2 = e->material.E / e->material.density * m->h * m->h;
-        if (way2 > CROSSED * CROSSED * e->A && !held_all_round(m, e))
-            return 1;
-    }
-    return 0;
-}
-
-/* The coarse space of the present geometry, unless it is that already. Elements that are not in it
- * are refused, which does no harm. */
-void bbm_interpolate_elements(bbm_model *m)
-{
-    coarse_space *c = m->K->extra;
-    double P[6][2];
-
-    if (!c || m->K->ready || m->par.pcg.method != &bbm_two_level)
-        return;
-    c->pays = step_is_long(m);
-    for (int i = 0; i < m->elements && c->pays; i++) {
-        const bbm_element *e = &m->element[i];
-        const int middles = m->beyond->bonding != BBM_VERTICES && e->n == 4;
-        for (int a = 0; a < e->n; a++) {
-            bbm_interpolation(e, &m->vertex[e->first], middles, a, P);
-            (void)bbm_matrix_interpolate(m->K, i, a, P);
-        }
-    }
-}

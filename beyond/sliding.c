@@ -7,16 +7,30 @@
  *     K += -sign tan(phi) p_n s (x) n,
  *     F -= sign (c A - tan(phi) p_n (d_n0 - rest)) s,          n, s: (e, g) of normal and of shear.
  *
- * The price: K is not symmetric. Each component of K where a contact slides is solved by LU. In the
- * variables of solver.c, scaled so that the symmetric part of each diagonal block is I,
+ * The price: K is not symmetric. Each component of K where a contact slides is solved by BiCGSTAB
+ * (van der Vorst, SIAM J. Sci. Stat. Comput. 13, 1992), which takes two products with K for each
+ * iteration, but no more vectors the longer it goes on, and no K^T. It iterates between the sweeps
+ * of SSOR as eisenstat.c does, with the correction of coarse.c where the method has one. In the
+ * scaled variables of solver.c, with B the correction,
+ *
+ *     A = w E^-1 K E^-T B,      K = (E + E^T - (2-w) I)/w + sum u v^T
+ *
+ *     r = E^-1 F,  r0 = r,  x = p = 0
+ *     until sqrt(r.r) <= tolerance * its first value:
+ *         p = r + (r0.r / its last value) (a/w') (p - w' A p)
+ *         a = r0.r / r0.A p,   x += a E^-T B p,   r -= a A p
+ *         w' = r.A r / A r.A r,   x += w' E^-T B r,   r -= w' A r
+ *
+ * It may fail. Where it does, and where that is faster, in small components, the solution is by LU,
  *
  *     K = L U,  L_ij = K_ij - sum_k<j L_ik U_kj,  U_ji = (K_ji - sum_k<j L_jk U_ki)/L_jj,  U_ii = 1
  *
  * in the envelope of K, which has the same shape below and above the diagonal: rows of L up to it,
- * columns of U above it. No rows are interchanged. The work grows as the square of the envelope's
- * width; where it does not pay, friction is a load, as it is in statics, where a block that all its
- * contacts let slide is held by nothing: the symmetric K is singular then, but its conjugate
- * gradients find what there is.
+ * columns of U above it. No rows are interchanged.
+ *
+ * In statics a block that all its contacts let slide is held by nothing. K is singular then, and
+ * has no L U; but every x above is made of products with K, and no force asks for that motion:
+ * where there is an equilibrium it is found.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -26,24 +40,18 @@
 
 /* Of a pivot, against the scaled diagonal: rounding of what cancelled. */
 #define VANISHING 1e-12
-/* LU pays up to so many products of two blocks for each block left of the diagonal: a wall of 1,000
- * bricks takes as long with 20 solutions by LU as with 120 of friction as a load. No more than some
- * 26 kB a block row. */
-#define PAYS 700.0
+/* Block rows up to which LU is faster, measured on walls. */
+#define SMALL 100
 
-/* ------------------------------------------------------------------------------------- assembly */
-
-/* Adds the friction of a sliding contact for the N of the solution; 0: it is none, or a load. */
+/* Adds the friction of a sliding contact for the N of the solution; 0: there is none. */
 int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                           bbm_submatrices *f)
 {
     const double p = -c->sign * tan(m->par.friction * acos(-1) / 180) * m->par.p_n;
-    const int row[2] = { m->K->place[m->edge[c->corner].element],
-                         m->K->place[m->edge[c->edge].element] };
     bbm_term *k = &m->K->term[m->K->terms];
     bbm_spring n, s;
 
-    if (p == 0 || bbm_is_static(m) || !m->beyond->factor.pays[row[0]])
+    if (p == 0)
         return 0;
     bbm_normal_vectors(t, &n);
     bbm_shear_vectors(t, c->anchor, &s);
@@ -51,7 +59,8 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
                              + c->sign * m->par.cohesion * c->area, f);
     if (m->K_is_kept)
         return 1;
-    memcpy(k->row, row, sizeof row);
+    k->row[0] = m->K->place[m->edge[c->corner].element];
+    k->row[1] = m->K->place[m->edge[c->edge].element];
     for (int a = 0; a < 6; a++) {
         k->u[0][a] = p * s.e[a];
         k->u[1][a] = p * s.g[a];
@@ -59,25 +68,43 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
         k->v[1][a] = n.g[a];
     }
     m->K->terms++;
-    m->K->ready = 0;
     return 1;
+}
+
+/* The terms of the rows in hand, scaled: w G u and G v. */
+static void scale_terms(const bbm_matrix *K, bbm_sliding *s)
+{
+    s->terms = 0;
+    for (int k = 0; k < K->terms; k++) {
+        const bbm_term *t = &K->term[k];
+        if (t->row[0] < K->from || t->row[0] >= K->to)
+            continue;
+        bbm_term *to = &s->scaled[s->terms++];
+        *to = (bbm_term){ .row = { t->row[0], t->row[1] } };
+        for (int a = 0; a < 72; a++) {
+            const int end = a / 36, i = a / 6 % 6, j = a % 6;
+            const double G = K->G[t->row[end]][i][j];
+            to->u[end][i] += K->omega * G * t->u[end][j];
+            to->v[end][i] += G * t->v[end][j];
+        }
+    }
 }
 
 /* ----------------------------------------------------------------------------------- the factor */
 
 /* L_ij and U_ji for j <= i: what lies at the same place of row i and of column i. */
-static double *lower(const bbm_factor *f, int i, int j)
+static double *lower(const bbm_sliding *f, int i, int j)
 {
     return &f->L[f->diagonal[i] - (size_t)(i - j)];
 }
 
-static double *upper(const bbm_factor *f, int j, int i)
+static double *upper(const bbm_sliding *f, int j, int i)
 {
     return &f->U[f->diagonal[i] - (size_t)(i - j)];
 }
 
 /* left and diagonal of the rows in hand, and room for them. */
-static bbm_status lay_out(const bbm_matrix *K, bbm_factor *f)
+static bbm_status lay_out(const bbm_matrix *K, bbm_sliding *f)
 {
     size_t entries = 0;
 
@@ -102,42 +129,28 @@ static bbm_status lay_out(const bbm_matrix *K, bbm_factor *f)
     return f->L ? BBM_OK : BBM_NO_MEMORY;
 }
 
-/* K += G u (G v)^T */
-static void add_term(const bbm_matrix *K, const bbm_factor *f, const bbm_term *t)
-{
-    double u[12] = { 0 }, v[12] = { 0 };
-
-    for (int a = 0; a < 72; a++) {
-        u[a / 6] += K->G[t->row[a / 36]][a / 6 % 6][a % 6] * t->u[a / 36][a % 6];
-        v[a / 6] += K->G[t->row[a / 36]][a / 6 % 6][a % 6] * t->v[a / 36][a % 6];
-    }
-    for (int a = 0; a < 12; a++)
-        for (int b = 0; b < 12; b++) {
-            const int i = 6 * t->row[a / 6] + a % 6, j = 6 * t->row[b / 6] + b % 6;
-            *(i >= j ? lower(f, i, j) : upper(f, i, j)) += u[a] * v[b];
-        }
-}
-
-/* The rows in hand of the scaled K = I + (S + S^T)/w and its terms. */
-static void fill(const bbm_matrix *K, const bbm_factor *f)
+/* The rows in hand of the scaled w K = w I + S + S^T and its terms. */
+static void fill(const bbm_matrix *K, const bbm_sliding *f)
 {
     for (int i = K->from; i < K->to; i++) {
         for (int row = 6 * i; row < 6 * i + 6; row++)
-            *lower(f, row, row) = 1;
+            *lower(f, row, row) = K->omega;
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
             for (int a = 0; a < 36; a++) {
                 const int row = 6 * i + a / 6, column = 6 * (i - K->back[k]) + a % 6;
-                *lower(f, row, column) = *upper(f, column, row)
-                    = K->S[k][a / 6][a % 6] / K->omega;
+                *lower(f, row, column) = *upper(f, column, row) = K->S[k][a / 6][a % 6];
             }
     }
-    for (int t = 0; t < K->terms; t++)
-        if (K->term[t].row[0] >= K->from && K->term[t].row[0] < K->to)
-            add_term(K, f, &K->term[t]);
+    for (const bbm_term *t = f->scaled; t < f->scaled + f->terms; t++)
+        for (int a = 0; a < 144; a++) {
+            const int p = a / 12, q = a % 12;
+            const int i = 6 * t->row[p / 6] + p % 6, j = 6 * t->row[q / 6] + q % 6;
+            *(i >= j ? lower(f, i, j) : upper(f, i, j)) += t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
+        }
 }
 
 /* L and U in place of K. Returns the row of a pivot that vanishes or is no number, or -1. */
-static int factor(const bbm_matrix *K, const bbm_factor *f)
+static int factor(const bbm_matrix *K, const bbm_sliding *f)
 {
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         for (int j = f->left[i]; j <= i; j++) {
@@ -156,12 +169,11 @@ static int factor(const bbm_matrix *K, const bbm_factor *f)
 }
 
 /* x = K^-1 r */
-static bbm_status solve_sliding(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+static bbm_status solve_directly(bbm_matrix *K, bbm_pcg_info *info)
 {
-    bbm_factor *f = &K->beyond->factor;
+    bbm_sliding *f = &K->beyond->sliding;
     double *x = K->x;
 
-    (void)pcg;
     if (lay_out(K, f))
         return BBM_NO_MEMORY;
     fill(K, f);
@@ -177,54 +189,135 @@ static bbm_status solve_sliding(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info 
         const double *U = upper(f, f->left[i], i);
         for (int k = f->left[i]; k < i; k++)
             x[k] -= U[k - f->left[i]] * x[i];
-        x[i] /= K->omega;
     }
-    info->iterations = 1;
+    info->iterations++;
     return BBM_OK;
+}
+
+/* ------------------------------------------------------------------------------- the iteration */
+
+static void add_terms(const bbm_sliding *s, const double *x, double *y)
+{
+    for (int k = 0; k < s->terms; k++) {
+        const bbm_term *t = &s->scaled[k];
+        const int i = 6 * t->row[0], j = 6 * t->row[1];
+        double vx = 0;
+        for (int a = 0; a < 6; a++)
+            vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a];
+        for (int a = 0; a < 6; a++) {
+            y[i + a] += t->u[0][a] * vx;
+            y[j + a] += t->u[1][a] * vx;
+        }
+    }
+}
+
+/* u = E^-T B p and q = A p = u + E^-1 (B p - (2-w) u + w sum u v^T u). */
+static void multiply(const bbm_matrix *K, const double *p, double *q)
+{
+    double *u = K->u;
+
+    bbm_combine(K, p, 0, p, K->y);
+    if (K->method->correct)
+        K->method->correct(K, K->y);
+    bbm_combine(K, K->y, 0, K->y, u);
+    bbm_multiply_upper(K, -1, u, u);
+    bbm_combine(K, K->y, K->omega - 2, u, q);
+    add_terms(&K->beyond->sliding, u, q);
+    bbm_multiply_lower(K, -1, q, q);
+    bbm_combine(K, q, 1, u, q);
+}
+
+static double dot(const bbm_matrix *K, const double *x, const double *y)
+{
+    return bbm_dot(6 * (K->to - K->from), x + 6 * K->from, y + 6 * K->from);
+}
+
+/* x += a u, r -= a q. Returns r.r. */
+static double advance(const bbm_matrix *K, double a, const double *q)
+{
+    bbm_combine(K, K->x, a, K->u, K->x);
+    bbm_combine(K, K->r, -a, q, K->r);
+    return dot(K, K->r, K->r);
+}
+
+static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    bbm_sliding *s = &K->beyond->sliding;
+    double *r = K->r, *p = K->p, *Ar = K->q, *Ap = s->Ap, *r0 = s->r0, b = 0, w = 0;
+
+    bbm_multiply_lower(K, -1, r, r);
+    bbm_combine(K, r, 0, r, r0);
+    bbm_combine(K, p, 0, p, Ap);
+    double rr = dot(K, r, r), rho = rr;
+    const double stop = pcg->tolerance * sqrt(rr);
+    while (!(sqrt(rr) <= stop)) {
+        const bbm_status status = bbm_count_iteration(rr, pcg, info);
+        if (status)
+            return status;
+        bbm_combine(K, p, -w, Ap, p);
+        bbm_combine(K, r, b, p, p);
+        multiply(K, p, Ap);
+        const double a = rho / dot(K, r0, Ap), last = rho;
+        advance(K, a, Ap);
+        multiply(K, r, Ar);
+        const double tt = dot(K, Ar, Ar);
+        w = tt > 0 ? dot(K, Ar, r) / tt : 0;
+        rr = advance(K, w, Ar);
+        rho = dot(K, r0, r);
+        b = rho / last * (a / w);
+    }
+    return BBM_OK;
+}
+
+/* In dynamics LU has the last word, after no more iterations than there are unknowns. */
+static bbm_status solve_sliding(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    bbm_sliding *s = &K->beyond->sliding;
+    const int unknowns = 6 * (K->to - K->from);
+    bbm_pcg few = *pcg;
+
+    scale_terms(K, s);
+    if (s->may_factor && unknowns <= 6 * SMALL)
+        return solve_directly(K, info);
+    if (s->may_factor && few.iterations > unknowns)
+        few.iterations = unknowns;
+    const bbm_status status = iterate(K, &few, info);
+    if (!status || !s->may_factor)
+        return status;
+    bbm_combine(K, s->r0, 0, s->r0, K->r);
+    bbm_multiply_lower(K, 1, s->r0, K->r);              /* r = E r0 */
+    return solve_directly(K, info);
 }
 
 /* ------------------------------------------------------------------------------------- a new K */
 
-/* Where LU pays. */
-static void find_work(const bbm_matrix *K, int pays[])
+void bbm_free_sliding(bbm_sliding *s)
 {
-    for (int c = 0; c < K->components; c++) {
-        double work = 0;
-        for (int i = K->start[c]; i < K->start[c + 1]; i++) {
-            double back = 0;
-            for (int k = K->first[i]; k < K->first[i + 1]; k++)
-                back = fmax(back, K->back[k]);
-            work += back * back;
-        }
-        for (int i = K->start[c]; i < K->start[c + 1]; i++)
-            pays[i] = work <= PAYS * (K->first[K->start[c + 1]] - K->first[K->start[c]]);
-    }
+    free(s->term);
+    free(s->r0);
+    free(s->left);
+    free(s->diagonal);
+    free(s->L);
+    *s = (bbm_sliding){ 0 };
 }
 
-void bbm_free_factor(bbm_factor *f)
-{
-    free(f->term);
-    free(f->pays);
-    free(f->diagonal);
-    free(f->L);
-    *f = (bbm_factor){ 0 };
-}
-
-/* Room for the friction of all contacts. */
+/* Room for the friction of all contacts of a new K. */
 bbm_status bbm_lay_out_sliding(bbm_model *m)
 {
-    const size_t n = (size_t)m->K->n;
-    bbm_factor *f = &m->beyond->factor;
+    const size_t n = 6 * (size_t)m->K->n, pairs = (size_t)m->pairs + 1;
+    bbm_sliding *s = &m->beyond->sliding;
 
-    bbm_free_factor(f);
-    f->term = calloc((size_t)m->pairs + 1, sizeof *f->term);
-    f->pays = calloc(7 * n, sizeof *f->pays);
-    f->diagonal = calloc(6 * n, sizeof *f->diagonal);
-    if (!f->term || !f->pays || !f->diagonal)
+    bbm_free_sliding(s);
+    s->term = calloc(2 * pairs, sizeof *s->term);
+    s->r0 = calloc(2 * n, sizeof *s->r0);
+    s->left = calloc(n, sizeof *s->left);
+    s->diagonal = calloc(n, sizeof *s->diagonal);
+    if (!s->term || !s->r0 || !s->left || !s->diagonal)
         return BBM_NO_MEMORY;
-    f->left = f->pays + n;
-    find_work(m->K, f->pays);
-    m->K->term = f->term;
+    s->may_factor = !bbm_is_static(m);
+    s->scaled = s->term + pairs;
+    s->Ap = s->r0 + n;
+    m->K->term = s->term;
     m->K->beyond = m->beyond;
     m->K->solve_terms = solve_sliding;
     return BBM_OK;

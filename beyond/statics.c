@@ -106,7 +106,8 @@ bbm_status bbm_check_held(bbm_model *m)
 /* --------------------------------------------------------------------- which block goes */
 
 /* Solves the step once more, so long that it shows what is loose, with a push as large as all
- * loads (1 N, if there are none) on all elements by their mass, one way, askew to most slopes.
+ * loads (1 N, if there are none) on all elements by their mass, one way, askew to most slopes, and
+ * without the friction in K, which could hold or drive what slides.
  * A free element would go *far under the loads. */
 static bbm_status take_long_step(bbm_model *m, double *far)
 {
@@ -126,6 +127,7 @@ static bbm_status take_long_step(bbm_model *m, double *far)
     m->K_is_kept = 0;
     bbm_assemble(m);
     m->h = INFINITY;
+    m->K->terms = 0;
     for (int i = 0; i < m->elements; i++)
         bbm_gravity_submatrix(&m->element[i], push, &m->F[6 * i]);
     pcg.method = &bbm_eisenstat;
@@ -180,7 +182,8 @@ bbm_status bbm_explain(bbm_model *m, bbm_status status)
         return status == BBM_OPEN_CLOSE && bbm_check_solution(m) == BBM_STEP_TOO_LONG
              ? BBM_STEP_TOO_LONG : status;
     if (status != BBM_NOT_POSITIVE_DEFINITE && status != BBM_NOT_CONVERGED
-        && status != BBM_NOT_FINITE && status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG)
+        && status != BBM_NOT_FINITE && status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG
+        && status != BBM_TOO_SOFT)
         return status;
     if (take_long_step(m, &far) || !(find_loose(m, p) > FREE * far))
         return status;

@@ -1,9 +1,10 @@
 /* bench.c - `make bench`: how long the linear solver takes, what contact costs, and finding the
  * contacts. First an iteration of the paper's SSOR-PCG, in its textbook form and in Eisenstat's,
- * then whole solutions of it and on two levels, up to 221,952 unknowns; then steps of blocks that
- * slide, with friction in K and as a load; then how the time to find the contacts grows with the
- * model. What is compared is timed in turn in one run; printed are medians and their ratio, since
- * these survive a busy machine. Solutions and iterations are as many on every machine.
+ * then whole solutions of it and on two levels, up to 221,952 unknowns, and quadrilaterals beside
+ * triangles; then steps of blocks that slide, with friction in K and as a load; then how the time
+ * to find the contacts grows with the model. What is compared is timed in turn in one run; printed
+ * are medians and their ratio, since these survive a busy machine. Solutions and iterations are as
+ * many on every machine.
  *
  *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix
  *                                         Market form, so that any other solver can be timed with
@@ -238,6 +239,28 @@ static void print_levels(void)
     }
 }
 
+/* Quadrilaterals, bonded in their middles, beside triangles. */
+static void print_elements(void)
+{
+    static const char *const name[] = { "quadrilaterals", "triangles" };
+
+    printf("\nIterations to 1e-10 on two levels, and milliseconds of the whole solution\n\n"
+           "| elements | alpha | 16 x 4 cells | 32 x 8 | 64 x 16 | 128 x 32 |\n"
+           "|---|---|---|---|---|---|\n");
+    for (int k = 0; k < 6; k++) {
+        const double alpha = pow(10, 1 + k % 3);
+        printf("| %s | %g |", name[k / 3], alpha);
+        for (int rows = 4; rows <= 32; rows *= 2) {
+            bbm_model *m = beam(4 * rows, rows, k < 3 ? CASE_QUADS : CASE_ALTERNATING, alpha);
+            int count;
+            const double t = whole_time(m, &bbm_two_level, TURNS, &count);
+            printf(" %d, %.2f |", count, t);
+            bbm_model_free(m);
+        }
+        printf("\n");
+    }
+}
+
 /* --------------------------------------------------------------------------- what contact costs */
 
 typedef struct { double solutions, ms; } effort;        /* of a step, in the mean */
@@ -315,6 +338,7 @@ int main(int count, char **argument)
         return write_matrix(argument[2], atoi(argument[3]));
     print_forms();
     print_levels();
+    print_elements();
     print_contact();
     printf("\nDetection of contacts: edges that a corner is compared with, nanoseconds a boundary\n"
            "edge, and that against the smallest model\n\n"
