@@ -1,6 +1,7 @@
 # beam.awk - a beam of 48 m x 12 m for Exercises 12 and 13: nx x ny cells, each cut into four
 # triangles by its diagonals; pulled at its end (pull=1), or bent. With kn=1e9 each triangle is a
 # block, held to the next ones by unbroken joints: the sub-block DDA of doc/paper.md.
+# With quads=1 the cells stay whole.
 #     awk -v nx=8 -v ny=2 -v alpha=100 -v augment=0 -f doc/exercises/beam.awk > out/beam.model
 BEGIN {
     print "title", nx * ny * 4, "triangles\nmaterial soft E 30e6 nu 0.3 density 1\nstatic"
@@ -11,9 +12,13 @@ BEGIN {
     for (j = 0; j < ny; j++)
         for (i = 0; i < nx; i++) {
             a = j * (nx + 1) + i + 1
+            split(a " " a + 1 " " a + nx + 2 " " a + nx + 1, corner, " ")
+            if (quads) {
+                print "element", j * nx + i + 1, "beam soft", corner[1], corner[2], corner[3], corner[4]
+                continue
+            }
             c = (nx + 1) * (ny + 1) + j * nx + i + 1
             print "node", c, 48 * (i + 0.5) / nx, 12 * (j + 0.5) / ny - 6
-            split(a " " a + 1 " " a + nx + 2 " " a + nx + 1, corner, " ")
             for (k = 1; k <= 4; k++) {
                 e = 4 * (j * nx + i) + k
                 print "element", e, (kn ? "b" e : "beam"), "soft", corner[k], corner[k % 4 + 1], c
