@@ -667,13 +667,10 @@ static bbm_status solve(bbm_model *m)
 /* One pass of the open-close iteration, 3.8. `changed`: a state or F is new, so solve again. */
 static bbm_status open_close(bbm_model *m, int *changed)
 {
-    bbm_pass pass;
-    const bbm_status status = bbm_open_close(m, &pass);
+    const bbm_pass pass = bbm_open_close(m);
 
     m->K_is_kept = 0;
     *changed = pass == BBM_PASS_AGAIN && !is_spent(m);
-    if (status)
-        return status;
     if (pass == BBM_PASS_DONE && m->hook.settled && m->hook.settled(m))
         *changed = m->K_is_kept = 1;
     return pass == BBM_PASS_DONE || *changed ? BBM_OK : unsettled(m);

@@ -281,8 +281,6 @@ typedef struct {
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
-    bbm_status (*find_friction)(bbm_model *m, int pass);    /* the next N of friction as a load; */
-                                                            /* pass 0: of new states            */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
     int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */
@@ -458,7 +456,7 @@ int        bbm_carries(const bbm_model *m, int corner, int edge);
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
 void       bbm_assemble_contacts(bbm_model *m);
-bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
+bbm_pass   bbm_open_close(bbm_model *m);
 bbm_status bbm_store_contacts(bbm_model *m);
 
 /* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is

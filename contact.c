@@ -942,17 +942,12 @@ static int forces_agree(const bbm_model *m)
     return agree;
 }
 
-/* Takes the N of the solution for the friction of the next one, or what a hook finds better. */
-static bbm_status renew_friction(bbm_model *m)
+/* Takes the N of the solution for the friction of the next one. */
+static void renew_friction(bbm_contact_scratch *w)
 {
-    bbm_contact_scratch *w = m->scratch;
-
-    if (m->hook.find_friction)
-        return m->hook.find_friction(m, w->friction_passes++);
     for (int k = 0; k < w->contacts; k++)
         w->contact[k].N_of_friction = w->contact[k].N;
     w->friction_passes++;
-    return BBM_OK;
 }
 
 /* ------------------------------------------------------------- the open-close iteration: states */
@@ -1133,7 +1128,7 @@ static void note_depth(const bbm_model *m, const bbm_contact *c)
 
 /* One look at the solution: whether the friction forces belong to their N, then the states to the
  * forces, and the vectors of the step to the displacements - but not with a K that is kept. */
-bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
+bbm_pass bbm_open_close(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
 
@@ -1146,18 +1141,16 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     }
     find_tolerances(m);
     if (!forces_agree(m)) {
-        *pass = w->friction_passes < FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
-        return renew_friction(m);
+        renew_friction(w);
+        return w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
     }
     w->friction_passes = 0;
     note_states(w);
     const int changes = change_states(m);
     const int renewed = !m->K_is_kept && m->hook.renew && m->hook.renew(m);
     if (!changes && !renewed)
-        *pass = BBM_PASS_DONE;
-    else
-        *pass = ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
-    return BBM_OK;
+        return BBM_PASS_DONE;
+    return ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
 }
 
 /* ------------------------------------------------------------------------------ end of the step */
