@@ -511,10 +511,16 @@ static int read_rotation(model_reader *r)
 
 static int read_output(model_reader *r)
 {
+    static const char *const fields[] = { "mises", "sxx", "syy", "sxy", "s1", "s2", "u", "v" };
+    int field = 0;
     option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
-                   { .name = "svg", .flag = &r->p->svg } };
+                   { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
+                   CHOICE("field", &field, "mises|sxx|syy|sxy|s1|s2|u|v") };
 
-    return options(r, LENGTH(o), o);
+    if (!options(r, LENGTH(o), o))
+        return 0;
+    r->p->field = fields[field];
+    return 1;
 }
 
 /* ------------------------------------------------------------------------------ statements that need nodes */
@@ -1029,7 +1035,7 @@ static const struct kind { const char *name, *form; int (*read)(model_reader *r)
     { "bond", "bond [alpha VALUE] [augment N] [at vertices|midpoints|moment|auto]", read_bond, NOTHING_NEEDED, 1 },
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, NOTHING_NEEDED, 1 },
     { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
-    { "output", "output [every N] [vtk] [svg]", read_output, NOTHING_NEEDED, 1 },
+    { "output", "output [every N] [vtk] [svg] [field mises|sxx|syy|sxy|s1|s2|u|v] [scale N]", read_output, NOTHING_NEEDED, 1 },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "set", "set NAME nodes ID ID ...", read_set, NODES, 0 },
     { "use", "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
@@ -1198,7 +1204,7 @@ int model_read(const char *path, model *p)
 {
     model_reader r = { .p = p, .path = path, .other_material = -1 };
 
-    *p = (model){ 0 };
+    *p = (model){ .field = "mises" };
     if (bbm_beyond_new(&p->m)) {
         out_of_memory(&r);
     } else {

@@ -21,6 +21,8 @@ typedef struct {
     char  *title;               /* or NULL                                                                      */
     int    dynamic, settle;     /* quasi-static steps before t = 0                                              */
     int    every, vtk, svg;     /* every: 0, the end only                                                       */
+    const char *field;          /* of the picture: mises, sxx, syy, sxy, s1, s2, u or v                         */
+    double scale;               /* by which it enlarges displacements; 0: as the picture chooses                */
     int    slippery;            /* several blocks, which may touch, and no friction given                       */
     int    blocks, monitors;
     const char **block;         /* [blocks]     names                                                           */
