@@ -14,7 +14,7 @@ STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconvers
 CORE     = bbm contact solver
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
 BEYOND   = beyond bending coarse eisenstat energy friction joints mechanism multipliers overlap pieces \
-           refuse rotation sliding statics sweep
+           refuse rotation sliding statics strain supports sweep water
 RUN      = exp1 exp2 exp3
 GALLERY  = incline shaken topple column overhang drop impact turning arch resting slope tilt rocking
 CASES    = $(RUN) $(GALLERY)

@@ -169,6 +169,12 @@ void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_
     }
 }
 
+/* The strengths that a contact has: those of the model, or of its joint. */
+const bbm_parameters *bbm_strength_of(const bbm_model *m, const bbm_contact *c)
+{
+    return m->hook.strength ? m->hook.strength(m, c->corner, c->edge) : &m->par;
+}
+
 static double tan_friction(const bbm_parameters *p) { return tan(p->friction * acos(-1) / 180); }
 
 /* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65), with cohesion on
@@ -765,7 +771,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     if (!old && m->info.step == 0 && m->info.t == 0
         && fmax(fabs(f.d), f.beyond) <= touch) {
         c->area = m->hook.joint_area ? m->hook.joint_area(m, p.corner, p.edge) : 0;
-        c->state = is_strong(&m->par, c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
+        c->state = is_strong(bbm_strength_of(m, c), c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
     }
     if (has_left(m, c)) {
         c->state = BBM_OPEN;
@@ -844,10 +850,12 @@ static double friction_force(const bbm_parameters *p, const bbm_contact *c)
 /* Friction as a load under the N of the last solution, Eq. (65), (69), or as a hook has it. */
 static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
 {
-    c->friction_in_K = m->hook.friction && !is_strengthless(&m->par, c, c->N_of_friction)
+    const bbm_parameters *p = bbm_strength_of(m, c);
+
+    c->friction_in_K = m->hook.friction && !is_strengthless(p, c, c->N_of_friction)
                     && m->hook.friction(m, c, t, s);
     if (!c->friction_in_K)
-        bbm_friction_submatrices(t, c->anchor, friction_force(&m->par, c), s);
+        bbm_friction_submatrices(t, c->anchor, friction_force(p, c), s);
 }
 
 /* Adds the springs of the closed contacts, Eq. (58) and (63), or spring and friction, Eq. (65),
@@ -936,9 +944,10 @@ static int forces_agree(const bbm_model *m)
 {
     int agree = 1;
 
-    for (int k = 0; k < m->scratch->contacts && agree && m->par.friction > 0; k++) {
+    for (int k = 0; k < m->scratch->contacts && agree; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
-        agree = c->state != BBM_SLIDE || fabs(c->N - c->N_of_friction) <= c->force_tolerance;
+        agree = c->state != BBM_SLIDE || bbm_strength_of(m, c)->friction == 0
+             || fabs(c->N - c->N_of_friction) <= c->force_tolerance;
     }
     return agree;
 }
@@ -1061,7 +1070,7 @@ static int change_states(bbm_model *m)
 
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        c->next_state = bbm_next_state(&m->par, c, c->force_tolerance);
+        c->next_state = bbm_next_state(bbm_strength_of(m, c), c, c->force_tolerance);
         if (c->state == BBM_OPEN && c->next_state != BBM_OPEN && is_blocked(m, c))
             c->next_state = BBM_OPEN;
     }
@@ -1136,7 +1145,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
  * broken. */
 static void store_contact(bbm_model *m, bbm_contact *c)
 {
-    const double strength = bbm_shear_strength(&m->par, c->N, c->area);
+    const double strength = bbm_shear_strength(bbm_strength_of(m, c), c->N, c->area);
 
     note_depth(m, c);
     if (c->state == BBM_SLIDE)

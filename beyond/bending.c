@@ -138,6 +138,8 @@ static bbm_status list_edge(bbm_model *m, int i, const bbm_vertex *const P[2], i
         for (int a = 0; a < 4; a++)
             if (!(directions & 1 << a / 2) || !(directions & 1 << a % 2))
                 W[which][a / 2][a % 2] = 0;
+        g->node[0] = P[0]->node;
+        g->node[1] = P[1]->node;
         bbm_edge_gap(&m->element[i], P, j < 0 ? NULL : &m->element[j], Q, W[which],
                      which == 0 ? 1 : -1, g);
     }

@@ -11,6 +11,9 @@ static void release(bbm_model *m)
     bbm_free_factor(&m->beyond->factor);
     free(m->beyond->friction.x);
     free(m->beyond->girth);
+    free(m->beyond->joint);
+    free(m->beyond->water);
+    free(m->beyond->support);
     free(m->beyond);
 }
 
@@ -18,7 +21,9 @@ static void release(bbm_model *m)
 static bbm_status check(bbm_model *m)
 {
     m->beyond->springs = bbm_spring_energy(m);
-    const bbm_status status = bbm_measure_blocks(m);
+    bbm_status status = bbm_measure_blocks(m);
+    if (!status)
+        status = bbm_lay_out_supports(m);
     return status ? status : bbm_check_overlap(m);
 }
 
@@ -27,6 +32,7 @@ static bbm_status check_step(bbm_model *m)
 {
     const bbm_beyond *b = m->beyond;
 
+    bbm_begin_joints(m);
     if (b->multiplier_rounds < 0)
         return bbm_fail(m, BBM_BAD_PARAMETER, "multiplier_rounds = %d, expected 0 or more",
                         b->multiplier_rounds);
@@ -62,6 +68,7 @@ static bbm_status lay_out(bbm_model *m)
 static void begin(bbm_model *m)
 {
     bbm_set_middle(m);
+    bbm_press_water(m);
     bbm_start_multipliers(m);
 }
 
@@ -80,12 +87,15 @@ static bbm_status accept(bbm_model *m, const bbm_model *end)
         status = bbm_check_depth(m);
     if (status)
         return status;
+    bbm_find_reactions(m);
     status = bbm_check_balance(m, end, &gain, &there);
     if (status == BBM_ENERGY)
         return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: %g J more than its loads' "
                         "work, of %g J", m->info.step + 1, m->info.t, m->h, gain, there);
-    if (!status)
+    if (!status) {
         bbm_store_multipliers(m);
+        bbm_stop_supports(m);
+    }
     return status;
 }
 
@@ -113,6 +123,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_listed = check_listed,
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
+        .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,
         .find_friction = bbm_find_friction,
         .list_gaps = bbm_list_edge_gaps,

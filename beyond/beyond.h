@@ -36,6 +36,14 @@ typedef struct {                /* friction.c                                   
     double *dx, *dr;            /* [(BBM_FRICTION_DIRECTIONS + 1) room] their changes           */
 } bbm_friction_search;
 
+typedef struct {                /* supports.c, of a node                                        */
+    double force[2];            /* N        on it, at the end of the last step; 0: it is free   */
+    double moved[2];            /* m        its wall point, since that step                     */
+} bbm_support;
+
+typedef struct { int block[2]; bbm_parameters par; } bbm_joint;     /* joints.c; -1: any block  */
+typedef struct { int load; double level, weight; } bbm_water;       /* water.c; m, N/m^2        */
+
 struct bbm_beyond {
     /* --- settings --- */
     bbm_bonding  bonding;       /* bending.c                                                    */
@@ -47,6 +55,10 @@ struct bbm_beyond {
     bbm_factor factor;
     double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
     bbm_friction_search friction;
+    int joints, waters;
+    bbm_joint *joint;           /* [joints]                                                     */
+    bbm_water *water;           /* [waters] its loads among the line loads                      */
+    bbm_support *support;       /* [nodes]                                                      */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
@@ -109,6 +121,19 @@ void       bbm_free_factor(bbm_factor *f);
 /* sweep.c, joints.c */
 bbm_status bbm_sweep(bbm_model *m, double search);
 double     bbm_joint_area(const bbm_model *m, int corner, int edge);
+bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
+                         double tension);
+void       bbm_begin_joints(bbm_model *m);
+const bbm_parameters *bbm_joint_strength(const bbm_model *m, int corner, int edge);
+
+/* strain.c, supports.c, water.c */
+void       bbm_set_plane_strain(bbm_model *m);          /* of a prepared model              */
+bbm_status bbm_lay_out_supports(bbm_model *m);
+void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
+void       bbm_find_reactions(bbm_model *m);
+void       bbm_stop_supports(bbm_model *m);
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
+void       bbm_press_water(bbm_model *m);
 
 /* refuse.c, statics.c */
 bbm_status bbm_check_solution(bbm_model *m);

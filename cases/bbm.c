@@ -149,8 +149,8 @@ static void summarise(const model *p, const char *folder)
         if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int e = 0; e < m->elements; e++)
-        if (bbm_mises(m->element[e].stress) > most)
-            most = bbm_mises(m->element[e].stress), e_most = e;
+        if (model_mises(m, e) > most)
+            most = model_mises(m, e), e_most = e;
     printf("%d step%s, t = %g s, %d contacts closed, residual %.1e\n", m->info.step, m->info.step == 1 ? "" : "s",
            m->info.t, m->info.contacts, m->info.pcg.residual);
     if (p->dynamic)

@@ -1219,6 +1219,13 @@ int model_read(const char *path, model *p)
     return p->status;
 }
 
+double model_mises(const bbm_model *m, int element)
+{
+    const bbm_element *e = &m->element[element];
+
+    return bbm_mises(e->stress, bbm_stress_out_of_plane(m, e));
+}
+
 /* Each block as a rigid body: v + spin x (X - barycentre of the block). */
 int model_start(model *p)
 {

@@ -40,6 +40,7 @@ typedef struct {
 
 /* Reads and checks all; returns the status. model_free releases a model that failed, too. */
 int  model_read(const char *path, model *p);
+double model_mises(const bbm_model *m, int element);                       /* Pa                                    */
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory                                    */
 void model_free(model *p);
 

@@ -66,7 +66,7 @@ static void put_elements(FILE *f, const model *p)
     fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises\n");
     for (int e = 0; e < p->m->elements; e++) {
         const bbm_element *i = &p->m->element[e];
-        const double mises = bbm_mises(i->stress);
+        const double mises = model_mises(p->m, e);
         fprintf(f, "%s,%s", p->element[e], p->block[i->block]);
         put_numbers(f, 2, p->centre[e]);
         put_numbers(f, 3, i->sum);
@@ -128,7 +128,7 @@ static void put_scalars(FILE *f, const bbm_model *m, const char *name, int compo
 {
     fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name);
     for (int e = 0; e < m->elements; e++)
-        fprintf(f, "%.15g\n", component < 3 ? m->element[e].stress[component] : bbm_mises(m->element[e].stress));
+        fprintf(f, "%.15g\n", component < 3 ? m->element[e].stress[component] : model_mises(m, e));
 }
 
 static void put_cells(FILE *f, const bbm_model *m)
