@@ -20,7 +20,8 @@ GALLERY  = incline shaken topple column overhang drop impact turning arch restin
 CASES    = $(RUN) $(GALLERY)
 COMMON   = case output plot scene theory
 SHARED   = $(COMMON) beyond
-PROGRAM  = bbm model msh write
+READER   = build model msh reader
+PROGRAM  = bbm write $(READER)
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_files programs check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
@@ -168,7 +169,7 @@ windows:
 fuzz:
 	@mkdir -p out/corpus
 	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz tests/fuzz_model.c \
-	cases/model.c cases/msh.c $(LIBRARY:%=%.c) -lm
+	$(READER:%=cases/%.c) $(SHARED:%=cases/%.c) $(LIBRARY:%=%.c) -lm
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
 clean:

@@ -334,7 +334,7 @@ static int run(model *p, const arguments *a, clock_t start)
 static int read_and_run(const arguments *a, clock_t start)
 {
     model p;
-    int status = model_read(a->model, &p);
+    int status = model_read(a->model, 0, NULL, &p);
 
     if (status)
         fprintf(stderr, "%s\n", p.message);

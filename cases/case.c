@@ -65,27 +65,31 @@ static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j
  *     |   |    |/  |    |  \|    | o |     quads; alternating, by i + j even or odd; crossed
  *     a---b    a---b    a---b    |/ \|
  *                                a---b */
+int case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners)
+{
+    const int *n = node;
+    const int halves[2][6] = { { n[0], n[1], n[2], n[2], n[3], n[0] }, { n[0], n[1], n[3], n[2], n[3], n[1] } };
+
+    *corners = cut == CASE_QUADS ? 4 : 3;
+    if (cut == CASE_QUADS)
+        memcpy(element[0], n, 4 * sizeof *n);
+    for (int k = 0; k < 2 && cut == CASE_ALTERNATING; k++)
+        memcpy(element[k], &halves[odd][3 * k], 3 * sizeof *n);
+    for (int k = 0; k < 4 && cut == CASE_CROSSED; k++)
+        memcpy(element[k], (int[]){ n[k], n[(k + 1) % 4], n[4] }, 3 * sizeof *n);
+    return cut == CASE_QUADS ? 1 : cut == CASE_CROSSED ? 4 : 2;
+}
+
 static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
 {
-    const int a = grid_node(g, i, j), b = grid_node(g, i + 1, j);
-    const int c = grid_node(g, i + 1, j + 1), d = grid_node(g, i, j + 1);
-    const int quad[4] = { a, b, c, d };
+    int node[5] = { grid_node(g, i, j), grid_node(g, i + 1, j), grid_node(g, i + 1, j + 1), grid_node(g, i, j + 1) };
+    int element[4][4], corners;
 
-    if (g->cut == CASE_QUADS) {
-        bbm_add_element(m, g->block, g->material, 4, quad, NULL);
-    } else if (g->cut == CASE_ALTERNATING) {
-        const int rising = (i + j) % 2 == 0;
-        const int lower[3] = { a, b, rising ? c : d }, upper[3] = { c, d, rising ? a : b };
-        bbm_add_element(m, g->block, g->material, 3, lower, NULL);
-        bbm_add_element(m, g->block, g->material, 3, upper, NULL);
-    } else {
-        int o = 0;
-        add_mapped_node(m, g, i + 0.5, j + 0.5, &o);
-        for (int k = 0; k < 4; k++) {
-            const int triangle[3] = { quad[k], quad[(k + 1) % 4], o };
-            bbm_add_element(m, g->block, g->material, 3, triangle, NULL);
-        }
-    }
+    if (g->cut == CASE_CROSSED)
+        add_mapped_node(m, g, i + 0.5, j + 0.5, &node[4]);
+    const int cells = case_cut_cell(g->cut, (i + j) % 2, node, element, &corners);
+    for (int k = 0; k < cells; k++)
+        bbm_add_element(m, g->block, g->material, corners, element[k], NULL);
 }
 
 void case_add_grid(bbm_model *m, case_grid *g)

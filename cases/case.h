@@ -42,6 +42,9 @@ void   case_must(const bbm_model *m, bbm_status s);
 bbm_model *case_model(void);
 bbm_model *case_paper_model(void);
 
+/* The elements of a cell, of so many corners each; returns their number. node[4] is the one in the
+ * middle, where it is crossed; odd: i + j of its place. */
+int    case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners);
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
 /* A block of one element: the polygon through xy, nodes of its own. Returns the element. */

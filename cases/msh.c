@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model.h"
+#include "reader.h"
 
 /* A physical group with its name, or an entity (point, curve, surface) with its groups tag[first .. first+n-1]. */
 typedef struct { int dimension, number; const char *name; int first, n; } entry;

@@ -15,13 +15,12 @@
 typedef struct { const char *name, *message; } wrong;
 
 static const wrong wrongs[] = {
-    { "unknown-statement", ".model:9: unknown statement 'elephant', expected one like node, element, material, "
-      "static" },
+    { "unknown-statement", ".model:9: unknown statement 'elephant', expected one such as element, expect, let" },
     { "blocks-overlap", ".model:11: element 9 of block 'stone' lies 0.005 m deep in element 1 of block 'base' at 0.5 "
       "0.9975, expected blocks that touch at most" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
-    { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x] [y]" },
+    { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x [by U]] [y [by V]]" },
     { "missing-word", ".model:3: a word is missing, expected: node ID X Y" },
     { "missing-value", ".model:5: not a number: 'nu', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
@@ -55,12 +54,12 @@ static const wrong wrongs[] = {
     { "velocity-twice", ".model:10: a velocity of 'b' for the second time, expected one" },
     { "stress-twice", ".model:10: a stress of 'b' for the second time, expected one" },
     { "fixblock-twice", ".model:10: block 'b' is fixed for the second time, expected once" },
-    { "unknown-node", ".model:6: unknown node '5', expected one that the model has" },
-    { "unknown-node-where", ".model:9: unknown node '7', expected one that the model has" },
-    { "unknown-material", ".model:6: unknown material 'iron', expected one that the model has" },
-    { "unknown-block", ".model:9: unknown block 'c', expected one that the model has" },
-    { "unknown-block-velocity", ".model:9: unknown block 'c', expected one that the model has" },
-    { "unknown-set", ".model:9: unknown set 'c', expected one that the model has" },
+    { "unknown-node", ".model:6: unknown node '5', expected one that the model has, such as 1, 2, 3" },
+    { "unknown-node-where", ".model:9: unknown node '7', expected one that the model has, such as 1, 2, 3" },
+    { "unknown-material", ".model:6: unknown material 'iron', expected one that the model has, such as steel" },
+    { "unknown-block", ".model:9: unknown block 'c', expected one that the model has, such as b" },
+    { "unknown-block-velocity", ".model:9: unknown block 'c', expected one that the model has, such as b" },
+    { "unknown-set", ".model:9: unknown set 'c', expected one that the model has, such as b" },
     { "unknown-place", ".model:9: unknown place 'right', expected: load WHERE FX FY" },
     { "unknown-choice", ".model:9: 'both', expected one of exact|linear" },
     { "unknown-choice-bond", ".model:9: 'corners', expected one of vertices|midpoints|moment|auto" },
@@ -85,7 +84,8 @@ static const wrong wrongs[] = {
     { "friction-negative", ".model:9: friction is -1, expected 0 to less than 90 degrees" },
     { "cohesion-negative", ".model:9: cohesion is -1, expected 0 or more" },
     { "dt-zero", ".model:8: dt is 0, expected more than 0" },
-    { "dt-missing", ".model:8: dt is missing, expected: dynamic dt VALUE steps N [damping VALUE] [settle N]" },
+    { "dt-missing", ".model:8: dt is missing, expected: dynamic dt VALUE steps N [damping VALUE] [settle N] [ramp "
+      "T]" },
     { "damping", ".model:8: damping is 1.5, expected 0 to 1" },
     { "omega-zero", ".model:9: omega is 0, expected more than 0 and less than 2" },
     { "omega-two", ".model:9: omega is 2, expected more than 0 and less than 2" },
@@ -96,7 +96,7 @@ static const wrong wrongs[] = {
     { "where-box-reversed", ".model:9: a box from 1, 1 to 0, 0, expected: box XMIN YMIN XMAX YMAX" },
     { "traction-inside", ".model:9: no boundary edge has both ends there, expected one" },
     { "pressure-inside", ".model:10: no boundary edge has both ends there, expected one" },
-    { "use-without-mesh", ".model:9: block 'b' has its material by `element`, expected a block of a mesh" },
+    { "use-without-mesh", ".model:9: block 'b' has its material in its own statement, expected a block of a mesh" },
     { "no-element", ".model: the model has no element, expected: element ..., or mesh FILE" },
     { "empty", ".model: neither static nor dynamic, expected one of them" },
     { "static-and-dynamic", ".model:9: static and dynamic, expected one of them" },
@@ -136,7 +136,7 @@ static const wrong wrongs[] = {
     { "msh-id-of-the-model", ".model:6: node '1' for the second time, expected a new one" },
     { "msh-no-material", ".model:1: block 'plate' has no material, expected: use MATERIAL on plate" },
     { "msh-use-twice", ".model:6: a material for '*' for the second time, expected one" },
-    { "msh-use-unknown", ".model:6: unknown block 'disc', expected one that the model has" },
+    { "msh-use-unknown", ".model:6: unknown block 'disc', expected one that the model has, such as plate" },
     { "msh-set-twice", ".model:6: set 'left' for the second time, expected a new one" },
     { "msh-set-of-two-kinds", ".model:4: the mesh has several groups of that name, one of surfaces and one of "
       "curves or points, expected one" },
