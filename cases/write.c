@@ -17,7 +17,10 @@ enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, a
 
 static int fail(write_results *w, const char *path, const char *why)
 {
-    fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step, path, why);
+    if (w->begun)
+        fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step, path, why);
+    else
+        fprintf(stderr, "%s: %s cannot be written: %s\n", w->source, path, why);
     w->status = 1;
     return 0;
 }
@@ -61,9 +64,10 @@ static void put_nodes(FILE *f, const model *p)
     }
 }
 
+/* In dynamics with the velocity of the barycentre that the last step hands on. */
 static void put_elements(FILE *f, const model *p)
 {
-    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises\n");
+    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises%s\n", p->dynamic ? ",vx,vy,spin" : "");
     for (int e = 0; e < p->m->elements; e++) {
         const bbm_element *i = &p->m->element[e];
         const double mises = model_mises(p->m, e);
@@ -72,6 +76,43 @@ static void put_elements(FILE *f, const model *p)
         put_numbers(f, 3, i->sum);
         put_numbers(f, 3, i->stress);
         put_numbers(f, 1, &mises);
+        put_numbers(f, p->dynamic ? 3 : 0, i->V);
+        fputc('\n', f);
+    }
+}
+
+static const char *const state_name[] = { "OPEN", "LOCK", "SLIDE" };
+
+/* The closed ones: where the corner is, what presses and shears, how far it is outside. */
+static void put_contacts(FILE *f, const model *p)
+{
+    const bbm_model *m = p->m;
+
+    fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
+        if (c->state == BBM_OPEN)
+            continue;
+        fprintf(f, "%s,%s", p->block[m->edge[c->corner].block], p->block[m->edge[c->edge].block]);
+        put_numbers(f, 2, (double[]){ P1->x, P1->y });
+        fprintf(f, ",%s", state_name[c->state]);
+        put_numbers(f, 3, (double[]){ c->N, c->T, c->d_n });
+        fputc('\n', f);
+    }
+}
+
+/* The force of the support on each fixed node. */
+static void put_reactions(FILE *f, const model *p)
+{
+    fprintf(f, "node,x,y,fx,fy\n");
+    for (int n = 0; n < p->m->nodes; n++) {
+        const bbm_node *a = &p->m->node[n];
+        if (!a->held)
+            continue;
+        fprintf(f, "%s", p->node[n]);
+        put_numbers(f, 2, (double[]){ a->x, a->y });
+        put_numbers(f, 2, p->m->beyond->support[n].force);
         fputc('\n', f);
     }
 }
@@ -85,15 +126,9 @@ static void put_history(const write_results *w, int step)
 
     fprintf(w->history.file, "%d,%.15g", step, time_of(p, step));
     for (int k = 0; k < p->monitors; k++) {
-        const model_monitor *m = &p->monitor[k];
-        double mean[2] = { 0, 0 };
-        for (int n = 0; n < m->nodes; n++) {
-            bbm_result r;
-            bbm_nodal_result(p->m, m->node[n], -1, &r);
-            mean[0] += r.u / m->nodes;
-            mean[1] += r.v / m->nodes;
-        }
-        put_numbers(w->history.file, 2, mean);
+        double u[2];
+        model_place_of(p, &p->monitor[k], u);
+        put_numbers(w->history.file, 2, u);
     }
     fputc('\n', w->history.file);
 }
@@ -124,11 +159,16 @@ static void put_timing(FILE *f, const write_results *w)
 
 /* -------------------------------------------------------------------------------------------------------- VTK */
 
-static void put_scalars(FILE *f, const bbm_model *m, const char *name, int component)
+/* Of an element: sxx, syy, sxy, von Mises, the larger and the smaller principal stress. */
+static void find_stresses(const bbm_model *m, int e, double value[6])
 {
-    fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name);
-    for (int e = 0; e < m->elements; e++)
-        fprintf(f, "%.15g\n", component < 3 ? m->element[e].stress[component] : model_mises(m, e));
+    const double *s = m->element[e].stress;
+    const double mean = (s[0] + s[1]) / 2, radius = hypot((s[0] - s[1]) / 2, s[2]);
+
+    memcpy(value, s, 3 * sizeof *s);
+    value[3] = model_mises(m, e);
+    value[4] = mean + radius;
+    value[5] = mean - radius;
 }
 
 static void put_cells(FILE *f, const bbm_model *m)
@@ -149,7 +189,7 @@ static void put_cells(FILE *f, const bbm_model *m)
 static void put_vtk(FILE *f, const model *p, double t)
 {
     const bbm_model *m = p->m;
-    static const char *const name[] = { "sxx", "syy", "sxy", "mises" };
+    static const char *const name[] = { "sxx", "syy", "sxy", "mises", "s1", "s2" };
 
     fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET UNSTRUCTURED_GRID\n", p->title ? p->title : "bbm");
     fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, m->nodes);
@@ -159,8 +199,14 @@ static void put_vtk(FILE *f, const model *p, double t)
     fprintf(f, "CELL_DATA %d\nSCALARS block int 1\nLOOKUP_TABLE default\n", m->elements);
     for (int e = 0; e < m->elements; e++)
         fprintf(f, "%d\n", m->element[e].block);
-    for (int k = 0; k < 4; k++)
-        put_scalars(f, m, name[k], k);
+    for (int k = 0; k < 6; k++) {
+        fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name[k]);
+        for (int e = 0; e < m->elements; e++) {
+            double value[6];
+            find_stresses(m, e, value);
+            fprintf(f, "%.15g\n", value[k]);
+        }
+    }
     fprintf(f, "POINT_DATA %d\nVECTORS u double\n", m->nodes);
     for (int n = 0; n < m->nodes; n++) {
         bbm_result r;
@@ -169,16 +215,63 @@ static void put_vtk(FILE *f, const model *p, double t)
     }
 }
 
+/* The force on the block of P1, N out of the edge's block, or T along its edge. */
+static void put_force(FILE *f, const bbm_model *m, const bbm_contact *c, int shear)
+{
+    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+
+    if (shear)
+        fprintf(f, "%.15g %.15g 0\n", -c->T * x, -c->T * y);
+    else
+        fprintf(f, "%.15g %.15g 0\n", -c->N * y, c->N * x);
+}
+
+/* The closed contacts as points, with the forces on the corner's block. */
+static void put_vtk_contacts(FILE *f, const model *p, double t)
+{
+    const bbm_model *m = p->m;
+    const int n = m->info.contacts;
+
+    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET POLYDATA\n", p->title ? p->title : "bbm");
+    fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, n);
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            fprintf(f, "%.15g %.15g 0\n", m->vertex[m->edge[m->contact[k].corner].a].x,
+                    m->vertex[m->edge[m->contact[k].corner].a].y);
+    fprintf(f, "VERTICES %d %d\n", n, 2 * n);
+    for (int k = 0; k < n; k++)
+        fprintf(f, "1 %d\n", k);
+    fprintf(f, "POINT_DATA %d\nSCALARS state int 1\nLOOKUP_TABLE default\n", n);
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            fprintf(f, "%d\n", (int)m->contact[k].state);
+    for (int shear = 0; shear < 2; shear++) {
+        fprintf(f, "VECTORS %s double\n", shear ? "shear" : "normal");
+        for (int k = 0; k < m->contacts; k++)
+            if (m->contact[k].state != BBM_OPEN)
+                put_force(f, m, &m->contact[k], shear);
+    }
+}
+
 static int write_vtk(write_results *w, int step)
 {
-    output f;
-    char name[32], path[LONGEST];
+    static const struct { const char *form; void (*put)(FILE *f, const model *p, double t); } part[] = {
+        { "step_%06d.vtk", put_vtk }, { "contacts_%06d.vtk", put_vtk_contacts },
+    };
+    int good = 1;
 
-    snprintf(name, sizeof name, "step_%06d.vtk", step);
-    if (!open_file(w, &f, path_of(w, name, path)))
-        return 0;
-    put_vtk(f.file, w->p, time_of(w->p, step));
-    return close_file(w, &f);
+    for (int k = 0; k < 2 && good; k++) {
+        output f;
+        char name[32], path[LONGEST];
+        snprintf(name, sizeof name, part[k].form, step);
+        good = open_file(w, &f, path_of(w, name, path));
+        if (good) {
+            part[k].put(f.file, w->p, time_of(w->p, step));
+            good = close_file(w, &f);
+        }
+    }
+    return good;
 }
 
 /* --------------------------------------------------------------------------------------------------- pictures */
@@ -280,13 +373,15 @@ void write_matrix(write_results *w)
 static size_t is_ours(const char *name, long *process)
 {
     static const char *const all[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv",
-                                       "contacts.svg", "movie.svg", "mises.svg" };
+                                       "contacts.svg", "movie.svg", "mises.svg", "contacts.csv", "reactions.csv",
+                                       "model.svg" };
     const size_t temporary = output_is_temporary(name, process), n = temporary ? temporary : strlen(name);
-    const size_t digits = strncmp(name, "step_", 5) == 0 ? strspn(name + 5, "0123456789") : 0;
+    const size_t start = strncmp(name, "step_", 5) == 0 ? 5 : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
+    const size_t digits = start ? strspn(name + start, "0123456789") : 0;
 
     if (!temporary)
         *process = 0;
-    if (digits > 0 && n == 9 + digits && strncmp(name + 5 + digits, ".vtk", 4) == 0)
+    if (digits > 0 && n == start + digits + 4 && strncmp(name + start + digits, ".vtk", 4) == 0)
         return n;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
@@ -321,17 +416,40 @@ static int empty_folder(write_results *w)
     return !w->status;
 }
 
-int write_open(write_results *w)
+/* Makes the folder, if need be. */
+static int open_folder(write_results *w)
 {
     char path[LONGEST];
 
-    if ((size_t)snprintf(path, sizeof path, "%s/step_2147483647.vtk", w->folder) >= sizeof path)
+    if ((size_t)snprintf(path, sizeof path, "%s/contacts_2147483647.vtk", w->folder) >= sizeof path)
         return fail(w, w->folder, strerror(ENAMETOOLONG));
     if (!output_make_folder(w->folder))
         return fail(w, w->folder, errno == EEXIST ? "it is there and no folder; another one may be given with -o"
                                                   : strerror(errno));
-    if (!empty_folder(w) || !open_file(w, &w->history, path_of(w, "history.csv", path)))
+    return 1;
+}
+
+int write_check(write_results *w)
+{
+    scene start = { .title = w->p->title };
+    char path[LONGEST];
+
+    if (!open_folder(w))
         return 0;
+    case_record(&start, w->p->m);
+    if (!scene_write_panels(&start, w->p->m, path_of(w, "model.svg", path), 1, (double[]){ 0 }))
+        fail(w, path, strerror(errno));
+    scene_free(&start);
+    return !w->status;
+}
+
+int write_open(write_results *w)
+{
+    char path[LONGEST];
+
+    if (!open_folder(w) || !empty_folder(w) || !open_file(w, &w->history, path_of(w, "history.csv", path)))
+        return 0;
+    w->begun = 1;
     if (!open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
         output_drop(&w->history);
         return 0;
@@ -369,14 +487,15 @@ int write_close(write_results *w)
     const clock_t start = clock();
     const model *p = w->p;
     const struct { const char *name; void (*put)(FILE *f, const model *p); } table[] = {
-        { "nodes.csv", put_nodes }, { "elements.csv", put_elements },
+        { "nodes.csv", put_nodes }, { "elements.csv", put_elements }, { "contacts.csv", put_contacts },
+        { "reactions.csv", put_reactions },
     };
     output f;
     char path[LONGEST];
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 4; k++)
         if (open_file(w, &f, path_of(w, table[k].name, path))) {
             table[k].put(f.file, p);
             close_file(w, &f);
