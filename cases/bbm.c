@@ -144,7 +144,7 @@ static void describe(const model *p, const char *path)
 }
 
 /* What the file leaves out and hardly means. */
-static void warn(const model *p, const char *path)
+static void warn(const model *p, const char *path, int checking)
 {
     const bbm_model *m = p->m;
     int held = 0, load = m->line_loads > 0 || p->moving || m->beyond->shake[0] != 0 || m->beyond->shake[1] != 0;
@@ -158,7 +158,7 @@ static void warn(const model *p, const char *path)
     for (int e = 0; e < m->elements; e++)
         for (int k = 0; k < 3; k++)
             load |= m->element[e].stress[k] != 0;
-    if (!load && m->par.gravity[0] == 0 && m->par.gravity[1] == 0)
+    if (checking && !load && m->par.gravity[0] == 0 && m->par.gravity[1] == 0)
         fprintf(stderr, "%s: warning: nothing loads the model; gravity, load, traction, pressure or fix ... by does\n",
                 path);
     if (!held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))
@@ -329,8 +329,8 @@ static void report(const model *p, bbm_status status, const char *when, const ar
     const char *message = *m->message ? m->message : bbm_status_text(status);
 
     if (stopped)
-        fprintf(stderr, "%s: interrupted at %sstep %d of %d; what was computed until then is in %s\n",
-                a->model, when, m->info.step, *when ? p->settle : m->par.steps, a->folder);
+        fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in %s\n",
+                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t, a->folder);
     else if (status == BBM_STEPS_EXHAUSTED)
         fprintf(stderr, "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n", a->model,
                 m->info.step, m->info.change, m->par.tolerance);
@@ -404,7 +404,7 @@ static int check(model *p, const arguments *a)
     write_results w = { .p = p, .source = a->model, .folder = a->folder };
     const int touching = count_contacts(m);
 
-    warn(p, a->model);
+    warn(p, a->model, 1);
     warn_of_pieces(p, a->model);
     if (!a->quiet) {
         describe(p, a->model);
@@ -428,7 +428,7 @@ static int run(model *p, const arguments *a, clock_t start)
     const char *when = "settling, ";
 
     catch_signals();
-    warn(p, a->model);
+    warn(p, a->model, 0);
     warn_of_pieces(p, a->model);
     p->m->monitor = before_solution;
     p->m->monitor_context = &w;

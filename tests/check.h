@@ -64,6 +64,7 @@ Suite *theory_suite(void);
 Suite *equations_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
+Suite *statements_suite(void);
 Suite *scenes_suite(void);
 Suite *files_suite(void);
 
