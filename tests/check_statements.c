@@ -119,7 +119,8 @@ START_TEST(the_shipped_dam_stands_against_its_water)
     ck_assert_int_eq(shell("%s/bbm -q cases/models/dam.model -o out/model/dammed", BUILD), 0);
     /* It sinks by 0.1 mm, and so gets 2/160,000 more. */
     ck_relative(sum("dammed", "reactions.csv", "fx", ""), -1000 * 9.81 * 16 * 16 / 2, 2e-5);
-    ck_relative(sum("dammed", "contacts.csv", "normal", "^dam,rock"), 2400 * 9.81 * 16 * (12 + 3) / 2, 1e-6);
+    /* The joint leans by 1e-5, and so the water presses on it, too. */
+    ck_relative(sum("dammed", "contacts.csv", "normal", "^dam,rock"), 2400 * 9.81 * 16 * (12 + 3) / 2, 1e-5);
 }
 END_TEST
 
