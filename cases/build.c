@@ -106,10 +106,12 @@ static int add_element(model_reader *r, const model_element *e)
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     if (status == BBM_SELF_CROSSING)
-        return model_fail(r, e->at, "the boundary of element %s meets itself, expected a simple polygon", e->id);
+        return model_fail(r, e->at, "the boundary of element %s of block '%s' meets itself, expected a simple polygon",
+                          e->id, r->block[e->block].name);
     const bbm_element *b = status ? NULL : &r->p->m->element[index];
     if (!b || !(b->A > 0) || !isfinite(b->x * b->Sxx) || !isfinite(b->y * b->Syy))
-        return model_fail(r, e->at, "element %s has no area, or one too large, expected a polygon", e->id);
+        return model_fail(r, e->at, "element %s of block '%s' has no area, or one too large, expected a polygon",
+                          e->id, r->block[e->block].name);
     r->p->element[index] = e->id;
     r->p->centre[index][0] = b->x;
     r->p->centre[index][1] = b->y;
@@ -333,8 +335,8 @@ int model_fix(model_reader *r)
         const int n = r->chosen_node[k];
         for (int a = 0; a < 2; a++) {
             if (directions & p->m->node[n].held & 1 << a && p->wall[n][a] != by[a])
-                return model_fail(r, r->s->at, "node %s is displaced by %g in %s, and by %g elsewhere, expected one",
-                                  p->node[n], by[a], name[a], p->wall[n][a]);
+                return model_fail(r, r->s->at, "node %s is displaced by %g in %s here, by %g in another statement, expected "
+                                  "one of them", p->node[n], by[a], name[a], p->wall[n][a]);
             p->wall[n][a] = directions & 1 << a ? by[a] : p->wall[n][a];
         }
         p->moving |= by[0] != 0 || by[1] != 0;

@@ -57,8 +57,11 @@ static int expand(model_reader *r, char **word)
     while ((dollar = strchr(*word, '$')) != NULL) {
         const size_t n = name_at(r, dollar + 1, name);
         if (n == 0) {
+            char text[200];
             snprintf(name, sizeof name, "%.*s", (int)strspn(dollar + 1, MODEL_NAME), dollar + 1);
-            return model_unknown(r, &r->let_of, "$", name);
+            return model_fail(r, r->s->at, "no `let` says what $%.60s is%s%s", name,
+                              r->let_of.count ? ", expected one such as $" : "",
+                              model_nearest(name, (const void *)r->let_of.key, r->let_of.room, sizeof(char *), text));
         }
         const char *value = r->word[model_find(&r->let_of, name)];
         char *text = model_text(r, strlen(*word) + strlen(value));

@@ -270,9 +270,16 @@ END_TEST
 
 START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
 {
+    char said[LONG];
+
     write_text("out/model/let.model", FALL "let twice $g\ntitle g is $g\n");
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=20 -dsteps=50 -o out/model/let 2> out/model/err", BUILD), 0);
     ck_relative(cell("let", "history.csv", "50,", "a_v"), -20 * 0.125, 1e-9);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d f=20 2> out/model/err", BUILD), 2);
+    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model: -d f=20: expected NAME=VALUE with a name of a `let`, "
+                     "such as g, steps, twice\n");
+    ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=1O 2> out/model/err", BUILD), 2);
+    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model:2: not a number: '1O', expected: let NAME VALUE\n");
     ck_assert_int_eq(shell("%s/bbm - < out/model/let.model -o out/model/let 2> out/model/err | "
                            "grep -q -- '-: g is 10'", BUILD), 0);
     ck_relative(cell("let", "history.csv", "100,", "a_v"), -5, 1e-9);
