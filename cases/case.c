@@ -33,14 +33,18 @@ void case_print_parameters(const bbm_model *m)
 
     printf("\nTable 1 - parameters\n\n"
            "| dt [s] | steps at most | tolerance (71) | omega | tolerance PCG | alpha |%s\n"
-           "|---|---|---|---|---|---|%s\n| %g | %d | %g | %g | %g | %g |",
-           touch ? " p_n [N/m] | p_s [N/m] |" : "", touch ? "---|---|" : "", p->dt, p->steps,
-           p->tolerance, p->pcg.omega, p->pcg.tolerance, p->alpha);
+           "|---|---|---|---|---|---|%s\n| ",
+           touch ? " p_n [N/m] | p_s [N/m] |" : "", touch ? "---|---|" : "");
+    printf(isinf(p->dt) ? "static" : "%g", p->dt);
+    printf(" | %d | %g | %g | %g | %g |", p->steps, p->tolerance, p->pcg.omega, p->pcg.tolerance,
+           p->alpha);
     if (touch)
         printf(" %g | %g |", p->p_n, p->p_s);
-    printf("\n\n%d step%s, the last with %d SSOR-PCG iterations to a residual of %.1e\n",
-           m->info.step, m->info.step == 1 ? "" : "s", m->info.pcg.iterations,
-           m->info.pcg.residual);
+    printf("\n\n%d step%s", m->info.step, m->info.step == 1 ? "" : "s");
+    if (m->info.step > p->steps)
+        printf(", of which %d to come to rest before", m->info.step - p->steps);
+    printf("; the last with %d SSOR-PCG iterations to a residual of %.1e\n",
+           m->info.pcg.iterations, m->info.pcg.residual);
 }
 
 /* --------------------------------------------------------------------------------------- meshes */

@@ -282,7 +282,7 @@ static const target targets[] = {
     { "incline", "history.csv", "100,", "corner_v", -0.45320, 3e-5 },
     /* The weight above the middle of the lowest block: 9.5 W; at rest. */
     { "column", "elements.csv", "2,b1,", "syy", -9.5 * 24525, 3 },
-    { "column", "summary.csv", "100,", "kinetic", 0, 1e-9 },
+    { "column", "summary.csv", "1000,", "kinetic", 0, 1e-9 },
     { "overhang", "history.csv", "200,", "end_u", 0, 1e-3 },
     { "arch", "history.csv", "100,", "crown_v", 0, 2e-3 },
     /* P/(pi R t) and -3 P/(pi R t); the mesh has eight rings. */
@@ -453,7 +453,7 @@ START_TEST(settling_ends_in_equilibrium_at_time_zero)
     ck_assert_double_eq(cell("column", "history.csv", "0,", "t"), 0);
     /* The column of ten blocks has sunk in by the sum of (11 - k) W/(2 kn), and been squeezed a little. */
     ck_near(cell("column", "history.csv", "0,", "top_v"), -55 * 24525 / 2e9, 7e-4, 0.2);
-    ck_relative(cell("column", "history.csv", "100,", "top_v"), cell("column", "history.csv", "0,", "top_v"), 1e-6);
+    ck_relative(cell("column", "history.csv", "1000,", "top_v"), cell("column", "history.csv", "0,", "top_v"), 1e-6);
 }
 END_TEST
 

@@ -205,6 +205,60 @@ START_TEST(a_slide_has_its_velocities)
 }
 END_TEST
 
+/* A shipped model with other numbers; the exit status. */
+static int run_with(const char *model, const char *lets)
+{
+    return shell("%s/bbm -q cases/models/%s.model %s -o out/model/%s > out/model/said 2> out/model/err", BUILD, model,
+                 lets, model);
+}
+
+/* 0.02 degrees above and below the least friction angle by limit equilibrium, 38.13392 degrees. */
+START_TEST(the_slope_of_columns_stands_above_its_limit_alone)
+{
+    ck_assert_int_eq(run_with("slope", "-d phi=38.11392"), 3);
+    ck_assert_int_eq(run_with("slope", "-d phi=38.15392"), 0);
+    /* The push by limit equilibrium; above the limit not all joints slip. */
+    ck_relative(sum("slope", "contacts.csv", "normal", "^c6,c7,") + sum("slope", "contacts.csv", "normal", "^c7,c6,"),
+                4803220, 5e-3);
+}
+END_TEST
+
+/* A thousandth of 28.98456 degrees less and more. */
+START_TEST(the_wall_stands_when_it_is_tilted_less_than_its_limit)
+{
+    for (int k = 0; k < 2; k++) {
+        const double a = 28.98456039 * (k ? 1.001 : 0.999) * acos(-1) / 180;
+        char lets[100];
+        snprintf(lets, sizeof lets, "-d gx=%.9g -d gy=%.9g", 9.81 * sin(a), -9.81 * cos(a));
+        ck_assert_int_eq(run_with("tilt", lets), k ? 3 : 0);
+    }
+}
+END_TEST
+
+START_TEST(the_first_domino_falls_where_its_energy_is_enough)
+{
+    ck_assert_int_eq(run_with("dominoes", "-d spin=-1.45"), 3);
+    ck_assert_int_eq(run_with("dominoes", "-d spin=-1.6"), 0);
+}
+END_TEST
+
+START_TEST(each_block_of_a_column_carries_those_above)
+{
+    const double W = 2500 * 9.81;
+
+    ck_assert_int_eq(run_with("column", ""), 0);
+    for (int k = 1; k <= 10; k++) {
+        char row[40];
+        snprintf(row, sizeof row, k > 1 ? "^b%d,b%d," : "^b%d,base", k, k - 1);
+        ck_relative(sum("column", "contacts.csv", "normal", row), (11 - k) * W, 1e-9);
+        ck_relative(sum("column", "contacts.csv", "gap", row), -(11 - k) * W / 1e9, 1e-9);
+    }
+    ck_near(cell("column", "history.csv", "1000,", "top_v"), cell("column", "history.csv", "0,", "top_v"), 1, 1e-12);
+    for (int a = 0; a < 3; a++)
+        ck_near(cell("column", "elements.csv", "11,", (const char *[]){ "vx", "vy", "spin" }[a]), 0, 1, 1e-9);
+}
+END_TEST
+
 /* -------------------------------------------------------------------------------- blocks and places */
 
 START_TEST(a_grid_has_its_cells_and_its_rim)
@@ -322,6 +376,10 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
     tcase_add_test(t, a_slide_has_its_velocities);
+    tcase_add_test(t, the_slope_of_columns_stands_above_its_limit_alone);
+    tcase_add_test(t, the_wall_stands_when_it_is_tilted_less_than_its_limit);
+    tcase_add_test(t, the_first_domino_falls_where_its_energy_is_enough);
+    tcase_add_test(t, each_block_of_a_column_carries_those_above);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
     tcase_add_test(t, of_block_takes_the_nodes_of_one_block);
     tcase_add_loop_test(t, what_is_expected_is_compared, 0, 8);
