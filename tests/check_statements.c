@@ -235,6 +235,15 @@ START_TEST(the_wall_stands_when_it_is_tilted_less_than_its_limit)
 }
 END_TEST
 
+/* Limit analysis of the displaced arch: it falls when each support has moved by 0.589 m. */
+START_TEST(an_arch_on_spreading_supports_falls_at_the_spread_of_limit_analysis)
+{
+    ck_assert_int_eq(run_with("spread", "-d half=0.601"), 3);
+    ck_assert_double_lt(cell("spread", "history.csv", "3000,", "crown_v"), -3);
+    ck_assert_int_eq(run_with("spread", "-d half=0.577"), 0);
+}
+END_TEST
+
 START_TEST(the_first_domino_falls_where_its_energy_is_enough)
 {
     ck_assert_int_eq(run_with("dominoes", "-d spin=-1.45"), 3);
@@ -378,6 +387,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, a_slide_has_its_velocities);
     tcase_add_test(t, the_slope_of_columns_stands_above_its_limit_alone);
     tcase_add_test(t, the_wall_stands_when_it_is_tilted_less_than_its_limit);
+    tcase_add_test(t, an_arch_on_spreading_supports_falls_at_the_spread_of_limit_analysis);
     tcase_add_test(t, the_first_domino_falls_where_its_energy_is_enough);
     tcase_add_test(t, each_block_of_a_column_carries_those_above);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
