@@ -91,7 +91,8 @@ static int read_arguments(arguments *a, int argc, char *argv[])
             if (value == &let)                  /* they gather at the front of argv */
                 a->let[a->lets++] = word[2] ? argv[k] + 2 : argv[k];
         } else {
-            return complain(a, "unknown option");
+            fprintf(stderr, "bbm: unknown option %.60s\n%s", word, usage());
+            return a->exit = 2;
         }
     }
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
@@ -150,7 +151,7 @@ static void warn(const model *p, const char *path, int checking)
     int held = 0, load = m->line_loads > 0 || p->moving || m->beyond->shake[0] != 0 || m->beyond->shake[1] != 0;
 
     for (int n = 0; n < m->nodes; n++) {
-        held |= m->node[n].held;
+        held |= m->node[n].held || m->beyond->waters > 0;
         load |= m->node[n].load[0] != 0 || m->node[n].load[1] != 0;
     }
     for (int b = 0; b < p->blocks; b++)

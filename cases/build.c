@@ -268,7 +268,9 @@ static int read_place(model_reader *r, place *w)
     while (w->kind < 4 && !model_skip(r, kind[w->kind]))
         w->kind++;
     if (w->kind == 4)
-        return model_look(r) ? model_wrong(r, "unknown place", model_look(r)) : model_word(r) != NULL;
+        return model_look(r) ? model_fail(r, r->s->at, "unknown place '%.60s', expected node ID, at X Y, set NAME or box XMIN "
+                                          "YMIN XMAX YMAX in: %s", model_look(r), model_form(r->s))
+                             : model_word(r) != NULL;
     for (int k = 0; k < numbers[w->kind]; k++)
         if (!model_number(r, &w->x[k]))
             return 0;

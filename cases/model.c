@@ -422,15 +422,15 @@ static int read_block(model_reader *r)
 
     if (block < 0)
         return 0;
-    if (words < 6 || words % 2)
-        return model_fail(r, r->s->at, "block '%s' has %d coordinates, expected X Y of 3 corners or more", word, words);
     int *corner = model_room(r, words, sizeof *corner);
-    for (int k = 0; k < words / 2 && good; k++) {
-        double x, y;
-        good = corner && model_number(r, &x) && model_number(r, &y) && add_own_node(r, x, y);
+    double xy[2] = { 0, 0 };
+    for (int k = 0; k < words && good; k++) {
+        good = corner && model_number(r, &xy[k % 2]) && (k % 2 == 0 || add_own_node(r, xy[0], xy[1]));
         if (good)
-            corner[k] = r->nodes - 1;
+            corner[k / 2] = r->nodes - 1;
     }
+    if (good && (words < 6 || words % 2))
+        good = model_fail(r, r->s->at, "block '%s' has %d coordinates, expected X Y of 3 corners or more", word, words);
     good = good && add_own_element(r, block, material, words / 2, corner);
     free(corner);
     return good;

@@ -169,7 +169,7 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
     return p->text[p->texts++] = text;
 }
 
-/* How many letters are to be changed, added or taken away (Levenshtein 1966). */
+/* How many letters, large or small, are to be changed, added or taken away (Levenshtein 1966). */
 static int distance(const char *a, const char *b)
 {
     enum { MOST = 40 };
@@ -181,7 +181,7 @@ static int distance(const char *a, const char *b)
     for (int i = 0; i < MOST && a[i]; i++) {
         int diagonal = row[0]++;
         for (int k = 0; k < n; k++) {
-            const int change = diagonal + (a[i] != b[k]);
+            const int change = diagonal + (tolower((unsigned char)a[i]) != tolower((unsigned char)b[k]));
             diagonal = row[k + 1];
             const int other = (row[k] < diagonal ? row[k] : diagonal) + 1;
             row[k + 1] = change < other ? change : other;

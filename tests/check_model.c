@@ -60,7 +60,8 @@ static const wrong wrongs[] = {
     { "unknown-block", ".model:9: unknown block 'c', expected one that the model has, such as b" },
     { "unknown-block-velocity", ".model:9: unknown block 'c', expected one that the model has, such as b" },
     { "unknown-set", ".model:9: unknown set 'c', expected one that the model has, such as b" },
-    { "unknown-place", ".model:9: unknown place 'right', expected: load WHERE FX FY" },
+    { "unknown-place", ".model:9: unknown place 'right', expected node ID, at X Y, set NAME or box XMIN YMIN XMAX "
+      "YMAX in: load WHERE FX FY" },
     { "unknown-choice", ".model:9: 'both', expected one of exact|linear" },
     { "unknown-choice-bond", ".model:9: 'corners', expected one of vertices|midpoints|moment|auto" },
     { "bad-name", ".model:6: not a name (letters, digits, _ - .): 'b,c', expected: element ID BLOCK MATERIAL N1 N2 "
