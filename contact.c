@@ -46,11 +46,12 @@
  *
  * The iteration. N of a sliding contact depends on its friction and the friction on N: solve with
  * the friction of the last N until they agree; a hook may need fewer solutions. Only then are the
- * states judged, on forces that belong to them. When a set of states comes back that has been
- * there before, the iteration would cycle: from then on only the first contact that wants to
- * change does so in each pass (Murty's rule of the least index), and a contact that closes for a
- * second time starts as SLIDE. Nothing of the model moves before all has settled: a step that does
- * not settle is done again with half the time step, without a trace of the first trial.
+ * states judged, on forces that belong to them, and all that do not fit change. When a set of
+ * states comes back that has been there before, the iteration would cycle: for as many passes as
+ * there have been, only the contact that fits worst changes in each. A contact that closes outside
+ * its cone of friction, or for a second time, starts as SLIDE. Nothing of the model moves before
+ * all has settled: a step that does not settle is done again with half the time step, without a
+ * trace of the first trial.
  *
  * Deviations from the paper: with a hook, points and T at the middle of the step; grid points
  * inside the shorter of two straight sides touch, too (bbm_carries), so that a deformable block
@@ -252,7 +253,7 @@ struct bbm_contact_scratch {
     double *force;              /* [elements] N, of a component: the largest one in it          */
     /* --- the iteration --- */
     int passes, friction_passes;
-    int one_by_one;             /* one contact changes its state in a pass                      */
+    int one_until;              /* the pass until which one contact changes its state in each   */
     uint64_t seen[PASSES + 1];  /* the states of each pass                                      */
 };
 
@@ -818,7 +819,7 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
     bbm_join_elements(m, w->component);
     w->is_listed = 1;
     w->passes = w->friction_passes = 0;
-    w->one_by_one = m->one_by_one;
+    w->one_until = m->one_by_one ? PASSES + 1 : 0;
     return BBM_OK;
 }
 
@@ -909,7 +910,7 @@ static void measure(const bbm_model *m, bbm_contact *c)
     c->d_s = c->time_left * spring_length(m, c, &s);
     c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
     c->T = open ? 0 : m->par.p_s * c->d_s;
-    if (c->friction_in_K && !is_strengthless(&m->par, c, c->N))
+    if (c->friction_in_K && !is_strengthless(bbm_strength_of(m, c), c, c->N))
         c->N_of_friction = c->N;
 }
 
@@ -1040,9 +1041,9 @@ static int is_blocked(const bbm_model *m, const bbm_contact *c)
 
 /* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the distance
  * d0 has closed. It is anchored where it stood at the start, and its shear spring feels the share
- * of the slip that is left, so that it never pushes along. One that closes for a second time in a
- * step was opened by the shear spring of its first trial, which need not be there: it tries to
- * slide. */
+ * of the slip that is left, so that it never pushes along. It starts as SLIDE where its springs
+ * would be outside the cone of friction as P1 comes in, or when it closes for a second time in the
+ * step: the shear spring of its first trial has opened it, and need not be there. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
     const double d0 = fmax(0, c->d_n0), s = project(m, c->corner, c->edge).s;
@@ -1052,7 +1053,11 @@ static void change_state(const bbm_model *m, bbm_contact *c)
     if (closes) {
         c->time_left = 1 - d0 / (d0 - c->d_n);
         c->anchor = s / m->edge[c->edge].along.length;
-        c->next_state = ++c->closings > 1 ? BBM_SLIDE : BBM_LOCK;
+        const bbm_parameters *p = bbm_strength_of(m, c);
+        const double T = c->time_left * m->par.p_s * fabs(slip);
+        const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
+        const int slides = ++c->closings > 1 || T > bbm_shear_strength(p, N, c->area);
+        c->next_state = slides ? BBM_SLIDE : BBM_LOCK;
     }
     if (c->next_state == BBM_SLIDE) {
         c->sign = copysign(1, slip);
@@ -1061,24 +1066,54 @@ static void change_state(const bbm_model *m, bbm_contact *c)
     c->state = c->next_state;
 }
 
-/* Changes the states that do not fit the solution, all or the first of them; the number of
- * changes. */
+/* The state that a contact takes in the next pass. What is blocked stays open. A locked contact in
+ * tension may have been pulled open by its shear spring: if that carries more than friction would
+ * under as much pressure, the contact first slides, which takes the spring away. */
+static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_parameters *p = bbm_strength_of(m, c);
+    const bbm_contact_state next = bbm_next_state(p, c, c->force_tolerance);
+    const double strength = bbm_shear_strength(p, fabs(c->N), c->area);
+
+    if (c->state == BBM_OPEN && next != BBM_OPEN && is_blocked(m, c))
+        return BBM_OPEN;
+    if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0)
+        return BBM_SLIDE;
+    return next;
+}
+
+/* By how much force the state of a contact does not fit the solution. */
+static double misfit(const bbm_model *m, const bbm_contact *c)
+{
+    if (c->state == BBM_OPEN)
+        return m->par.p_n * (c->rest - c->d_n);
+    if (c->next_state == BBM_OPEN)
+        return -c->N;
+    return fabs(fabs(c->T) - bbm_shear_strength(bbm_strength_of(m, c), c->N, c->area));
+}
+
+/* Changes the states that do not fit the solution, all or the one that fits worst, which is the
+ * same in any order of the blocks; the number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
+    const int one = w->passes < w->one_until;
+    bbm_contact *worst = NULL;
     int changes = 0;
 
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        c->next_state = bbm_next_state(bbm_strength_of(m, c), c, c->force_tolerance);
-        if (c->state == BBM_OPEN && c->next_state != BBM_OPEN && is_blocked(m, c))
-            c->next_state = BBM_OPEN;
+        c->next_state = find_next_state(m, c);
+        if (c->next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
+            worst = c;
     }
-    for (int k = 0; k < w->contacts && !(w->one_by_one && changes); k++)
-        if (w->contact[k].next_state != w->contact[k].state) {
-            change_state(m, &w->contact[k]);
-            changes++;
-        }
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
+        if (c->next_state == c->state || (one && c != worst))
+            continue;
+        change_state(m, c);
+        changes++;
+    }
     return changes;
 }
 
@@ -1095,7 +1130,7 @@ static void note_states(bbm_contact_scratch *w)
     }
     for (int p = 0; p < w->passes; p++)
         if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)
-            w->one_by_one = 1;
+            w->one_until = 2 * w->passes;
     w->seen[w->passes] = hash;
 }
 

@@ -20,12 +20,27 @@ void bbm_start_multipliers(bbm_model *m)
     m->beyond->rounds_done = 0;
 }
 
+/* Whether there is a bond, or a fixed point of an element that is not held at all its vertices. One
+ * that is, a base, needs no multipliers: its springs are as stiff as the contacts on it. */
+static int needs_multipliers(const bbm_model *m)
+{
+    int needed = bbm_is_static(m);
+
+    for (int g = 0; g < m->gaps && !needed; g++) {
+        const bbm_element *e = &m->element[m->gap[g].i];
+        needed = m->gap[g].j >= 0;
+        for (int k = e->first; k < e->first + e->n && !needed; k++)
+            needed = m->node[m->vertex[k].node].held != BBM_XY;
+    }
+    return needed;
+}
+
 /* The contacts have settled: f += W d, as often as was asked for. Returns 1 if it has done so. */
 int bbm_take_over(bbm_model *m)
 {
     double d[2];
 
-    if (m->beyond->rounds_done++ >= m->beyond->multiplier_rounds)
+    if (m->beyond->rounds_done++ >= m->beyond->multiplier_rounds || !needs_multipliers(m))
         return 0;
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];

@@ -38,7 +38,7 @@
  * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is
  *               1e-5 of that */
 #define TURN 1e-8
-#define SHARE 1e-5
+#define SHARE 3e-6
 #define DIRECTION 1e-4
 
 /* Whether points move by the exact rotation. */
@@ -70,7 +70,7 @@ void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
     const double X = x - e->x, Y = y - e->y, *D = e->mode_D, r = D[2];
     const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
     const double t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
-    const double s = sin(r), c1 = -2 * sin(r / 2) * sin(r / 2);
+    const double s = 2 * t / (1 + t * t), c1 = -t * s;                  /* sin(r), cos(r) - 1   */
     const double Xm = X + (ux + c1 * (X + ux) - s * (Y + uy)) / 2;
     const double Ym = Y + (uy + c1 * (Y + uy) + s * (X + ux)) / 2;
     const double matrix[2][6] = {

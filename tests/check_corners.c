@@ -518,7 +518,7 @@ START_TEST(nothing_comes_in_from_behind)
     ck_assert(c[was] && c[was]->state == BBM_OPEN && !c[was]->was_closed);
     ck_assert(c[was]->rest == c[was]->d_n0);             /* nor would it have a force there */
     ck_assert_int_eq(look_at(m, 1, -2e-3, -2e-3), 1);
-    ck_assert_int_eq(c[other]->state, BBM_LOCK);
+    ck_assert(c[other]->state != BBM_OPEN);
     bbm_model_free(m);
 }
 END_TEST

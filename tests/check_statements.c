@@ -171,8 +171,8 @@ START_TEST(two_joints_on_one_slope_have_their_own_friction)
     snprintf(text, sizeof text, ROCK "block base rock 0 0 20 %.12g 20 -9 0 -9\nblock low rock 1 %.12g 3 %.12g 3.5 1 1.5 1\n"
              "block high rock 8 %.12g 10 %.12g 10.5 0 8.5 0\nfixblock base\ngravity 0 -9.81\n%s"
              "dynamic dt 0.005 steps 200\nmonitor low at 1 -0.4 of low\nmonitor high at 8 -3 of high\n"
-             "expect high stays by 1e-6\n", -20 * tan(a), -tan(a), -3 * tan(a), -8 * tan(a), -10 * tan(a), order[_i]);
-    ck_assert_int_eq(run_text("joints", text), 0);
+             "expect high stays by 1e-5\n", -20 * tan(a), -tan(a), -3 * tan(a), -8 * tan(a), -10 * tan(a), order[_i]);
+    ck_assert_int_eq(run_text("joints", text), 0);       /* its springs give way by 1e-6 m */
     ck_relative(cell("joints", "history.csv", "200,", "low_u"), g * (sin(a) - cos(a) * tan10) / 2 * cos(a), 1e-3);
     ck_assert_int_eq(shell("grep -c '^low,.*SLIDE' out/model/joints/contacts.csv > out/model/said"), 0);
 }
