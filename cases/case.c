@@ -209,14 +209,6 @@ bbm_model *case_block_on_slope(const case_slope *s)
     return m;
 }
 
-double case_slid(const bbm_model *m, double angle)
-{
-    const bbm_element *e = &m->element[m->elements - 1];
-    const double a = angle * acos(-1) / 180;
-
-    return -cos(a) * e->sum[0] - sin(a) * e->sum[1];
-}
-
 void case_step(bbm_model *m, case_effort *e, scene *s)
 {
     case_must(m, bbm_step(m));

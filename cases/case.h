@@ -59,7 +59,6 @@ void   case_fix_block(bbm_model *m, int block);                 /* every node of
  * 0.4 p_n, 2500 kg/m^3 and gravity. Angles in degrees. */
 typedef struct { double angle, w, h, friction, p_n, dt; int base; } case_slope;
 bbm_model *case_block_on_slope(const case_slope *s);
-double case_slid(const bbm_model *m, double angle);     /* its barycentre's way down the incline */
 int    case_node(const bbm_model *m, double x, double y);       /* the node nearest to (x, y)   */
 bbm_result case_at(const bbm_model *m, double x, double y);     /* the result there             */
 /* u, v, sxx, syy, sxy, svm */

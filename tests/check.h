@@ -65,6 +65,7 @@ Suite *equations_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
 Suite *statements_suite(void);
+Suite *moving_suite(void);
 Suite *scenes_suite(void);
 Suite *files_suite(void);
 
