@@ -2,7 +2,7 @@
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
 # make bench     time ratios of the solver     make memcheck  the tests under valgrind
-# make gallery   blocks that slide, topple, fall; the model files
+# make gallery   blocks that slide, topple, fall; the model files, each beside its theory
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
