@@ -293,9 +293,16 @@ END_TEST
     "fix set left\nset corner nodes 3\nload set corner 0 -1e6\ntraction box 1 0 1 1 1e3 0\n" \
     "monitor p at 1 1\nstatic\noutput svg vtk\n"
 
+/* What makes its own nodes, names and numbers. */
+#define NAMED "let h 1.5\nplane strain\nmaterial rock E 1e10 nu 0.25 density 2500\ngravity 0 -10\n" \
+    "block base rock -1 -1 3 -1 3 0 -1 0\ngrid dam rock 0 0 1 2 1 2 crossed\nfixblock base\n" \
+    "fix set base x by 1e-3\nwater set dam.left $h\njoint dam * friction 50\nmonitor top at 0 2 of dam\n" \
+    "dynamic dt 0.01 steps 3 settle 1\nexpect top stays by 1\noutput svg vtk\n"
+
 /* Models, and a file that they leave when they end with 0. */
 static const struct { const char *model, *text, *last; } short_of_memory[] = {
     { "meshed", MESHED, "step_000001.vtk" }, { "slide", SLIDE("4 settle 1"), "movie.svg" },
+    { "named", NAMED, "contacts_000003.vtk" },
 };
 
 /* Runs a model with so many allocations, as test_alloc.c counts them; whether all is there. Whatever it
@@ -688,7 +695,7 @@ Suite *files_suite(void)
     tcase_add_test(t, a_file_without_end_is_refused);
     tcase_add_loop_test(t, a_picture_that_cannot_be_made_is_said_and_costs_nothing_else, 0, 3);
     tcase_add_test(t, a_picture_of_an_experiment_that_cannot_be_made_costs_no_results);
-    tcase_add_loop_test(t, without_memory_a_run_says_so_at_every_allocation, 0, 2);
+    tcase_add_loop_test(t, without_memory_a_run_says_so_at_every_allocation, 0, 3);
     tcase_add_test(t, without_memory_an_experiment_says_so);
     tcase_add_loop_test(t, an_interrupted_run_keeps_what_it_has_computed, 0, 3);
     tcase_add_test(t, a_second_signal_ends_a_run_at_once_and_the_next_run_removes_what_it_left);

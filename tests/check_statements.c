@@ -178,6 +178,25 @@ START_TEST(two_joints_on_one_slope_have_their_own_friction)
 }
 END_TEST
 
+/* A lump of 49 kN hangs from 1 m^2 of a joint; 60 kPa hold it, 40 kPa do not. The first joint that fits counts. */
+START_TEST(a_joint_holds_by_its_own_tensile_strength)
+{
+    static const struct { const char *joints; int status; } table[] = {
+        { "joint roof lump tension 60e3\njoint * * tension 40e3\n", 0 },
+        { "joint * * tension 40e3\njoint roof lump tension 60e3\n", 3 },
+        { "contact tension 60e3\n", 0 }, { "contact tension 40e3\n", 3 },
+        { "contact tension 60e3\njoint lump roof friction 20\n", 0 },
+        { "contact tension 60e3\njoint lump * tension 0\n", 3 },
+    };
+    char text[LONG];
+
+    snprintf(text, sizeof text, ROCK "block roof rock 0 2 3 2 3 3 0 3\nblock lump rock 1 0 2 0 2 2 1 2\nfixblock roof\n%s"
+             "gravity 0 -9.81\ndynamic dt 0.001 steps 200 settle 100\nmonitor lump at 1 0\nexpect lump stays by 1e-3\n",
+             table[_i].joints);
+    ck_assert_int_eq(run_text("hangs", text), table[_i].status);
+}
+END_TEST
+
 START_TEST(contacts_and_reactions_carry_the_weight)
 {
     ck_assert_int_eq(run_text("stack", ROCK "grid table rock 0 0 4 1 4 1\nblock a rock 1 1 2 1 2 2 1 2\n"
@@ -383,6 +402,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_support_that_moves_pulls_its_bar, 0, 3);
     tcase_add_test(t, a_support_that_moves_carries_its_block_along);
     tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
+    tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
     tcase_add_test(t, a_slide_has_its_velocities);
     tcase_add_test(t, the_slope_of_columns_stands_above_its_limit_alone);
