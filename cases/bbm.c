@@ -1,9 +1,10 @@
-/* bbm.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results (write.c).
+/* bbm.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results
+ * (write.c).
  *
- * Exit status: 0, all is done, and as expected; 1, the run failed, with what was computed until then in the files; 2,
- * the input is wrong, and nothing was written; 3, an `expect` of the model is not met; 130, 143: interrupted (Ctrl-C,
- * kill), with what was computed until then in the files.
- * Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
+ * Exit status: 0, all is done, and as expected; 1, the run failed, with what was computed until
+ * then in the files; 2, the input is wrong, and nothing was written; 3, an `expect` of the model
+ * is not met; 130, 143: interrupted (Ctrl-C, kill), with what was computed until then in the
+ * files. Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <signal.h>
@@ -14,14 +15,15 @@
 
 #include "write.h"
 
-/* The signal that came. Signals have no other way to say something: this variable, and it alone, has file scope. */
+/* The signal that came. Signals have no other way to say something: this variable, and it alone,
+ * has file scope. */
 static volatile sig_atomic_t stopped;
-enum { NAMED = 10, SHOWN = 30 };                /* pieces of a block that a warning names, blocks of --check       */
+enum { NAMED = 10, SHOWN = 30 };     /* pieces of a block that a warning names, blocks of --check */
 
 typedef struct {
     const char *model, *matrix;
-    char folder[1024], **let;                   /* let: [lets] NAME=VALUE                                         */
-    int lets, quiet, check, exit;               /* exit: -1, go on                                                */
+    char folder[1024], **let;                   /* let: [lets] NAME=VALUE */
+    int lets, quiet, check, exit;               /* exit: -1, go on */
 } arguments;
 
 static const char *usage(void)
@@ -31,7 +33,8 @@ static const char *usage(void)
            "  -d          takes the place of `let NAME`; may be given several times\n"
            "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
            "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
-           "  -m FILE     the matrix of the first solution (Matrix Market), and its right-hand side as FILE.rhs\n"
+           "  -m FILE     the matrix of the first solution (Matrix Market), and its right-hand "
+           "side as FILE.rhs\n"
            "  -q          quiet: errors and warnings alone\n"
            "  -h, --version\n";
 }
@@ -69,7 +72,7 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         for (char *c = argv[k]; *c; c++)
             *c = *c == '\\' ? '/' : *c;        /* both part folders there */
 #endif
-        const char *word = argv[k], *let, **value = word[1] == 'o' ? &folder : word[1] == 'm' ? &a->matrix : &let;
+        const char *word = argv[k], *let, **value = &let;
         if (!options || word[0] != '-' || word[1] == '\0') {
             if (a->model)
                 return complain(a, "expected one model file");
@@ -85,6 +88,8 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         } else if (strcmp(word, "--check") == 0) {
             a->check = 1;
         } else if (word[1] == 'o' || word[1] == 'm' || word[1] == 'd') {
+            if (word[1] != 'd')
+                value = word[1] == 'o' ? &folder : &a->matrix;
             *value = word[2] ? word + 2 : argv[++k];
             if (k == argc || **value == '\0')
                 return complain(a, "-o and -m need a name, -d NAME=VALUE");
@@ -98,10 +103,14 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
 }
 
-/* --------------------------------------------------------------------------------------------------- progress */
+/* ------------------------------------------------------------------------------------- progress */
 
-typedef struct { int shown, steps, begun; clock_t start, last; time_t said; } progress; /* begun: without its end */
-enum { SILENCE = 10 };                          /* s between lines of progress that go to a file                  */
+typedef struct {
+    int shown, steps, begun;                    /* begun: a line without its end */
+    clock_t start, last;
+    time_t said;
+} progress;
+enum { SILENCE = 10 };                          /* s between lines of progress that go to a file */
 
 static void show_progress(progress *s, const bbm_model *m, int step)
 {
@@ -113,8 +122,9 @@ static void show_progress(progress *s, const bbm_model *m, int step)
     s->last = clock();
     s->said = time(NULL);
     s->begun = isatty(2);
-    fprintf(stderr, "%sstep %d of %d, %d open-close passes, %d contacts, %.0f s left%s", s->begun ? "\r" : "", step,
-            s->steps, m->info.passes, m->info.contacts, each * (s->steps - step), s->begun ? "   " : "\n");
+    fprintf(stderr, "%sstep %d of %d, %d open-close passes, %d contacts, %.0f s left%s",
+            s->begun ? "\r" : "", step, s->steps, m->info.passes, m->info.contacts,
+            each * (s->steps - step), s->begun ? "   " : "\n");
     fflush(stderr);
 }
 
@@ -132,13 +142,14 @@ static void describe(const model *p, const char *path)
     const bbm_model *m = p->m;
 
     printf("%s%s%s\n", path, p->title ? ": " : "", p->title ? p->title : "");
-    printf("%d element%s in %d block%s, %d nodes, %d bond%s; ", m->elements, plural(m->elements), p->blocks,
-           plural(p->blocks), m->nodes, m->bonds, plural(m->bonds));
+    printf("%d element%s in %d block%s, %d nodes, %d bond%s; ", m->elements, plural(m->elements),
+           p->blocks, plural(p->blocks), m->nodes, m->bonds, plural(m->bonds));
     if (!p->dynamic)
-        printf("static, %s%d step%s\n", m->par.tolerance > 0 ? "at most " : "", m->par.steps, plural(m->par.steps));
+        printf("static, %s%d step%s\n", m->par.tolerance > 0 ? "at most " : "", m->par.steps,
+               plural(m->par.steps));
     else if (p->settle)
-        printf("dynamic, %d step%s of %g s after %d quasi-static ones\n", m->par.steps, plural(m->par.steps),
-               m->par.dt, p->settle);
+        printf("dynamic, %d step%s of %g s after %d quasi-static ones\n", m->par.steps,
+               plural(m->par.steps), m->par.dt, p->settle);
     else
         printf("dynamic, %d step%s of %g s\n", m->par.steps, plural(m->par.steps), m->par.dt);
     fflush(stdout);
@@ -148,7 +159,8 @@ static void describe(const model *p, const char *path)
 static void warn(const model *p, const char *path, int checking)
 {
     const bbm_model *m = p->m;
-    int held = 0, load = m->line_loads > 0 || p->moving || m->beyond->shake[0] != 0 || m->beyond->shake[1] != 0;
+    int held = 0, load = m->line_loads > 0 || p->moving || m->beyond->shake[0] != 0
+                         || m->beyond->shake[1] != 0;
 
     for (int n = 0; n < m->nodes; n++) {
         held |= m->node[n].held || m->beyond->waters > 0;
@@ -160,13 +172,19 @@ static void warn(const model *p, const char *path, int checking)
         for (int k = 0; k < 3; k++)
             load |= m->element[e].stress[k] != 0;
     if (checking && !load && m->par.gravity[0] == 0 && m->par.gravity[1] == 0)
-        fprintf(stderr, "%s: warning: nothing loads the model; gravity, load, traction, pressure or fix ... by does\n",
+        fprintf(stderr,
+                "%s: warning: nothing loads the model; gravity, load, traction, pressure or fix "
+                "... by does\n",
                 path);
     if (!held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))
-        fprintf(stderr, "%s: warning: nothing is fixed: under gravity all blocks fall; fixblock or fix holds them\n",
+        fprintf(stderr,
+                "%s: warning: nothing is fixed: under gravity all blocks fall; fixblock or fix "
+                "holds them\n",
                 path);
     if (p->slippery)
-        fprintf(stderr, "%s: warning: blocks touch without friction: `contact friction DEGREES` gives it\n", path);
+        fprintf(stderr,
+                "%s: warning: blocks touch without friction: `contact friction DEGREES` gives it\n",
+                path);
 }
 
 static void summarise(const model *p, const char *folder)
@@ -184,11 +202,14 @@ static void summarise(const model *p, const char *folder)
     printf("%d step%s, ", m->info.step, plural(m->info.step));
     if (p->dynamic)
         printf("t = %g s, ", m->info.t);
-    printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts), m->info.pcg.residual);
+    printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
+           m->info.pcg.residual);
     if (p->dynamic)
-        printf("no step made more than %.1e of its energy beyond the work of loads\n", m->beyond->gain);
-    printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element %s\nresults in %s\n", far,
-           p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
+        printf("no step made more than %.1e of its energy beyond the work of loads\n",
+               m->beyond->gain);
+    printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element "
+           "%s\nresults in %s\n",
+           far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
 }
 
 /* What came out beside what was expected of it; the number of those not met. */
@@ -212,7 +233,8 @@ static int compare(const model *p, int quiet)
         if (value)
             printf("%.6g within %.2g m; computed: %.6g m: ", e->value, e->within, got);
         else
-            printf("by %s than %.6g m; computed: %.6g m: ", e->kind == MODEL_MOVES ? "more" : "less", e->within, got);
+            printf("by %s than %.6g m; computed: %.6g m: ",
+                   e->kind == MODEL_MOVES ? "more" : "less", e->within, got);
         printf("%s\n", met ? "ok" : "NOT MET");
     }
     return missed;
@@ -240,11 +262,13 @@ static void describe_blocks(const model *p)
         printf("... and %d more\n", p->blocks - SHOWN);
 }
 
-/* A block whose elements nothing bonds together may be meant, but is said: with an element of each piece. */
+/* A block whose elements nothing bonds together may be meant, but is said: with an element of
+ * each piece. */
 static void warn_of_pieces(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
-    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece), *count = piece + m->elements;
+    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece),
+        *count = piece + m->elements;
 
     if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
         free(piece);
@@ -255,8 +279,9 @@ static void warn_of_pieces(const model *p, const char *path)
     for (int b = 0; b < p->blocks; b++) {
         int left = count[b] > 1 ? NAMED : 0;
         if (count[b] > 1)
-            fprintf(stderr, "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements", path,
-                    p->block[b], count[b]);
+            fprintf(stderr,
+                    "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements",
+                    path, p->block[b], count[b]);
         for (int e = 0; e < m->elements && left > 0; e++)
             if (piece[e] == e && m->element[e].block == b)
                 fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
@@ -267,7 +292,7 @@ static void warn_of_pieces(const model *p, const char *path)
     free(piece);
 }
 
-/* --------------------------------------------------------------------------------------------------- the run */
+/* -------------------------------------------------------------------------------------- the run */
 
 /* Quasi-static steps without shaking. */
 static bbm_status settle(model *p)
@@ -305,7 +330,8 @@ static bbm_status run_steps(write_results *w, progress *s)
         met = !status && par->tolerance > 0 && m->info.change <= par->tolerance;
         show_progress(s, m, met ? s->steps : step);
     }
-    return !status && !w->status && !stopped && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED : status;
+    return !status && !w->status && !stopped && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED
+                                                                           : status;
 }
 
 /* Statics without equilibrium, by the names of the file. */
@@ -314,27 +340,34 @@ static void report_loose(const model *p, const char *path)
     const bbm_model *m = p->m;
     const int i = m->blamed[0], j = m->blamed[1];
 
-    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path, m->info.step + 1,
-            p->block[m->element[i].block], p->element[i]);
+    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path,
+            m->info.step + 1, p->block[m->element[i].block], p->element[i]);
     if (j >= 0)
-        fprintf(stderr, "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix it, or use dynamic\n",
+        fprintf(stderr,
+                "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix "
+                "it, or use dynamic\n",
                 p->block[m->element[j].block], p->element[j]);
     else
         fprintf(stderr, "is free to move; fix it, or use dynamic\n");
 }
 
-/* The message of a run that failed; `when`: in which part of it. The library's own message may name the step. */
+/* The message of a run that failed; `when`: in which part of it. The library's own message may
+ * name the step. */
 static void report(const model *p, bbm_status status, const char *when, const arguments *a)
 {
     const bbm_model *m = p->m;
     const char *message = *m->message ? m->message : bbm_status_text(status);
 
     if (stopped)
-        fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in %s\n",
-                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t, a->folder);
+        fprintf(stderr,
+                "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in "
+                "%s\n",
+                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t,
+                a->folder);
     else if (status == BBM_STEPS_EXHAUSTED)
-        fprintf(stderr, "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n", a->model,
-                m->info.step, m->info.change, m->par.tolerance);
+        fprintf(stderr,
+                "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n",
+                a->model, m->info.step, m->info.change, m->par.tolerance);
     else if (status == BBM_NO_EQUILIBRIUM)
         report_loose(p, a->model);
     else if (status && strstr(message, "step "))
@@ -354,8 +387,8 @@ static int before_solution(const bbm_model *m, void *results)
     return stopped != 0;
 }
 
-/* The first signal is noted; another one, or the same more than a second later, ends the program at once. (timeout(1)
- * sends the same to the program and to its group.) */
+/* The first signal is noted; another one, or the same more than a second later, ends the program
+ * at once. (timeout(1) sends the same to the program and to its group.) */
 static void stop(int number)
 {
     static volatile time_t first;
@@ -410,8 +443,8 @@ static int check(model *p, const arguments *a)
     if (!a->quiet) {
         describe(p, a->model);
         describe_blocks(p);
-        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees\n", touching, plural(touching),
-               par->p_n, par->p_s, par->friction);
+        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees\n", touching,
+               plural(touching), par->p_n, par->p_s, par->friction);
     }
     if (touching < 0 || !write_check(&w))
         return 1;
@@ -422,7 +455,11 @@ static int check(model *p, const arguments *a)
 
 static int run(model *p, const arguments *a, clock_t start)
 {
-    write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix, .start = start,
+    write_results w = { .p = p,
+                        .source = a->model,
+                        .folder = a->folder,
+                        .matrix = a->matrix,
+                        .start = start,
                         .reading = clock() - start };
     progress s = { !a->quiet, p->m->par.steps, 0, clock(), 0, time(NULL) };
     bbm_status status = BBM_OK;
@@ -472,7 +509,7 @@ int main(int argc, char *argv[])
     arguments a;
 
 #ifdef SIGXFSZ
-    signal(SIGPIPE, SIG_IGN);                   /* a pipe or a disk that takes no more is an error like another */
+    signal(SIGPIPE, SIG_IGN);     /* a pipe or a disk that takes no more is an error like another */
     signal(SIGXFSZ, SIG_IGN);
 #endif
     read_arguments(&a, argc, argv);

@@ -1,6 +1,5 @@
-/* build.c - the library's model of what the statements say, and the statements that need it: where it is
- * held and loaded, WHERE by its nodes.
- */
+/* build.c - the library's model of what the statements say, and the statements that need it:
+ * where it is held and loaded, WHERE by its nodes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,10 +10,10 @@
 /* Of the model's size: nodes closer to a given place, or to the rim of a box, are there. */
 #define NEAR 1e-6
 
-/* -------------------------------------------------------------------------- building the library's model */
+/* ----------------------------------------------------------------- building the library's model */
 
-/* What the file leaves out: the contacts are as stiff as the softest material of a block that is not fixed, for a fixed
- * one is often given an E that only says "rigid". */
+/* What the file leaves out: the contacts are as stiff as the softest material of a block that is
+ * not fixed, for a fixed one is often given an E that only says "rigid". */
 static void set_defaults(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
@@ -32,7 +31,7 @@ static void set_defaults(model_reader *r)
         p->p_n = 50 * softest[isinf(softest[0]) ? 1 : 0];
     if (p->p_s < 0)
         p->p_s = 0.4 * p->p_n;
-    if (p->p_s == 0)                            /* a shear spring that carries nothing: no friction */
+    if (p->p_s == 0)                          /* a shear spring that carries nothing: no friction */
         p->friction = p->cohesion = 0;
     if (p->p_n == 0)                            /* no contact: springs that cannot be felt */
         p->p_n = 1e-200;
@@ -48,7 +47,8 @@ static int give_materials(model_reader *r)
         if (el->material < 0)
             el->material = b->material >= 0 ? b->material : r->other_material;
         if (el->material < 0)
-            return model_fail(r, b->at, "block '%s' has no material, expected: use MATERIAL on %s", b->name, b->name);
+            return model_fail(r, b->at, "block '%s' has no material, expected: use MATERIAL on %s",
+                              b->name, b->name);
     }
     return 1;
 }
@@ -106,12 +106,12 @@ static int add_element(model_reader *r, const model_element *e)
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     if (status == BBM_SELF_CROSSING)
-        return model_fail(r, e->at, "the boundary of element %s of block '%s' meets itself, expected a simple polygon",
-                          e->id, r->block[e->block].name);
+        return model_fail(r, e->at, "the boundary of element %s of block '%s' meets itself, "
+                          "expected a simple polygon", e->id, r->block[e->block].name);
     const bbm_element *b = status ? NULL : &r->p->m->element[index];
     if (!b || !(b->A > 0) || !isfinite(b->x * b->Sxx) || !isfinite(b->y * b->Syy))
-        return model_fail(r, e->at, "element %s of block '%s' has no area, or one too large, expected a polygon",
-                          e->id, r->block[e->block].name);
+        return model_fail(r, e->at, "element %s of block '%s' has no area, or one too large, "
+                          "expected a polygon", e->id, r->block[e->block].name);
     r->p->element[index] = e->id;
     r->p->centre[index][0] = b->x;
     r->p->centre[index][1] = b->y;
@@ -142,9 +142,11 @@ static int overlap(model_reader *r)
 
     if (bbm_find_overlap(p->m, &o))
         return model_out_of_memory(r);
-    return model_fail(r, r->element[o.j].at, "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
-                      "%g %g, expected blocks that touch at most", p->element[o.j], r->block[r->element[o.j].block].name,
-                      o.depth, p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
+    return model_fail(r, r->element[o.j].at,
+                      "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
+                      "%g %g, expected blocks that touch at most",
+                      p->element[o.j], r->block[r->element[o.j].block].name, o.depth,
+                      p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
 }
 
 int model_build(model_reader *r)
@@ -152,7 +154,8 @@ int model_build(model_reader *r)
     model *p = r->p;
 
     if (r->elements == 0)
-        return model_fail(r, (model_place){ r->path, 0 }, "the model has no element, expected: element ..., or mesh "
+        return model_fail(r, (model_place){ r->path, 0 },
+                          "the model has no element, expected: element ..., or mesh "
                           "FILE");
     if (!give_materials(r) || !copy_nodes(r) || !add_nodes(r))
         return 0;
@@ -169,8 +172,8 @@ int model_build(model_reader *r)
     const bbm_status status = bbm_prepare(p->m);
     const model_element *e = &r->element[status == BBM_OVERLAP ? p->m->blamed[0] : 0];
     if (status == BBM_OVERLAP)
-        return model_fail(r, e->at, "element %s lies on another one of its block, expected elements side by side",
-                          e->id);
+        return model_fail(r, e->at, "element %s lies on another one of its block, expected "
+                          "elements side by side", e->id);
     if (status)
         return status == BBM_BLOCKS_OVERLAP ? overlap(r) : model_refused(r, status);
     if (r->plane_strain)
@@ -181,7 +184,7 @@ int model_build(model_reader *r)
     return !p->status;
 }
 
-/* ------------------------------------------------------------------------------------------------ WHERE */
+/* ---------------------------------------------------------------------------------------- WHERE */
 
 enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 
@@ -220,18 +223,23 @@ static void choose_nearest(model_reader *r, const place *w)
     int found = -1, others = 0;
 
     for (int n = 0; n < r->nodes; n++) {
-        const double d = has_node(r, w->block, n) ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1]) : INFINITY;
+        const double d = has_node(r, w->block, n)
+                             ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1])
+                             : INFINITY;
         if (d < best - r->margin)
             best = d, found = n, others = 0;
         else if (isfinite(d) && d <= best + r->margin
-                 && hypot(r->node[n].x - r->node[found].x, r->node[n].y - r->node[found].y) <= r->margin)
+                 && hypot(r->node[n].x - r->node[found].x, r->node[n].y - r->node[found].y)
+                        <= r->margin)
             others++;
     }
     if (found < 0)
         return;
     choose(r, w, found);
     if (others > 0)
-        fprintf(stderr, "%s:%d: note: %d nodes lie there, node %s of block '%s' is taken; `of BLOCK` takes another\n",
+        fprintf(stderr,
+                "%s:%d: note: %d nodes lie there, node %s of block '%s' is taken; `of BLOCK` takes "
+                "another\n",
                 r->s->at.file, r->s->at.line, others + 1, r->node[found].id,
                 r->block[r->copy[r->node[found].first].block].name);
 }
@@ -250,8 +258,8 @@ static int choose_set(model_reader *r, place *w, const char *word)
 {
     w->found = model_find(&r->set_of, word);
     if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
-        return model_fail(r, r->s->at, "the mesh has several groups of that name, one of surfaces and one of "
-                          "curves or points, expected one");
+        return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
+                              "of curves or points, expected one");
     if (w->found < 0 && (w->block = model_find(&r->block_of, word)) < 0)
         return model_unknown(r, r->set_of.count ? &r->set_of : &r->block_of, "set", word);
     return 1;
@@ -268,9 +276,9 @@ static int read_place(model_reader *r, place *w)
     while (w->kind < 4 && !model_skip(r, kind[w->kind]))
         w->kind++;
     if (w->kind == 4)
-        return model_look(r) ? model_fail(r, r->s->at, "unknown place '%.60s', expected node ID, at X Y, set NAME or box XMIN "
-                                          "YMIN XMAX YMAX in: %s", model_look(r), model_form(r->s))
-                             : model_word(r) != NULL;
+        return !model_look(r) ? model_word(r) != NULL
+             : model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME or box "
+                              "XMIN YMIN XMAX YMAX in: %s", model_look(r), model_form(r->s));
     for (int k = 0; k < numbers[w->kind]; k++)
         if (!model_number(r, &w->x[k]))
             return 0;
@@ -279,13 +287,13 @@ static int read_place(model_reader *r, place *w)
     if (w->kind == BY_SET && (!(word = model_word(r)) || !choose_set(r, w, word)))
         return 0;
     if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
-        return model_fail(r, r->s->at, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX", w->x[0],
-                          w->x[1], w->x[2], w->x[3]);
+        return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
+                           w->x[0], w->x[1], w->x[2], w->x[3]);
     return !model_skip(r, "of") || (w->block = model_next_block(r)) >= 0;
 }
 
-/* WHERE: the nodes that it names, at least one, in r->chosen_node. `nearest`: at X Y is the nearest node, however
- * far. */
+/* WHERE: the nodes that it names, at least one, in r->chosen_node. `nearest`: at X Y is the
+ * nearest node, however far. */
 static int where(model_reader *r, int nearest)
 {
     place w;
@@ -305,12 +313,13 @@ static int where(model_reader *r, int nearest)
             if (w.kind == BY_SET || is_there(r, &w, &r->node[n]))
                 choose(r, &w, n);
     if (r->chosen == 0)
-        return model_fail(r, r->s->at, "no node there%s%.60s, expected a place that names one",
-                          w.block >= 0 ? " of block " : "", w.block >= 0 ? r->block[w.block].name : "");
+        return model_blame(r, "no node there%s%.60s, expected a place that names one",
+                           w.block >= 0 ? " of block " : "",
+                           w.block >= 0 ? r->block[w.block].name : "");
     return 1;
 }
 
-/* ----------------------------------------------------------------------- statements that need the model */
+/* --------------------------------------------------------------- statements that need the model */
 
 /* x and y, each with `by`; none: both. */
 int model_fix(model_reader *r)
@@ -327,7 +336,8 @@ int model_fix(model_reader *r)
         if (a < 0)
             return model_wrong(r, "unknown option", model_look(r));
         if (directions & 1 << a)
-            return model_fail(r, r->s->at, "%s for the second time, expected: %s", name[a], model_form(r->s));
+            return model_blame(r, "%s for the second time, expected: %s", name[a],
+                               model_form(r->s));
         directions |= 1 << a;
         if (model_skip(r, "by") && !model_number(r, &by[a]))
             return 0;
@@ -337,8 +347,9 @@ int model_fix(model_reader *r)
         const int n = r->chosen_node[k];
         for (int a = 0; a < 2; a++) {
             if (directions & p->m->node[n].held & 1 << a && p->wall[n][a] != by[a])
-                return model_fail(r, r->s->at, "node %s is displaced by %g in %s here, by %g in another statement, expected "
-                                  "one of them", p->node[n], by[a], name[a], p->wall[n][a]);
+                return model_blame(r, "node %s is displaced by %g in %s here, by %g in another "
+                                      "statement, expected one of them", p->node[n], by[a],
+                                   name[a], p->wall[n][a]);
             p->wall[n][a] = directions & 1 << a ? by[a] : p->wall[n][a];
         }
         p->moving |= by[0] != 0 || by[1] != 0;
@@ -348,7 +359,10 @@ int model_fix(model_reader *r)
 }
 
 /* What meets at a library node. */
-static int meeting(const bbm_model *m, int node) { return m->adjacent_first[node + 1] - m->adjacent_first[node]; }
+static int meeting(const bbm_model *m, int node)
+{
+    return m->adjacent_first[node + 1] - m->adjacent_first[node];
+}
 
 /* Each node of the file has the same share, and of that each element there. */
 int model_load_nodes(model_reader *r)
@@ -360,14 +374,16 @@ int model_load_nodes(model_reader *r)
         return 0;
     for (int k = 0, end; k < r->chosen; k = end) {
         int all = 0;
-        for (end = k; end < r->chosen && r->p->node[r->chosen_node[end]] == r->p->node[r->chosen_node[k]]; end++)
+        for (end = k;
+             end < r->chosen && r->p->node[r->chosen_node[end]] == r->p->node[r->chosen_node[k]];
+             end++)
             all += meeting(m, r->chosen_node[end]);
         for (int c = k; c < end; c++) {
             const double share = (double)meeting(m, r->chosen_node[c]) / all / r->places;
             bbm_add_load(m, r->chosen_node[c], share * f[0], share * f[1]);
         }
     }
-    return m->status ? model_fail(r, r->s->at, "loads too large to add up, expected finite ones") : 1;
+    return m->status ? model_blame(r, "loads too large to add up, expected finite ones") : 1;
 }
 
 /* Pa; of water: weight in N/m^3, level in m. */
@@ -398,12 +414,13 @@ static int load_edges(model_reader *r, const edge_load *l)
     }
     free(in);
     if (!found)
-        return model_fail(r, r->s->at, "no boundary edge has both ends there, expected one");
+        return model_blame(r, "no boundary edge has both ends there, expected one");
     if (l->weight > 0 && !wet)
-        return model_fail(r, r->s->at, "no edge there lies below y = %g, expected one under water", l->level);
+        return model_blame(r, "no edge there lies below y = %g, expected one under water",
+                           l->level);
     if (m->status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
-    return m->status ? model_fail(r, r->s->at, "a load too large, expected a finite one") : 1;
+    return m->status ? model_blame(r, "a load too large, expected a finite one") : 1;
 }
 
 int model_traction(model_reader *r)
@@ -431,7 +448,7 @@ int model_water(model_reader *r)
         return 0;
     l.weight = density * hypot(g[0], g[1]);
     if (!(l.weight > 0))
-        return model_fail(r, r->s->at, "water without weight, expected gravity");
+        return model_blame(r, "water without weight, expected gravity");
     return load_edges(r, &l);
 }
 
@@ -462,10 +479,12 @@ int model_velocities(model_reader *r)
     const int block = model_next_block(r);
     model_velocity v = { { 0, 0, 0 }, 1 };
 
-    if (block < 0 || !model_number(r, &v.V[0]) || !model_number(r, &v.V[1]) || (model_look(r) && !model_number(r, &v.V[2])) || !model_at_end(r))
+    if (block < 0 || !model_number(r, &v.V[0]) || !model_number(r, &v.V[1])
+        || (model_look(r) && !model_number(r, &v.V[2])) || !model_at_end(r))
         return 0;
     if (r->p->velocity[block].given)
-        return model_fail(r, r->s->at, "a velocity of '%s' for the second time, expected one", r->block[block].name);
+        return model_blame(r, "a velocity of '%s' for the second time, expected one",
+                           r->block[block].name);
     r->p->velocity[block] = v;
     return 1;
 }
@@ -478,8 +497,9 @@ int model_stress(model_reader *r)
         return 0;
     model_block *b = &r->block[block];
     if (b->stressed++)
-        return model_fail(r, r->s->at, "a stress of '%s' for the second time, expected one", b->name);
-    return model_number(r, &b->stress[0]) && model_number(r, &b->stress[1]) && model_number(r, &b->stress[2]) && model_at_end(r);
+        return model_blame(r, "a stress of '%s' for the second time, expected one", b->name);
+    return model_number(r, &b->stress[0]) && model_number(r, &b->stress[1])
+           && model_number(r, &b->stress[2]) && model_at_end(r);
 }
 
 int model_monitors(model_reader *r)
@@ -487,9 +507,11 @@ int model_monitors(model_reader *r)
     const char *word = model_name(r);
     model *p = r->p;
 
-    if (!word || !model_is_new(r, &r->monitor_of, "monitor", word) || !where(r, 1) || !model_at_end(r))
+    if (!word || !model_is_new(r, &r->monitor_of, "monitor", word) || !where(r, 1)
+        || !model_at_end(r))
         return 0;
-    if (!model_grow(r, &p->monitor, p->monitors, sizeof *p->monitor) || !model_enter(r, &r->monitor_of, word, p->monitors))
+    if (!model_grow(r, &p->monitor, p->monitors, sizeof *p->monitor)
+        || !model_enter(r, &r->monitor_of, word, p->monitors))
         return 0;
     model_monitor *m = &p->monitor[p->monitors++];
     *m = (model_monitor){ word, 0, NULL };
@@ -501,7 +523,8 @@ int model_monitors(model_reader *r)
     return 1;
 }
 
-/* What the statements have noted for each block goes to its nodes and elements; statics must be held. */
+/* What the statements have noted for each block goes to its nodes and elements; statics must be
+ * held. */
 int model_finish(model_reader *r)
 {
     model *p = r->p;
@@ -510,7 +533,8 @@ int model_finish(model_reader *r)
         if (r->block[p->node_block[n]].fixed)
             bbm_fix_node(p->m, n, BBM_XY, 0, 0);
     for (int e = 0; e < p->m->elements; e++)
-        memcpy(p->m->element[e].stress, r->block[p->m->element[e].block].stress, sizeof p->m->element[e].stress);
+        memcpy(p->m->element[e].stress, r->block[p->m->element[e].block].stress,
+               sizeof p->m->element[e].stress);
     p->block = model_room(r, r->blocks, sizeof *p->block);
     for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
         p->block[p->blocks] = r->block[p->blocks].name;
@@ -520,12 +544,16 @@ int model_finish(model_reader *r)
     if (bbm_find_mechanism(p->m, &loose))
         return model_out_of_memory(r);
     if (loose >= 0)
-        return model_fail(r, r->element[loose].at, "the elements of block '%s' are bonded at midpoints and can turn against "
-                          "each other, expected: bond at moment", p->block[p->m->element[loose].block]);
+        return model_fail(r, r->element[loose].at,
+                          "the elements of block '%s' are bonded at midpoints and can turn against "
+                          "each other, expected: bond at moment",
+                          p->block[p->m->element[loose].block]);
     const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
-        return model_fail(r, (model_place){ r->path, 0 }, "block '%s' is free to move, expected fix, fixblock or a "
-                          "contact that holds it in statics", p->block[p->m->element[p->m->blamed[0]].block]);
+        return model_fail(r, (model_place){ r->path, 0 },
+                          "block '%s' is free to move, expected fix, fixblock or a "
+                          "contact that holds it in statics",
+                          p->block[p->m->element[p->m->blamed[0]].block]);
     if (status)
         return model_refused(r, status);
     return !p->status;

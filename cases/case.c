@@ -72,7 +72,8 @@ static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j
 int case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners)
 {
     const int *n = node;
-    const int halves[2][6] = { { n[0], n[1], n[2], n[2], n[3], n[0] }, { n[0], n[1], n[3], n[2], n[3], n[1] } };
+    const int halves[2][6] = { { n[0], n[1], n[2], n[2], n[3], n[0] },
+                               { n[0], n[1], n[3], n[2], n[3], n[1] } };
 
     *corners = cut == CASE_QUADS ? 4 : 3;
     if (cut == CASE_QUADS)
@@ -86,7 +87,8 @@ int case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *c
 
 static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
 {
-    int node[5] = { grid_node(g, i, j), grid_node(g, i + 1, j), grid_node(g, i + 1, j + 1), grid_node(g, i, j + 1) };
+    int node[5] = { grid_node(g, i, j), grid_node(g, i + 1, j), grid_node(g, i + 1, j + 1),
+                    grid_node(g, i, j + 1) };
     int element[4][4], corners;
 
     if (g->cut == CASE_CROSSED)

@@ -1,5 +1,6 @@
-/* model.c - the statements of a model file, in a table near the end: each with its form, the function
- * that carries it out and the phase in which it does, so that a file may have them in any order.
+/* model.c - the statements of a model file, in a table near the end: each with its form, the
+ * function that carries it out and the phase in which it does, so that a file may have them in
+ * any order.
  *
  *     NUMBERS          let                        before all others: $NAME is replaced in them
  *     NOTHING_NEEDED   title, node, mesh, material, and all that goes into the parameters
@@ -7,9 +8,8 @@
  *     MADE             block, grid                number on from the largest ids
  *     ALL_NODES        set                        needs nodes
  *     BLOCKS           use, fixblock              need blocks
- *     MODEL            the rest, on the library's model, which is built and prepared before: build.c
- *     MONITORS         expect                     needs monitors
- */
+ *     MODEL            the rest, on the library's model, which is built and prepared: build.c
+ *     MONITORS         expect                     needs monitors */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,9 +20,10 @@
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 
-enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000 };   /* letters of an id, of a name; cells of a grid */
+/* Letters of an id, of a name; cells of a grid. */
+enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000 };
 
-/* ------------------------------------------------------------------------------------------ numbers with a name */
+/* -------------------------------------------------------------------------- numbers with a name */
 
 /* What the command line says of a name, or NULL. */
 static const char *given(const model_reader *r, const char *name)
@@ -59,9 +60,10 @@ static int expand(model_reader *r, char **word)
         if (n == 0) {
             char text[200];
             snprintf(name, sizeof name, "%.*s", (int)strspn(dollar + 1, MODEL_NAME), dollar + 1);
-            return model_fail(r, r->s->at, "no `let` says what $%.60s is%s%s", name,
-                              r->let_of.count ? ", expected one such as $" : "",
-                              model_nearest(name, (const void *)r->let_of.key, r->let_of.room, sizeof(char *), text));
+            return model_blame(r, "no `let` says what $%.60s is%s%s", name,
+                               r->let_of.count ? ", expected one such as $" : "",
+                               model_nearest(name, (const void *)r->let_of.key, r->let_of.room,
+                                             sizeof(char *), text));
         }
         const char *value = r->word[model_find(&r->let_of, name)];
         char *text = model_text(r, strlen(*word) + strlen(value));
@@ -85,7 +87,8 @@ static int expand_statement(model_reader *r)
 /* The number is the word behind the name, or that of the command line in its place. */
 static int read_let(model_reader *r)
 {
-    const char *word = expand_statement(r) ? model_name(r) : NULL, *other = word ? given(r, word) : NULL;
+    const char *word = expand_statement(r) ? model_name(r) : NULL,
+               *other = word ? given(r, word) : NULL;
     double x;
 
     if (!word || !model_is_new(r, &r->let_of, "let", word) || !model_look(r))
@@ -117,14 +120,16 @@ static int give_numbers(model_reader *r)
         char name[NAME_ROOM], text[200];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
         if (!strchr(r->let[k], '=') || model_find(&r->let_of, name) < 0)
-            return model_fail(r, (model_place){ r->path, 0 }, "-d %.60s: expected NAME=VALUE with a name of a `let`%s%s",
-                              r->let[k], r->let_of.count ? ", such as " : "; the model has none",
-                              model_nearest(name, (const void *)r->let_of.key, r->let_of.room, sizeof(char *), text));
+            return model_fail(r, (model_place){ r->path, 0 },
+                              "-d %.60s: expected NAME=VALUE with a name of a `let`%s%s", r->let[k],
+                              r->let_of.count ? ", such as " : "; the model has none",
+                              model_nearest(name, (const void *)r->let_of.key, r->let_of.room,
+                                            sizeof(char *), text));
     }
     return 1;
 }
 
-/* ------------------------------------------------------------------------- statements that need nothing */
+/* ----------------------------------------------------------------- statements that need nothing */
 
 static int read_title(model_reader *r)
 {
@@ -136,7 +141,8 @@ int model_add_node(model_reader *r, const model_node *n)
 {
     if (model_find(&r->node_of, n->id) >= 0)
         return model_fail(r, n->at, "node '%s' for the second time, expected a new one", n->id);
-    if (!model_grow(r, &r->node, r->nodes, sizeof *n) || !model_enter(r, &r->node_of, n->id, r->nodes))
+    if (!model_grow(r, &r->node, r->nodes, sizeof *n)
+        || !model_enter(r, &r->node_of, n->id, r->nodes))
         return 0;
     r->node[r->nodes++] = *n;
     return 1;
@@ -146,7 +152,8 @@ static int read_node(model_reader *r)
 {
     model_node n = { .id = model_id(r), .at = r->s->at, .by_hand = 1, .first = -1 };
 
-    return n.id && model_number(r, &n.x) && model_number(r, &n.y) && model_at_end(r) && model_add_node(r, &n);
+    return n.id && model_number(r, &n.x) && model_number(r, &n.y) && model_at_end(r)
+           && model_add_node(r, &n);
 }
 
 static int read_mesh(model_reader *r)
@@ -155,7 +162,8 @@ static int read_mesh(model_reader *r)
 
     if (!word || !model_at_end(r))
         return 0;
-    const size_t folder = slash && word[0] != '/' ? (size_t)(slash + 1 - r->path) : 0, length = strlen(word) + 1;
+    const size_t folder = slash && word[0] != '/' ? (size_t)(slash + 1 - r->path) : 0,
+                 length = strlen(word) + 1;
     char *path = model_text(r, folder + length);
     if (!path)
         return 0;
@@ -169,13 +177,15 @@ static int read_material(model_reader *r)
     const char *word = model_name(r);
     bbm_material m = { .thickness = 1 };
     model_option o[] = {
-        ABOVE_ZERO("E", &m.E), ABOVE_ZERO("density", &m.density), ABOVE_ZERO("thickness", &m.thickness),
-        { .name = "nu", .x = &m.nu, .low = -1, .high = 0.5, .rim = "()", .expected = "more than -1 and less than 0.5" },
+        ABOVE_ZERO("E", &m.E), ABOVE_ZERO("density", &m.density),
+        RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
+        ABOVE_ZERO("thickness", &m.thickness),
     };
 
-    o[0].needed = o[1].needed = o[3].needed = 1;
-    if (!word || !model_is_new(r, &r->material_of, "material", word) || !model_options(r, LENGTH(o), o)
-        || !model_grow(r, &r->material, r->materials, sizeof m) || !model_enter(r, &r->material_of, word, r->materials))
+    o[0].needed = o[1].needed = o[2].needed = 1;
+    if (!word || !model_is_new(r, &r->material_of, "material", word)
+        || !model_options(r, LENGTH(o), o) || !model_grow(r, &r->material, r->materials, sizeof m)
+        || !model_enter(r, &r->material_of, word, r->materials))
         return 0;
     r->material[r->materials++] = m;
     return 1;
@@ -187,7 +197,8 @@ static int read_shake(model_reader *r)
 {
     bbm_beyond *b = r->p->m->beyond;
 
-    return model_number(r, &b->shake[0]) && model_number(r, &b->shake[1]) && model_numbers(r, 1, &b->shake_omega);
+    return model_number(r, &b->shake[0]) && model_number(r, &b->shake[1])
+           && model_numbers(r, 1, &b->shake_omega);
 }
 
 static int read_plane(model_reader *r)
@@ -220,11 +231,12 @@ static int read_dynamic(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
     model_option o[] = {
-        ABOVE_ZERO("dt", &p->dt), FROM_ZERO("ramp", &r->p->ramp), COUNT("steps", &p->steps, 1), COUNT("settle", &r->p->settle, 0),
-        { .name = "damping", .x = &p->velocity_factor, .low = 0, .high = 1, .rim = "[]", .expected = "0 to 1" },
+        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
+        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
     };
 
-    o[0].needed = o[2].needed = 1;
+    o[0].needed = o[1].needed = 1;
     p->velocity_factor = 1;
     r->p->dynamic = 1;
     r->p->ramp = -1;
@@ -239,8 +251,9 @@ static int read_bond(model_reader *r)
     static const bbm_bonding bonding[] = { BBM_VERTICES, BBM_MIDPOINTS, BBM_MOMENT, BBM_MOMENT };
     bbm_beyond *b = r->p->m->beyond;
     int kind = 3;
-    model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha), COUNT("augment", &b->multiplier_rounds, 0),
-                   CHOICE("at", &kind, "vertices|midpoints|moment|auto") };
+    model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
+                         COUNT("augment", &b->multiplier_rounds, 0),
+                         CHOICE("at", &kind, "vertices|midpoints|moment|auto") };
 
     if (!model_options(r, LENGTH(o), o))
         return 0;
@@ -253,10 +266,8 @@ static int read_pcg(model_reader *r)
     bbm_pcg *p = &r->p->m->par.pcg;
     int coarse = 0;
     model_option o[] = {
-        { .name = "omega", .x = &p->omega, .low = 0, .high = 2, .rim = "()",
-          .expected = "more than 0 and less than 2" },
-        { .name = "tolerance", .x = &p->tolerance, .low = 0, .high = 1, .rim = "()",
-          .expected = "more than 0 and less than 1" },
+        RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
+        RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1"),
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 
@@ -290,7 +301,7 @@ static int read_output(model_reader *r)
     return 1;
 }
 
-/* ------------------------------------------------------------------------------ statements that need nodes */
+/* ------------------------------------------------------------------- statements that need nodes */
 
 int model_find_block(model_reader *r, const char *word, model_place at)
 {
@@ -298,7 +309,8 @@ int model_find_block(model_reader *r, const char *word, model_place at)
 
     if (found >= 0)
         return found;
-    if (!model_grow(r, &r->block, r->blocks, sizeof *r->block) || !model_enter(r, &r->block_of, word, r->blocks))
+    if (!model_grow(r, &r->block, r->blocks, sizeof *r->block)
+        || !model_enter(r, &r->block_of, word, r->blocks))
         return -1;
     r->block[r->blocks] = (model_block){ .name = word, .at = at, .material = -1 };
     return r->blocks++;
@@ -308,7 +320,8 @@ int model_add_element(model_reader *r, const model_element *e, const int corner[
 {
     if (model_find(&r->element_of, e->id) >= 0)
         return model_fail(r, e->at, "element '%s' for the second time, expected a new one", e->id);
-    if (!model_grow(r, &r->element, r->elements, sizeof *e) || !model_enter(r, &r->element_of, e->id, r->elements))
+    if (!model_grow(r, &r->element, r->elements, sizeof *e)
+        || !model_enter(r, &r->element_of, e->id, r->elements))
         return 0;
     r->element[r->elements] = *e;
     r->element[r->elements++].first = r->corners;
@@ -330,7 +343,8 @@ static int read_element(model_reader *r)
     e.n = r->s->n - r->next;
     if (e.n < 3)
         return model_fail(r, e.at, "element %s has %d nodes, expected 3 or more", e.id, e.n);
-    int *corner = model_room(r, e.n, sizeof *corner), good = corner && (e.block = model_find_block(r, block, e.at)) >= 0;
+    int *corner = model_room(r, e.n, sizeof *corner),
+        good = corner && (e.block = model_find_block(r, block, e.at)) >= 0;
     for (int k = 0; k < e.n && good; k++)
         good = (corner[k] = model_known(r, &r->node_of, "node", model_id(r))) >= 0;
     good = good && model_add_element(r, &e, corner);
@@ -344,7 +358,8 @@ int model_find_set(model_reader *r, const char *word)
 
     if (found >= 0)
         return found;
-    if (!model_grow(r, &r->set, r->sets, sizeof *r->set) || !model_enter(r, &r->set_of, word, r->sets))
+    if (!model_grow(r, &r->set, r->sets, sizeof *r->set)
+        || !model_enter(r, &r->set_of, word, r->sets))
         return -1;
     r->set[r->sets] = (model_set){ 0, NULL, 0 };
     return r->sets++;
@@ -360,7 +375,7 @@ int model_add_to_set(model_reader *r, int set, int node)
     return 1;
 }
 
-/* ------------------------------------------------------------------ blocks and grids with nodes of their own */
+/* ----------------------------------------------------- blocks and grids with nodes of their own */
 
 /* The largest id of those there are; they are whole numbers. */
 static int find_last(model_reader *r, int of_elements)
@@ -370,8 +385,10 @@ static int find_last(model_reader *r, int of_elements)
     for (int k = 0; k < n; k++) {
         const char *word = of_elements ? r->element[k].id : r->node[k].id;
         if (strlen(word) > 17)
-            return model_fail(r, r->s->at, "an id of %d digits, expected at most 17 where blocks are numbered on",
-                              (int)strlen(word));
+            return model_blame(r,
+                               "an id of %d digits, expected at most 17 where blocks are numbered "
+                               "on",
+                               (int)strlen(word));
         const long long value = strtoll(word, NULL, 10);
         if (value > r->last[of_elements])
             r->last[of_elements] = value;
@@ -392,7 +409,9 @@ static const char *next_id(model_reader *r, int of_elements)
 
 static int add_own_node(model_reader *r, double x, double y)
 {
-    const model_node n = { .id = next_id(r, 0), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1 };
+    const model_node n = {
+        .id = next_id(r, 0), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
+    };
 
     return n.id && model_add_node(r, &n);
 }
@@ -425,12 +444,14 @@ static int read_block(model_reader *r)
     int *corner = model_room(r, words, sizeof *corner);
     double xy[2] = { 0, 0 };
     for (int k = 0; k < words && good; k++) {
-        good = corner && model_number(r, &xy[k % 2]) && (k % 2 == 0 || add_own_node(r, xy[0], xy[1]));
+        good =
+            corner && model_number(r, &xy[k % 2]) && (k % 2 == 0 || add_own_node(r, xy[0], xy[1]));
         if (good)
             corner[k / 2] = r->nodes - 1;
     }
     if (good && (words < 6 || words % 2))
-        good = model_fail(r, r->s->at, "block '%s' has %d coordinates, expected X Y of 3 corners or more", word, words);
+        good = model_blame(r, "block '%s' has %d coordinates, expected X Y of 3 corners or more",
+                           word, words);
     good = good && add_own_element(r, block, material, words / 2, corner);
     free(corner);
     return good;
@@ -461,12 +482,15 @@ static int read_grid(model_reader *r)
     for (int k = 0; k < 4 && good; k++)
         good = block >= 0 && model_number(r, &p[k]);
     if (!good || !model_whole(r, "NX", 1, &n[0]) || !model_whole(r, "NY", 1, &n[1])
-        || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind)) || !model_at_end(r))
+        || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind))
+        || !model_at_end(r))
         return 0;
     if (!(p[0] < p[2] && p[1] < p[3]))
-        return model_fail(r, r->s->at, "a grid from %g %g to %g %g, expected X0 < X1 and Y0 < Y1", p[0], p[1], p[2], p[3]);
+        return model_blame(r, "a grid from %g %g to %g %g, expected X0 < X1 and Y0 < Y1", p[0],
+                           p[1], p[2], p[3]);
     if ((double)n[0] * n[1] > MOST_CELLS)
-        return model_fail(r, r->s->at, "a grid of %d x %d cells, expected at most %d", n[0], n[1], MOST_CELLS);
+        return model_blame(r, "a grid of %d x %d cells, expected at most %d", n[0], n[1],
+                           MOST_CELLS);
     for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && good; k++) {
         const double s = (double)(k % (n[0] + 1)) / n[0], t = (double)(k / (n[0] + 1)) / n[1];
         good = add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
@@ -475,7 +499,8 @@ static int read_grid(model_reader *r)
         const int a = first + k / n[0] * (n[0] + 1) + k % n[0], d = a + n[0] + 1;
         const int corner[5] = { a, a + 1, d + 1, d, r->nodes };
         if (kind == CASE_CROSSED)
-            good = add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2, (r->node[a].y + r->node[d + 1].y) / 2);
+            good = add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
+                                (r->node[a].y + r->node[d + 1].y) / 2);
         const int cells = case_cut_cell(kind, (k / n[0] + k % n[0]) % 2, corner, element, &corners);
         for (int c = 0; c < cells && good; c++)
             good = add_own_element(r, block, material, corners, element[c]);
@@ -486,7 +511,7 @@ static int read_grid(model_reader *r)
         && add_rim(r, word, "top", first + n[1] * (n[0] + 1), 1, n[0] + 1);
 }
 
-/* --------------------------------------------------------------------------- statements that need all nodes */
+/* --------------------------------------------------------------- statements that need all nodes */
 
 static int read_set(model_reader *r)
 {
@@ -494,8 +519,8 @@ static int read_set(model_reader *r)
 
     if (!word || !model_is_new(r, &r->set_of, "set", word))
         return 0;
-    if (!model_skip(r, "nodes"))
-        return model_look(r) ? model_wrong(r, "not the word nodes:", model_look(r)) : model_word(r) != NULL;
+    if (!model_keyword(r, "nodes"))
+        return 0;
     const int set = model_find_set(r, word);
     for (int good = set >= 0, first = 1; first || model_look(r); first = 0) {
         const int node = good ? model_known(r, &r->node_of, "node", model_id(r)) : -1;
@@ -512,17 +537,21 @@ static int read_use(model_reader *r)
 
     if (material < 0)
         return 0;
-    if (!model_skip(r, "on"))
-        return model_look(r) ? model_wrong(r, "not the word on:", model_look(r)) : model_word(r) != NULL;
+    if (!model_keyword(r, "on"))
+        return 0;
     const char *word = model_word(r);
-    const int star = word && strcmp(word, "*") == 0, block = star ? 0 : model_known(r, &r->block_of, "block", word);
+    const int star = word && strcmp(word, "*") == 0,
+              block = star ? 0 : model_known(r, &r->block_of, "block", word);
     if (block < 0 || !model_at_end(r))
         return 0;
     if (!star && !r->block[block].meshed)
-        return model_fail(r, r->s->at, "block '%s' has its material in its own statement, expected a block of a mesh", word);
+        return model_blame(r,
+                           "block '%s' has its material in its own statement, expected a block of "
+                           "a mesh",
+                           word);
     int *m = star ? &r->other_material : &r->block[block].material;
     if (*m >= 0)
-        return model_fail(r, r->s->at, "a material for '%s' for the second time, expected one", word);
+        return model_blame(r, "a material for '%s' for the second time, expected one", word);
     *m = material;
     return 1;
 }
@@ -534,16 +563,17 @@ static int read_fixblock(model_reader *r)
     if (block < 0 || !model_at_end(r))
         return 0;
     if (r->block[block].fixed)
-        return model_fail(r, r->s->at, "block '%s' is fixed for the second time, expected once", r->block[block].name);
+        return model_blame(r, "block '%s' is fixed for the second time, expected once",
+                           r->block[block].name);
     return r->block[block].fixed = 1;
 }
 
-/* ------------------------------------------------------------------------------------ what should come out */
+/* ------------------------------------------------------------------------- what should come out */
 
 static int read_expect(model_reader *r)
 {
     model *p = r->p;
-    model_expected e = { .line = r->s->at.line };
+    model_expected e = { 0 };
     const int monitor = model_known(r, &r->monitor_of, "monitor", model_word(r));
 
     if (monitor < 0 || !model_choice(r, "u|v|moves|stays", &e.kind))
@@ -552,9 +582,8 @@ static int read_expect(model_reader *r)
     const int value = e.kind == MODEL_U || e.kind == MODEL_V;
     if (value && !model_number(r, &e.value))
         return 0;
-    if (!model_skip(r, value ? "within" : "by"))
-        return model_look(r) ? model_wrong(r, value ? "not the word within:" : "not the word by:", model_look(r))
-                             : model_word(r) != NULL;
+    if (!model_keyword(r, value ? "within" : "by"))
+        return 0;
     char *last = model_look(r);
     const size_t n = last ? strlen(last) : 0;
     const int percent = value && n > 1 && last[n - 1] == '%';
@@ -563,18 +592,22 @@ static int read_expect(model_reader *r)
     if (!model_number(r, &e.within))
         return 0;
     if (e.within <= 0)
-        return model_fail(r, r->s->at, "a tolerance of %g, expected more than 0", e.within);
+        return model_blame(r, "a tolerance of %g, expected more than 0", e.within);
     if (value && (percent || model_skip(r, "%")) && (e.within *= fabs(e.value) / 100) <= 0)
-        return model_fail(r, r->s->at, "a tolerance in %% of 0, expected one in metre");
+        return model_blame(r, "a tolerance in %% of 0, expected one in metre");
     if (!model_at_end(r) || !model_grow(r, &p->expected, p->expectations, sizeof e))
         return 0;
     p->expected[p->expectations++] = e;
     return 1;
 }
 
-/* ---------------------------------------------------------------------------------------------- the table */
+/* ------------------------------------------------------------------------------------ the table */
 
-static const struct kind { const char *name, *form; int (*read)(model_reader *r); int phase, once; } kinds[] = {
+static const struct kind {
+    const char *name, *form;
+    int (*read)(model_reader *r);
+    int phase, once;
+} kinds[] = {
     { "let", "let NAME VALUE", read_let, NUMBERS, 0 },
     { "title", "title TEXT", read_title, NOTHING_NEEDED, 1 },
     { "node", "node ID X Y", read_node, NOTHING_NEEDED, 0 },
@@ -584,7 +617,8 @@ static const struct kind { const char *name, *form; int (*read)(model_reader *r)
     { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, 1 },
     { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, 1 },
     { "shake", "shake AX AY OMEGA", read_shake, NOTHING_NEEDED, 1 },
-    { "contact", "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
+    { "contact",
+      "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
       read_contact, NOTHING_NEEDED, 1 },
     { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
     { "dynamic", "dynamic dt VALUE steps N [damping VALUE] [settle N] [ramp T]", read_dynamic,
@@ -598,12 +632,13 @@ static const struct kind { const char *name, *form; int (*read)(model_reader *r)
       read_output, NOTHING_NEEDED, 1 },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
-    { "grid", "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE, 0 },
+    { "grid", "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE,
+      0 },
     { "set", "set NAME nodes ID ID ...", read_set, ALL_NODES, 0 },
     { "use", "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
     { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
-    { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]", model_joint,
-      MODEL, 0 },
+    { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
+      model_joint, MODEL, 0 },
     { "fix", "fix WHERE [x [by U]] [y [by V]]", model_fix, MODEL, 0 },
     { "load", "load WHERE FX FY", model_load_nodes, MODEL, 0 },
     { "traction", "traction WHERE TX TY", model_traction, MODEL, 0 },
@@ -612,7 +647,8 @@ static const struct kind { const char *name, *form; int (*read)(model_reader *r)
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
     { "stress", "stress BLOCK SXX SYY SXY", model_stress, MODEL, 0 },
     { "monitor", "monitor NAME WHERE", model_monitors, MODEL, 0 },
-    { "expect", "expect NAME u|v VALUE within TOLERANCE [%], or expect NAME moves|stays by TOLERANCE",
+    { "expect",
+      "expect NAME u|v VALUE within TOLERANCE [%], or expect NAME moves|stays by TOLERANCE",
       read_expect, MONITORS, 0 },
 };
 
@@ -639,7 +675,8 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
                           model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text));
     }
     if (kinds[k].once && r->seen[k].line > 0)
-        return model_fail(r, at, "%s for the second time, after line %d, expected it once", word, r->seen[k].line);
+        return model_fail(r, at, "%s for the second time, after line %d, expected it once", word,
+                          r->seen[k].line);
     r->seen[k] = at;
     if (!model_grow(r, &r->statement, r->statements, sizeof *r->statement))
         return 0;
@@ -674,7 +711,7 @@ static int cut_file(model_reader *r, char *text, size_t size)
     char *end = text + size;
     model_place at = { r->path, 1 };
 
-    if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)      /* the mark of UTF-8 that some editors write */
+    if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)     /* UTF-8's mark of some editors */
         text += 3;
     for (char *next; text < end; text = next, at.line++) {
         char *stop = memchr(text, '\n', (size_t)(end - text));
@@ -715,16 +752,18 @@ static int check_kind(model_reader *r)
     const model_place *s = place_of(r, read_static), *d = place_of(r, read_dynamic);
 
     if (s->line && d->line)
-        return model_fail(r, s->line > d->line ? *s : *d, "static and dynamic, expected one of them");
+        return model_fail(r, s->line > d->line ? *s : *d,
+                          "static and dynamic, expected one of them");
     if (!s->line && !d->line)
-        return model_fail(r, (model_place){ r->path, 0 }, "neither static nor dynamic, expected one of them");
+        return model_fail(r, (model_place){ r->path, 0 },
+                          "neither static nor dynamic, expected one of them");
     return 1;
 }
 
 static void free_reader(model_reader *r)
 {
-    model_table *table[] = { &r->node_of, &r->element_of, &r->block_of, &r->material_of, &r->set_of, &r->monitor_of,
-                             &r->let_of };
+    model_table *table[] = { &r->node_of, &r->element_of, &r->block_of, &r->material_of,
+                             &r->set_of,  &r->monitor_of, &r->let_of };
 
     for (int k = 0; k < LENGTH(table); k++) {
         free(table[k]->value);
@@ -732,7 +771,8 @@ static void free_reader(model_reader *r)
     }
     for (int k = 0; k < r->sets; k++)
         free(r->set[k].node);
-    free(r->word), free(r->statement), free(r->node), free(r->element), free(r->corner), free(r->block);
+    free(r->word), free(r->statement), free(r->node), free(r->element), free(r->corner),
+        free(r->block);
     free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
 }
 
@@ -813,7 +853,9 @@ int model_start(model *p)
     for (int e = 0; e < m->elements && sum; e++) {
         bbm_element *i = &m->element[e];
         const double *v = p->velocity[i->block].V, *s = sum[i->block];
-        const double V[6] = { v[0] - v[2] * (i->y - s[1] / s[2]), v[1] + v[2] * (i->x - s[0] / s[2]), v[2], 0, 0, 0 };
+        const double V[6] = {
+            v[0] - v[2] * (i->y - s[1] / s[2]), v[1] + v[2] * (i->x - s[0] / s[2]), v[2], 0, 0, 0
+        };
         memcpy(i->V, V, sizeof V);
     }
     free(sum);
@@ -827,7 +869,8 @@ void model_free(model *p)
         free(p->text[k]);
     for (int k = 0; k < p->monitors; k++)
         free(p->monitor[k].node);
-    free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block), free((void *)p->element);
+    free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
+        free((void *)p->element);
     free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->wall);
     *p = (model){ 0 };
 }

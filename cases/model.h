@@ -1,8 +1,10 @@
-/* model.h - a problem read from a model file: ten lines of text, or a mesh from Gmsh, in place of a program.
+/* model.h - a problem read from a model file: ten lines of text, or a mesh from Gmsh, in place of
+ * a program.
  *
- * model_read gives the prepared library model and what the library does not keep: names, pictures wanted, monitors.
- * A node of the file that several blocks share becomes a node of each of them, for blocks are never bonded and each has
- * its own results there. These copies are the nodes of the library's model, in the order of the file.
+ * model_read gives the prepared library model and what the library does not keep: names, pictures
+ * wanted, monitors. A node of the file that several blocks share becomes a node of each of them,
+ * for blocks are never bonded and each has its own results there. These copies are the nodes of
+ * the library's model, in the order of the file.
  *
  * reader.h has what the readers of the files share.
  */
@@ -11,46 +13,46 @@
 
 #include "../beyond/beyond.h"
 
-typedef struct { const char *name; int nodes, *node; } model_monitor;      /* the mean of u, v over library nodes   */
-typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s                       */
-typedef struct { int monitor, kind; double value, within; int line; } model_expected;  /* of a monitor at the end   */
+typedef struct { const char *name; int nodes, *node; } model_monitor;   /* of library nodes */
+typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s */
+typedef struct { int monitor, kind; double value, within; } model_expected;     /* at the end */
 
-enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                       /* kinds of what is expected             */
+enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                 /* kinds of what is expected */
 
 typedef struct {
     bbm_model *m;
-    char  *title;               /* or NULL                                                                      */
-    int    dynamic, settle;     /* quasi-static steps before t = 0                                              */
-    int    every, vtk, svg;     /* every: 0, the end only                                                       */
-    const char *field;          /* of the picture: mises, sxx, syy, sxy, s1, s2, u or v                         */
-    double scale;               /* by which it enlarges displacements; 0: as the picture chooses                */
-    int    slippery;            /* several blocks, which may touch, and no friction given                       */
+    char  *title;               /* or NULL */
+    int    dynamic, settle;     /* quasi-static steps before t = 0 */
+    int    every, vtk, svg;     /* every: 0, the end only */
+    const char *field;          /* of the picture: mises, sxx, syy, sxy, s1, s2, u or v */
+    double scale;               /* by which it enlarges displacements; 0: as the picture chooses */
+    int    slippery;            /* several blocks, which may touch, and no friction given */
     int    blocks, monitors;
-    const char **block;         /* [blocks]     names                                                           */
-    const char **node;          /* [m->nodes]   ids                                                             */
-    int   *node_block;          /* [m->nodes]                                                                   */
-    const char **element;       /* [m->elements] ids                                                            */
-    double (*centre)[2];        /* [m->elements] m, barycentres at the start                                    */
-    model_velocity *velocity;   /* [blocks]     initial                                                         */
-    model_monitor *monitor;     /* [monitors]                                                                   */
+    const char **block;         /* [blocks]     names */
+    const char **node;          /* [m->nodes]   ids */
+    int   *node_block;          /* [m->nodes] */
+    const char **element;       /* [m->elements] ids */
+    double (*centre)[2];        /* [m->elements] m, barycentres at the start */
+    model_velocity *velocity;   /* [blocks]     initial */
+    model_monitor *monitor;     /* [monitors] */
     int    expectations;
-    model_expected *expected;   /* [expectations] value and within: m                                           */
-    int    moving;              /* supports: whether any moves                                                  */
-    double (*wall)[2];          /* [m->nodes]   m, where it moves to                                            */
-    double ramp;                /* s            in which; 0: at once                                            */
+    model_expected *expected;   /* [expectations] value and within: m */
+    int    moving;              /* supports: whether any moves */
+    double (*wall)[2];          /* [m->nodes]   m, where it moves to */
+    double ramp;                /* s            in which; 0: at once */
     int    texts;
-    char **text;                /* [texts]      the files read: names and ids are words of them                 */
-    int    status;              /* 0, 1: failed, 2: the input is wrong                                          */
+    char **text;                /* [texts]      the files read: names and ids are words of them */
+    int    status;              /* 0, 1: failed, 2: the input is wrong */
     char   message[600];
 } model;
 
-/* Reads and checks all; returns the status. `path` may be -, which is stdin. let: `NAME=VALUE` in place of what the
- * file says, [lets]. model_free releases a model that failed, too. */
+/* Reads and checks all; returns the status. `path` may be -, which is stdin. let: `NAME=VALUE` in
+ * place of what the file says, [lets]. model_free releases a model that failed, too. */
 int  model_read(const char *path, int lets, char *const let[], model *p);
-double model_mises(const bbm_model *m, int element);                       /* Pa                                    */
-int  model_start(model *p);     /* sets the initial velocities; 0: no memory                                    */
-void model_move_supports(model *p, double t);                               /* to where they are at the time t       */
-void model_place_of(const model *p, const model_monitor *m, double u[2]);   /* m, displacement of a monitor          */
+double model_mises(const bbm_model *m, int element);                       /* Pa */
+int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
+void model_move_supports(model *p, double t);                  /* to where they are at the time t */
+void model_place_of(const model *p, const model_monitor *m, double u[2]);   /* m, displaced */
 void model_free(model *p);
 
 #endif

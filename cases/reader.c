@@ -1,6 +1,5 @@
-/* reader.c - what the readers of files share: errors, memory, tables of names, and the words, numbers
- * and options of a statement.
- */
+/* reader.c - what the readers of files share: errors, memory, tables of names, and the words,
+ * numbers and options of a statement. */
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
@@ -14,25 +13,45 @@
 
 enum { LARGEST = 1 << 28 };     /* bytes of a file: a longer one, or one without end, is no model */
 
-/* ------------------------------------------------------------------------------------- errors, memory, words */
+/* ------------------------------------------------------------------------ errors, memory, words */
 
-int model_fail(model_reader *r, model_place at, const char *format, ...)
+/* The first error stays. */
+static int note(model_reader *r, model_place at, const char *format, va_list args)
 {
     char *message = r->p->message;
-    const int room = (int)sizeof r->p->message;
-    va_list args;
+    const size_t room = sizeof r->p->message;
 
     if (r->p->status)
         return 0;
     r->p->status = 2;
-    int used = at.line > 0 ? snprintf(message, (size_t)room, "%.200s:%d: ", at.file, at.line)
-                           : snprintf(message, (size_t)room, "%.200s: ", at.file);
-    va_start(args, format);
-    vsnprintf(message + used, (size_t)(room - used), format, args);
-    va_end(args);
+    size_t used = (size_t)snprintf(message, room, "%.200s:", at.file);
+    if (at.line > 0)
+        used += (size_t)snprintf(message + used, room - used, "%d:", at.line);
+    message[used++] = ' ';
+    vsnprintf(message + used, room - used, format, args);
     for (char *c = message; *c; c++)
         if (iscntrl((unsigned char)*c))
             *c = '?';
+    return 0;
+}
+
+int model_fail(model_reader *r, model_place at, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    note(r, at, format, args);
+    va_end(args);
+    return 0;
+}
+
+int model_blame(model_reader *r, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    note(r, r->s->at, format, args);
+    va_end(args);
     return 0;
 }
 
@@ -112,7 +131,8 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
 {
     if (2 * t->count >= t->room) {
         const int room = t->room ? 2 * t->room : 64;
-        model_table larger = { room, t->count, model_room(r, room, sizeof(int)), model_room(r, room, sizeof(char *)) };
+        model_table larger = { room, t->count, model_room(r, room, sizeof(int)),
+                               model_room(r, room, sizeof(char *)) };
         for (int k = 0; k < t->room && larger.value && larger.key; k++)
             if (t->key[k]) {
                 const int to = place_of(&larger, t->key[k]);
@@ -181,7 +201,8 @@ static int distance(const char *a, const char *b)
     for (int i = 0; i < MOST && a[i]; i++) {
         int diagonal = row[0]++;
         for (int k = 0; k < n; k++) {
-            const int change = diagonal + (tolower((unsigned char)a[i]) != tolower((unsigned char)b[k]));
+            const int change =
+                diagonal + (tolower((unsigned char)a[i]) != tolower((unsigned char)b[k]));
             diagonal = row[k + 1];
             const int other = (row[k] < diagonal ? row[k] : diagonal) + 1;
             row[k + 1] = change < other ? change : other;
@@ -199,7 +220,9 @@ const char *model_nearest(const char *word, const void *names, int n, size_t str
         const char *const name = *(const char *const *)((const char *)names + (size_t)k * stride);
         int at = 3;
         const int far = name ? distance(word, name) : INT_MAX;
-        for (; at > 0 && name && (far < d[at - 1] || (far == d[at - 1] && strcmp(name, found[at - 1]) < 0)); at--)
+        for (; at > 0 && name
+               && (far < d[at - 1] || (far == d[at - 1] && strcmp(name, found[at - 1]) < 0));
+             at--)
             if (at < 3)
                 found[at] = found[at - 1], d[at] = d[at - 1];
         if (at < 3)
@@ -216,9 +239,10 @@ int model_unknown(model_reader *r, const model_table *t, const char *what, const
     char text[200];
 
     if (t->count == 0)
-        return model_fail(r, r->s->at, "unknown %s '%.60s': the model has none", what, word);
-    return model_fail(r, r->s->at, "unknown %s '%.60s', expected one that the model has, such as %s", what, word,
-                      model_nearest(word, (const void *)t->key, t->room, sizeof *t->key, text));
+        return model_blame(r, "unknown %s '%.60s': the model has none", what, word);
+    return model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", what,
+                       word,
+                       model_nearest(word, (const void *)t->key, t->room, sizeof *t->key, text));
 }
 
 int model_is_name(const char *word)
@@ -228,7 +252,7 @@ int model_is_name(const char *word)
 
 int model_wrong(model_reader *r, const char *what, const char *word)
 {
-    return model_fail(r, r->s->at, "%s '%.60s', expected: %s", what, word, model_form(r->s));
+    return model_blame(r, "%s '%.60s', expected: %s", what, word, model_form(r->s));
 }
 
 /* The word that comes next stays; NULL at the end. */
@@ -244,7 +268,7 @@ char *model_word(model_reader *r)
     if (word)
         r->next++;
     else
-        model_fail(r, r->s->at, "a word is missing, expected: %s", model_form(r->s));
+        model_blame(r, "a word is missing, expected: %s", model_form(r->s));
     return word;
 }
 
@@ -255,6 +279,15 @@ int model_skip(model_reader *r, const char *word)
 
     r->next += there;
     return there;
+}
+
+int model_keyword(model_reader *r, const char *word)
+{
+    if (model_skip(r, word))
+        return 1;
+    return model_look(r) ? model_blame(r, "not the word %s: '%.60s', expected: %s", word,
+                                       model_look(r), model_form(r->s))
+                         : model_word(r) != NULL;
 }
 
 int model_at_end(model_reader *r)
@@ -296,7 +329,7 @@ int model_whole(model_reader *r, const char *what, int least, int *n)
     if (*end != '\0' || end == word)
         return model_wrong(r, "not a whole number:", word);
     if (value < least)
-        return model_fail(r, r->s->at, "%s is %ld, expected a whole number, %d or more", what, value, least);
+        return model_blame(r, "%s is %ld, expected a whole number, %d or more", what, value, least);
     if (errno || value > INT_MAX / 2)
         return model_wrong(r, "too large:", word);
     *n = (int)value;
@@ -342,11 +375,11 @@ int model_next_block(model_reader *r)
 int model_is_new(model_reader *r, const model_table *t, const char *what, const char *word)
 {
     if (model_find(t, word) >= 0)
-        return model_fail(r, r->s->at, "%s '%.60s' for the second time, expected a new one", what, word);
+        return model_blame(r, "%s '%.60s' for the second time, expected a new one", what, word);
     return 1;
 }
 
-/* ------------------------------------------------------------------------------------------------- options */
+/* -------------------------------------------------------------------------------------- options */
 
 int model_choice(model_reader *r, const char *choices, int *n)
 {
@@ -359,21 +392,22 @@ int model_choice(model_reader *r, const char *choices, int *n)
         if (strncmp(c, word, length) == 0 && (c[length] == '|' || c[length] == '\0'))
             return 1;
     }
-    return word ? model_fail(r, r->s->at, "'%.60s', expected one of %s", word, choices) : 0;
+    return word ? model_blame(r, "'%.60s', expected one of %s", word, choices) : 0;
 }
 
 static int in_range(model_reader *r, const model_option *o)
 {
     const double x = *o->x;
-    const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low) && (o->rim[1] == ']' ? x <= o->high : x < o->high);
+    const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
+                     && (o->rim[1] == ']' ? x <= o->high : x < o->high);
 
-    return good ? 1 : model_fail(r, r->s->at, "%s is %g, expected %s", o->name, x, o->expected);
+    return good ? 1 : model_blame(r, "%s is %g, expected %s", o->name, x, o->expected);
 }
 
 static int option_value(model_reader *r, model_option *o)
 {
     if (o->seen)
-        return model_fail(r, r->s->at, "%s for the second time, expected: %s", o->name, model_form(r->s));
+        return model_blame(r, "%s for the second time, expected: %s", o->name, model_form(r->s));
     o->seen = 1;
     if (o->flag)
         return *o->flag = 1;
@@ -397,6 +431,6 @@ int model_options(model_reader *r, int n, model_option o[])
     }
     for (int k = 0; k < n; k++)
         if (o[k].needed && !o[k].seen)
-            return model_fail(r, r->s->at, "%s is missing, expected: %s", o[k].name, model_form(r->s));
+            return model_blame(r, "%s is missing, expected: %s", o[k].name, model_form(r->s));
     return 1;
 }

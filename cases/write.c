@@ -1,5 +1,6 @@
-/* write.c - results as files. Every number has 15 significant digits, those of K and F 17, with which a double comes
- * back as it was. Nodes are those of the library's model: a node of the file for each block that has it. */
+/* write.c - results as files. Every number has 15 significant digits, those of K and F 17, with
+ * which a double comes back as it was. Nodes are those of the library's model: a node of the
+ * file for each block that has it. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <errno.h>
@@ -13,12 +14,13 @@
 
 enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */
 
-/* ------------------------------------------------------------------------------------------------------ files */
+/* ---------------------------------------------------------------------------------------- files */
 
 static int fail(write_results *w, const char *path, const char *why)
 {
     if (w->begun)
-        fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step, path, why);
+        fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step,
+                path, why);
     else
         fprintf(stderr, "%s: %s cannot be written: %s\n", w->source, path, why);
     w->status = 1;
@@ -41,7 +43,7 @@ static int close_file(write_results *w, output *f)
     return output_close(f) ? 1 : fail(w, f->path, strerror(errno));
 }
 
-/* ----------------------------------------------------------------------------------------------------- tables */
+/* --------------------------------------------------------------------------------------- tables */
 
 static void put_numbers(FILE *f, int n, const double x[])
 {
@@ -67,7 +69,8 @@ static void put_nodes(FILE *f, const model *p)
 /* In dynamics with the velocity of the barycentre that the last step hands on. */
 static void put_elements(FILE *f, const model *p)
 {
-    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises%s\n", p->dynamic ? ",vx,vy,spin" : "");
+    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises%s\n",
+            p->dynamic ? ",vx,vy,spin" : "");
     for (int e = 0; e < p->m->elements; e++) {
         const bbm_element *i = &p->m->element[e];
         const double mises = model_mises(p->m, e);
@@ -140,9 +143,10 @@ static void put_summary(const write_results *w, int step)
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
-    fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes, i->iterations,
-            i->pcg.residual, i->contacts);
-    put_numbers(w->summary.file, 5, (double[]){ e.kinetic, e.elastic, e.springs, b->work, b->gained });
+    fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes,
+            i->iterations, i->pcg.residual, i->contacts);
+    put_numbers(w->summary.file, 5,
+                (double[]){ e.kinetic, e.elastic, e.springs, b->work, b->gained });
     fputc('\n', w->summary.file);
 }
 
@@ -152,12 +156,15 @@ static void put_timing(FILE *f, const write_results *w)
 {
     const double *s = w->p->m->info.seconds;
 
-    fprintf(f, "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\niterate,%.15g\n",
-            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION], s[BBM_ITERATE]);
+    fprintf(f,
+            "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\niterate,%"
+            ".15g\n",
+            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION],
+            s[BBM_ITERATE]);
     fprintf(f, "write,%.15g\ntotal,%.15g\n", seconds(w->writing), seconds(clock() - w->start));
 }
 
-/* -------------------------------------------------------------------------------------------------------- VTK */
+/* ------------------------------------------------------------------------------------------ VTK */
 
 /* Of an element: sxx, syy, sxy, von Mises, the larger and the smaller principal stress. */
 static void find_stresses(const bbm_model *m, int e, double value[6])
@@ -185,13 +192,15 @@ static void put_cells(FILE *f, const bbm_model *m)
         fprintf(f, "%d\n", m->element[e].n == 3 ? 5 : m->element[e].n == 4 ? 9 : 7);
 }
 
-/* Legacy VTK, ASCII: points where they started, with the displacement as a vector to warp by; cells with stress. */
+/* Legacy VTK, ASCII: points where they started, with the displacement as a vector to warp by;
+ * cells with stress. */
 static void put_vtk(FILE *f, const model *p, double t)
 {
     const bbm_model *m = p->m;
     static const char *const name[] = { "sxx", "syy", "sxy", "mises", "s1", "s2" };
 
-    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET UNSTRUCTURED_GRID\n", p->title ? p->title : "bbm");
+    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET UNSTRUCTURED_GRID\n",
+            p->title ? p->title : "bbm");
     fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, m->nodes);
     for (int n = 0; n < m->nodes; n++)
         fprintf(f, "%.15g %.15g 0\n", m->node[n].x, m->node[n].y);
@@ -219,7 +228,8 @@ static void put_vtk(FILE *f, const model *p, double t)
 static void put_force(FILE *f, const bbm_model *m, const bbm_contact *c, int shear)
 {
     const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l,
+                 y = (P3->y - P2->y) / l;
 
     if (shear)
         fprintf(f, "%.15g %.15g 0\n", -c->T * x, -c->T * y);
@@ -233,7 +243,8 @@ static void put_vtk_contacts(FILE *f, const model *p, double t)
     const bbm_model *m = p->m;
     const int n = m->info.contacts;
 
-    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET POLYDATA\n", p->title ? p->title : "bbm");
+    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET POLYDATA\n",
+            p->title ? p->title : "bbm");
     fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, n);
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)
@@ -256,8 +267,12 @@ static void put_vtk_contacts(FILE *f, const model *p, double t)
 
 static int write_vtk(write_results *w, int step)
 {
-    static const struct { const char *form; void (*put)(FILE *f, const model *p, double t); } part[] = {
-        { "step_%06d.vtk", put_vtk }, { "contacts_%06d.vtk", put_vtk_contacts },
+    static const struct {
+        const char *form;
+        void (*put)(FILE *f, const model *p, double t);
+    } part[] = {
+        { "step_%06d.vtk", put_vtk },
+        { "contacts_%06d.vtk", put_vtk_contacts },
     };
     int good = 1;
 
@@ -274,7 +289,7 @@ static int write_vtk(write_results *w, int step)
     return good;
 }
 
-/* --------------------------------------------------------------------------------------------------- pictures */
+/* ------------------------------------------------------------------------------------- pictures */
 
 /* A picture that cannot be made costs no results. */
 static void draw_pictures(write_results *w)
@@ -282,21 +297,22 @@ static void draw_pictures(write_results *w)
     const bbm_model *m = w->p->m;
     const double now = m->info.t;
     scene end = { .title = w->p->title };
-    plot_map map = { .title = w->p->title, .magnify = w->p->dynamic ? 1 : 0 };     /* 0: a static one is magnified */
+    /* A static one is magnified, 0. */
+    plot_map map = { .title = w->p->title, .magnify = w->p->dynamic ? 1 : 0 };
     char path[LONGEST];
 
     case_record(&end, m);
     if (!scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now))
         fail(w, path, strerror(errno));
     scene_free(&end);
-    if (w->p->dynamic && (w->film.frames > 0 || w->film.failed))    /* neither: the start has failed */
+    if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
         if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
             fail(w, path, strerror(errno));
     if (!case_write_map(path_of(w, "mises.svg", path), m, "svm", &map))
         fail(w, path, strerror(errno));
 }
 
-/* ---------------------------------------------------------------------------------------------- Matrix Market */
+/* -------------------------------------------------------------------------------- Matrix Market */
 
 static int compare_pairs(const void *p, const void *q)
 {
@@ -305,8 +321,8 @@ static int compare_pairs(const void *p, const void *q)
     return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and contacts. Returns their
- * number. */
+/* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and
+ * contacts. Returns their number. */
 static int list_blocks(const bbm_model *m, int (*pair)[2])
 {
     int n = 0;
@@ -327,8 +343,8 @@ static int list_blocks(const bbm_model *m, int (*pair)[2])
 
 static void put_matrix(FILE *f, const bbm_model *m, int blocks, int (*pair)[2])
 {
-    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * m->elements, 6 * m->elements,
-            36LL * (blocks - m->elements) + 21LL * m->elements);
+    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * m->elements,
+            6 * m->elements, 36LL * (blocks - m->elements) + 21LL * m->elements);
     for (int k = 0; k < blocks; k++) {
         const int i = pair[k][0], j = pair[k][1];
         double B[6][6];
@@ -367,16 +383,21 @@ void write_matrix(write_results *w)
     w->writing += clock() - start;
 }
 
-/* ------------------------------------------------------------------------------------------------- the run */
+/* -------------------------------------------------------------------------------------- the run */
 
-/* The length of a name that a run writes, without the ending of a temporary file; 0: it is another one. */
+/* The length of a name that a run writes, without the ending of a temporary file; 0: it is
+ * another one. */
 static size_t is_ours(const char *name, long *process)
 {
-    static const char *const all[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv",
-                                       "contacts.svg", "movie.svg", "mises.svg", "contacts.csv", "reactions.csv",
-                                       "model.svg" };
-    const size_t temporary = output_is_temporary(name, process), n = temporary ? temporary : strlen(name);
-    const size_t start = strncmp(name, "step_", 5) == 0 ? 5 : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
+    static const char *const all[] = { "nodes.csv",     "elements.csv", "history.csv",
+                                       "summary.csv",   "timing.csv",   "contacts.svg",
+                                       "movie.svg",     "mises.svg",    "contacts.csv",
+                                       "reactions.csv", "model.svg" };
+    const size_t temporary = output_is_temporary(name, process),
+                 n = temporary ? temporary : strlen(name);
+    const size_t start = strncmp(name, "step_", 5) == 0       ? 5
+                         : strncmp(name, "contacts_", 9) == 0 ? 9
+                                                              : 0;
     const size_t digits = start ? strspn(name + start, "0123456789") : 0;
 
     if (!temporary)
@@ -389,8 +410,9 @@ static size_t is_ours(const char *name, long *process)
     return 0;
 }
 
-/* Looks through the folder: whether another run writes there (some systems do not let its files be removed, others can
- * tell); then removes what an earlier one left, so that all that stands there is of one run. */
+/* Looks through the folder: whether another run writes there (some systems do not let its files
+ * be removed, others can tell); then removes what an earlier one left, so that all that stands
+ * there is of one run. */
 static int empty_folder(write_results *w)
 {
     char path[LONGEST], why[100];
@@ -405,7 +427,8 @@ static int empty_folder(write_results *w)
             if (!is_ours(entry->d_name, &process) || stat(path_of(w, entry->d_name, path), &what)
                 || !S_ISREG(what.st_mode))
                 continue;
-            snprintf(why, sizeof why, "process %ld writes there; another folder may be given with -o", process);
+            snprintf(why, sizeof why,
+                     "process %ld writes there; another folder may be given with -o", process);
             if (process > 0 && (output_is_alive(process) || remove(path)))
                 fail(w, path, why);
             else if (process == 0 && pass == 1 && remove(path))
@@ -424,8 +447,9 @@ static int open_folder(write_results *w)
     if ((size_t)snprintf(path, sizeof path, "%s/contacts_2147483647.vtk", w->folder) >= sizeof path)
         return fail(w, w->folder, strerror(ENAMETOOLONG));
     if (!output_make_folder(w->folder))
-        return fail(w, w->folder, errno == EEXIST ? "it is there and no folder; another one may be given with -o"
-                                                  : strerror(errno));
+        return fail(w, w->folder,
+                    errno == EEXIST ? "it is there and no folder; another one may be given with -o"
+                                    : strerror(errno));
     return 1;
 }
 
@@ -447,7 +471,8 @@ int write_open(write_results *w)
 {
     char path[LONGEST];
 
-    if (!open_folder(w) || !empty_folder(w) || !open_file(w, &w->history, path_of(w, "history.csv", path)))
+    if (!open_folder(w) || !empty_folder(w)
+        || !open_file(w, &w->history, path_of(w, "history.csv", path)))
         return 0;
     w->begun = 1;
     if (!open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
@@ -458,7 +483,8 @@ int write_open(write_results *w)
     for (int k = 0; k < w->p->monitors; k++)
         fprintf(w->history.file, ",%s_u,%s_v", w->p->monitor[k].name, w->p->monitor[k].name);
     fprintf(w->history.file, "\n");
-    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,external,gained\n");
+    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,"
+                             "springs,external,gained\n");
     w->film.title = w->p->title;
     return 1;
 }
@@ -486,8 +512,11 @@ int write_close(write_results *w)
 {
     const clock_t start = clock();
     const model *p = w->p;
-    const struct { const char *name; void (*put)(FILE *f, const model *p); } table[] = {
-        { "nodes.csv", put_nodes }, { "elements.csv", put_elements }, { "contacts.csv", put_contacts },
+    const struct { const char *name; void (*put)(FILE *f, const model *p);
+    } table[] = {
+        { "nodes.csv", put_nodes },
+        { "elements.csv", put_elements },
+        { "contacts.csv", put_contacts },
         { "reactions.csv", put_reactions },
     };
     output f;
