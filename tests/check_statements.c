@@ -130,6 +130,24 @@ START_TEST(the_shipped_dam_stands_against_its_water)
 }
 END_TEST
 
+START_TEST(reactions_balance_forces_and_moments_however_elements_are_bonded)
+{
+    static const char *const cut[] = { "quads", "triangles", "crossed" };
+    char text[LONG], said[LONG];
+
+    snprintf(text, sizeof text, ROCK "grid a rock 0 0 4 1 6 2 %s\nfix set a.left\nfix at 4 0 y\n"
+             "load at 4 1 2e5 -1e5\ngravity 0 -10\nbond at %s\n%s\n", cut[_i % 3],
+             _i < 6 ? "moment" : "vertices", _i / 3 % 2 ? "static" : "dynamic dt 0.01 steps 400 damping 0.9");
+    ck_assert_int_eq(run_text("held", text), 0);
+    ck_relative(sum("held", "reactions.csv", "fx", ""), -2e5, 1e-5);
+    ck_relative(sum("held", "reactions.csv", "fy", ""), 1e5 + 1e5, 1e-5);
+    /* About the origin: the load, and the weight of 100 kN at x = 2 m. */
+    ck_assert_int_eq(shell("awk -F, 'NR > 1 { m += $2 * $5 - $3 * $4 } END { printf \"%%.15g\", m }' "
+                           "out/model/held/reactions.csv > out/model/sum"), 0);
+    ck_relative(strtod(slurp("out/model/sum", said), NULL), 4 * 1e5 + 1 * 2e5 + 2 * 1e5, 1e-3);
+}
+END_TEST
+
 /* A bar between two walls, one of which moves; slowly, so that the middle follows. */
 static const char *const pulled[] = { "static", "static steps 3",
                                       "dynamic dt 0.001 steps 1000 ramp 0.8" };
@@ -466,6 +484,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_thick_walled_tube_widens_as_lame_says, 0, 2);
     tcase_add_loop_test(t, a_dam_carries_the_force_of_the_water_to_its_base, 0, 4);
     tcase_add_test(t, the_shipped_dam_stands_against_its_water);
+    tcase_add_loop_test(t, reactions_balance_forces_and_moments_however_elements_are_bonded, 0, 12);
     tcase_add_loop_test(t, a_support_that_moves_pulls_its_bar, 0, 3);
     tcase_add_test(t, a_support_that_moves_carries_its_block_along);
     tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
