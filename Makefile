@@ -25,7 +25,8 @@ SHARED   = $(COMMON) beyond
 READER   = build model msh reader
 PROGRAM  = bbm write $(READER)
 TORTURE  = scenes ledger trial
-PROGRAMS = check_cases check_model check_statements check_moving check_files programs check_scenes $(TORTURE)
+PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures programs \
+           check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \

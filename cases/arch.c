@@ -203,19 +203,15 @@ static double thrust_radius(const bbm_model *m, int k)
 /* An arch with the line through those points, below `top` pixels. */
 static void draw_thrust(plot *p, double top, const bbm_model *m, const char *title)
 {
-    double x[4 * N + 8], y[4 * N + 8];
-    int first[N + 3], corner[4 * N + 8];
-    const plot_map map = { .title = title, .mesh = { m->vertices, m->elements, x, y, first, corner } };
+    static const double x[2] = { -12.5, 12.5 }, y[2] = { -1.5, 11.3 };
 
-    for (int i = 0; i < m->vertices; i++) {
-        x[i] = m->vertex[i].x;
-        y[i] = m->vertex[i].y;
-        corner[i] = i;
-    }
-    for (int i = 0; i < m->elements; i++)
-        first[i] = m->element[i].first;
-    first[m->elements] = m->vertices;
-    plot_draw_map(p, (plot_box){ 0, top, 800, 470 }, &map);
+    plot_title(p, 430, top + 26, title);
+    plot_draw_frame(p, (plot_box){ 84, top + 40, 692, 692 * 12.8 / 25 }, x, y);
+    plot_put(p, "<path fill=\"#e8eef4\" stroke=\"#335577\" d=\"");
+    for (int i = 0; i < m->vertices; i++)
+        plot_point(p, m->element[m->vertex[i].element].first == i ? "M" : " ", plot_pixel(&p->x, m->vertex[i].x),
+                   plot_pixel(&p->y, m->vertex[i].y));
+    plot_put(p, "\"/>\n");
     plot_put(p, "<path fill=\"none\" stroke=\"#cc3311\" stroke-width=\"2\" d=\"");
     for (int k = 0; k <= N; k++) {
         const double s = thrust_radius(m, k);
@@ -236,8 +232,8 @@ static void draw_thrusts(case_results *r)
     case_settle(thin, SETTLE);
     if (!plot_open(&p, case_path(r, "thrust.svg", path), 800, 940))
         case_progress("thrust.svg cannot be written");
-    draw_thrust(&p, 0, thick, "Line of thrust of the contact forces, t/R = 0.15");
-    draw_thrust(&p, 470, thin, "and near the limit, t/R = 0.107");
+    draw_thrust(&p, 0, thick, "Line of thrust of an arch of thickness 0.15 R");
+    draw_thrust(&p, 470, thin, "Line of thrust near the least thickness: 0.107 R");
     plot_close(&p);
     bbm_model_free(thick);
     bbm_model_free(thin);
@@ -247,12 +243,12 @@ static void draw_thrusts(case_results *r)
 static int show(case_results *r, double ratio, double friction, const char *name, const char *title)
 {
     bbm_model *m = build_arch(N, ratio, friction);
-    scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 }, .most = 80, .longest = 5e5 };
+    scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 } };
     char file[60];
 
     case_settle(m, SETTLE);
     m->info.t = 0;
-    case_record(&s, m);
+    scene_record(&s, m);
     for (int i = 0; i < STEPS && moved(m) < 8; i++)
         case_step(m, NULL, &s);
     const int stood = moved(m) < 0.2;
@@ -299,9 +295,9 @@ int main(void)
         case_compare(&r, name, find_limit(10, 30, ratio[i], 0), least_friction(ratio[i]));
     }
     case_compare(&r, "t/R = 0.15, phi = 30 stands (1 yes, 0 no)",
-                 show(&r, 0.15, 30, "stands", "t/R = 0.15, phi = 30 degrees"), 1);
-    case_compare(&r, "t/R = 0.15, phi = 15 stands", show(&r, 0.15, 15, "slides", "t/R = 0.15, phi = 15 degrees"), 0);
-    case_compare(&r, "t/R = 0.10, phi = 30 stands", show(&r, 0.10, 30, "folds", "t/R = 0.10, phi = 30 degrees"), 0);
+                 show(&r, 0.15, 30, "stands", "An arch stands: thickness 0.15 R, friction 30 degrees"), 1);
+    case_compare(&r, "t/R = 0.15, phi = 15 stands", show(&r, 0.15, 15, "slides", "An arch slides: thickness 0.15 R, friction 15 degrees"), 0);
+    case_compare(&r, "t/R = 0.10, phi = 30 stands", show(&r, 0.10, 30, "folds", "An arch folds: thickness 0.10 R, friction 30 degrees"), 0);
     try_others(&r);
     draw_thrusts(&r);
     printf("\nNumbers and pictures: %s/results.csv, stands.svg, thrust.svg, and as films and states slides, folds\n",

@@ -178,13 +178,7 @@ double case_percent(double computed, double reference)
 
 double case_quantity(const bbm_result *r, const char *quantity)
 {
-    const char *const name[] = { "u", "v", "sxx", "syy", "sxy", "svm" };
-    const double value[] = { r->u, r->v, r->stress[0], r->stress[1], r->stress[2], r->mises };
-
-    for (int i = 0; i < 6; i++)
-        if (strcmp(quantity, name[i]) == 0)
-            return value[i];
-    return NAN;
+    return scene_field(r, strcmp(quantity, "svm") ? quantity : "mises");
 }
 
 /* ---------------------------------------------------------------------------- blocks that touch */
@@ -219,7 +213,7 @@ void case_step(bbm_model *m, case_effort *e, scene *s)
         e->cuts += m->info.cuts;
     }
     if (s)
-        case_record(s, m);
+        scene_record(s, m);
 }
 
 void case_settle(bbm_model *m, int steps)
@@ -228,33 +222,6 @@ void case_settle(bbm_model *m, int steps)
     for (int i = 0; i < steps; i++)
         case_step(m, NULL, NULL);
     m->par.velocity_factor = 1;
-}
-
-/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's
- * block; turned round if it points down, so that arrows stand on what carries and point into what
- * is carried. */
-static scene_force force_of(const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a], *P2 = &m->vertex[m->edge[c->edge].b];
-    const bbm_vertex *P3 = &m->vertex[m->edge[c->edge].a];
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
-    const double f[2] = { -c->N * y - c->T * x, c->N * x - c->T * y }, up = f[1] < 0 ? -1 : 1;
-
-    return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], (int)c->state };
-}
-
-void case_record(scene *s, const bbm_model *m)
-{
-    scene_force *force = calloc((size_t)m->contacts + 1, sizeof *force);
-
-    for (int k = 0; k < m->contacts && force; k++)
-        force[k] = force_of(m, &m->contact[k]);
-    if (force)
-        scene_record(s, m, m->info.t, m->contacts, force);
-    else
-        s->failed = 1;
-    free(force);
 }
 
 /* ----------------------------------------------------------------------------- reference values */
@@ -442,63 +409,9 @@ void case_draw_panels(case_results *r, const char *file, const bbm_model *m, con
     finish(r, path, scene_write_panels(s, m, case_path(r, file, path), n, time));
 }
 
-/* The arrays of a map: [nodes] x, y, u, v and the quantity; [elements+1] first; [vertices]
- * corner. */
-static void fill_map(const bbm_model *m, const char *quantity, double *at, int *first, int *corner)
-{
-    for (int n = 0; n < m->nodes; n++) {
-        bbm_result here;
-        bbm_nodal_result(m, n, -1, &here);
-        const double value[5] = { m->node[n].x, m->node[n].y, here.u, here.v,
-                                  case_quantity(&here, quantity) };
-        for (int k = 0; k < 5; k++)
-            at[k * m->nodes + n] = value[k];
-    }
-    for (int e = 0; e < m->elements; e++)
-        first[e + 1] = m->element[e].first + m->element[e].n;
-    for (int v = 0; v < m->vertices; v++)
-        corner[v] = m->vertex[v].node;
-}
-
-int case_write_map(const char *path, const bbm_model *m, const char *quantity, plot_map *map)
-{
-    const size_t n = (size_t)m->nodes;
-    double *at = calloc(5 * n, sizeof *at);
-    int *first = calloc((size_t)m->elements + 1, sizeof *first);
-    int *corner = calloc((size_t)m->vertices, sizeof *corner);
-    int done = at && first && corner;
-
-    if (done) {
-        fill_map(m, quantity, at, first, corner);
-        map->mesh = (plot_mesh){ m->nodes, m->elements, at, at + n, first, corner };
-        map->value = at + 4 * n;
-        map->quantity.name = quantity[1] == 'v' ? "von Mises stress" : quantity;
-        map->quantity.unit = quantity[0] == 's' ? "Pa" : "m";
-        if (map->magnify >= 0)
-            map->u = at + 2 * n, map->v = at + 3 * n;
-        done = plot_write_map(path, map);
-    } else {
-        errno = ENOMEM;
-    }
-    free(at);
-    free(first);
-    free(corner);
-    return done;
-}
-
-void case_draw_map(case_results *r, const char *file, const bbm_model *m, const char *quantity,
-                   const char *title)
+void case_draw_map(case_results *r, const char *file, const bbm_model *m, const scene_map *map)
 {
     char path[128];
 
-    finish(r, path, case_write_map(case_path(r, file, path), m, quantity,
-                                   &(plot_map){ .title = title, .magnify = -1 }));
-}
-
-void case_draw_deformed(case_results *r, const char *file, const bbm_model *m, const char *title)
-{
-    char path[128];
-
-    finish(r, path, case_write_map(case_path(r, file, path), m, "svm",
-                                   &(plot_map){ .title = title }));
+    finish(r, path, scene_write_map(m, case_path(r, file, path), map));
 }

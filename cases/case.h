@@ -68,8 +68,6 @@ double case_percent(double computed, double reference);
 
 typedef struct { int passes, cuts; } case_effort;   /* most passes of a step; all halvings of dt */
 void   case_step(bbm_model *m, case_effort *e, scene *s);       /* one step; e and s may be NULL */
-/* Positions, and contact forces as arrows; without memory the scene has failed. */
-void   case_record(scene *s, const bbm_model *m);
 /* Quasi-static steps, to start a run in equilibrium: springs that are loaded suddenly would
  * swing. */
 void   case_settle(bbm_model *m, int steps);
@@ -105,12 +103,8 @@ void   case_draw_movie(case_results *r, const char *file, const bbm_model *m, co
 /* The frames nearest to n times. */
 void   case_draw_panels(case_results *r, const char *file, const bbm_model *m, const scene *s,
                         int n, const double time[]);
-/* Contours of a nodal quantity. */
-void   case_draw_map(case_results *r, const char *file, const bbm_model *m, const char *quantity,
-                     const char *title);
-void   case_draw_deformed(case_results *r, const char *file, const bbm_model *m, const char *title);
-/* The map alone, under a name of its own: 1, or 0 and errno. */
-int    case_write_map(const char *path, const bbm_model *m, const char *quantity, plot_map *map);
+/* Contours of a field of scene.h. */
+void   case_draw_map(case_results *r, const char *file, const bbm_model *m, const scene_map *map);
 void   case_print_parameters(const bbm_model *m);       /* Table 1, and what the solution took  */
 void   case_progress(const char *what);                 /* one line on stdout, at once          */
 

@@ -107,12 +107,12 @@ static void draw(case_results *r, const double ratio[2][STEPS])
 static void draw_movie(case_results *r)
 {
     bbm_model *m = build_drop(1e-3, 1);
-    scene s = { .title = "Dropped on a corner, dt = 1 ms", .play = 8, .most = 120 };
+    scene s = { .title = "A block is dropped on its corner" };
 
-    scene_record(&s, m, 0, 0, NULL);
+    scene_record(&s, m);
     while (m->info.t < 1.2) {
         case_must(m, bbm_step(m));
-        scene_record(&s, m, m->info.t, 0, NULL);
+        scene_record(&s, m);
     }
     case_draw_movie(r, "movie.svg", m, &s);
     case_draw_panels(r, "states.svg", m, &s, 4, (double[]){ 0, 0.21, 0.5, 1.2 });

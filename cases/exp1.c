@@ -243,10 +243,15 @@ static void print_summary(const bbm_model *const m[3], const case_reference ref[
 /* Fig. 11-13: contours, and the deformed mesh. */
 static void draw_maps(case_results *r, const bbm_model *m)
 {
-    case_draw_map(r, "fig11.svg", m, "u", "Fig. 11: displacement u, load a");
-    case_draw_map(r, "fig12.svg", m, "v", "Fig. 12: displacement v, load a");
-    case_draw_map(r, "fig13.svg", m, "svm", "Fig. 13: von Mises stress, load a");
-    case_draw_deformed(r, "deformed.svg", m, "Deformed beam, von Mises stress");
+    static const struct { const char *file; scene_map map; } map[] = {
+        { "fig11.svg", { "Fig. 11: displacement u, load a", "u", -1 } },
+        { "fig12.svg", { "Fig. 12: displacement v, load a", "v", -1 } },
+        { "fig13.svg", { "Fig. 13: von Mises stress, load a", "mises", -1 } },
+        { "deformed.svg", { "Deformed beam, von Mises stress", "mises", 0 } },
+    };
+
+    for (int k = 0; k < 4; k++)
+        case_draw_map(r, map[k].file, m, &map[k].map);
 }
 
 /* ---------------------------------------------------------------------------------- convergence */

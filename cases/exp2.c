@@ -274,12 +274,17 @@ static void draw_lines(case_results *r, const bbm_model *const m[2], const case_
 /* Fig. 20-23. */
 static void draw_maps(case_results *r, const bbm_model *m)
 {
-    case_draw_map(r, "fig20.svg", m, "sxx", "Fig. 20: stress sxx, plate b5");
-    case_draw_map(r, "fig21a.svg", m, "syy", "Fig. 21: stress syy, plate b5");
-    case_draw_map(r, "fig21b.svg", m, "sxy", "Fig. 21: stress sxy, plate b5");
-    case_draw_map(r, "fig22.svg", m, "u", "Fig. 22: displacement u, plate b5");
-    case_draw_map(r, "fig23.svg", m, "v", "Fig. 23: displacement v, plate b5");
-    case_draw_deformed(r, "deformed.svg", m, "Deformed plate b5, von Mises stress");
+    static const struct { const char *file; scene_map map; } map[] = {
+        { "fig20.svg", { "Fig. 20: stress sxx, plate b5", "sxx", -1 } },
+        { "fig21a.svg", { "Fig. 21: stress syy, plate b5", "syy", -1 } },
+        { "fig21b.svg", { "Fig. 21: stress sxy, plate b5", "sxy", -1 } },
+        { "fig22.svg", { "Fig. 22: displacement u, plate b5", "u", -1 } },
+        { "fig23.svg", { "Fig. 23: displacement v, plate b5", "v", -1 } },
+        { "deformed.svg", { "Deformed plate b5, von Mises stress", "mises", 0 } },
+    };
+
+    for (int k = 0; k < 6; k++)
+        case_draw_map(r, map[k].file, m, &map[k].map);
 }
 
 /* ---------------------------------------------------------------------------------- convergence */

@@ -101,7 +101,7 @@ static void run(slide *s, const exp3_variant *v, scene *film)
     measure(s, s->start);
     s->m->info.t = 0;
     if (film)
-        case_record(film, s->m);
+        scene_record(film, s->m);
     for (int i = 0; i <= STEPS; i++) {
         if (i > 0)
             case_step(s->m, &s->effort, film);
@@ -215,7 +215,7 @@ static void draw_figure(case_results *r, const slide s[], const exp3_variant v[]
                         .title = "Fig. 25: displacement of P", .x = { "t", "s", 0, 0, 0 },
                         .y = { "displacement", "m", 0, 0, 0 }, .count = 4, .series = both });
     plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
-                        .title = "v of P, which should be 0", .x = { "t", "s", 0, 0, 0 },
+                        .title = "Error of v of P, which is 0 in theory", .x = { "t", "s", 0, 0, 0 },
                         .y = { "v", "m", 0, 0, 0 }, .count = 3, .series = lift });
     case_close_page(r, &p);
     case_write_curves(r, "fig25.csv",
@@ -237,7 +237,6 @@ int main(void)
                    .window = { -10, 10, -1, 3 } };
     case_results r;
     slide s[RUNS];
-    scene_mark mark = { 0, "P" };
 
     printf("\n# Experiment III: frictionless sliding\n\n");
     case_open(&r, "exp3");
@@ -249,9 +248,8 @@ int main(void)
     print_tables(&r, s, v, runs);
     print_summary(s, runs);
     draw_figure(&r, s, v);
-    mark.vertex = s[1].m->element[s[1].first + 3].first + 1;
-    film.marks = 1;
-    film.mark = &mark;
+    film.mark = s[1].m->element[s[1].first + 3].first + 1;
+    film.mark_name = "P";
     case_draw_movie(&r, "slide.svg", s[1].m, &film);
     case_draw_panels(&r, "states.svg", s[1].m, &film, 3, (double[]){ 0, 1, 2 });
     printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg, slide.svg (it moves), "

@@ -120,16 +120,16 @@ static void swing(case_results *r, double dt, double e, scene *s)
     char name[80];
 
     if (s)
-        scene_record(s, m, 0, 0, NULL);
+        scene_record(s, m);
     for (int k = 0; m->info.t < 1; k++) {
         case_step(m, NULL, NULL);
         if (s && (k + 1) % 100 == 0)
-            scene_record(s, m, m->info.t, 0, NULL);
+            scene_record(s, m);
     }
     snprintf(name, sizeof name, "last of %d blocks, dt = %g s, e = %.4f [m/s]", BALLS, dt, e);
     case_compare(r, name, m->element[BALLS - 1].V[0], pow((1 + e) / 2, BALLS - 1));
     if (s) {
-        scene_record(s, m, m->info.t, 0, NULL);
+        scene_record(s, m);
         case_draw_movie(r, "cradle.svg", m, s);
         case_draw_panels(r, "states.svg", m, s, 3, (double[]){ 0, 0.25, 1 });
     }
@@ -139,7 +139,7 @@ static void swing(case_results *r, double dt, double e, scene *s)
 int main(void)
 {
     case_results r;
-    scene s = { .title = "Separate cradle", .play = 8, .most = 120 };
+    scene s = { .title = "A block hits a row of four" };
     double error[3];
 
     printf("\n# Impact\n\n");

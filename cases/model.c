@@ -289,7 +289,7 @@ static int read_rotation(model_reader *r)
 
 static int read_output(model_reader *r)
 {
-    static const char *const fields[] = { "mises", "sxx", "syy", "sxy", "s1", "s2", "u", "v" };
+    static const char *const fields[] = SCENE_FIELDS;
     int field = 0;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),

@@ -115,8 +115,10 @@ int main(void)
                largest / (rho * g * h));
     }
     draw(&r, (const bbm_model *const *)m);
-    case_draw_map(&r, "corners.svg", m[0], "syy", "Stress syy, standing on its corners");
-    case_draw_map(&r, "faces.svg", m[1], "syy", "Stress syy, standing on its face");
+    case_draw_map(&r, "corners.svg", m[0],
+                  &(scene_map){ "Stress syy, standing on its corners", "syy", -1 });
+    case_draw_map(&r, "faces.svg", m[1],
+                  &(scene_map){ "Stress syy, standing on its face", "syy", -1 });
     printf("\nNumbers and pictures: %s/results.csv, rows.svg, corners.svg, faces.svg\n", r.folder);
     for (int k = 0; k < 2; k++)
         bbm_model_free(m[k]);

@@ -1,21 +1,21 @@
-/* scene.c - blocks that move, as SVG.
+/* scene.c - blocks as SVG: states, films, contours.
  *
- * All frames of a scene share one window, so that panels can be compared and the film stands still. The frame with
- * its axes is an empty map of plot.c, which also gives the scale from metres to pixels.
+ * All frames of a scene share one window, so that panels can be compared and the film stands still.
+ * A browser plays the <animate> elements of the blocks that move side by side; each lists one
+ * outline per frame and goes in a straight line from one to the next. The last one is repeated, so
+ * that the end can be looked at. What cannot be interpolated, the time, forces and supports, is a
+ * group per frame that is visible at its turn.
  *
- * A block is one group of two paths: its elements, filled, with thin lines, and over them its boundary edges. In the
- * film a block is moved in the cheapest way that is right to a third of a pixel:
+ * A block that is fixed as a whole is hatched in grey. The other fills carry no meaning but tell
+ * blocks apart: each block takes the tint whose nearest bearer is farthest. They are those of Okabe
+ * and Ito, lightened, so that the colour-blind can tell them apart and arrows can be seen on them.
  *
- *     it stays                              the group alone
- *     it moves like a rigid body            the group is shifted and turned: a few numbers per frame
- *     it visibly changes its shape          both paths are given anew for each frame
- *
- * A browser plays <animate> elements of equal duration side by side; each lists one value per frame and goes in a
- * straight line from one to the next. The last value is repeated, so that the end can be looked at. What cannot be
- * interpolated, the time and the forces, is a group per frame that is visible at its turn.
- *
- * Fills carry no meaning; grey hatching does: a block that is held at two points or more. The tints are those of
- * Okabe and Ito, lightened, so that the colour-blind can tell them apart and arrows can be seen on them.
+ * A map is a scene of one frame, whose displacements may be magnified; in place of the tints it
+ * paints one band between two levels after the other. In each triangle the value is linear, so that
+ * the band's share of the triangle is the triangle cut by two straight lines; a larger polygon is
+ * first split into the triangles from its mean point to its sides. All shares of a band are one
+ * path, drawn with a thin stroke in its own colour: the stroke closes the hairlines that
+ * antialiasing would leave along common sides.
  */
 #include "scene.h"
 
@@ -26,24 +26,40 @@
 
 #include "plot.h"
 
-enum { FRAMES = 60, HOLD = 6, AROUND = 108, OVER = 100, ROW = 26, ARROW = 48, MARGIN = 20 };
-                                                            /* kept; values repeated at the end; the rest in pixels */
+enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
+enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
+       MARGIN = 20 };                           /* pixels */
 
-static const double VISIBLE = 0.3;      /* pixels: what moves less stays, what bends less is rigid  */
-static const double LETTER = 7.8;       /* pixels, generous mean width of a letter                  */
+static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
+static const double FAIR = 0.3;         /* of an edge's length: how much its ends may move apart  */
 
 typedef struct { double x, y; } point;
 
-typedef struct {                        /* what the functions below draw with */
+typedef struct {                        /* a block                                                */
+    int first, n;                       /* its vertices are film.vertex[first .. first+n-1]       */
+    int held, tint;
+    double box[2][2];                   /* m        x from, to; y from, to, in the first frame    */
+} body;
+
+typedef struct { int columns; double left, top, over, w, h; } layout;   /* of w x h pixels */
+
+typedef struct {                        /* what the functions below draw with                     */
     plot         p;
+    layout       l;
     const scene *s;
     const bbm_model *m;
-    double       x[2], y[2];            /* m        the window                                         */
-    double       newton;                /* pixels/N length of an arrow                                 */
-    double       seconds;               /* of one pass; zero: nothing moves                            */
+    int          bodies;
+    body        *body;
+    int         *vertex;                /*          [vertices], block by block                    */
+    point       *normal;                /*          [nodes] outward, of the boundary there        */
+    double       window[2][2];          /* m                                                      */
+    double       scale;                 /* pixels/m                                               */
+    double       most[4], length[4];    /* of each kind of arrow: the largest force, its pixels   */
+    int          supports[4];           /* how many held in each way                              */
+    double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
-/* ----------------------------------------------------------------------------------------------- recording */
+/* ----------------------------------------------------------------------------------- recording */
 
 static void drop_frame(scene_frame *f)
 {
@@ -54,38 +70,51 @@ static void drop_frame(scene_frame *f)
 
 void scene_free(scene *s)
 {
-    for (int k = 0; k < s->frames; k++) drop_frame(&s->frame[k]);
+    for (int k = 0; k < s->frames; k++)
+        drop_frame(&s->frame[k]);
     free(s->frame);
     s->frame = NULL;
     s->frames = s->vertices = s->calls = s->every = s->failed = 0;
 }
 
-static int most_frames(const scene *s)
-{
-    return s->most >= 2 ? s->most : FRAMES;
-}
-
-/* Makes room for one more: the last frame only stays if its turn has come, and half of them go if all have come. */
+/* Makes room for one more: the last frame only stays if its turn has come, and half of them go if
+ * all have come. */
 static void thin_out(scene *s)
 {
     int kept = s->frames;
-    if (kept && s->frame[kept - 1].call % s->every) drop_frame(&s->frame[--kept]);
-    if (kept == most_frames(s)) {
-        const int n = kept;
+
+    if (kept && s->frame[kept - 1].call % s->every)
+        drop_frame(&s->frame[--kept]);
+    if (kept == FRAMES) {
         s->every *= 2;
         kept = 0;
-        for (int k = 0; k < n; k++)
-            if (s->frame[k].call % s->every) drop_frame(&s->frame[k]);
-            else s->frame[kept++] = s->frame[k];
+        for (int k = 0; k < FRAMES; k++)
+            if (s->frame[k].call % s->every)
+                drop_frame(&s->frame[k]);
+            else
+                s->frame[kept++] = s->frame[k];
     }
     s->frames = kept;
 }
 
-static int copy_frame(scene_frame *f, const bbm_model *m, int forces, const scene_force *force)
+/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's
+ * block; turned round if it points down, so that it points into what is carried. */
+static scene_force force_of(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a], *P2 = &m->vertex[m->edge[c->edge].b];
+    const bbm_vertex *P3 = &m->vertex[m->edge[c->edge].a];
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
+    const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+    const double f[2] = { -c->N * y - c->T * x, c->N * x - c->T * y }, up = f[1] < 0 ? -1 : 1;
+
+    return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], c->state };
+}
+
+static int copy_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
-    f->force = forces ? malloc((size_t)forces * sizeof *f->force) : NULL;
-    if (!f->at || (forces && !f->force)) {
+    f->force = malloc(((size_t)m->contacts + 1) * sizeof *f->force);
+    if (!f->at || !f->force) {
         drop_frame(f);
         return 0;
     }
@@ -93,21 +122,26 @@ static int copy_frame(scene_frame *f, const bbm_model *m, int forces, const scen
         f->at[v][0] = m->vertex[v].x;
         f->at[v][1] = m->vertex[v].y;
     }
-    if (forces) memcpy(f->force, force, (size_t)forces * sizeof *force);
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            f->force[f->forces++] = force_of(m, &m->contact[k]);
     return 1;
 }
 
-int scene_record(scene *s, const bbm_model *m, double time, int forces, const scene_force *force)
+int scene_record(scene *s, const bbm_model *m)
 {
-    scene_frame f = { .time = time, .call = s->calls++, .forces = forces };
+    scene_frame f = { .time = m->info.t, .call = s->calls++ };
+
     for (int v = 0; v < m->vertices; v++)
-        if (!isfinite(m->vertex[v].x + m->vertex[v].y)) return 0;
+        if (!isfinite(m->vertex[v].x + m->vertex[v].y))
+            return 0;
     if (!s->frame) {
-        s->frame = calloc((size_t)most_frames(s), sizeof *s->frame);
+        s->frame = calloc(FRAMES, sizeof *s->frame);
         s->vertices = m->vertices;
         s->every = 1;
     }
-    if (!s->frame || m->vertices != s->vertices || !copy_frame(&f, m, forces, force)) s->failed = 1;
+    if (!s->frame || m->vertices != s->vertices || !copy_frame(&f, m))
+        s->failed = 1;
     if (s->failed) {
         drop_frame(&f);
         return 0;
@@ -117,7 +151,7 @@ int scene_record(scene *s, const bbm_model *m, double time, int forces, const sc
     return 1;
 }
 
-/* ---------------------------------------------------------------------------------------------- the window */
+/* -------------------------------------------------------------------------------------- blocks */
 
 static void widen(double range[2], double value)
 {
@@ -125,331 +159,396 @@ static void widen(double range[2], double value)
     range[1] = fmax(range[1], value);
 }
 
-/* The window, and the scale of the forces. */
-static void measure(film *f)
+/* m, in a frame */
+static point place(const film *f, int frame, int v)
 {
-    const double *w = f->s->window;
-    double largest = f->s->longest;
-    f->x[0] = f->y[0] = INFINITY;
-    f->x[1] = f->y[1] = -INFINITY;
-    for (int k = 0; k < f->s->frames; k++) {
-        const scene_frame *g = &f->s->frame[k];
-        for (int v = 0; v < f->s->vertices; v++) {
-            widen(f->x, g->at[v][0]);
-            widen(f->y, g->at[v][1]);
+    const double *x = f->s->frame[frame].at[v];
+
+    return (point){ x[0], x[1] };
+}
+
+/* pixels */
+static point pixel(const film *f, point a)
+{
+    return (point){ plot_pixel(&f->p.x, a.x), plot_pixel(&f->p.y, a.y) };
+}
+
+static point at(const film *f, int frame, int v) { return pixel(f, place(f, frame, v)); }
+
+/* The next vertex round its element. */
+static int next_vertex(const bbm_model *m, int v)
+{
+    const bbm_element *e = &m->element[m->vertex[v].element];
+
+    return v + 1 < e->first + e->n ? v + 1 : e->first;
+}
+
+/* Distance of two boxes, and a little of that of their centres. */
+static double distance(const body *a, const body *b)
+{
+    double gap[2], way[2];
+
+    for (int k = 0; k < 2; k++) {
+        gap[k] = fmax(0, fmax(a->box[k][0] - b->box[k][1], b->box[k][0] - a->box[k][1]));
+        way[k] = (a->box[k][0] + a->box[k][1] - b->box[k][0] - b->box[k][1]) / 2;
+    }
+    return hypot(gap[0], gap[1]) + 0.01 * hypot(way[0], way[1]);
+}
+
+static int choose_tint(const film *f, int b)
+{
+    double nearest[TINTS];
+    int best = 0;
+
+    for (int k = 0; k < TINTS; k++)
+        nearest[k] = INFINITY;
+    for (int i = 0; i < b; i++)
+        if (!f->body[i].held)
+            nearest[f->body[i].tint] = fmin(nearest[f->body[i].tint],
+                                            distance(&f->body[i], &f->body[b]));
+    for (int k = 1; k < TINTS; k++)
+        best = nearest[k] > nearest[best] ? k : best;
+    return best;
+}
+
+/* Held: each of its vertices, in both directions, where it was. */
+static void add_vertex(film *f, body *b, int v)
+{
+    const point x = place(f, 0, v);
+    const bbm_node *i = &f->m->node[f->m->vertex[v].node];
+
+    b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0;
+    b->n++;
+    widen(b->box[0], x.x);
+    widen(b->box[1], x.y);
+}
+
+static void find_bodies(film *f, int (*element)[2])
+{
+    const bbm_model *m = f->m;
+
+    for (int k = 0, n = 0; k < m->elements; k++) {
+        const bbm_element *e = &m->element[element[k][1]];
+        if (k == 0 || element[k][0] != element[k - 1][0])
+            f->body[f->bodies++] = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY },
+                                                         { INFINITY, -INFINITY } } };
+        for (int v = e->first; v < e->first + e->n; v++) {
+            f->vertex[n++] = v;
+            add_vertex(f, &f->body[f->bodies - 1], v);
         }
-        for (int i = 0; i < g->forces && f->s->longest <= 0; i++)
-            if (g->force[i].state != SCENE_OPEN) largest = fmax(largest, hypot(g->force[i].fx, g->force[i].fy));
     }
-    if (w[0] < w[1] && w[2] < w[3]) {
-        f->x[0] = w[0], f->x[1] = w[1];
-        f->y[0] = w[2], f->y[1] = w[3];
-    }
-    f->newton = largest > 0 ? ARROW / largest : 0;
+    for (int b = 0; b < f->bodies; b++)
+        f->body[b].tint = choose_tint(f, b);
 }
 
-static point at(const film *f, int frame, int vertex)
+/* Of boundary edges whose two ends are held alike, or else of all: where supports stand. */
+static void find_normals(film *f)
 {
-    const double *x = f->s->frame[frame].at[vertex];
-    return (point){ plot_pixel(&f->p.x, x[0]), plot_pixel(&f->p.y, x[1]) };
-}
+    const bbm_model *m = f->m;
 
-/* Two decimals, without trailing zeros. */
-static void put_point(film *f, const char *before, double x, double y)
-{
-    plot_put(&f->p, "%s%.8g %.8g", before, floor(x * 100 + 0.5) / 100, floor(y * 100 + 0.5) / 100);
-}
-
-static void put_frame(film *f, const char *attributes)
-{
-    plot_put(&f->p, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" %s/>\n", f->p.x.from, f->p.y.to,
-             f->p.x.to - f->p.x.from, f->p.y.from - f->p.y.to, attributes);
-}
-
-/* The frame with its axes; what follows until end_panel is cut off at it. */
-static void begin_panel(film *f, plot_box box, int number)
-{
-    static const int first[1] = { 0 };
-    const plot_map axes = { .mesh = { 2, 0, f->x, f->y, first, NULL } };
-    plot_draw_map(&f->p, box, &axes);
-    plot_put(&f->p, "<clipPath id=\"panel%d\">", number);
-    put_frame(f, "");
-    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel%d)\" ", number);
-    plot_put(&f->p, "stroke-linejoin=\"round\" stroke-linecap=\"round\">\n");
-}
-
-static void end_panel(film *f)
-{
-    plot_put(&f->p, "</g>\n");
-    put_frame(f, "fill=\"none\" stroke=\"#333333\"");
-}
-
-/* --------------------------------------------------------------------------------------------------- blocks */
-
-static int begins_block(const bbm_model *m, int e)
-{
-    for (int i = e - 1; i >= 0; i--)
-        if (m->element[i].block == m->element[e].block) return 0;
-    return 1;
-}
-
-static int has_vertex(const bbm_model *m, int block, int v)
-{
-    return m->element[m->vertex[v].element].block == block;
-}
-
-/* Whether a block is held at two points: it cannot move as a whole. */
-static int is_held(const bbm_model *m, int block)
-{
-    int first = -1;
-    for (int v = 0; v < m->vertices; v++) {
-        const int n = m->vertex[v].node;
-        if (!has_vertex(m, block, v) || m->node[n].held != BBM_XY || n == first) continue;
-        if (first >= 0) return 1;
-        first = n;
-    }
-    return 0;
-}
-
-/* The polygons of a block's elements, in pixels from o. */
-static void put_elements(film *f, int frame, int block, point o)
-{
-    for (int i = 0; i < f->m->elements; i++) {
-        const bbm_element *e = &f->m->element[i];
-        if (e->block != block) continue;
-        for (int k = 0; k < e->n; k++) {
-            const point a = at(f, frame, e->first + k);
-            put_point(f, k ? " " : "M", a.x - o.x, a.y - o.y);
+    for (int e = 0; e < m->edges; e++) {
+        const int a = m->vertex[m->edge[e].a].node, b = m->vertex[m->edge[e].b].node;
+        const int alike = m->node[a].held && m->node[a].held == m->node[b].held;
+        const double weight = alike ? 1 : 1e-6;
+        for (int k = 0; k < 2; k++) {
+            f->normal[k ? b : a].x += weight * (m->node[b].y - m->node[a].y);
+            f->normal[k ? b : a].y += weight * (m->node[a].x - m->node[b].x);
         }
+    }
+}
+
+static int compare_blocks(const void *p, const void *q)
+{
+    const int *a = p, *b = q, k = a[0] == b[0];
+
+    return (a[k] > b[k]) - (a[k] < b[k]);
+}
+
+static void end_film(film *f)
+{
+    free(f->body);
+    free(f->vertex);
+    free(f->normal);
+}
+
+/* Returns 0 and errno where there is nothing to draw or no memory. */
+static int begin_film(film *f)
+{
+    const bbm_model *m = f->m;
+    int (*element)[2] = NULL;
+
+    errno = f->s->failed ? ENOMEM : EINVAL;
+    if (f->s->failed || f->s->frames < 1 || m->vertices != f->s->vertices)
+        return 0;
+    element = malloc((size_t)m->elements * sizeof *element);
+    f->body = malloc((size_t)m->elements * sizeof *f->body);
+    f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
+    f->normal = calloc((size_t)m->nodes, sizeof *f->normal);
+    const int done = element && f->body && f->vertex && f->normal;
+    if (done) {
+        for (int e = 0; e < m->elements; e++) {
+            element[e][0] = m->element[e].block;
+            element[e][1] = e;
+        }
+        qsort(element, (size_t)m->elements, sizeof *element, compare_blocks);
+        find_bodies(f, element);
+        find_normals(f);
+    } else {
+        errno = ENOMEM;
+    }
+    free(element);
+    return done;
+}
+
+/* The polygons of a block's elements. */
+static void put_elements(film *f, int frame, const body *b)
+{
+    for (int k = b->first; k < b->first + b->n; k++) {
+        const int v = f->vertex[k];
+        const point a = at(f, frame, v);
+        plot_point(&f->p, v == f->m->element[f->m->vertex[v].element].first ? "M" : " ", a.x, a.y);
+        if (next_vertex(f->m, v) < v)
+            plot_put(&f->p, "z");
+    }
+}
+
+/* The boundaries of a block: each from its first edge on. */
+static void put_outline(film *f, int frame, const body *b)
+{
+    const bbm_edge *edge = f->m->edge;
+
+    for (int k = b->first; k < b->first + b->n; k++) {
+        const int first = f->m->vertex[f->vertex[k]].edge;
+        int e = first;
+        while (e >= 0 && edge[e].after > first)
+            e = edge[e].after;
+        if (first < 0 || edge[e].after < first)
+            continue;
+        e = first;
+        do {
+            const point a = at(f, frame, edge[e].a);
+            plot_point(&f->p, e == first ? "M" : " ", a.x, a.y);
+            e = edge[e].after;
+        } while (e != first);
         plot_put(&f->p, "z");
     }
 }
 
-/* The boundary edges of a block, one that starts where the last one ended without a new start. */
-static void put_outline(film *f, int frame, int block, point o)
+/* The number of values of an animation: a frame each, the last one again and again. */
+static int value_count(const film *f) { return f->s->frames + HOLD; }
+
+static int is_moving(const film *f, const body *b)
 {
-    for (int i = 0, last = -1; i < f->m->edges; i++) {
-        const bbm_edge *e = &f->m->edge[i];
-        if (f->m->element[e->element].block != block) continue;
-        const point a = at(f, frame, e->a), b = at(f, frame, e->b);
-        if (e->a != last) put_point(f, "M", a.x - o.x, a.y - o.y);
-        put_point(f, " ", b.x - o.x, b.y - o.y);
-        last = e->b;
-    }
+    for (int i = 1; i < f->s->frames && f->seconds > 0; i++)
+        for (int k = b->first; k < b->first + b->n; k++) {
+            const point A = at(f, 0, f->vertex[k]), a = at(f, i, f->vertex[k]);
+            if (hypot(a.x - A.x, a.y - A.y) > VISIBLE)
+                return 1;
+        }
+    return 0;
 }
 
-typedef void part(film *f, int frame, int block, point o);
-
-/* What it is, with its attributes; a list of values follows. */
-static void begin_animation(film *f, const char *what)
+/* A block that does not move in the film is drawn with its elements. */
+static void draw_block(film *f, int frame, const body *b)
 {
-    plot_put(&f->p, "<%s dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"", what, f->seconds);
-}
+    static const char *const tint[TINTS] = { "#f6cf8b", "#b3dcf5", "#8fd3bd", "#f7f0a6", "#e6c3d7",
+                                             "#eba98f" };
+    const int moving = is_moving(f, b), last = f->s->frames - 1;
 
-/* The frame of the i-th value of an animation; the number of values. */
-static int shown_frame(const film *f, int i)
-{
-    return i < f->s->frames ? i : f->s->frames - 1;
-}
-
-static int value_count(const film *f)
-{
-    return f->s->frames + HOLD;
-}
-
-static void put_part(film *f, int frame, int block, point o, int changes, part *draw)
-{
-    const char *line = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1.3\"";
-    plot_put(&f->p, "<path %s d=\"", draw == put_outline ? line : "");
-    draw(f, frame, block, o);
-    plot_put(&f->p, changes ? "\">" : "\"/>\n");
-    if (!changes) return;
-    begin_animation(f, "animate attributeName=\"d\"");
-    for (int i = 0; i < value_count(f); i++) {
-        draw(f, shown_frame(f, i), block, o);
-        plot_put(&f->p, i + 1 < value_count(f) ? ";" : "\"/></path>\n");
+    plot_put(&f->p, "<path fill=\"%s\" stroke=\"#000000\" stroke-width=\"1.3\" d=\"",
+             b->held ? "url(#held)" : tint[b->tint]);
+    put_outline(f, frame, b);
+    if (moving) {
+        plot_put(&f->p, "\"><animate attributeName=\"d\" dur=\"%.3gs\" "
+                 "repeatCount=\"indefinite\" values=\"", f->seconds);
+        for (int i = 0; i < value_count(f); i++) {
+            plot_put(&f->p, i ? ";" : "");
+            put_outline(f, i < last ? i : last, b);
+        }
+        plot_put(&f->p, "\"/></path>\n");
+    } else {
+        plot_put(&f->p, "\"/>\n<path fill=\"none\" stroke=\"#667788\" stroke-width=\"0.5\" d=\"");
+        put_elements(f, frame, b);
+        plot_put(&f->p, "\"/>\n");
     }
-}
-
-typedef struct {                        /* of a block from the first frame to another, in pixels */
-    point  C, c;                        /* centre then and now                                   */
-    double angle;                       /* rad      as a rigid body turns, clockwise             */
-    double error;                       /* largest distance of a vertex from there               */
-    double moved;                       /* largest distance of a vertex from its first place     */
-} motion;
-
-/* The rigid motion that fits best: with X, x from the centre then and now, tan(angle) = sum X cross x / sum X.x;
- * of all such angles the one nearest to `before`. */
-static motion fit(const film *f, int frame, int block, double before)
-{
-    const double turn = 2 * acos(-1);
-    motion r = { { 0, 0 }, { 0, 0 }, 0, 0, 0 };
-    double n = 0, cross = 0, dot = 0;
-    for (int v = 0; v < f->m->vertices; v++) {
-        if (!has_vertex(f->m, block, v)) continue;
-        const point A = at(f, 0, v), a = at(f, frame, v);
-        n++;
-        r.C = (point){ r.C.x + (A.x - r.C.x) / n, r.C.y + (A.y - r.C.y) / n };
-        r.c = (point){ r.c.x + (a.x - r.c.x) / n, r.c.y + (a.y - r.c.y) / n };
-        r.moved = fmax(r.moved, hypot(a.x - A.x, a.y - A.y));
-    }
-    for (int v = 0; v < f->m->vertices; v++) {
-        if (!has_vertex(f->m, block, v)) continue;
-        const point A = at(f, 0, v), a = at(f, frame, v);
-        cross += (A.x - r.C.x) * (a.y - r.c.y) - (A.y - r.C.y) * (a.x - r.c.x);
-        dot += (A.x - r.C.x) * (a.x - r.c.x) + (A.y - r.C.y) * (a.y - r.c.y);
-    }
-    r.angle = atan2(cross, dot);
-    r.angle += turn * floor((before - r.angle) / turn + 0.5);
-    for (int v = 0; v < f->m->vertices; v++) {
-        if (!has_vertex(f->m, block, v)) continue;
-        const point A = at(f, 0, v), a = at(f, frame, v), X = { A.x - r.C.x, A.y - r.C.y };
-        r.error = fmax(r.error, hypot(a.x - r.c.x - cos(r.angle) * X.x + sin(r.angle) * X.y,
-                                      a.y - r.c.y - sin(r.angle) * X.x - cos(r.angle) * X.y));
-    }
-    return r;
-}
-
-typedef enum { STAYS, IS_RIGID, CHANGES } kind;
-
-static kind find_kind(const film *f, int block)
-{
-    kind k = STAYS;
-    for (int i = 1; i < f->s->frames && f->seconds > 0; i++) {
-        const motion r = fit(f, i, block, 0);
-        if (r.error > VISIBLE) return CHANGES;
-        if (r.moved > VISIBLE) k = IS_RIGID;
-    }
-    return k;
-}
-
-/* The animations of a group that is shifted, and of the group in it that is turned. */
-static void put_motion(film *f, int block)
-{
-    begin_animation(f, "animateTransform attributeName=\"transform\" type=\"translate\"");
-    for (int i = 0; i < value_count(f); i++) {
-        const motion r = fit(f, shown_frame(f, i), block, 0);
-        put_point(f, i ? ";" : "", r.c.x, r.c.y);
-    }
-    plot_put(&f->p, "\"/><g>");
-    begin_animation(f, "animateTransform attributeName=\"transform\" type=\"rotate\"");
-    for (double i = 0, angle = 0; i < value_count(f); i++) {
-        angle = fit(f, shown_frame(f, (int)i), block, angle).angle;
-        plot_put(&f->p, "%s%.6g", i > 0 ? ";" : "", floor(angle * 180 / acos(-1) * 100 + 0.5) / 100);
-    }
-    plot_put(&f->p, "\"/>\n");
-}
-
-static void draw_block(film *f, int frame, int block)
-{
-    static const char *const fill[] = { "#f6cf8b", "#b3dcf5", "#8fd3bd", "#f7f0a6", "#e6c3d7" };
-    const kind k = find_kind(f, block);
-    const point o = k == IS_RIGID ? fit(f, frame, block, 0).c : (point){ 0, 0 };
-    if (is_held(f->m, block)) plot_put(&f->p, "<g fill=\"url(#held)\" ");
-    else plot_put(&f->p, "<g fill=\"%s\" ", fill[abs(block % 5)]);
-    plot_put(&f->p, "stroke=\"#667788\" stroke-width=\"0.5\"");
-    if (k == IS_RIGID) plot_put(&f->p, " transform=\"translate(%.2f %.2f)\"", o.x, o.y);
-    plot_put(&f->p, ">\n");
-    if (k == IS_RIGID) put_motion(f, block);
-    put_part(f, frame, block, o, k == CHANGES, put_elements);
-    put_part(f, frame, block, o, k == CHANGES, put_outline);
-    plot_put(&f->p, k == IS_RIGID ? "</g></g>\n" : "</g>\n");
 }
 
 static void draw_blocks(film *f, int frame)
 {
-    for (int e = 0; e < f->m->elements; e++)
-        if (begins_block(f->m, e)) draw_block(f, frame, f->m->element[e].block);
+    for (int b = 0; b < f->bodies; b++)
+        draw_block(f, frame, &f->body[b]);
 }
 
-/* ------------------------------------------------------------------------------------ forces, marks, legend */
+/* ------------------------------------------------------------------- forces, loads and supports */
 
-static const char *const state_style[3] = { "", "stroke=\"#004488\" stroke-width=\"1.8\"",
-                                            "stroke=\"#cc3311\" stroke-width=\"1.8\"" };
+enum { LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, LOAD = 0, LINE_LOAD = 3, KINDS = 4 };
 
-static void put_arrow(film *f, point a, double dx, double dy)
+static const char *const style[KINDS] = {
+    "stroke=\"#aa2288\" stroke-width=\"2\"", "stroke=\"#004488\" stroke-width=\"1.8\"",
+    "stroke=\"#cc3311\" stroke-width=\"1.8\"", "stroke=\"#aa2288\" stroke-width=\"1.2\"" };
+
+/* Something at a point, in m, of a size in pixels, y upwards: an arrow from there, or a support. */
+typedef void visitor(film *f, int kind, point from, point size);
+
+/* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
+ * the arrow ends there. */
+static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
-    const double length = hypot(dx, dy), head = fmin(6, length / 2) / (length > 0 ? length : 1);
-    const double hx = head * dx, hy = head * dy;
-    const point b = { a.x + dx, a.y + dy };
-    put_point(f, "M", a.x, a.y);
-    put_point(f, " ", b.x, b.y);
-    put_point(f, "M", b.x - hx + 0.5 * hy, b.y - hy - 0.5 * hx);
-    put_point(f, " ", b.x, b.y);
-    put_point(f, " ", b.x - hx - 0.5 * hy, b.y - hy + 0.5 * hx);
+    const double size = hypot(force.x, force.y);
+    const double pixels = f->most[kind] > 0 ? f->length[kind] / f->most[kind] : 0;
+    const point d = { pixels * force.x, pixels * force.y };
+
+    if (!isfinite(size + from.x + from.y) || (visit && hypot(d.x, d.y) < 2))
+        return;
+    if (!visit)                         /* the largest is looked for */
+        f->most[kind] = fmax(f->most[kind], size);
+    else if (force.x * side.x + force.y * side.y < 0)
+        visit(f, kind, (point){ from.x - d.x / f->scale, from.y - d.y / f->scale }, d);
+    else
+        visit(f, kind, from, d);
 }
 
-/* The contact forces of a frame, state by state; those shorter than a pixel are left out. */
+/* Arrows along a loaded edge, 10 pixels apart or more. */
+static void visit_edge(film *f, int frame, const bbm_line_load *l, point *last, visitor *visit)
+{
+    const point a = place(f, frame, l->a), b = place(f, frame, l->b);
+    const double length = hypot(b.x - a.x, b.y - a.y);
+    const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
+    const int n = (int)fmax(1, length * f->scale / 16);
+
+    for (int i = 0; i < n; i++) {
+        const double s = (i + 0.5) / n, *q = l->f[l->constant ? 0 : (int)(s * BBM_GAUSS)];
+        const point x = { a.x + s * (b.x - a.x), a.y + s * (b.y - a.y) };
+        if (visit && hypot(x.x - last->x, x.y - last->y) * f->scale < 10)
+            continue;
+        *last = x;
+        visit_force(f, LINE_LOAD, x, (point){ q[0] - l->pressure * side.x,
+                                              q[1] - l->pressure * side.y }, side, visit);
+    }
+}
+
+/* All arrows of a kind in a frame, those shorter than 2 pixels left out. */
+static void visit_forces(film *f, int frame, int kind, visitor *visit)
+{
+    const bbm_model *m = f->m;
+    const scene_frame *g = &f->s->frame[frame];
+    point last = { INFINITY, 0 };
+
+    for (int i = 0; kind == LOAD && i < m->nodes; i++) {
+        const double *q = m->node[i].load;
+        if (q[0] != 0 || q[1] != 0)
+            visit_force(f, kind, place(f, frame, m->adjacent[m->adjacent_first[i]]),
+                        (point){ q[0], q[1] }, f->normal[i], visit);
+    }
+    for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++)
+        visit_edge(f, frame, &m->line_load[i], &last, visit);
+    for (int i = 0; (kind == LOCKED || kind == SLIDING) && i < g->forces; i++)
+        if ((int)g->force[i].state == kind)
+            visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },
+                        (point){ g->force[i].fx, g->force[i].fy }, (point){ 0, 0 }, visit);
+}
+
+/* The supports of blocks that are not held as a whole, those of one kind 8 pixels apart or more. */
+static void visit_supports(film *f, int frame, visitor *visit)
+{
+    point last[4] = { { 0, 0 }, { INFINITY, 0 }, { INFINITY, 0 }, { INFINITY, 0 } };
+
+    for (int b = 0; b < f->bodies; b++)
+        for (int k = 0; k < f->body[b].n && !f->body[b].held; k++) {
+            const int v = f->vertex[f->body[b].first + k], n = f->m->vertex[v].node;
+            const int held = f->m->node[n].held;
+            const point x = place(f, frame, v);
+            point d = f->normal[n];
+            if (held == 0 || hypot(x.x - last[held].x, x.y - last[held].y) * f->scale < 8)
+                continue;
+            last[held] = x;
+            f->supports[held] = 1;
+            if (held != BBM_XY)                         /* a roller stands along an axis */
+                d = held == BBM_X ? (point){ d.x < 0 ? -1 : 1, 0 } : (point){ 0, d.y > 0 ? 1 : -1 };
+            const double l = hypot(d.x, d.y);
+            d = l > 0 ? (point){ SUPPORT * d.x / l, SUPPORT * d.y / l } : (point){ 0, -SUPPORT };
+            visit(f, held, x, d);
+        }
+}
+
+static void put_arrow(film *f, int kind, point from, point size)
+{
+    const point a = pixel(f, from), d = { size.x, -size.y };
+    const double length = hypot(d.x, d.y), head = fmin(6, length / 2) / length;
+    const point h = { head * d.x, head * d.y };
+
+    (void)kind;
+    plot_point(&f->p, "M", a.x, a.y);
+    plot_point(&f->p, "l", d.x, d.y);
+    plot_point(&f->p, "m", -h.x + 0.5 * h.y, -h.y - 0.5 * h.x);
+    plot_point(&f->p, "l", h.x - 0.5 * h.y, h.y + 0.5 * h.x);
+    plot_point(&f->p, " ", -h.x - 0.5 * h.y, -h.y + 0.5 * h.x);
+}
+
+/* A triangle or, in one direction, a roller, and the ground. */
+static void put_support(film *f, int held, point from, point size)
+{
+    const point a = pixel(f, from), d = { size.x, -size.y }, b = { a.x + d.x, a.y + d.y };
+
+    plot_point(&f->p, "M", a.x, a.y);
+    if (held == BBM_XY) {
+        plot_point(&f->p, " ", b.x - 0.5 * d.y, b.y + 0.5 * d.x);
+        plot_point(&f->p, " ", b.x + 0.5 * d.y, b.y - 0.5 * d.x);
+    } else {
+        plot_point(&f->p, "A5 5 0 0 1 ", b.x, b.y);
+        plot_point(&f->p, "A5 5 0 0 1 ", a.x, a.y);
+    }
+    plot_point(&f->p, "zM", b.x - 0.7 * d.y, b.y + 0.7 * d.x);
+    plot_point(&f->p, " ", b.x + 0.7 * d.y, b.y - 0.7 * d.x);
+}
+
 static void draw_forces(film *f, int frame)
 {
-    const scene_frame *g = &f->s->frame[frame];
-    for (int state = SCENE_LOCK; state <= SCENE_SLIDE && g->forces; state++) {
-        plot_put(&f->p, "<path fill=\"none\" %s d=\"", state_style[state]);
-        for (int i = 0; i < g->forces; i++) {
-            const scene_force *c = &g->force[i];
-            const double length = f->newton * hypot(c->fx, c->fy);
-            if (c->state != state || !(length >= 1) || !isfinite(length + c->x + c->y)) continue;
-            put_arrow(f, (point){ plot_pixel(&f->p.x, c->x), plot_pixel(&f->p.y, c->y) }, f->newton * c->fx,
-                      -f->newton * c->fy);
-        }
+    plot_put(&f->p, "<path fill=\"#ffffff\" stroke=\"#333333\" d=\"");
+    visit_supports(f, frame, put_support);
+    plot_put(&f->p, "\"/>\n");
+    for (int kind = 0; kind < KINDS; kind++) {
+        if (f->most[kind] <= 0)
+            continue;
+        plot_put(&f->p, "<path fill=\"none\" stroke-linejoin=\"round\" %s d=\"", style[kind]);
+        visit_forces(f, frame, kind, put_arrow);
         plot_put(&f->p, "\"/>\n");
     }
 }
 
-static const char *mark_fill(int k)
-{
-    static const char *const fill[] = { "#000000", "#ffffff", "#999999" };
-    return fill[k % 3];
-}
+/* ------------------------------------------------------------------------------------- legend */
 
-/* A mark with its trace up to a frame; in the film it moves along it. */
-static void draw_mark(film *f, int frame, int k)
-{
-    const int v = f->s->mark[k].vertex;
-    if (v < 0 || v >= f->s->vertices) return;
-    plot_put(&f->p, "<path fill=\"none\" stroke=\"#000000\" stroke-dasharray=\"3 3\" d=\"");
-    for (int i = 0; i < (f->seconds > 0 ? f->s->frames : frame + 1); i++)
-        put_point(f, i ? " " : "M", at(f, i, v).x, at(f, i, v).y);
-    plot_put(&f->p, "\"/>\n<circle r=\"4.5\" cx=\"%.2f\" cy=\"%.2f\" fill=\"%s\" stroke=\"#000000\">\n",
-             at(f, frame, v).x, at(f, frame, v).y, mark_fill(k));
-    for (int axis = 0; axis < 2 && f->seconds > 0; axis++) {
-        begin_animation(f, axis ? "animate attributeName=\"cy\"" : "animate attributeName=\"cx\"");
-        for (int i = 0; i < value_count(f); i++) {
-            const point a = at(f, shown_frame(f, i), v);
-            plot_put(&f->p, "%s%.2f", i ? ";" : "", axis ? a.y : a.x);
-        }
-        plot_put(&f->p, "\"/>\n");
-    }
-    plot_put(&f->p, "</circle>\n");
-}
+typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row */
 
-typedef struct { double x, y, width, right; int rows; } legend;   /* from (x, y) on, row by row */
-
-/* One more symbol, ARROW pixels long, and its text. Before the file is open this only counts the rows. */
+/* One more symbol and its text. Before the file is open this only counts the rows. */
 static void put_entry(film *f, legend *l, const char *symbol, const char *text)
 {
-    const double w = ARROW + 32 + LETTER * (double)strlen(text);
+    const double w = ARROW + 32 + plot_text_width(text);
+
     if (l->rows == 0 || l->right + w > l->width) {
         l->rows++;
         l->right = 0;
     }
-    plot_put(&f->p, "<g transform=\"translate(%.2f %.2f)\">%s\n", l->x + l->right, l->y + ROW * (l->rows - 1), symbol);
+    plot_put(&f->p, "<g transform=\"translate(%.2f %.2f)\">%s\n", l->x + l->right,
+             l->y + ROW * (l->rows - 1), symbol);
     plot_text(&f->p, ARROW + 8, 5, "", text);
     plot_put(&f->p, "</g>\n");
     l->right += w;
 }
 
-static void put_force_entries(film *f, legend *l)
+/* The longest arrow of a kind, and its force. */
+static void put_force_entry(film *f, legend *l, int kind, const char *name, const char *unit)
 {
-    char symbol[160], text[40];
-    const double longest = ARROW / f->newton;
-    const int power = longest >= 1e6 ? 2 : longest >= 1e3;
-    for (int state = SCENE_LOCK; state <= SCENE_SLIDE; state++) {
-        snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%d\" %s/>", ARROW, state_style[state]);
-        put_entry(f, l, symbol, state == SCENE_LOCK ? "locked contact" : "sliding contact");
-    }
-    snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%dm-6 -3l6 3l-6 3\" fill=\"none\" stroke=\"#000000\"/>", ARROW);
-    snprintf(text, sizeof text, "%.3g %sN", longest / pow(1000, power), power == 2 ? "M" : power ? "k" : "");
+    const double size = f->most[kind];
+    const int power = size >= 1e6 ? 2 : size >= 1e3 ? 1 : 0;
+    char symbol[160], text[60];
+
+    if (size <= 0)
+        return;
+    snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%.2fm-6 -3l6 3l-6 3\" fill=\"none\" %s/>",
+             f->length[kind], kind == LOCKED ? "stroke=\"#000000\"" : style[kind]);
+    snprintf(text, sizeof text, "%s%.3g %s%s", name, size / pow(1000, power),
+             power == 2 ? "M" : power ? "k" : "", unit);
     put_entry(f, l, symbol, text);
 }
 
@@ -459,144 +558,505 @@ static int draw_legend(film *f, double x, double y, double width)
     legend l = { x, y, width, 0, 0 };
     char symbol[160];
     int held = 0;
-    for (int e = 0; e < f->m->elements && !held; e++)
-        held = begins_block(f->m, e) && is_held(f->m, f->m->element[e].block);
-    if (held) put_entry(f, &l, "<rect y=\"-8\" width=\"48\" height=\"16\" fill=\"url(#held)\" stroke=\"#000000\"/>",
-                        "fixed block");
-    if (f->newton > 0) put_force_entries(f, &l);
-    for (int k = 0; k < f->s->marks; k++) {
-        snprintf(symbol, sizeof symbol, "<circle cx=\"%d\" r=\"4.5\" fill=\"%s\" stroke=\"#000000\"/>", ARROW - 8,
-                 mark_fill(k));
-        if (f->s->mark[k].name) put_entry(f, &l, symbol, f->s->mark[k].name);
+
+    for (int b = 0; b < f->bodies; b++)
+        held |= f->body[b].held;
+    if (held)
+        put_entry(f, &l, "<rect y=\"-8\" width=\"48\" height=\"16\" fill=\"url(#held)\" "
+                  "stroke=\"#000000\"/>", "fixed block");
+    if (f->supports[BBM_XY])
+        put_entry(f, &l, "<path fill=\"none\" stroke=\"#333333\" d=\"M38 -5l-5 10h10zM31 5h14\"/>",
+                  "fixed point");
+    if (f->supports[BBM_X] + f->supports[BBM_Y])
+        put_entry(f, &l, "<path fill=\"none\" stroke=\"#333333\" d=\"M31 5h14\"/>"
+                  "<circle cx=\"38\" r=\"5\" fill=\"none\" stroke=\"#333333\"/>",
+                  "fixed in one direction");
+    put_force_entry(f, &l, LOAD, "load ", "N");
+    put_force_entry(f, &l, LINE_LOAD, "load ", "N/m");
+    for (int state = LOCKED; state <= SLIDING && f->most[LOCKED] > 0; state++) {
+        snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%d\" %s/>", ARROW, style[state]);
+        put_entry(f, &l, symbol, state == LOCKED ? "locked contact" : "sliding contact");
+    }
+    put_force_entry(f, &l, LOCKED, "", "N");
+    if (f->s->mark_name)
+        put_entry(f, &l, "<circle cx=\"40\" r=\"4.5\"/>", f->s->mark_name);
+    if (f->seconds > 0) {
+        plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
+        put_entry(f, &l, "", "click: stop or play; arrow keys: step");
+        plot_put(&f->p, "</g>\n");
     }
     return l.rows;
 }
 
-/* ------------------------------------------------------------------------------------------------ the pages */
+/* ----------------------------------------------------------------------------------- the pages */
 
-typedef struct { int columns; double top, w, h; } layout;  /* all panels of w x h pixels, below the title */
-
-/* The number of columns that makes n panels largest, on a page of about 1100 x 760 pixels (one panel: 860 x 660). */
-static layout arrange(const film *f, int n)
+static void widen_window(film *f, int kind, point from, point size)
 {
-    const double more = 0.06 * fmax(f->x[1] - f->x[0], f->y[1] - f->y[0]);
-    const double w = f->x[1] - f->x[0] + more, h = f->y[1] - f->y[0] + more;
-    layout best = { 1, f->s->title ? 36 : 8, 0, 0 };
-    double largest = 0;
-    for (int c = 1; c <= n; c++) {
-        const int rows = (n + c - 1) / c;
-        const double scale = fmin(((n > 1 ? 1100 : 860) / c - AROUND) / w, ((n > 1 ? 760.0 : 660.0) / rows - OVER) / h);
-        if (scale <= largest) continue;
-        largest = scale;
-        best.columns = c;
-    }
-    best.w = largest * w + AROUND;
-    best.h = largest * h + OVER;
-    return best;
+    (void)kind;
+    widen(f->window[0], from.x);
+    widen(f->window[1], from.y);
+    widen(f->window[0], from.x + size.x / f->scale);
+    widen(f->window[1], from.y + size.y / f->scale);
 }
 
-/* Opens a page for n panels and draws title and legend. */
-static int open_page(film *f, const char *path, int n, layout *l)
+/* The number of columns that makes n panels largest, on a page of about 1100 x 760 pixels (one
+ * panel: 860 x 660), and the scale that they have then. */
+static void arrange(film *f, int n)
 {
-    errno = f->s->failed ? ENOMEM : EINVAL;
-    if (f->s->failed || f->s->frames < 1 || n < 1 || f->m->vertices != f->s->vertices) return 0;
-    measure(f);
-    *l = arrange(f, n);
-    const double width = fmax(l->columns * l->w, f->s->title ? LETTER * 1.3 * (double)strlen(f->s->title) + MARGIN : 0);
-    const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns);
+    layout *l = &f->l;
+    const double w = f->window[0][1] - f->window[0][0], h = f->window[1][1] - f->window[1][0];
+    const double around = LEFT + RIGHT, over = l->over + UNDER;
+
+    f->scale = 0;
+    for (int c = 1; c <= n; c++) {
+        const int rows = (n + c - 1) / c;
+        const double scale = fmin(((n > 1 ? 1100 : 860) / c - around) / w,
+                                  ((n > 1 ? 760.0 : 660.0) / rows - over) / h);
+        if (scale <= f->scale)
+            continue;
+        f->scale = scale;
+        l->columns = c;
+    }
+    l->w = f->scale * w + around;
+    l->h = f->scale * h + over;
+}
+
+/* The window that holds all vertices, or those that can move beside the chosen window. */
+static void find_window(film *f)
+{
+    const double *w = f->s->window;
+    const int chosen = w[0] < w[1] && w[2] < w[3];
+
+    for (int k = 0; k < 2; k++) {
+        f->window[k][0] = chosen ? w[2 * k] : INFINITY;
+        f->window[k][1] = chosen ? w[2 * k + 1] : -INFINITY;
+    }
+    for (int b = 0; b < f->bodies; b++)
+        for (int k = 0; k < f->body[b].n && !(chosen && f->body[b].held); k++)
+            for (int i = 0; i < f->s->frames; i++)
+                widen_window(f, 0, place(f, i, f->vertex[f->body[b].first + k]), (point){ 0, 0 });
+    const double more = 0.03 * fmax(f->window[0][1] - f->window[0][0],
+                                    f->window[1][1] - f->window[1][0]);
+    for (int k = 0; k < 2; k++) {
+        f->window[k][0] -= more;
+        f->window[k][1] += more;
+    }
+}
+
+/* The mean size of the blocks that can move, m. */
+static double block_size(const film *f)
+{
+    double sum = 0;
+    int n = 0;
+
+    for (int b = 0; b < f->bodies; b++)
+        if (!f->body[b].held) {
+            const body *k = &f->body[b];
+            sum += fmin(k->box[0][1] - k->box[0][0], k->box[1][1] - k->box[1][0]);
+            n++;
+        }
+    return n ? sum / n : INFINITY;
+}
+
+/* Window and scales. How long an arrow is in metres depends on the scale of the panel, and that on
+ * the window, which holds all arrows: by repetition. Those of contacts are not longer than
+ * blocks. */
+static void measure(film *f, int n)
+{
+    for (int i = 0; i < f->s->frames; i++)
+        for (int kind = 0; kind < KINDS; kind++)
+            visit_forces(f, i, kind, NULL);
+    f->most[LOCKED] = f->most[SLIDING] = fmax(f->most[LOCKED], f->most[SLIDING]);
+    find_window(f);
+    arrange(f, n);
+    for (int round = 0; round < 4; round++) {
+        f->length[LOAD] = ARROW;
+        f->length[LINE_LOAD] = ARROW / 2;
+        f->length[LOCKED] = fmax(14, fmin(ARROW, 0.8 * block_size(f) * f->scale));
+        f->length[SLIDING] = f->length[LOCKED];
+        find_window(f);
+        for (int i = 0; i < f->s->frames; i++) {
+            visit_supports(f, i, widen_window);
+            for (int kind = 0; kind < KINDS; kind++)
+                visit_forces(f, i, kind, widen_window);
+        }
+        arrange(f, n);
+    }
+}
+
+/* Statics takes no time. */
+static int is_timed(const film *f) { return f->s->frame[f->s->frames - 1].time > 0; }
+
+/* Opens a page for n panels and, `below` them, something else; draws title and legend. */
+static int open_page(film *f, const char *path, int n, double below)
+{
+    layout *l = &f->l;
+
+    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0, .over = is_timed(f) ? OVER : 14 };
+    measure(f, n);
+    const double width = fmax(l->columns * l->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
+    const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
-    if (!plot_open(&f->p, path, width, bottom + ROW * rows + 8)) return 0;
-    plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
-             "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#e4e4e4\"/>"
+    l->left = (width - l->columns * l->w) / 2;
+    if (!plot_open(&f->p, path, width, bottom + ROW * rows + 8))
+        return 0;
+    plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
+             "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
+             "<rect width=\"7\" height=\"7\" fill=\"#e4e4e4\"/>"
              "<path d=\"M0 0V7\" stroke=\"#a0a0a0\" stroke-width=\"1.5\"/></pattern></defs>\n");
-    plot_text(&f->p, width / 2, 28, "text-anchor=\"middle\" font-size=\"17\" font-weight=\"bold\"", f->s->title);
+    plot_title(&f->p, width / 2, 28, f->s->title);
     draw_legend(f, MARGIN, bottom + ROW / 2.0, width - 2 * MARGIN);
     return 1;
 }
 
-/* Decimals that tell the frames apart, of whole steps as many as they have. */
-static void time_text(char *text, size_t size, const scene *s, double time)
+/* The frame of a panel with its axes; what follows until end_panel is cut off at it. */
+static plot_box begin_panel(film *f, int k)
 {
-    const double apart = s->frames > 1 ? s->frame[1].time - s->frame[0].time : 0;
+    const layout *l = &f->l;
+    const plot_box b = { l->left + k % l->columns * l->w + LEFT,
+                         l->top + k / l->columns * l->h + l->over, l->w - LEFT - RIGHT,
+                         l->h - l->over - UNDER };
+
+    plot_draw_frame(&f->p, b, f->window[0], f->window[1]);
+    plot_put(&f->p, "<clipPath id=\"panel%d\">", k);
+    plot_rectangle(&f->p, b, "");
+    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel%d)\" stroke-linejoin=\"round\" "
+             "stroke-linecap=\"round\">\n", k);
+    return b;
+}
+
+static void end_panel(film *f, plot_box b)
+{
+    plot_put(&f->p, "</g>\n");
+    plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
+}
+
+static int is_whole(double x) { return fabs(x - floor(x + 0.5)) <= 1e-6 * fabs(x); }
+
+/* As many decimals as all frames' times have, within a tenth of their distance. */
+static void put_time(film *f, plot_box b, int frame)
+{
+    const scene_frame *g = f->s->frame;
+    const double apart = f->s->frames > 1 ? g[1].time - g[0].time : 1e-4 * g[0].time;
+    double unit = 1;
+    char text[60];
     int decimals = 0;
-    for (double d = fabs(apart); decimals < 6 && fabs(d - floor(d + 0.5)) > 1e-6 * d; d *= 10) decimals++;
-    snprintf(text, size, "t = %.*f s", decimals, time);
+
+    for (int i = 0; i < f->s->frames; i++)
+        for (; decimals < 9 && unit > apart / 10 && !is_whole(g[i].time / unit); decimals++)
+            unit /= 10;
+    snprintf(text, sizeof text, "t = %.*f s", decimals, g[frame].time);
+    plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", text);
 }
 
-/* Above the panel. */
-static void put_time(film *f, const char *text)
+/* What stands over the blocks of a panel. */
+static void draw_state(film *f, plot_box b, int frame)
 {
-    plot_text(&f->p, (f->p.x.from + f->p.x.to) / 2, f->p.y.to - 12, "text-anchor=\"middle\"", text);
+    const point a = at(f, frame, f->s->mark);
+
+    draw_forces(f, frame);
+    if (f->s->mark_name)
+        plot_put(&f->p, "<circle r=\"4.5\" cx=\"%.2f\" cy=\"%.2f\"/>\n", a.x, a.y);
+    if (is_timed(f))
+        put_time(f, b, frame);
 }
 
-int scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n, const double time[])
+int scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n,
+                       const double time[])
 {
     film f = { .s = s, .m = m };
-    layout l;
-    char text[60];
-    if (!open_page(&f, path, n, &l)) return 0;
-    for (int k = 0; k < n; k++) {
+    int done = n > 0 && begin_film(&f) && open_page(&f, path, n, 0);
+
+    for (int k = 0; done && k < n; k++) {
+        const plot_box b = begin_panel(&f, k);
         int i = 0;
         for (int j = 1; j < s->frames; j++)
-            if (fabs(s->frame[j].time - time[k]) < fabs(s->frame[i].time - time[k])) i = j;
-        begin_panel(&f, (plot_box){ k % l.columns * l.w, l.top + k / l.columns * l.h, l.w, l.h }, k);
+            if (fabs(s->frame[j].time - time[k]) < fabs(s->frame[i].time - time[k]))
+                i = j;
         draw_blocks(&f, i);
-        draw_forces(&f, i);
-        for (int j = 0; j < s->marks; j++) draw_mark(&f, i, j);
-        end_panel(&f);
-        time_text(text, sizeof text, s, s->frame[i].time);
-        if (n > 1 || s->frame[i].time > 0) put_time(&f, text);
+        end_panel(&f, b);
+        draw_state(&f, b, i);
     }
-    return plot_close(&f.p);
-}
-
-int scene_write_state(const scene *s, const bbm_model *m, const char *path, int forces, const scene_force *force)
-{
-    scene now = *s;
-    const double time = 0;
-    now.frames = now.calls = now.failed = 0;
-    now.frame = NULL;
-    const int done = scene_record(&now, m, time, forces, force) && scene_write_panels(&now, m, path, 1, &time);
-    scene_free(&now);
+    done = done && plot_close(&f.p);
+    end_film(&f);
     return done;
 }
 
-/* A group that is visible from half an interval before its frame to half an interval behind it, at first the first. */
+/* A group that is visible from half an interval before its frame to half an interval behind it, at
+ * first the first. */
 static void begin_turn(film *f, int frame)
 {
     const int last = f->s->frames - 1, intervals = value_count(f) - 1;
     const double from = (frame - 0.5) / intervals, to = (frame + 0.5) / intervals;
+
     plot_put(&f->p, "<g%s>", frame ? " visibility=\"hidden\"" : "");
-    if (last == 0) return;
-    plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" ");
-    plot_put(&f->p, "dur=\"%.3gs\" repeatCount=\"indefinite\" ", f->seconds);
-    if (frame == 0) plot_put(&f->p, "values=\"visible;hidden\" keyTimes=\"0;%.5f\"/>\n", to);
-    else if (frame == last) plot_put(&f->p, "values=\"hidden;visible\" keyTimes=\"0;%.5f\"/>\n", from);
-    else plot_put(&f->p, "values=\"hidden;visible;hidden\" keyTimes=\"0;%.5f;%.5f\"/>\n", from, to);
+    if (last == 0)
+        return;
+    plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
+             "repeatCount=\"indefinite\" ", f->seconds);
+    if (frame == 0)
+        plot_put(&f->p, "values=\"visible;hidden\" keyTimes=\"0;%.5f\"/>\n", to);
+    else if (frame == last)
+        plot_put(&f->p, "values=\"hidden;visible\" keyTimes=\"0;%.5f\"/>\n", from);
+    else
+        plot_put(&f->p, "values=\"hidden;visible;hidden\" keyTimes=\"0;%.5f;%.5f\"/>\n", from, to);
+}
+
+/* A click stops and plays, the arrow keys step by a frame; where scripts do not run, it plays. */
+static void put_script(film *f)
+{
+    plot_put(&f->p, "<script>\nconst film = document.documentElement, step = %.6g;\n"
+             "document.getElementById('how').setAttribute('visibility', 'visible');\n"
+             "film.onclick = () => film.animationsPaused() ? film.unpauseAnimations() :\n"
+             "    film.pauseAnimations();\n", f->seconds / (value_count(f) - 1));
+    plot_put(&f->p, "window.onkeydown = (e) => {\n"
+             "    const way = { ArrowLeft: -1, ArrowRight: 1 }[e.key];\n"
+             "    if (!way) return;\n    film.pauseAnimations();\n"
+             "    film.setCurrentTime(Math.max(0, film.getCurrentTime() + way * step));\n};\n"
+             "</script>\n");
 }
 
 int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 {
     film f = { .s = s, .m = m };
-    layout l;
-    char text[60];
-    if (!open_page(&f, path, 1, &l)) return 0;
-    const double run = s->frame[s->frames - 1].time - s->frame[0].time;
-    if (s->frames > 1) f.seconds = s->play > 0 ? s->play : fmin(fmax(run, 4), 12);
-    begin_panel(&f, (plot_box){ 0, l.top, l.w, l.h }, 0);
-    draw_blocks(&f, 0);
-    for (int k = 0; k < s->frames; k++) {
-        begin_turn(&f, k);
-        draw_forces(&f, k);
-        plot_put(&f.p, "</g>\n");
+
+    if (s->frames > 1)
+        f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
+    int done = begin_film(&f) && open_page(&f, path, 1, 0);
+    if (done) {
+        const plot_box b = begin_panel(&f, 0);
+        draw_blocks(&f, 0);
+        end_panel(&f, b);
+        for (int k = 0; k < s->frames; k++) {
+            begin_turn(&f, k);
+            draw_state(&f, b, k);
+            plot_put(&f.p, "</g>\n");
+        }
+        if (f.seconds > 0)
+            put_script(&f);
+        done = plot_close(&f.p);
     }
-    for (int j = 0; j < s->marks; j++) draw_mark(&f, 0, j);
-    end_panel(&f);
-    for (int k = 0; k < s->frames; k++) {
-        begin_turn(&f, k);
-        time_text(text, sizeof text, s, s->frame[k].time);
-        put_time(&f, text);
-        plot_put(&f.p, "</g>\n");
+    end_film(&f);
+    return done;
+}
+
+/* --------------------------------------------------------------------------------------- maps */
+
+typedef struct { double u, v, value; } nodal;
+typedef struct { double x, y, value; } corner;          /* pixels */
+
+double scene_field(const bbm_result *r, const char *field)
+{
+    static const char *const name[] = SCENE_FIELDS;
+    const double *s = r->stress, mean = (s[0] + s[1]) / 2, radius = hypot((s[0] - s[1]) / 2, s[2]);
+    const double value[] = { r->mises, s[0], s[1], s[2], mean + radius, mean - radius, r->u, r->v };
+
+    for (int k = 0; name[k]; k++)
+        if (strcmp(name[k], field) == 0)
+            return value[k];
+    return NAN;
+}
+
+/* Whether no edge changes by more than FAIR of its length, the other end's turn included, and no
+ * element loses half of its area. */
+static int is_fair(const bbm_model *m, const nodal *n, double scale)
+{
+    for (int e = 0; e < m->elements; e++) {
+        double start = 0, area = 0;
+        for (int v = m->element[e].first; v < m->element[e].first + m->element[e].n; v++) {
+            const int i = m->vertex[v].node, j = m->vertex[next_vertex(m, v)].node;
+            const bbm_node *a = &m->node[i], *b = &m->node[j];
+            const point A = { a->x + scale * n[i].u, a->y + scale * n[i].v };
+            const point B = { b->x + scale * n[j].u, b->y + scale * n[j].v };
+            if (scale * hypot(n[j].u - n[i].u, n[j].v - n[i].v) > FAIR * hypot(b->x - a->x,
+                                                                               b->y - a->y))
+                return 0;
+            start += a->x * b->y - b->x * a->y;
+            area += A.x * B.y - B.x * A.y;
+        }
+        if (area < start / 2)
+            return 0;
     }
-    return plot_close(&f.p);
+    return 1;
+}
+
+/* 1, 2 or 5 times a power of ten, 1 at least, by which displacements can be magnified. */
+static double find_scale(const bbm_model *m, const nodal *n)
+{
+    double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } }, moved = 0;
+
+    for (int i = 0; i < m->nodes; i++) {
+        widen(range[0], m->node[i].x);
+        widen(range[1], m->node[i].y);
+        moved = fmax(moved, hypot(n[i].u, n[i].v));
+    }
+    const double size = fmax(range[0][1] - range[0][0], range[1][1] - range[1][0]);
+    double scale = moved > 1e-12 * size ? plot_nice(0.1 * size / moved) : 1;
+    while (scale > 1 && !is_fair(m, n, scale))
+        scale = plot_nice(scale / 2.2);
+    return fmax(scale, 1);
+}
+
+/* The part of a convex polygon where sign * (value - level) >= 0; returns its number of corners. */
+static int cut(const corner in[], int n, double level, double sign, corner out[])
+{
+    int count = 0;
+
+    for (int i = 0; i < n; i++) {
+        const corner a = in[i], b = in[(i + 1) % n];
+        const int stays = sign * (a.value - level) >= 0;
+        if (stays)
+            out[count++] = a;
+        if (stays == (sign * (b.value - level) >= 0))
+            continue;
+        const double t = (level - a.value) / (b.value - a.value);
+        out[count++] = (corner){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), level };
+    }
+    return count;
+}
+
+/* The share of one triangle in the band from level[0] to level[1]. */
+static void put_share(film *f, const corner triangle[3], const double level[2])
+{
+    const double a = triangle[0].value, b = triangle[1].value, c = triangle[2].value;
+    corner above[4], band[5];
+
+    if (fmax(a, fmax(b, c)) < level[0] || fmin(a, fmin(b, c)) >= level[1])
+        return;
+    const int n = cut(above, cut(triangle, 3, level[0], 1, above), level[1], -1, band);
+    for (int i = 0; i < n && n >= 3; i++)
+        plot_point(&f->p, i ? " " : "M", band[i].x, band[i].y);
+    plot_put(&f->p, n >= 3 ? "z\n" : "");
+}
+
+static corner corner_of(const film *f, const nodal *n, int v)
+{
+    return (corner){ at(f, 1, v).x, at(f, 1, v).y, n[f->m->vertex[v].node].value };
+}
+
+static void put_element_share(film *f, const nodal *n, const bbm_element *e, const double level[2])
+{
+    corner t[3] = { { 0, 0, 0 } };
+
+    for (int v = e->first; v < e->first + e->n && e->n > 3; v++) {
+        const corner a = corner_of(f, n, v);
+        t[2] = (corner){ t[2].x + a.x / e->n, t[2].y + a.y / e->n, t[2].value + a.value / e->n };
+    }
+    if (e->n == 3)
+        t[2] = corner_of(f, n, e->first + 2);
+    for (int v = e->first; v < e->first + (e->n == 3 ? 1 : e->n); v++) {
+        t[0] = corner_of(f, n, v);
+        t[1] = corner_of(f, n, next_vertex(f->m, v));
+        put_share(f, t, level);
+    }
+}
+
+static void draw_bands(film *f, const nodal *n, const plot_axis *bar)
+{
+    const int bands = plot_bands(bar);
+
+    for (int k = 0; k < bands; k++) {
+        const plot_colour fill = plot_band_colour((k + 0.5) / bands);
+        const double level[2] = {
+            k ? (bar->lo + k * bar->step) / bar->scale : -INFINITY,
+            k < bands - 1 ? (bar->lo + (k + 1) * bar->step) / bar->scale : INFINITY };
+        plot_put(&f->p, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.6\" d=\"",
+                 fill.text, fill.text);
+        for (int b = 0; b < f->bodies; b++)
+            for (int i = 0; i < f->body[b].n && !f->body[b].held; i++) {
+                const int v = f->vertex[f->body[b].first + i];
+                const bbm_element *e = &f->m->element[f->m->vertex[v].element];
+                if (v == e->first)
+                    put_element_share(f, n, e, level);
+            }
+        plot_put(&f->p, "\"/>\n");
+    }
+}
+
+static void draw_outlines(film *f, int frame, const char *stroke)
+{
+    plot_put(&f->p, "<path fill=\"none\" stroke=\"%s\" d=\"", stroke);
+    for (int b = 0; b < f->bodies; b++)
+        put_outline(f, frame, &f->body[b]);
+    plot_put(&f->p, "\"/>\n");
+}
+
+/* Bands, the lines of the mesh, the boundaries where they were and are. */
+static void draw_field(film *f, const nodal *n, const plot_axis *bar)
+{
+    draw_bands(f, n, bar);
+    for (int b = 0; b < f->bodies; b++)
+        if (f->body[b].held)
+            draw_block(f, 1, &f->body[b]);
+    plot_put(&f->p, "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"0.4\" "
+             "stroke-opacity=\"0.45\" d=\"");
+    for (int b = 0; b < f->bodies; b++)
+        put_elements(f, 1, &f->body[b]);
+    plot_put(&f->p, "\"/>\n");
+    draw_outlines(f, 0, "#666666");
+    draw_outlines(f, 1, "#000000");
+}
+
+static int write_field(film *f, const char *path, const nodal *n, const char *field)
+{
+    const int stress = strcmp(field, "u") && strcmp(field, "v");
+    const plot_quantity q = { .name = strcmp(field, "mises") ? field : "von Mises stress",
+                              .unit = stress ? "Pa" : "m" };
+    double range[2] = { INFINITY, -INFINITY };
+
+    if (!begin_film(f))
+        return 0;
+    for (int b = 0; b < f->bodies; b++)
+        for (int i = 0; i < f->body[b].n && !f->body[b].held; i++)
+            widen(range, n[f->m->vertex[f->vertex[f->body[b].first + i]].node].value);
+    if (range[0] > range[1])
+        range[0] = range[1] = 0;
+    if (!open_page(f, path, 1, BAR))
+        return 0;
+    const plot_axis bar = plot_bar_axis(&q, range[0], range[1]);
+    const plot_box b = begin_panel(f, 0);
+    draw_field(f, n, &bar);
+    end_panel(f, b);
+    draw_state(f, b, 1);
+    plot_draw_bar(&f->p, (plot_box){ b.x, b.y + b.h + UNDER + 4, b.w, 16 }, &bar, range);
+    return plot_close(&f->p);
+}
+
+int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
+{
+    const char *field = map->field ? map->field : "mises";
+    const size_t all = (size_t)m->vertices;
+    double (*place)[2] = malloc(2 * all * sizeof *place);       /* at the start, and magnified */
+    nodal *n = malloc((size_t)m->nodes * sizeof *n);
+    scene_frame state[2] = { { .at = place }, { .at = place ? place + all : NULL } };
+    scene s = { .frames = 2, .vertices = m->vertices, .frame = state };
+    film f = { .s = &s, .m = m };
+    char title[300];
+    int done = 0, finite = 1;
+
+    errno = ENOMEM;
+    if (place && n) {
+        for (int i = 0; i < m->nodes; i++) {
+            bbm_result r;
+            bbm_nodal_result(m, i, -1, &r);
+            n[i] = (nodal){ r.u, r.v, scene_field(&r, field) };
+            finite &= isfinite(r.u + r.v + n[i].value);
+        }
+        const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
+        for (int v = 0; v < 2 * m->vertices; v++) {
+            const int i = m->vertex[v % m->vertices].node;
+            const double times = v < m->vertices ? 0 : scale;
+            place[v][0] = m->node[i].x + times * n[i].u;
+            place[v][1] = m->node[i].y + times * n[i].v;
+        }
+        snprintf(title, sizeof title, "%s%sdisplacements × %g", map->title ? map->title : "",
+                 map->title ? ", " : "", scale);
+        s.title = scale == 0 || scale == 1 ? map->title : title;
+        errno = EDOM;
+        done = finite && write_field(&f, path, n, field);
+    }
+    end_film(&f);
+    free(place);
+    free(n);
+    return done;
 }

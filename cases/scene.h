@@ -1,74 +1,76 @@
-/* scene.h - pictures of blocks that move: one state, several states as panels, or a film.
+/* scene.h - pictures of blocks: one state, several states as panels, a film; contours of a field.
  *
- * A scene is a recording. The choices are set first, one call per step records, one call writes; the first frame is
- * the start, the last one the end of the run. However long the run is, at most `most` frames stay: whenever they are
- * full, every second one is given up.
+ * A scene is a recording. The choices are set first, one call per step records, one call writes;
+ * the first frame is the start, the last one the end of the run. However long the run is, at most
+ * 64 frames stay: whenever they are full, every second one is given up.
  *
  *     scene s = { .title = "Block on an incline" };
- *     scene_record(&s, m, 0, 0, NULL);
+ *     scene_record(&s, m);
  *     for (int i = 0; i < steps; i++) {
  *         case_must(m, bbm_step(m));
- *         scene_record(&s, m, m->info.t, 0, NULL);
+ *         scene_record(&s, m);
  *     }
  *     if (!scene_write_movie(&s, m, "out/incline/slide.svg")) ...
- *     if (!scene_write_panels(&s, m, "out/incline/states.svg", 3, (double[]){ 0, 0.5, 1 })) ...
+ *     if (!scene_write_panels(&s, m, "out/incline/states.svg", 2, (double[]){ 0, 1 })) ...
  *     scene_free(&s);
  *
- * The film is one SVG that a browser plays over and over; a viewer that cannot play shows the first frame. Whoever
- * records the contact forces too finds them as arrows in panels and film.
+ * The film is one SVG that a browser plays over and over, a click stops it, the arrow keys step; a
+ * viewer that cannot play shows the first frame. Supports, loads and contact forces are drawn.
  */
 #ifndef SCENE_H
 #define SCENE_H
 
 #include "../bbm.h"
 
-enum { SCENE_OPEN, SCENE_LOCK, SCENE_SLIDE };   /* state of a contact, in the library's order                   */
-
-typedef struct {                /* a contact force, drawn as an arrow that starts at its point                  */
-    double x, y;                /* m                                                                            */
-    double fx, fy;              /* N        on the block that it is to point into                               */
-    int    state;               /*          the colour; an open contact is not drawn                            */
+typedef struct {                /* of a closed contact                                            */
+    double x, y;                /* m                                                              */
+    double fx, fy;              /* N        upwards, so that arrows stand on what carries         */
+    bbm_contact_state state;
 } scene_force;
 
-typedef struct {                /* a point to mark; it moves with its vertex and leaves a trace                 */
-    int         vertex;
-    const char *name;           /* in the legend; or NULL                                                       */
-} scene_mark;
-
-typedef struct {                /* what was recorded at one time                                                */
-    double time;                /* s                                                                            */
-    int    call;                /* of scene_record, from 0                                                      */
+typedef struct {                /* what was recorded at one time                                  */
+    double time;                /* s                                                              */
+    int    call;                /* of scene_record, from 0                                        */
     int    forces;
-    double (*at)[2];            /* m        [vertices]                                                          */
-    scene_force *force;         /*          [forces], or NULL                                                   */
+    double (*at)[2];            /* m        [vertices]                                            */
+    scene_force *force;         /*          [forces]                                              */
 } scene_frame;
 
 typedef struct {
     /* --- choices: what is left out (zero) is chosen by the writer --- */
     const char *title;
-    double window[4];           /* m        x from, x to, y from, y to; zeros: everything that ever appears     */
-    double play;                /* s        one pass of the film; zero: as long as the run, within 4 to 12 s    */
-    double longest;             /* N        force of the longest arrow; zero: the largest one recorded          */
-    int    most;                /*          frames to keep; zero: 60                                            */
-    int    marks;
-    const scene_mark *mark;     /*          [marks]                                                             */
+    double window[4];           /* m        x from, x to, y from, y to: this, and all that is     */
+                                /*          not fixed; zeros: everything                          */
+    int    mark;                /*          a vertex to mark                                      */
+    const char *mark_name;      /*          in the legend; NULL: none                             */
     /* --- the recording --- */
     int    frames, vertices, calls, every, failed;
-    scene_frame *frame;         /*          [frames]; every-th call, and the last one                           */
+    scene_frame *frame;         /*          [frames]; every-th call, and the last one             */
 } scene;
 
-/* Records the present positions, and `forces` contact forces (0, NULL: none). Returns 1, or 0: no memory (then the
- * scene cannot be written), or a position that is not finite (then this frame alone is left out).              */
-int  scene_record(scene *s, const bbm_model *m, double time, int forces, const scene_force *force);
-void scene_free(scene *s);      /* the recording; the choices stay. A scene without frames is fine, too         */
+/* Records the present positions, contact forces and time. Returns 1, or 0: no memory (then the
+ * scene cannot be written), or a position that is not finite (then this frame is left out). */
+int  scene_record(scene *s, const bbm_model *m);
+void scene_free(scene *s);      /* the recording; the choices stay                                */
 
-/* They return 1 when the complete file stands under its name, else 0 and errno. Nothing recorded is nothing to
- * write.                                                                                                       */
+/* They return 1 when the complete file stands under its name, else 0 and errno. Nothing recorded is
+ * nothing to write. Panels: the recorded frames nearest to the n times. */
 int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
-int  scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n, const double time[]);
-                                /* the recorded frames nearest to the n times, each with its time as a caption  */
+int  scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n,
+                        const double time[]);
 
-/* The present state alone, with the choices of s, which records nothing. */
-int  scene_write_state(const scene *s, const bbm_model *m, const char *path, int forces, const scene_force *force);
+/* Von Mises stress; stresses; principal stresses, the larger first; displacements. */
+#define SCENE_FIELDS { "mises", "sxx", "syy", "sxy", "s1", "s2", "u", "v", NULL }
+
+typedef struct {                /* contours of a field over the present state                     */
+    const char *title;
+    const char *field;          /* one of SCENE_FIELDS; NULL: the first                           */
+    double scale;               /* -        of the displacements; 0: the largest is about a tenth */
+                                /*          of the model, and less where an element or an edge    */
+                                /*          would change too much; < 0: they are not shown        */
+} scene_map;
+
+double scene_field(const bbm_result *r, const char *field);     /* NaN: there is none */
+int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
 
 #endif

@@ -192,9 +192,9 @@ static void draw_chart(plot *p, plot_box box, const chart *c)
                                   .look = k + 2 };
     s[REGIMES + 1] = (plot_series){ .name = "wrong", .n = off, .x = wrong[0], .y = wrong[1], .style = PLOT_MARKS,
                                     .look = 8 };
-    snprintf(title, sizeof title, "b/h = %s", c->name);
-    plot_draw_chart(p, box, &(plot_chart){ .title = title, .x = { "a", "degrees", 0, 0, 90 },
-                    .y = { "phi", "degrees", 0, 0, 90 }, .count = REGIMES + 1 + (off > 0), .series = s });
+    snprintf(title, sizeof title, "Block with b/h = %s", c->name);
+    plot_draw_chart(p, box, &(plot_chart){ .title = title, .x = { "incline a", "degrees", 0, 0, 90 },
+                    .y = { "friction phi", "degrees", 0, 0, 90 }, .count = REGIMES + 1 + (off > 0), .series = s });
 }
 
 static void draw_charts(case_results *r, const chart c[SHAPES])
@@ -211,7 +211,7 @@ static void draw_charts(case_results *r, const chart c[SHAPES])
 static void draw_film(case_results *r)
 {
     static const struct { double a, k, x; } at[4] = { { 20, 0.5, 0 }, { 40, 1, 5 }, { 32, 0.5, 10 }, { 60, 0.5, 14 } };
-    scene film = { .title = "phi = 30: stands, slides, topples, slides and topples", .most = 64 };
+    scene film = { .title = "Friction 30 degrees: stands, slides, topples, slides and topples" };
     bbm_model *m = case_model();
 
     bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
@@ -232,7 +232,7 @@ static void draw_film(case_results *r)
     m->par.friction = 30;
     m->par.pcg.tolerance = 1e-13;
     case_must(m, bbm_prepare(m));
-    case_record(&film, m);
+    scene_record(&film, m);
     for (int i = 0; i < 120; i++)
         case_step(m, NULL, &film);
     case_draw_movie(r, "regimes.svg", m, &film);

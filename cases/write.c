@@ -166,16 +166,12 @@ static void put_timing(FILE *f, const write_results *w)
 
 /* ------------------------------------------------------------------------------------------ VTK */
 
-/* Of an element: sxx, syy, sxy, von Mises, the larger and the smaller principal stress. */
-static void find_stresses(const bbm_model *m, int e, double value[6])
+static double stress_of(const bbm_model *m, int element, const char *field)
 {
-    const double *s = m->element[e].stress;
-    const double mean = (s[0] + s[1]) / 2, radius = hypot((s[0] - s[1]) / 2, s[2]);
+    bbm_result r = { .mises = model_mises(m, element) };
 
-    memcpy(value, s, 3 * sizeof *s);
-    value[3] = model_mises(m, e);
-    value[4] = mean + radius;
-    value[5] = mean - radius;
+    memcpy(r.stress, m->element[element].stress, sizeof r.stress);
+    return scene_field(&r, field);
 }
 
 static void put_cells(FILE *f, const bbm_model *m)
@@ -210,11 +206,8 @@ static void put_vtk(FILE *f, const model *p, double t)
         fprintf(f, "%d\n", m->element[e].block);
     for (int k = 0; k < 6; k++) {
         fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name[k]);
-        for (int e = 0; e < m->elements; e++) {
-            double value[6];
-            find_stresses(m, e, value);
-            fprintf(f, "%.15g\n", value[k]);
-        }
+        for (int e = 0; e < m->elements; e++)
+            fprintf(f, "%.15g\n", stress_of(m, e, name[k]));
     }
     fprintf(f, "POINT_DATA %d\nVECTORS u double\n", m->nodes);
     for (int n = 0; n < m->nodes; n++) {
@@ -297,18 +290,21 @@ static void draw_pictures(write_results *w)
     const bbm_model *m = w->p->m;
     const double now = m->info.t;
     scene end = { .title = w->p->title };
-    /* A static one is magnified, 0. */
-    plot_map map = { .title = w->p->title, .magnify = w->p->dynamic ? 1 : 0 };
-    char path[LONGEST];
+    const char *field = w->p->field;
+    scene_map map = { w->p->title, field, w->p->scale };
+    char path[LONGEST], name[20];
 
-    case_record(&end, m);
+    scene_record(&end, m);
     if (!scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now))
         fail(w, path, strerror(errno));
     scene_free(&end);
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
         if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
             fail(w, path, strerror(errno));
-    if (!case_write_map(path_of(w, "mises.svg", path), m, "svm", &map))
+    if (w->p->dynamic && map.scale == 0)
+        map.scale = 1;                          /* a static one is magnified */
+    snprintf(name, sizeof name, "%s.svg", field);
+    if (!scene_write_map(m, path_of(w, name, path), &map))
         fail(w, path, strerror(errno));
 }
 
@@ -385,6 +381,18 @@ void write_matrix(write_results *w)
 
 /* -------------------------------------------------------------------------------------- the run */
 
+/* Whether a name of n letters is that of a field's picture. */
+static int is_map(const char *name, size_t n)
+{
+    static const char *const field[] = SCENE_FIELDS;
+
+    for (int k = 0; field[k]; k++)
+        if (n == strlen(field[k]) + 4 && strncmp(name, field[k], n - 4) == 0
+            && strncmp(name + n - 4, ".svg", 4) == 0)
+            return 1;
+    return 0;
+}
+
 /* The length of a name that a run writes, without the ending of a temporary file; 0: it is
  * another one. */
 static size_t is_ours(const char *name, long *process)
@@ -407,7 +415,7 @@ static size_t is_ours(const char *name, long *process)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
             return n;
-    return 0;
+    return is_map(name, n) ? n : 0;
 }
 
 /* Looks through the folder: whether another run writes there (some systems do not let its files
@@ -460,7 +468,7 @@ int write_check(write_results *w)
 
     if (!open_folder(w))
         return 0;
-    case_record(&start, w->p->m);
+    scene_record(&start, w->p->m);
     if (!scene_write_panels(&start, w->p->m, path_of(w, "model.svg", path), 1, (double[]){ 0 }))
         fail(w, path, strerror(errno));
     scene_free(&start);
@@ -499,7 +507,7 @@ int write_step(write_results *w, int step)
     if (step > 0)
         put_summary(w, step);
     if (p->svg && p->dynamic && (p->every == 0 || step % p->every == 0))
-        case_record(&w->film, p->m);
+        scene_record(&w->film, p->m);
     if (p->vtk && p->every && step % p->every == 0)
         write_vtk(w, step);
     if (ferror(w->history.file) || ferror(w->summary.file))

@@ -68,6 +68,7 @@ Suite *statements_suite(void);
 Suite *moving_suite(void);
 Suite *scenes_suite(void);
 Suite *files_suite(void);
+Suite *pictures_suite(void);
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

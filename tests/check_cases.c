@@ -287,13 +287,22 @@ START_TEST(the_numbers_of_the_documents_are_what_the_programs_print)
 }
 END_TEST
 
-START_TEST(the_picture_of_the_readme_is_what_the_program_draws)
+START_TEST(the_pictures_of_the_readme_are_what_the_programs_draw)
 {
-    char *shown = slurp("doc/beam.svg"), *drawn = slurp("out/exp1/deformed.svg");
+    static const char *const picture[][2] = {
+        { "doc/arch.svg", "out/arch/folds.svg" }, { "doc/beam.svg", "out/exp1/deformed.svg" },
+    };
+    char *readme = slurp("README.md");
 
-    ck_assert_msg(strcmp(shown, drawn) == 0, "copy out/exp1/deformed.svg to doc/beam.svg");
-    free(shown);
-    free(drawn);
+    for (int k = 0; k < 2; k++) {
+        char *shown = slurp(picture[k][0]), *drawn = slurp(picture[k][1]);
+        ck_assert_msg(strcmp(shown, drawn) == 0, "copy %s to %s", picture[k][1], picture[k][0]);
+        ck_assert_msg(strstr(readme, picture[k][0]), "README.md does not show %s", picture[k][0]);
+        ck_assert_msg(strlen(shown) < (k ? 400000 : 200000), "%s is large", picture[k][0]);
+        free(shown);
+        free(drawn);
+    }
+    free(readme);
 }
 END_TEST
 
@@ -439,7 +448,7 @@ Suite *cases_suite(void)
     t = tcase_create("documents");
     tcase_set_timeout(t, 60);
     tcase_add_test(t, the_numbers_of_the_documents_are_what_the_programs_print);
-    tcase_add_test(t, the_picture_of_the_readme_is_what_the_program_draws);
+    tcase_add_test(t, the_pictures_of_the_readme_are_what_the_programs_draw);
     tcase_add_test(t, the_size_that_the_readme_tells_is_the_size);
     suite_add_tcase(s, t);
     t = tcase_create("the paper alone");

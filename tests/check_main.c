@@ -81,6 +81,7 @@ static Suite *(*const SUITES[])(void) = {
 #endif
 #ifdef CASES
     cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
+    pictures_suite,
 #endif
 };
 

@@ -1,0 +1,513 @@
+/* check_pictures.c - what the pictures show, read back from the SVG: that they are well formed,
+ * that magnified displacements turn no element over, that blocks, arrows and texts stay where they
+ * are to be, and that times, titles, hatching and tints are right. */
+#define _POSIX_C_SOURCE 200809L
+#include <glob.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "programs.h"
+
+/* The whole file, to be freed. */
+static char *read_all(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+    char *text;
+
+    ck_assert_msg(f && fseek(f, 0, SEEK_END) == 0, "%s cannot be read", path);
+    const size_t n = (size_t)ftell(f);
+    rewind(f);
+    text = calloc(n + 1, 1);
+    ck_assert(text && fread(text, 1, n, f) == n);
+    fclose(f);
+    return text;
+}
+
+/* The number of an attribute of the element that begins at s; NaN: it has none. */
+static double attribute(const char *s, const char *name)
+{
+    char form[40];
+
+    snprintf(form, sizeof form, " %s=\"", name);
+    const char *end = strchr(s, '>'), *found = strstr(s, form);
+    return found && found < end ? strtod(found + strlen(form), NULL) : NAN;
+}
+
+static int has(const char *s, const char *what)
+{
+    const char *end = strchr(s, '>'), *found = strstr(s, what);
+
+    return found && found < end;
+}
+
+typedef struct { double x, y; } point;
+
+/* The points of a path one after the other, absolute; *new: one after M. Returns 0 at its end. An
+ * arc counts as its end. */
+static int next_point(const char **s, point *at, int *new)
+{
+    static char command;
+
+    *new = 0;
+    for (char *end;; (*s)++)
+        if (strchr("MLAlmz", **s) && **s) {
+            command = **s;
+            *new |= command == 'M' || command == 'm';
+            if (command == 'A')
+                *s += strlen("A5 5 0 0 1");
+        } else if (**s == '"' || **s == ';' || **s == '\0') {
+            return 0;
+        } else if (**s != ' ' && **s != '\n') {
+            const int relative = command == 'l' || command == 'm';
+            const double x = strtod(*s, &end), y = strtod(end, &end);
+            *at = relative ? (point){ at->x + x, at->y + y } : (point){ x, y };
+            *s = end;
+            return 1;
+        }
+}
+
+static const char *path_of(const char *s) { return strstr(s, " d=\"") + 4; }
+
+/* ------------------------------------------------------------------------------ all pictures */
+
+static glob_t pictures;
+
+/* The pictures of the shipped models, twenty steps of each, and of some programs. */
+static void make_pictures(void)
+{
+    ck_assert_int_eq(shell("mkdir -p out/model; for m in cases/models/*.model; do "
+                           "sed -e 's/steps [0-9][0-9]*/steps 20/' -e '/^expect/d' "
+                           "-e 's|^mesh |mesh ../../cases/models/|' $m > out/model/drawn.model; "
+                           "%s/bbm -q out/model/drawn.model "
+                           "-o out/model/drawn-$(basename $m .model) "
+                           "|| exit 1; done", BUILD), 0);
+    ck_assert_int_eq(shell("for p in arch drop topple; do %s/$p > out/model/drawn.log || "
+                           "exit 1; done", BUILD), 0);
+    ck_assert_int_eq(glob("out/model/drawn-*/*.svg", 0, NULL, &pictures), 0);
+    ck_assert_int_eq(glob("out/*/*.svg", GLOB_APPEND, NULL, &pictures), 0);
+    ck_assert_int_gt((int)pictures.gl_pathc, 30);
+}
+
+static void forget_pictures(void) { globfree(&pictures); }
+
+/* Each element that begins ends, in the right order. */
+static void check_form(const char *path, const char *text)
+{
+    char open[30][20];
+    int depth = 0;
+
+    for (const char *s = strchr(text, '<'); s; s = strchr(s + 1, '<')) {
+        const size_t n = strcspn(s + 1, " >/\n");
+        const char *end = strchr(s, '>');
+        ck_assert_msg(end && depth < 29, "%s: %.40s", path, s);
+        if (s[1] == '/') {
+            const char *last = depth > 0 ? open[--depth] : "";
+            ck_assert_msg(*last && strncmp(last, s + 2, strlen(last)) == 0, "%s: %.40s ends <%s>",
+                          path, s, last);
+        } else if (s[1] != '?' && end[-1] != '/') {
+            snprintf(open[depth++], sizeof open[0], "%.*s", (int)n, s + 1);
+        }
+    }
+    ck_assert_msg(depth == 0, "%s: <%s> has no end", path, depth > 0 ? open[depth - 1] : "");
+    ck_assert_msg(!strstr(text, "nan") && !strstr(text, "inf ") && !strstr(text, "inf\""),
+                  "%s: NaN or infinity", path);
+}
+
+typedef struct { double x, y, w, h; } box;
+
+/* The frames of the panels: the rectangles of clipping paths. */
+static int find_frames(const char *text, box frame[], int most)
+{
+    int n = 0;
+
+    for (const char *s = strstr(text, "<clipPath"); s && n < most; s = strstr(s + 1, "<clipPath")) {
+        const char *r = strstr(s, "<rect");
+        frame[n++] = (box){ attribute(r, "x"), attribute(r, "y"), attribute(r, "width"),
+                            attribute(r, "height") };
+    }
+    return n;
+}
+
+static int is_in(const box *b, point p)
+{
+    return p.x >= b->x - 0.1 && p.x <= b->x + b->w + 0.1 && p.y >= b->y - 0.1
+           && p.y <= b->y + b->h + 0.1;
+}
+
+/* Every point of a list of paths, with ; between them, is in one of the frames. */
+static void check_path(const char *path, const char *d, const box frame[], int n)
+{
+    do {
+        point p = { 0, 0 };
+        ck_assert_msg(strchr("M\"", *d), "%s: a path begins with %.10s", path, d);
+        for (int new; next_point(&d, &p, &new); ) {
+            int inside = 0;
+            for (int k = 0; k < n; k++)
+                inside |= is_in(&frame[k], p);
+            ck_assert_msg(inside, "%s: (%g, %g) is outside the frame", path, p.x, p.y);
+        }
+    } while (*d++ == ';');
+}
+
+/* Arrows, supports and blocks that are not held, in all frames of a film. */
+static void check_places(const char *path, const char *text)
+{
+    box frame[9];
+    const int n = find_frames(text, frame, 9);
+
+    for (const char *s = strstr(text, "<clipPath"); s; s = strstr(s + 1, "<"))
+        if (strncmp(s, "<animate attributeName=\"d\"", 26) == 0)
+            check_path(path, strstr(s, " values=\"") + 9, frame, n);
+        else if (strncmp(s, "<path", 5) == 0 && (has(s, "fill=\"#") || has(s, "stroke-linejoin")))
+            check_path(path, path_of(s), frame, n);
+}
+
+typedef struct { box b; int time; char words[40]; } label;
+
+/* A text's box from the number of its letters, 0.53 of their size wide on average. */
+static label find_label(const char *s, double shift_x, double shift_y)
+{
+    const char *words = strchr(s, '>') + 1;
+    const double given = attribute(s, "font-size"), size = isnan(given) ? 14 : given;
+    label l = { { attribute(s, "x") + shift_x, attribute(s, "y") + shift_y - size, 0, size }, 0,
+                "" };
+    int letters = 0;
+
+    for (const char *c = words; *c != '<'; c++)
+        letters += (*c & 0xC0) != 0x80;
+    snprintf(l.words, sizeof l.words, "%.*s", (int)strcspn(words, "<"), words);
+    l.b.w = 0.53 * size * letters;
+    l.b.x -= has(s, "middle") ? l.b.w / 2 : has(s, "\"end\"") ? l.b.w : 0;
+    l.time = strncmp(words, "t = ", 4) == 0;
+    return l;
+}
+
+/* Texts do not touch each other, but for the times of a film, and none leaves the page. */
+static void check_labels(const char *path, const char *text)
+{
+    static label l[2000];
+    double x = 0, y = 0;
+    int n = 0;
+    const char *svg = strstr(text, "<svg");
+
+    for (const char *s = svg; s; s = strchr(s + 1, '<')) {
+        const char *shift = strncmp(s, "<g transform=\"translate(", 24) ? NULL : s + 24;
+        if (shift)
+            ck_assert_int_eq(sscanf(shift, "%lf %lf", &x, &y), 2);
+        else if (strncmp(s, "</g>", 4) == 0)
+            x = y = 0;
+        else if (strncmp(s, "<text", 5) == 0 && !has(s, "rotate") && n < 2000)
+            l[n++] = find_label(s, x, y);
+    }
+    for (int i = 0; i < n; i++) {
+        const box *a = &l[i].b;
+        ck_assert_msg(a->x >= 0 && a->x + a->w <= attribute(svg, "width"),
+                      "%s: '%s' leaves the page", path, l[i].words);
+        for (int j = 0; j < i; j++) {
+            const box *b = &l[j].b;
+            const int apart = a->x + a->w < b->x || b->x + b->w < a->x || a->y + a->h <= b->y
+                              || b->y + b->h <= a->y;
+            ck_assert_msg(apart || (l[i].time && l[j].time), "%s: '%s' touches '%s'", path,
+                          l[i].words, l[j].words);
+        }
+    }
+}
+
+START_TEST(pictures_are_well_formed_and_all_is_inside_and_no_texts_touch)
+{
+    int films = 0;
+
+    for (size_t k = 0; k < pictures.gl_pathc; k++) {
+        const char *path = pictures.gl_pathv[k];
+        char *text = read_all(path);
+        check_form(path, text);
+        check_labels(path, text);
+        if (strstr(text, "<clipPath"))
+            check_places(path, text);
+        if (strstr(text, "<animate")) {         /* it plays by itself, and can be stopped */
+            ck_assert_msg(strstr(text, "pauseAnimations"), "%s cannot be stopped", path);
+            films++;
+        }
+        free(text);
+    }
+    ck_assert_int_gt(films, 5);
+}
+END_TEST
+
+START_TEST(the_numbers_of_axes_do_not_touch)
+{
+    static const struct { double x, y, size; const char *unit; } at[] = {
+        { 0, 0, 1e-3, "x [mm]" }, { 512345, 5401234, 40, "x [m]" }, { -0.5, 0, 0.9, "x [m]" },
+        { 1e6, 1e6, 2e4, "x [km]" }, { 512345, 0, 0.3, "x [m]" },
+    };
+    const double x = at[_i].x, y = at[_i].y, size = at[_i].size;
+    char model[LONG];
+
+    snprintf(model, sizeof model, STEEL "node 1 %.9g %.9g\nnode 2 %.9g %.9g\nnode 3 %.9g %.9g\n"
+             "element 1 b steel 1 2 3\nfix node 1\nfix node 2\nload node 3 1 0\nstatic\n"
+             "output svg\n", x, y, x + size, y, x, y + size / 2);
+    ck_assert_int_eq(run_text("axes", model), 0);
+    char *text = read_all("out/model/axes/contacts.svg");
+    check_labels("contacts.svg", text);
+    ck_assert_msg(strstr(text, at[_i].unit), "not %s", at[_i].unit);
+    free(text);
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------ displacements */
+
+/* Of a ring around a hole, 2 m and 20 m wide, in rings that grow outwards; quadrilaterals, or the
+ * triangles of their diagonals. Its wall is pulled inwards by p. */
+static void write_tunnel(const char *path, int triangles, double p)
+{
+    enum { AROUND = 32, OUT = 10 };
+    FILE *f = fopen(path, "w");
+
+    ck_assert_ptr_nonnull(f);
+    fprintf(f, "material rock E 1e10 nu 0.25 density 2500\n");
+    for (int j = 0; j <= OUT; j++)
+        for (int i = 0; i < AROUND; i++) {
+            const double a = 2 * acos(-1) * i / AROUND, r = 2 * pow(10, (double)j / OUT);
+            fprintf(f, "node %d %.9g %.9g\n", 1 + i + AROUND * j, r * cos(a), r * sin(a));
+        }
+    for (int j = 0, e = 1; j < OUT; j++)
+        for (int i = 0; i < AROUND; i++) {
+            const int a = 1 + i + AROUND * j, b = 1 + (i + 1) % AROUND + AROUND * j;
+            if (triangles)
+                fprintf(f, "element %d rock rock %d %d %d\nelement %d rock rock %d %d %d\n", e, a,
+                        a + AROUND, b + AROUND, e + 1, a, b + AROUND, b);
+            else
+                fprintf(f, "element %d rock rock %d %d %d %d\n", e, a, a + AROUND, b + AROUND, b);
+            e += 2;
+        }
+    fprintf(f, "set outside nodes");
+    for (int i = 1; i <= AROUND; i++)
+        fprintf(f, " %d", i + AROUND * OUT);
+    fprintf(f, "\nfix set outside\npressure box -2.1 -2.1 2.1 2.1 %g\nstatic\noutput svg\n", -p);
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+/* Twice the area of a polygon, above 0 if it runs against the clock on the page, where y points
+ * down; *next: the polygon behind it, or NULL. */
+static double area_of(const char *d, const char **next)
+{
+    point first = { 0, 0 }, last = first, p = first;
+    double area = 0;
+    int new, n = 0;
+
+    for (const char *s = d; *next = NULL, next_point(&s, &p, &new); n++, last = p) {
+        if (new && n > 0) {
+            *next = strchr(d + 1, 'M');
+            break;
+        }
+        if (n == 0)
+            first = p;
+        else
+            area -= last.x * p.y - p.x * last.y;
+    }
+    return area - (last.x * first.y - first.x * last.y);
+}
+
+/* The number of elements of a map, none of them turned over; *least: the smallest area. */
+static int check_elements(const char *path)
+{
+    char *text = read_all(path);
+    const char *mesh = strstr(text, "stroke-opacity"), *next;
+    int n = 0;
+
+    ck_assert_msg(mesh, "%s has no mesh", path);
+    for (const char *s = path_of(mesh); s; s = next, n++)
+        ck_assert_msg(area_of(s, &next) > 0, "%s: element %d is turned over", path, n);
+    free(text);
+    return n;
+}
+
+START_TEST(no_element_is_turned_over_by_magnified_displacements)
+{
+    /* The wall of the tunnel comes inwards by p r (1 + nu) / E or so, 2.4 mm, in 40 m. */
+    char *text;
+
+    write_tunnel("out/model/tunnel.model", _i, 1e7);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/tunnel.model -o out/model/tunnel", BUILD), 0);
+    ck_assert_int_eq(check_elements("out/model/tunnel/mises.svg"), _i ? 640 : 320);
+    text = read_all("out/model/tunnel/mises.svg");
+    const char *times = strstr(text, "displacements × ");
+    ck_assert_ptr_nonnull(times);
+    const double scale = strtod(times + strlen("displacements × "), NULL);
+    const double wall = -cell("tunnel", "nodes.csv", "1,", "u");
+    ck_assert_msg(wall > 1e-3 && scale * wall > 0.2 && scale * wall < 0.7,        /* of 2 m */
+                  "the wall moves by %g m, drawn %g times", wall, scale);
+    free(text);
+}
+END_TEST
+
+START_TEST(the_shipped_models_are_drawn_with_all_elements_the_right_way_round)
+{
+    static const char *const name[] = { "exp1", "exp2", "dam", "disc" };
+    char path[100];
+
+    for (int k = 0; k < 4; k++) {
+        snprintf(path, sizeof path, "out/model/drawn-%s/mises.svg", name[k]);
+        ck_assert_int_gt(check_elements(path), 50);
+    }
+}
+END_TEST
+
+/* ------------------------------------------------------------- times, titles, hatching, tints */
+
+#define FALL STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n" \
+    "velocity b 1 0\noutput svg\n"
+
+START_TEST(a_picture_says_the_time_that_it_shows)
+{
+    static const struct { const char *dynamic, *said; } call[] = {
+        { "dynamic dt 0.015 steps 100\n", ">t = 1.5 s<" },
+        { "dynamic dt 0.5 steps 2\n", ">t = 1 s<" },
+        { "dynamic dt 0.001 steps 1234\n", ">t = 1.234 s<" },
+        { "dynamic dt 1e-4 steps 3\n", ">t = 0.0003 s<" },
+    };
+    char model[LONG];
+
+    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
+        snprintf(model, sizeof model, FALL "%s", call[k].dynamic);
+        ck_assert_int_eq(run_text("time", model), 0);
+        char *text = read_all("out/model/time/contacts.svg");
+        ck_assert_msg(strstr(text, call[k].said), "%s: not %s", call[k].dynamic, call[k].said);
+        free(text);
+    }
+}
+END_TEST
+
+START_TEST(a_title_with_other_letters_is_right)
+{
+    static const struct { const char *title, *drawn; } call[] = {
+        { "Böschung, 坡", ">Böschung, 坡<" },
+        { "B\xF6schung", ">B&#246;schung<" },               /* Latin-1 */
+        { "a < b & c > d", ">a &#60; b &#38; c &#62; d<" },
+        /* Half a pair and a slash that is too long are no UTF-8. */
+        { "\xED\xA0\x80\xC0\xAF", ">&#237;&#160;&#192;&#175;<" },
+    };
+    char model[LONG];
+
+    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
+        snprintf(model, sizeof model, FALL "dynamic dt 0.1 steps 2\ntitle %s\n", call[k].title);
+        ck_assert_int_eq(run_text("title", model), 0);
+        for (int i = 0; i < 3; i++) {
+            static const char *const file[] = { "contacts", "movie", "mises" };
+            char path[60];
+            snprintf(path, sizeof path, "out/model/title/%s.svg", file[i]);
+            char *text = read_all(path);
+            ck_assert_msg(strstr(text, call[k].drawn), "%s: not %s", path, call[k].drawn);
+            free(text);
+        }
+    }
+}
+END_TEST
+
+/* How often something stands in a picture of a shipped model. */
+static int count(const char *model, const char *what)
+{
+    char path[100];
+    int n = 0;
+
+    snprintf(path, sizeof path, "out/model/drawn-%s/contacts.svg", model);
+    char *text = read_all(path);
+    for (const char *s = strstr(text, what); s; s = strstr(s + 1, what))
+        n++;
+    free(text);
+    return n;
+}
+
+START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
+{
+    static const struct { const char *model; int hatched, fixed, roller, load; } drawn[] = {
+        { "exp1", 0, 1, 0, 1 }, { "exp2", 0, 0, 1, 1 }, { "exp3", 1, 0, 0, 1 },
+        { "dam", 0, 1, 1, 1 }, { "disc", 0, 1, 1, 1 },
+        { "incline", 1, 0, 0, 0 }, { "arch", 2, 0, 0, 0 },
+    };
+
+    for (size_t k = 0; k < sizeof drawn / sizeof *drawn; k++) {
+        const char *name = drawn[k].model;
+        ck_assert_int_eq(count(name, "<path fill=\"url(#held)\""), drawn[k].hatched);
+        ck_assert_int_eq(count(name, ">fixed point<"), drawn[k].fixed);
+        ck_assert_int_eq(count(name, ">fixed in one direction<"), drawn[k].roller);
+        ck_assert_int_eq(count(name, ">load "), drawn[k].load);
+    }
+}
+END_TEST
+
+/* Eight courses of so many bricks, 2 x 1 m, each course half a brick further than the one below. */
+static void write_bricks(const char *path, int bricks)
+{
+    FILE *f = fopen(path, "w");
+
+    ck_assert_ptr_nonnull(f);
+    fprintf(f, "material m E 1e9 nu 0.2 density 2000\ncontact friction 30\n");
+    for (int k = 0; k < 8 * bricks; k++) {
+        const int x = 2 * (k % bricks) + k / bricks % 2, y = k / bricks;
+        for (int c = 0; c < 4; c++)
+            fprintf(f, "node %d %d %d\n", 4 * k + c, x + 2 * (c == 1 || c == 2), y + c / 2);
+        fprintf(f, "element %d b%d m %d %d %d %d\n", k, k, 4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3);
+    }
+    fprintf(f, "dynamic dt 0.001 steps 1\noutput svg\n");
+    ck_assert_int_eq(fclose(f), 0);
+}
+
+START_TEST(blocks_that_touch_have_other_tints)
+{
+    static struct { box b; char tint[8]; } block[300];
+    int n = 0, touching = 0;
+
+    write_bricks("out/model/bricks.model", 3 + _i);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/bricks.model -o out/model/bricks", BUILD), 0);
+    char *text = read_all("out/model/bricks/contacts.svg");
+    for (const char *s = strstr(text, "<path"); s && n < 300; s = strstr(s + 1, "<path")) {
+        if (!has(s, "<path fill=\"#") || has(s, "#ffffff"))
+            continue;
+        point p = { 0, 0 };
+        int new;
+        box b = { INFINITY, INFINITY, -INFINITY, -INFINITY };
+        memcpy(block[n].tint, s + 12, 7);
+        for (const char *d = path_of(s); next_point(&d, &p, &new); ) {
+            b.x = fmin(b.x, p.x), b.y = fmin(b.y, p.y);
+            b.w = fmax(b.w, p.x), b.h = fmax(b.h, p.y);
+        }
+        block[n++].b = (box){ b.x, b.y, b.w - b.x, b.h - b.y };
+    }
+    free(text);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            const box *a = &block[i].b, *b = &block[j].b;
+            const double x = fmin(a->x + a->w, b->x + b->w) - fmax(a->x, b->x);
+            const double y = fmin(a->y + a->h, b->y + b->h) - fmax(a->y, b->y);
+            if (x < -1 || y < -1 || (x < 1 && y < 1))
+                continue;
+            touching++;
+            ck_assert_msg(strcmp(block[i].tint, block[j].tint), "blocks %d and %d are %s", i, j,
+                          block[i].tint);
+        }
+    ck_assert_int_eq(n, 8 * (3 + _i));
+    ck_assert_int_gt(touching, 3 * n / 2);
+}
+END_TEST
+
+Suite *pictures_suite(void)
+{
+    Suite *s = suite_create("pictures");
+    TCase *t = tcase_create("pictures");
+
+    tcase_set_timeout(t, 120);
+    tcase_add_unchecked_fixture(t, make_pictures, forget_pictures);
+    tcase_add_test(t, pictures_are_well_formed_and_all_is_inside_and_no_texts_touch);
+    tcase_add_loop_test(t, the_numbers_of_axes_do_not_touch, 0, 5);
+    tcase_add_loop_test(t, no_element_is_turned_over_by_magnified_displacements, 0, 2);
+    tcase_add_test(t, the_shipped_models_are_drawn_with_all_elements_the_right_way_round);
+    tcase_add_test(t, a_picture_says_the_time_that_it_shows);
+    tcase_add_test(t, a_title_with_other_letters_is_right);
+    tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
+    tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);
+    suite_add_tcase(s, t);
+    return s;
+}
