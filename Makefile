@@ -1,20 +1,25 @@
 # make           builds the experiments        make check     every test (needs libcheck)
 # make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
 # make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
-# make bench     time ratios of the solver     make memcheck  the tests under valgrind
+# make bench     solver, friction: ratios      make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files, each beside its theory
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
 # make windows   ./bbm for Windows (mingw-w64)
+# One goal is made with as many jobs as there are processors, unless -j says how many.
+
+ifeq ($(MAKELEVEL)$(word 2,$(MAKECMDGOALS))$(filter -j%,$(MAKEFLAGS)),0)
+MAKEFLAGS += -j$(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+endif
 
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CORE     = bbm contact solver
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy friction joints mechanism multipliers overlap pieces \
-           refuse rotation sliding statics strain supports sweep water
+BEYOND   = beyond bending coarse eisenstat energy friction joints mechanism multipliers overlap pieces pressure \
+           refuse rotation sliding statics strain supports sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop impact turning arch resting
 CASES    = $(RUN) $(GALLERY)
@@ -85,7 +90,7 @@ bbm: $O/bbm
 $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bench: $O/tests/bench.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
@@ -120,7 +125,7 @@ $O/tests/check_all.o $O/tests/check_paper.o: tests/check_main.c $(HEADERS) Makef
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(DEFINE) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
+TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/rock.o $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
 $O/quick: $O/tests/check_main.o $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
@@ -138,9 +143,50 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
-check: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
-	$O/check
-	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) smoke
+# The tests in two parts side by side, each to a file: those of what the experiments print, and all others.
+PARTS = others experiments
+SAY   = $O/check > $O/$*.said 2>&1 || echo "ended with status $$?" >> $O/$*.said
+
+check: $(PARTS:%=check-%) check-smoke
+	@cat $(PARTS:%=$O/%.said)
+	@awk -F '[:,]' '/^[0-9]+%: Checks:/ { run += $$3; failed += $$5 + $$7 } /^ended with status/ { bad = 1 } \
+	END { print run " checks, " failed " failed" (bad ? ": not passed" : ""); exit bad }' $(PARTS:%=$O/%.said)
+
+check-others: check-%: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
+	CK_EXCLUDE_TAGS=experiments $(SAY)
+
+check-experiments: check-%: $O/check experiments
+	CK_RUN_SUITE=cases $(SAY)
+
+# Everything that the experiments print, the longest first, but after what the tests beside them need; what hangs is
+# ended after ten minutes of the processor.
+CONVERGE = exp1 exp2
+CALLS    = $(CASES:%=run-%) $(CONVERGE:%=converge-%) again without-beyond
+LIMIT    = mkdir -p out; ulimit -t 600;
+
+experiments: run-incline $(CALLS)
+
+$(CALLS): | $O/check $(CASES:%=$O/failing/%)
+
+$(CASES:%=run-%): run-%: $O/%
+	@$(LIMIT) $O/$* > out/$*.log
+
+$(CONVERGE:%=converge-%): converge-%: $O/%
+	@$(LIMIT) $O/$* converge > out/converge-$*.log
+
+again: $O/exp1
+	@rm -rf out/again && mkdir -p out/again/cases && cp cases/fem.csv out/again/cases
+	@$(LIMIT) cd out/again && ../../$O/exp1 > exp1.log
+
+# `make paper` in the tree without beyond/.
+without-beyond:
+	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h cases tests out/paper
+	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
+	> out/paper/paper.log 2>&1
+
+# Not optimized, since compiling takes most of it.
+check-smoke:
+	@[ $O = $(SANITIZED) ] || ! $(HAS_SANITIZERS) || $(MAKE) -s $(SANITIZE) O=out/smoke CFLAGS="-g $(SANITIZERS)" smoke
 
 memcheck:
 	$(MAKE) O=out/memcheck CPPFLAGS=-DGUARD=0 out/memcheck/quick
@@ -182,5 +228,6 @@ fuzz:
 clean:
 	rm -rf out bbm
 
-.PHONY: all run paper paper-run gallery converge bench quick check memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: check $(PARTS:%=check-%) check-smoke experiments $(CALLS)
 .DELETE_ON_ERROR:

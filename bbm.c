@@ -18,11 +18,11 @@
  * Statics has no inertia, Eq. (16), (17): one step is one iteration of Newton-Raphson on the moved
  * geometry.
  *
- * What the paper does not have comes in through m->hook, see bbm_hooks in bbm.h. What is left of it
- * here is a pressure on an edge, and that a step that fails is done again in parts.
+ * What the paper does not have comes in through m->hook, see bbm_hooks in bbm.h.
  */
 #include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,13 +101,13 @@ static void multiply_mode(double T[2][6], const double D[6], double u[2])
     }
 }
 
-/* Displacement u = T D of the last step at (x, y), a point given before the step, Eq. (1). */
-void bbm_displacement(const bbm_element *e, double x, double y, double u[2])
+/* Displacement u = T D at (x, y), a point given before the step, Eq. (1). */
+void bbm_displacement(const bbm_element *e, const double D[6], double x, double y, double u[2])
 {
     double T[2][6];
 
     bbm_mode_matrix(e, x, y, T);
-    multiply_mode(T, e->D, u);
+    multiply_mode(T, D, u);
 }
 
 /* ------------------------------------------------------------- 2.2 Element connections */
@@ -293,6 +293,7 @@ void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
 {
     double at[2];
 
+    g->node[0] = g->node[1] = P->node;
     g->d0[0] = P->u - W->wall[0];
     g->d0[1] = P->v - W->wall[1];
     bbm_step_matrix(e, P->x, P->y, g->Ti, at);
@@ -399,18 +400,9 @@ int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
 int bbm_is_exact(const bbm_model *m) { return m->hook.is_exact && m->hook.is_exact(m); }
 
 /* The next gap of the list, between the elements i and j; it keeps its multiplier from the last
- * list. NULL: no memory. */
+ * list. There is room for two of each bond and three of each vertex (allocate). */
 bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 {
-    if (m->gaps == m->gap_room) {
-        const int room = 2 * m->gap_room + 64;
-        bbm_gap *larger = realloc(m->gap, (size_t)room * sizeof *larger);
-        if (!larger)
-            return NULL;
-        memset(larger + m->gap_room, 0, (size_t)(room - m->gap_room) * sizeof *larger);
-        m->gap = larger;
-        m->gap_room = room;
-    }
     bbm_gap *g = &m->gap[m->gaps++];
     *g = (bbm_gap){ .i = i, .j = j, .f = { g->f[0], g->f[1] },
                     .f_before = { g->f_before[0], g->f_before[1] } };
@@ -418,51 +410,40 @@ bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 }
 
 /* Lists the springs of a bond, one at each vertex. */
-bbm_status bbm_list_bond(bbm_model *m, const bbm_bond *b)
+void bbm_list_bond(bbm_model *m, const bbm_bond *b)
 {
     const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
 
-    for (int end = 0; end < 2; end++) {
-        bbm_gap *g = bbm_add_gap(m, b->i, b->j);
-        if (!g)
-            return BBM_NO_MEMORY;
+    for (int end = 0; end < 2; end++)
         bbm_bonding_gap(i, &m->vertex[b->p[end]], j, &m->vertex[b->q[end]],
-                        bbm_bonding_stiffness(m->par.alpha, i, j), g);
-    }
-    return BBM_OK;
+                        bbm_bonding_stiffness(m->par.alpha, i, j), bbm_add_gap(m, b->i, b->j));
 }
 
 /* Lists the spring of a vertex that is held in the given directions, none: 0. */
-bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions)
+void bbm_list_fixed_point(bbm_model *m, int v, int directions)
 {
     const bbm_vertex *P = &m->vertex[v];
     const bbm_element *e = &m->element[P->element];
     bbm_node W = m->node[P->node];
 
-    if (!directions)
-        return BBM_OK;
-    bbm_gap *g = bbm_add_gap(m, P->element, -1);
-    if (!g)
-        return BBM_NO_MEMORY;
     W.held = directions;
-    g->node[0] = g->node[1] = P->node;
-    bbm_fixed_gap(e, P, &W, bbm_fixed_stiffness(m->par.alpha, e), g);
-    return BBM_OK;
+    if (directions)
+        bbm_fixed_gap(e, P, &W, bbm_fixed_stiffness(m->par.alpha, e),
+                      bbm_add_gap(m, P->element, -1));
 }
 
 /* Lists what glues, with T of the step: in the paper bonds and fixed points. */
-bbm_status bbm_list_gaps(bbm_model *m)
+void bbm_list_gaps(bbm_model *m)
 {
-    bbm_status status = BBM_OK;
-
     m->gaps = 0;
-    if (m->hook.list_gaps)
-        return m->hook.list_gaps(m);
-    for (int b = 0; b < m->bonds && !status; b++)
-        status = bbm_list_bond(m, &m->bond[b]);
-    for (int v = 0; v < m->vertices && !status; v++)
-        status = bbm_list_fixed_point(m, v, m->node[m->vertex[v].node].held);
-    return status;
+    if (m->hook.list_gaps) {
+        m->hook.list_gaps(m);
+        return;
+    }
+    for (int b = 0; b < m->bonds; b++)
+        bbm_list_bond(m, &m->bond[b]);
+    for (int v = 0; v < m->vertices; v++)
+        bbm_list_fixed_point(m, v, m->node[m->vertex[v].node].held);
 }
 
 /* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
@@ -475,24 +456,6 @@ void bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2])
         multiply_mode(g->Tj, &m->D[6 * g->j], uj);
     d[0] = g->d0[0] + ui[0] - uj[0];
     d[1] = g->d0[1] + ui[1] - uj[1];
-}
-
-/* The block lies on the left of a pressed edge, from a to b: the pressure pushes that way. */
-static void load_line(bbm_model *m, const bbm_line_load *l)
-{
-    const bbm_vertex *a = &m->vertex[l->a], *b = &m->vertex[l->b];
-    const bbm_element *e = &m->element[a->element];
-    const double p = l->pressure / hypot(b->x - a->x, b->y - a->y);
-    double *F = &m->load[6 * a->element], T[2][6], am[2], bm[2];
-
-    if (!l->constant) {
-        bbm_varying_load_submatrix(e, a, b, l->f, F);
-        return;
-    }
-    bbm_step_matrix(e, a->x, a->y, T, am);
-    bbm_step_matrix(e, b->x, b->y, T, bm);
-    const double f[2] = { l->f[0][0] - p * (bm[1] - am[1]), l->f[0][1] + p * (bm[0] - am[0]) };
-    bbm_constant_load_submatrix(e, a, b, f, F);
 }
 
 /* The part of F that comes from outside: gravity, 3.5, 3.6. A load at a node is shared by the
@@ -508,31 +471,38 @@ static void gather_loads(bbm_model *m)
         const double share[2] = { m->node[n].load[0] / adjacent, m->node[n].load[1] / adjacent };
         bbm_point_load(&m->element[i], &m->vertex[v], share, &m->load[6 * i]);
     }
-    for (int l = 0; l < m->line_loads; l++)
-        load_line(m, &m->line_load[l]);
+    for (int l = 0; l < m->line_loads; l++) {
+        const bbm_line_load *line = &m->line_load[l];
+        const bbm_vertex *a = &m->vertex[line->a], *b = &m->vertex[line->b];
+        const bbm_element *e = &m->element[a->element];
+        if (line->constant)
+            bbm_constant_load_submatrix(e, a, b, line->f[0], &m->load[6 * a->element]);
+        else
+            bbm_varying_load_submatrix(e, a, b, line->f, &m->load[6 * a->element]);
+    }
+    if (m->hook.load)
+        m->hook.load(m);
 }
 
 /* Adds the submatrices of two elements, or of i and the wall (j < 0), to F, and to K unless it is
  * kept. */
-bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
+void bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
 {
-    bbm_status status = BBM_OK;
-
     for (int a = 0; a < 6; a++) {
         m->F[6 * i + a] += s->Fi[a];
         if (j >= 0)
             m->F[6 * j + a] += s->Fj[a];
     }
-    if (!m->K_is_kept)
-        status = bbm_matrix_add(m->K, i, i, s->Kii);
-    if (!m->K_is_kept && !status && j >= 0)
-        status = bbm_matrix_add(m->K, i, j, s->Kij);
-    if (!m->K_is_kept && !status && j >= 0)
-        status = bbm_matrix_add(m->K, j, j, s->Kjj);
-    return status;
+    if (m->K_is_kept)
+        return;
+    bbm_matrix_add(m->K, i, i, s->Kii);
+    if (j >= 0) {
+        bbm_matrix_add(m->K, i, j, s->Kij);
+        bbm_matrix_add(m->K, j, j, s->Kjj);
+    }
 }
 
-static bbm_status assemble_element(bbm_model *m, int i)
+static void assemble_element(bbm_model *m, int i)
 {
     bbm_submatrix s = { { { 0 } }, { 0 } };
 
@@ -541,15 +511,16 @@ static bbm_status assemble_element(bbm_model *m, int i)
         bbm_inertia_submatrix(&m->element[i], m->h, &s);
     for (int a = 0; a < 6; a++)
         m->F[6 * i + a] += s.F[a];
-    return m->K_is_kept ? BBM_OK : bbm_matrix_add(m->K, i, i, s.K);
+    if (!m->K_is_kept)
+        bbm_matrix_add(m->K, i, i, s.K);
 }
 
-static bbm_status assemble_gap(bbm_model *m, bbm_gap *g)
+static void assemble_gap(bbm_model *m, bbm_gap *g)
 {
     bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
 
     bbm_bonding_submatrices(g, &s);
-    return bbm_add_submatrices(m, g->i, g->j, &s);
+    bbm_add_submatrices(m, g->i, g->j, &s);
 }
 
 /* Counts the CPU time since `since` for a phase. */
@@ -559,24 +530,21 @@ static void count_time(bbm_model *m, int phase, clock_t since)
 }
 
 /* K, unless it is kept, and F of the present geometry, Eq. (5). */
-bbm_status bbm_assemble(bbm_model *m)
+void bbm_assemble(bbm_model *m)
 {
     const clock_t start = clock();
-    bbm_status status = BBM_OK;
 
     if (!m->K_is_kept) {
         gather_loads(m);
         bbm_matrix_clear(m->K);
     }
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
-    for (int i = 0; i < m->elements && !status; i++)
-        status = assemble_element(m, i);
-    for (int g = 0; g < m->gaps && !status; g++)
-        status = assemble_gap(m, &m->gap[g]);
-    if (!status)
-        status = bbm_assemble_contacts(m);
+    for (int i = 0; i < m->elements; i++)
+        assemble_element(m, i);
+    for (int g = 0; g < m->gaps; g++)
+        assemble_gap(m, &m->gap[g]);
+    bbm_assemble_contacts(m);
     count_time(m, BBM_ASSEMBLE, start);
-    return status;
 }
 
 /* ------------------------------------------------------------- the parts of a time step */
@@ -658,7 +626,7 @@ static bbm_status describe_failure(bbm_model *m, bbm_status status)
 
 /* Lists the contacts that may close in the step: first by what its velocities foretell, then again
  * if the solution moves further than that. `other`: they are other ones, the solution is void. */
-static bbm_status detect(bbm_model *m, int *other)
+bbm_status bbm_detect(bbm_model *m, int *other)
 {
     const clock_t start = clock();
     int same = 1;
@@ -676,9 +644,8 @@ static bbm_status detect(bbm_model *m, int *other)
     *other = 1;
     if (m->hook.begin)
         m->hook.begin(m);
-    status = bbm_list_gaps(m);
-    if (!status)
-        status = lay_out_matrix(m);
+    bbm_list_gaps(m);
+    status = lay_out_matrix(m);
     return status || !m->hook.check_listed ? status : m->hook.check_listed(m);
 }
 
@@ -717,14 +684,10 @@ static bbm_status open_close(bbm_model *m, int *changed)
 void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
               double u[2])
 {
-    double T[2][6];
-
-    if (m->hook.move) {
-        m->hook.move(m, e, D, x - e->x, y - e->y, u);
-        return;
-    }
-    bbm_mode_matrix(e, x, y, T);
-    multiply_mode(T, D, u);
+    if (m->hook.move)
+        m->hook.move(m, D, x - e->x, y - e->y, u);
+    else
+        bbm_displacement(e, D, x, y, u);
 }
 
 /* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
@@ -751,8 +714,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         memset(e->V, 0, sizeof e->V);
     else
         bbm_newmark_velocity(e, m->h, m->par.velocity_factor);
-    if (m->hook.turn)
-        m->hook.turn(m, &start, e, vertex);
+    if (bbm_is_exact(m))
+        m->hook.turn(&start, e, vertex);
 }
 
 /* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one
@@ -793,7 +756,7 @@ static bbm_status update(bbm_model *m)
     return bbm_store_contacts(m);
 }
 
-static void begin_step(bbm_model *m)
+void bbm_begin_step(bbm_model *m)
 {
     m->detections = m->K_is_kept = 0;
     for (int i = 0; i < m->elements; i++)
@@ -804,47 +767,27 @@ static void begin_step(bbm_model *m)
     bbm_guess_step(m);
 }
 
-/* Refuses parameters that mean nothing; a comparison with NaN is false, so NaN is refused too. */
-static bbm_status check_parameters(bbm_model *m)
-{
-    const bbm_parameters *p = &m->par;
-    const double over = nextafter(0, 1), most = nextafter(INFINITY, 0);
-    const struct { const char *name; double value, low, high; const char *expected; } check[] = {
-        { "dt", p->dt, over, INFINITY, "more than 0" },
-        { "steps", p->steps, 1, most, "1 or more" },
-        { "tolerance", p->tolerance, 0, most, "0 or more" },
-        { "velocity_factor", p->velocity_factor, 0, 1, "0 to 1" },
-        { "alpha", p->alpha, over, most, "more than 0" },
-        { "gravity[0]", p->gravity[0], -most, most, "a finite number" },
-        { "gravity[1]", p->gravity[1], -most, most, "a finite number" },
-        { "p_n", p->p_n, over, most, "more than 0" },
-        { "p_s", p->p_s, over, most, "more than 0" },
-        { "friction", p->friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
-        { "cohesion", p->cohesion, 0, most, "0 or more" },
-        { "tension", p->tension, 0, most, "0 or more" },
-        { "pcg.omega", p->pcg.omega, over, nextafter(2, 0), "more than 0, less than 2" },
-        { "pcg.tolerance", p->pcg.tolerance, over, nextafter(1, 0), "more than 0, less than 1" },
-        { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
-    };
-
-    for (size_t i = 0; i < sizeof check / sizeof *check; i++)
-        if (!(check[i].value >= check[i].low && check[i].value <= check[i].high))
-            return bbm_fail(m, BBM_BAD_PARAMETER, "%s = %g, expected %s", check[i].name,
-                            check[i].value, check[i].expected);
-    if ((p->cohesion > 0 || p->tension > 0) && !m->hook.joint_area)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "cohesion = %g, tension = %g, expected 0 where no "
-                        "hook knows the area of a joint", p->cohesion, p->tension);
-    return BBM_OK;
-}
-
-/* What must hold before a step: a prepared model, parameters in their ranges. */
+/* What must hold before a step: a prepared model, and parameters in their ranges; a comparison with
+ * NaN is false. A hook may say which one is not. */
 bbm_status bbm_check_step(bbm_model *m)
 {
+    const bbm_parameters *p = &m->par;
+
     if (!m->K)
         return m->status ? m->status
                          : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    const bbm_status status = check_parameters(m);
-    return status || !m->hook.check_step ? status : m->hook.check_step(m);
+    const bbm_status status = m->hook.check_step ? m->hook.check_step(m) : BBM_OK;
+    if (status)
+        return status;
+    if (!(p->dt > 0 && p->alpha > 0 && p->p_n > 0 && p->p_s > 0 && p->friction >= 0
+          && p->friction < 90 && p->velocity_factor >= 0 && p->velocity_factor <= 1
+          && p->tolerance >= 0))
+        return bbm_fail(m, BBM_BAD_PARAMETER, "expected dt, alpha, p_n, p_s above 0, tolerance 0 "
+                        "or more, friction 0 to less than 90 degrees, velocity_factor 0 to 1");
+    if ((p->cohesion != 0 || p->tension != 0) && !m->hook.joint_area)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "cohesion = %g, tension = %g, expected 0 where no "
+                        "hook knows the area of a joint", p->cohesion, p->tension);
+    return BBM_OK;
 }
 
 /* --------------------------------------------------------------- the time step, Fig. 8 */
@@ -855,19 +798,19 @@ static bbm_status try_step(bbm_model *m)
     bbm_status status;
     int other, changed;
 
-    begin_step(m);
-    status = detect(m, &other);                     /* 3.7: which contacts may close            */
+    bbm_begin_step(m);
+    status = bbm_detect(m, &other);                 /* 3.7: which contacts may close            */
     do {
         do {
             if (!status)
-                status = bbm_assemble(m);           /* K, F: 3.1 to 3.8                         */
+                bbm_assemble(m);                    /* K, F: 3.1 to 3.8                         */
             if (!status)
                 status = solve(m);                  /* K D = F: section 4                       */
             if (!status)
                 status = open_close(m, &changed);   /* 3.8: do the contacts fit the solution?   */
         } while (!status && changed);
         if (!status)
-            status = detect(m, &other);             /* has it moved too far for them?           */
+            status = bbm_detect(m, &other);         /* has it moved too far for them?           */
     } while (!status && other);
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
@@ -982,34 +925,11 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
 
 /* ------------------------------------------------------------------- building a model */
 
+#define BBM_TEXT_OF(name, text) [name] = text,
+
 const char *bbm_status_text(bbm_status s)
 {
-    static const char *const text[BBM_STATUS_COUNT] = {
-        [BBM_OK] = "no error",
-        [BBM_NO_MEMORY] = "out of memory",
-        [BBM_NO_ELEMENT] = "the model has no element",
-        [BBM_NOT_FINITE] = "a number is NaN or infinite",
-        [BBM_BAD_INDEX] = "no such node, element or material",
-        [BBM_BAD_MATERIAL] = "a material is impossible",
-        [BBM_BAD_PARAMETER] = "a parameter is outside its range",
-        [BBM_BAD_ELEMENT] = "an element is no polygon",
-        [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
-        [BBM_OVERLAP] = "elements of one block overlap",
-        [BBM_BLOCKS_OVERLAP] = "blocks overlap at the start",
-        [BBM_UNUSED_NODE] = "a node belongs to no element",
-        [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
-        [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
-        [BBM_MECHANISM] = "elements bonded at midpoints alone can turn against each other",
-        [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
-        [BBM_NOT_CONVERGED] = "the equations were not solved",
-        [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
-        [BBM_NO_EQUILIBRIUM] = "statics finds no equilibrium",
-        [BBM_STEP_TOO_LONG] = "the step is too long",
-        [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
-        [BBM_TOO_SOFT] = "the contacts are too soft",
-        [BBM_ENERGY] = "the step makes energy",
-        [BBM_STOPPED] = "stopped from outside",
-    };
+    static const char *const text[BBM_STATUS_COUNT] = { BBM_STATUSES(BBM_TEXT_OF) };
 
     return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
 }
@@ -1059,7 +979,7 @@ bbm_status bbm_model_new(bbm_model **out)
     return BBM_OK;
 }
 
-/* What bbm_prepare made. */
+/* What bbm_prepare made, the members from `bonds` up to `h`. */
 static void free_prepared(bbm_model *m)
 {
     free(m->bond);
@@ -1073,18 +993,8 @@ static void free_prepared(bbm_model *m)
     free(m->contact);
     bbm_matrix_free(m->K);
     bbm_contact_free(m->scratch);
-    m->bond = NULL;
-    m->edge = NULL;
-    m->adjacent_first = NULL;
-    m->F = NULL;
-    m->end_element = NULL;
-    m->end_vertex = NULL;
-    m->gap = NULL;
-    m->pair = NULL;
-    m->contact = NULL;
-    m->K = NULL;
-    m->scratch = NULL;
-    m->bonds = m->edges = m->gaps = m->gap_room = m->pairs = m->contacts = 0;
+    memset((char *)m + offsetof(bbm_model, bonds), 0,
+           offsetof(bbm_model, h) - offsetof(bbm_model, bonds));
 }
 
 void bbm_model_free(bbm_model *m)
@@ -1242,7 +1152,7 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
 static bbm_status add_line_load(bbm_model *m, const bbm_line_load *load)
 {
     for (int g = 0; g < BBM_GAUSS; g++)
-        if (!isfinite(load->pressure) || !isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
+        if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
             return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0],
                           load->node[1]);
     if (!make_room((void **)&m->line_load, m->line_loads, sizeof *load))
@@ -1280,23 +1190,6 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
         bbm_gauss_point(g, &s, &weight);
         f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
     }
-    return add_line_load(m, &load);
-}
-
-/* Adds a load [N/m] on a boundary edge of the prepared model: a force and a pressure that turns
- * with the edge. */
-bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure)
-{
-    bbm_line_load load = { .constant = 1, .f = { { fx, fy } }, .pressure = pressure };
-
-    if (m->status)
-        return m->status;
-    if (!m->K || edge < 0 || edge >= m->edges)
-        return REFUSE(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges);
-    load.a = m->edge[edge].a;
-    load.b = m->edge[edge].b;
-    load.node[0] = m->vertex[load.a].node;
-    load.node[1] = m->vertex[load.b].node;
     return add_line_load(m, &load);
 }
 
@@ -1380,74 +1273,40 @@ static bbm_status connect_elements(bbm_model *m)
     return BBM_OK;
 }
 
-/* The first boundary edge from node p to node q, or -1. */
-static int find_edge(const bbm_model *m, int p, int q)
-{
-    int found = -1;
-
-    for (int a = m->adjacent_first[p]; a < m->adjacent_first[p + 1]; a++) {
-        const int e = m->vertex[m->adjacent[a]].edge;
-        if (e >= 0 && m->vertex[m->edge[e].b].node == q && (found < 0 || e < found))
-            found = e;
-    }
-    return found;
-}
-
 /* Finds the vertices of each line load: those of the first boundary edge between its nodes. */
 static bbm_status place_line_loads(bbm_model *m)
 {
     for (int l = 0; l < m->line_loads; l++) {
         bbm_line_load *load = &m->line_load[l];
-        const int p = load->node[0], q = load->node[1];
-        const int there = find_edge(m, p, q), back = find_edge(m, q, p);
-        const int is_there = back < 0 || (there >= 0 && there < back);
-        if (there < 0 && back < 0)
-            return bbm_fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", p, q);
-        load->a = is_there ? m->edge[there].a : m->edge[back].b;
-        load->b = is_there ? m->edge[there].b : m->edge[back].a;
+        int found = 0;
+        for (int e = 0; e < m->edges && !found; e++) {
+            const int a = m->edge[e].a, b = m->edge[e].b;
+            const int back = m->vertex[b].node == load->node[0];
+            load->a = back ? b : a;
+            load->b = back ? a : b;
+            found = m->vertex[load->a].node == load->node[0]
+                 && m->vertex[load->b].node == load->node[1];
+        }
+        if (!found)
+            return bbm_fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", load->node[0], load->node[1]);
     }
     return BBM_OK;
 }
 
-/* The root of element e in the forest up[], with the path halved on the way. */
-int bbm_root_of(int up[], int e)
-{
-    while (up[e] != e)
-        e = up[e] = up[up[e]];
-    return e;
-}
-
-/* Joins what gaps and contacts connect to bodies, known by their root in up[]. */
-void bbm_join_elements(const bbm_model *m, int up[])
-{
-    int contacts;
-    const bbm_contact *c = bbm_list_contacts(m, &contacts);
-
-    for (int e = 0; e < m->elements; e++)
-        up[e] = e;
-    for (int g = 0; g < m->gaps; g++)
-        if (m->gap[g].j >= 0)
-            up[bbm_root_of(up, m->gap[g].j)] = bbm_root_of(up, m->gap[g].i);
-    for (int k = 0; k < contacts; k++) {
-        const int i = m->edge[c[k].corner].element, j = m->edge[c[k].edge].element;
-        up[bbm_root_of(up, j)] = bbm_root_of(up, i);
-    }
-    for (int e = 0; e < m->elements; e++)
-        up[e] = bbm_root_of(up, e);
-}
-
-/* The arrays that the steps need. */
+/* The arrays that the steps need. A bond has two gaps; a vertex that is held has one, and may have
+ * two of the edge from it on. */
 static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
     m->end_element = calloc((size_t)m->elements, sizeof *m->element);
     m->end_vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
-    if (!m->F || !m->end_element || !m->end_vertex)
+    m->gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *m->gap);
+    if (!m->F || !m->end_element || !m->end_vertex || !m->gap)
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;
     m->load = m->D + 6 * (size_t)m->elements;
-    const int failed = bbm_list_gaps(m) || lay_out_matrix(m) || bbm_contact_new(m);
-    return failed ? BBM_NO_MEMORY : BBM_OK;
+    bbm_list_gaps(m);
+    return lay_out_matrix(m) || bbm_contact_new(m) ? BBM_NO_MEMORY : BBM_OK;
 }
 
 /* Checks the model and makes all that the steps need. */

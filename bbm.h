@@ -38,35 +38,37 @@
 enum { BBM_GAUSS = 4 };                     /* Gauss points of a line load: exact to degree 7   */
 enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };  /* directions in which a point is held; they add up */
 
-typedef enum {
-    BBM_OK,
-    BBM_NO_MEMORY,
-    /* --- the model is wrong: bbm_message() names the element, node or parameter --- */
-    BBM_NO_ELEMENT,             /* the model is empty                                       */
-    BBM_NOT_FINITE,             /* a coordinate, load or parameter is NaN or infinite       */
-    BBM_BAD_INDEX,              /* a node, element or material that does not exist          */
-    BBM_BAD_MATERIAL,           /* E, nu, density or thickness outside its range            */
-    BBM_BAD_PARAMETER,          /* dt, alpha, omega, ... outside its range                  */
-    BBM_BAD_ELEMENT,            /* fewer than three vertices, or without area               */
-    BBM_SELF_CROSSING,          /* an element whose boundary meets itself                   */
-    BBM_OVERLAP,                /* elements of one block overlap                            */
-    BBM_BLOCKS_OVERLAP,         /* blocks that overlap at the start                         */
-    BBM_UNUSED_NODE,            /* a node that no element has                               */
-    BBM_NOT_BOUNDARY,           /* a line load on what is no boundary edge                  */
-    BBM_FREE_TO_MOVE,           /* statics, and nothing holds a body                        */
-    BBM_MECHANISM,              /* bonded elements that turn against each other for nothing */
-    /* --- the solution failed: the numbers are in bbm_info --- */
-    BBM_NOT_POSITIVE_DEFINITE,  /* K; info.pcg.element is the row, -1: found by iteration   */
-    BBM_NOT_CONVERGED,          /* SSOR-PCG needs more than pcg.iterations                  */
-    BBM_STEPS_EXHAUSTED,        /* statics did not meet (71) within the given steps         */
-    BBM_NO_EQUILIBRIUM,         /* statics, and a block slides, tips or falls               */
-    BBM_STEP_TOO_LONG,          /* elements turn or strain too far, even in the least step  */
-    BBM_OPEN_CLOSE,             /* contacts do not settle, even in the least step           */
-    BBM_TOO_SOFT,               /* contacts are as deep as a tenth of a block               */
-    BBM_ENERGY,                 /* even the least step makes energy                         */
-    BBM_STOPPED,                /* the monitor said so                                      */
-    BBM_STATUS_COUNT
-} bbm_status;
+/* What a call returns, and what that says; bbm_message() adds where, and what was expected. */
+#define BBM_STATUSES(status)                                                                      \
+    status(BBM_OK,                    "no error")                                                 \
+    status(BBM_NO_MEMORY,             "out of memory")                                            \
+    /* --- the model is wrong --- */                                                              \
+    status(BBM_NO_ELEMENT,            "the model has no element")                                 \
+    status(BBM_NOT_FINITE,            "a number is NaN or infinite")                              \
+    status(BBM_BAD_INDEX,             "no such node, element or material")                        \
+    status(BBM_BAD_MATERIAL,          "a material is impossible")                                 \
+    status(BBM_BAD_PARAMETER,         "a parameter is outside its range")                         \
+    status(BBM_BAD_ELEMENT,           "an element is no polygon")                                 \
+    status(BBM_SELF_CROSSING,         "the boundary of an element meets itself")                  \
+    status(BBM_OVERLAP,               "elements of one block overlap")                            \
+    status(BBM_BLOCKS_OVERLAP,        "blocks overlap at the start")                              \
+    status(BBM_UNUSED_NODE,           "a node belongs to no element")                             \
+    status(BBM_NOT_BOUNDARY,          "a line load needs a boundary edge")                        \
+    status(BBM_FREE_TO_MOVE,          "statics needs bodies that are held")                       \
+    status(BBM_MECHANISM, "elements bonded at midpoints alone can turn against each other")       \
+    /* --- the solution failed: the numbers are in bbm_info --- */                                \
+    status(BBM_NOT_POSITIVE_DEFINITE, "the stiffness matrix is not positive definite")            \
+    status(BBM_NOT_CONVERGED,         "the equations were not solved")                            \
+    status(BBM_STEPS_EXHAUSTED,       "no equilibrium in the given steps")                        \
+    status(BBM_NO_EQUILIBRIUM,        "statics finds no equilibrium")                             \
+    status(BBM_STEP_TOO_LONG,         "the step is too long")                                     \
+    status(BBM_OPEN_CLOSE,            "the open-close iteration does not settle")                 \
+    status(BBM_TOO_SOFT,              "the contacts are too soft")                                \
+    status(BBM_ENERGY,                "the step makes energy")                                    \
+    status(BBM_STOPPED,               "stopped from outside")
+
+#define BBM_STATUS_NAME(name, text) name,
+typedef enum { BBM_STATUSES(BBM_STATUS_NAME) BBM_STATUS_COUNT } bbm_status;
 
 /* ------------------------------------------------------------------------------------ the data */
 
@@ -153,8 +155,6 @@ typedef struct {                /* a load along a boundary edge                 
     int    node[2];             /* its ends                                  */
     int    constant;            /* then f[0] is all of it, Eq. (43)          */
     double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to [1], Eq. (42)   */
-    double pressure;            /* N/m      against the outward normal, besides f[0]; turns with */
-                                /*          the edge         */
     int    a, b;                /* the vertices at its ends, by bbm_prepare  */
 } bbm_line_load;
 
@@ -270,7 +270,7 @@ typedef struct {
     bbm_status (*check_polygon)(bbm_model *m, int n, const int node[]);     /* of a new element */
     bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
     /* --- a step begins --- */
-    bbm_status (*check_step)(bbm_model *m);
+    bbm_status (*check_step)(bbm_model *m);                 /* parameters in their ranges       */
     void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
     void (*begin)(bbm_model *m);                            /* the contacts are listed          */
     bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
@@ -278,7 +278,8 @@ typedef struct {
     double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
     const bbm_parameters *(*strength)(const bbm_model *m, int corner, int edge); /* of a contact */
     /* --- K D = F --- */
-    bbm_status (*list_gaps)(bbm_model *m);                  /* in place of bonds, fixed points  */
+    void (*load)(bbm_model *m);                             /* adds to m->load                  */
+    void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
@@ -290,10 +291,10 @@ typedef struct {
     int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
     int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
     /* --- the end of the step --- */
-    void (*move)(const bbm_model *m, const bbm_element *e, const double D[6], double X, double Y,
-                 double u[2]);                              /* in place of u = T D              */
-    void (*turn)(const bbm_model *m, const bbm_element *start, bbm_element *e,
-                 const bbm_vertex vertex[]);                /* an element that has moved        */
+    void (*move)(const bbm_model *m, const double D[6], double X, double Y, double u[2]);
+                                                            /* in place of u = T D              */
+    void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
+                                                            /* an element that has moved, if so */
     double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
@@ -314,16 +315,11 @@ struct bbm_model {
     bbm_edge *edge;             /* [edges]   the boundary edges                                 */
     int *adjacent_first;        /* [nodes+1] the vertices at node n are                         */
     int *adjacent;              /* [vertices]    adjacent[adjacent_first[n] ..]                 */
-    /* --- the step in hand --- */
-    double h;                   /* s        dt, or a part of it                                 */
-    double acceleration[2];     /* m/s^2    of gravity                                          */
-    int detections;             /* of contacts                                                  */
-    int one_by_one;             /* one contact changes its state in a pass                      */
-    int K_is_kept;              /* F alone is assembled                                         */
+    /* --- K D = F --- */
     bbm_matrix *K;
     double *F, *D;              /* [6 elements]                                                 */
     double *load;               /* [6 elements] the part of F from outside: loads, gravity      */
-    int gaps, gap_room;
+    int gaps;
     bbm_gap *gap;               /* [gaps]    bonds and fixed points                             */
     bbm_element *end_element;   /* [elements] the end of the step, see move_model               */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
@@ -332,6 +328,12 @@ struct bbm_model {
     bbm_contact *contact;       /* [contacts] at the end of the last step, by corner and edge   */
     bbm_contact_scratch *scratch;
     int pairs, (*pair)[2];      /* elements of the contacts and bonds that K has room for       */
+    /* --- the step in hand --- */
+    double h;                   /* s        dt, or a part of it                                 */
+    double acceleration[2];     /* m/s^2    of gravity                                          */
+    int detections;             /* of contacts                                                  */
+    int one_by_one;             /* one contact changes its state in a pass                      */
+    int K_is_kept;              /* F alone is assembled                                         */
     /* --- results --- */
     bbm_info info;
     bbm_status status;          /* the first error while building                               */
@@ -358,7 +360,8 @@ bbm_status  bbm_run(bbm_model *m);                          /* all steps        
 bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8                 */
 /* The mean over the elements of a block (-1: of all) at a node. */
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
-void        bbm_displacement(const bbm_element *e, double x, double y, double u[2]);    /* (1)  */
+void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
+                             double u[2]);                  /* (1)                              */
 double      bbm_stress_out_of_plane(const bbm_model *m, const bbm_element *e);  /* Pa           */
 double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
@@ -381,8 +384,6 @@ bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, doub
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
                                      const void *context);
 bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
-/* After bbm_prepare: on a boundary edge, N/m. */
-bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
 
 /* ---------------------------------------------------------------- 3. single formulas, each alone
  * A submatrix function adds to what it is given. */
@@ -438,29 +439,30 @@ int        bbm_is_static(const bbm_model *m);
 int        bbm_is_exact(const bbm_model *m);                    /* see bbm_hooks                */
 double     bbm_mass_per_area(const bbm_element *e);             /* M of (11)                    */
 int        bbm_next_vertex(const bbm_element *e, int v);
-bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);             /* NULL: no memory              */
-bbm_status bbm_list_gaps(bbm_model *m);
-bbm_status bbm_list_bond(bbm_model *m, const bbm_bond *b);
-bbm_status bbm_list_fixed_point(bbm_model *m, int v, int directions);
+bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);
+void       bbm_list_gaps(bbm_model *m);
+void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
+void       bbm_list_fixed_point(bbm_model *m, int v, int directions);
 void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */
 bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's    */
-bbm_status bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
-bbm_status bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
+void       bbm_begin_step(bbm_model *m);
+bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
+void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
+void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
 void       bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
                     double u[2]);
-int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
-void       bbm_join_elements(const bbm_model *m, int up[]);     /* by bonds and contacts        */
 
 /* contact.c: the parts of a step with contacts, for bbm_step */
 bbm_status bbm_contact_new(bbm_model *m);
 void       bbm_contact_free(bbm_contact_scratch *w);
+double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
 void       bbm_guess_step(bbm_model *m);                        /* D as far as it is foretold   */
 int        bbm_moved_too_far(bbm_model *m);
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
 int        bbm_carries(const bbm_model *m, int corner, int edge);
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
-bbm_status bbm_assemble_contacts(bbm_model *m);
+void       bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
 bbm_status bbm_store_contacts(bbm_model *m);
 
@@ -471,7 +473,8 @@ bbm_status bbm_store_contacts(bbm_model *m);
 bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                                      /* takes NULL   */
 void       bbm_matrix_clear(bbm_matrix *K);
-bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T */
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
+                                   what the pattern does not have fails here and in bbm_solve   */
 void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   /* B = K_ij     */
 void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y); /* y = K x     */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
@@ -493,6 +496,7 @@ struct bbm_matrix {
     int *first;                 /* [n+1]     row i of L: the blocks first[i] .. first[i+1]-1    */
     int *back;                  /* [blocks]  its row less its column                            */
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
+    int *component;             /* [n]       of a caller's row                                  */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks]                                */
     /* --- scratch of bbm_solve --- */
     int from, to;               /* the rows of the component in hand: from .. to-1              */
@@ -501,6 +505,7 @@ struct bbm_matrix {
     double *y, *u;              /* results of a sweep forward and of one backward               */
     const bbm_method *method;
     double omega;
+    int lacks;                  /* what was added to a block that the pattern does not have     */
     int ready;                  /* G, S and what the method made belong to D, L and these two   */
     void *extra;                /* what a method keeps with K                                   */
     void (*free_extra)(void *extra);

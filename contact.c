@@ -235,10 +235,11 @@ typedef struct {                /* of a block, with the index of its first eleme
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
     double depth_now;           /* m        the same of the solution, or before it if deeper    */
     double travel;              /* m        how far its vertices may move in this step          */
-    double touch;               /* m        TOUCH times its mean boundary edge at the start     */
-    int    edges;               /* of its boundary                                              */
-    /* --- of an element --- */
+    double girth;               /* m        its boundary at the start                           */
+    int    edges;               /* of it                                                        */
+    /* --- of an element; of a component of K, with its number --- */
     double turn;                /* rad      how far it may turn in this step                    */
+    double force;               /* N        the largest one in it                               */
 } motion;
 
 struct bbm_contact_scratch {
@@ -249,8 +250,6 @@ struct bbm_contact_scratch {
     int is_listed;
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
-    int *component;             /* [elements] of K: one of the elements that it connects        */
-    double *force;              /* [elements] N, of a component: the largest one in it          */
     /* --- the iteration --- */
     int passes, friction_passes;
     int one_until;              /* the pass until which one contact changes its state in each   */
@@ -267,6 +266,15 @@ static double cross(bbm_direction p, bbm_direction q) { return p.x * q.y - p.y *
 static motion *motion_of(const bbm_model *m, int e)
 {
     return &m->scratch->motion[m->edge[e].first];
+}
+
+/* The length of the boundary of the block of edge e. */
+double bbm_girth(const bbm_model *m, int e) { return motion_of(m, e)->girth; }
+
+/* Distances up to this are rounding: TOUCH times the mean boundary edge of the block of edge e. */
+static double rounding_of(const bbm_model *m, int e)
+{
+    return motion_of(m, e)->girth * (TOUCH / motion_of(m, e)->edges);
 }
 
 /* A vertex inside a straight side is no corner. */
@@ -359,23 +367,18 @@ void bbm_contact_free(bbm_contact_scratch *w)
     free(w->motion);
     free(w->pair);
     free(w->contact);
-    free(w->component);
-    free(w->force);
     free(w);
 }
 
 bbm_status bbm_contact_new(bbm_model *m)
 {
-    const size_t n = (size_t)m->elements;
     bbm_contact_scratch *w = m->scratch = calloc(1, sizeof *w);
 
     if (!w)
         return BBM_NO_MEMORY;
-    w->motion = calloc(n, sizeof *w->motion);
+    w->motion = calloc((size_t)m->elements, sizeof *w->motion);
     w->pair = calloc((size_t)m->edges, sizeof *w->pair);
-    w->component = calloc(n, sizeof *w->component);
-    w->force = calloc(n, sizeof *w->force);
-    if (!w->motion || !w->pair || !w->component || !w->force)
+    if (!w->motion || !w->pair)
         return BBM_NO_MEMORY;
     w->pair_room = m->edges;
     number_blocks(m);
@@ -385,11 +388,9 @@ bbm_status bbm_contact_new(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         motion *b = motion_of(m, e);
         b->depth = m->info.penetration;         /* in a run contacts may be as deep */
-        b->touch += m->edge[e].along.length;
+        b->girth += m->edge[e].along.length;
         b->edges++;
     }
-    for (int i = 0; i < m->elements; i++)
-        w->motion[i].touch *= TOUCH / fmax(1, w->motion[i].edges);
     return BBM_OK;
 }
 
@@ -448,7 +449,7 @@ static double foresee(bbm_model *m)
     }
     for (int e = 0; e < m->edges; e++) {
         motion *b = motion_of(m, e);
-        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + b->touch / 2);
+        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + rounding_of(m, e) / 2);
         most = fmax(most, b->travel);
     }
     return most;
@@ -457,7 +458,7 @@ static double foresee(bbm_model *m)
 /* Distances of a corner and an edge up to this are rounding. */
 static double touch_between(const bbm_model *m, int c, int e)
 {
-    return (motion_of(m, c)->touch + motion_of(m, e)->touch) / 2;
+    return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
@@ -816,7 +817,6 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
     w->contacts = w->pairs;
     for (int k = 0; k < w->pairs; k++)
         make_contact(m, w->pair[k], &list[k]);
-    bbm_join_elements(m, w->component);
     w->is_listed = 1;
     w->passes = w->friction_passes = 0;
     w->one_until = m->one_by_one ? PASSES + 1 : 0;
@@ -861,11 +861,9 @@ static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_s
 
 /* Adds the springs of the closed contacts, Eq. (58) and (63), or spring and friction, Eq. (65),
  * (69), to K and F. */
-bbm_status bbm_assemble_contacts(bbm_model *m)
+void bbm_assemble_contacts(bbm_model *m)
 {
-    bbm_status status = BBM_OK;
-
-    for (int k = 0; k < m->scratch->contacts && !status; k++) {
+    for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         const bbm_touch t = touch_of(m, c);
         bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
@@ -876,9 +874,8 @@ bbm_status bbm_assemble_contacts(bbm_model *m)
             bbm_shear_submatrices(&t, c->anchor, c->time_left * m->par.p_s, &s);
         else
             add_friction(m, c, &t, &s);
-        status = bbm_add_submatrices(m, element_of(m, c->corner), element_of(m, c->edge), &s);
+        bbm_add_submatrices(m, element_of(m, c->corner), element_of(m, c->edge), &s);
     }
-    return status;
 }
 
 /* ------------------------------------------------------------- the open-close iteration: forces */
@@ -914,10 +911,10 @@ static void measure(const bbm_model *m, bbm_contact *c)
         c->N_of_friction = c->N;
 }
 
-/* The largest force in the component of K that a contact belongs to. */
-static double *force_on(const bbm_model *m, const bbm_contact *c)
+/* The largest force in the component of K that an element belongs to. */
+static double *force_on(const bbm_model *m, int element)
 {
-    return &m->scratch->force[m->scratch->component[element_of(m, c->corner)]];
+    return &m->scratch->motion[m->K->component[element]].force;
 }
 
 /* The largest force in each component: on an element, inertia included, or in a contact. What the
@@ -927,17 +924,18 @@ static void find_tolerances(const bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
-    memset(w->force, 0, (size_t)m->elements * sizeof *w->force);
+    for (int i = 0; i < m->elements; i++)
+        w->motion[i].force = 0;
     for (int i = 0; i < m->elements; i++) {
-        double *most = &w->force[w->component[i]];
+        double *most = force_on(m, i);
         *most = fmax(*most, hypot(m->F[6 * i], m->F[6 * i + 1]));
     }
     for (int k = 0; k < w->contacts; k++) {
-        double *most = force_on(m, &w->contact[k]);
+        double *most = force_on(m, element_of(m, w->contact[k].corner));
         *most = fmax(*most, fabs(w->contact[k].N));
     }
     for (int k = 0; k < w->contacts; k++)
-        w->contact[k].force_tolerance = AGREE * *force_on(m, &w->contact[k]);
+        w->contact[k].force_tolerance = AGREE * *force_on(m, element_of(m, w->contact[k].corner));
 }
 
 /* Whether every friction force belongs to its N. */

@@ -97,6 +97,8 @@ static int compare_ends(const void *a, const void *b)
 /* Sorts both ends of all pairs by the row and then by the neighbour, and drops what comes twice. */
 static bbm_status graph_new(graph *g, int n, int pairs, int (*pair)[2])
 {
+    if (n < 1)
+        return BBM_NO_ELEMENT;
     for (int k = 0; k < 2 * pairs; k++)
         if (pair[k / 2][k % 2] < 0 || pair[k / 2][k % 2] >= n)
             return BBM_BAD_INDEX;
@@ -207,7 +209,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
 
     K->n = K->to = g->n;
-    K->place = calloc(4 * n + 2 + blocks, sizeof *K->place);
+    K->place = calloc(5 * n + 2 + blocks, sizeof *K->place);
     K->D = calloc(2 * (n + blocks), sizeof *K->D);
     K->x = calloc(6 * 6 * n, sizeof *K->x);
     if (!K->place || !K->D || !K->x)
@@ -215,7 +217,8 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->caller = K->place + n;
     K->first = K->caller + n;
     K->start = K->first + n + 1;
-    K->back = K->start + n + 1;
+    K->component = K->start + n + 1;
+    K->back = K->component + n;
     K->L = K->D + n;
     K->G = K->L + blocks;
     K->S = K->G + n;
@@ -227,7 +230,8 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     return BBM_OK;
 }
 
-/* caller, first, back and start. A component ends with the row where the search began. */
+/* caller, component, first, back and start. A component ends with the row where the search
+ * began. */
 static void lay_out_rows(bbm_matrix *K, const graph *g)
 {
     int count = 0;
@@ -240,6 +244,7 @@ static void lay_out_rows(bbm_matrix *K, const graph *g)
             if (K->place[g->end[k][1]] < i)
                 K->back[count++] = i - K->place[g->end[k][1]];
         K->first[i + 1] = count;
+        K->component[row] = K->components;
         if (g->level[row] == 0)
             K->start[++K->components] = i + 1;
     }
@@ -248,11 +253,9 @@ static void lay_out_rows(bbm_matrix *K, const graph *g)
 bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **out)
 {
     graph g = { 0 };
-    bbm_matrix *K = n < 1 ? NULL : calloc(1, sizeof *K);
-    bbm_status status = n < 1 ? BBM_NO_ELEMENT : K ? BBM_OK : BBM_NO_MEMORY;
+    bbm_matrix *K = calloc(1, sizeof *K);
+    bbm_status status = K ? graph_new(&g, n, pairs, pair) : BBM_NO_MEMORY;
 
-    if (!status)
-        status = graph_new(&g, n, pairs, pair);
     if (!status)
         status = allocate(K, &g);
     if (!status) {
@@ -284,7 +287,7 @@ void bbm_matrix_clear(bbm_matrix *K)
 {
     memset(K->D, 0, (size_t)K->n * sizeof *K->D);
     memset(K->L, 0, (size_t)K->first[K->n] * sizeof *K->L);
-    K->ready = K->terms = 0;
+    K->ready = K->terms = K->lacks = 0;
 }
 
 /* Where K_ij, or K_ji if i comes before j, is stored; NULL: nowhere. A row has one to three blocks
@@ -306,6 +309,7 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 {
     double (*to)[6] = find_block(K, i, j);
 
+    K->lacks |= !to;
     if (!to)
         return BBM_BAD_INDEX;
     const int right = K->place[i] < K->place[j];
@@ -591,12 +595,14 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 
 /* --------------------------------------------------------------------------------- the solution */
 
-static bbm_status check(const double *F, int n, const bbm_pcg *pcg)
+static bbm_status check(const bbm_matrix *K, const double *F, const bbm_pcg *pcg)
 {
     if (!(pcg->omega > 0 && pcg->omega < 2) || !(pcg->tolerance > 0 && pcg->tolerance < 1)
         || pcg->iterations < 1)
         return BBM_BAD_PARAMETER;
-    return all_finite(6 * (size_t)n, F) ? BBM_OK : BBM_NOT_FINITE;
+    if (K->lacks)
+        return BBM_BAD_INDEX;
+    return all_finite(6 * (size_t)K->n, F) ? BBM_OK : BBM_NOT_FINITE;
 }
 
 /* From x = 0 and r = F, scaled, to x for the rows in hand. */
@@ -639,7 +645,7 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
     static const bbm_method paper = { 0 };
     const clock_t start = clock();
     bbm_pcg pcg = *wanted;
-    bbm_status status = check(F, K->n, &pcg);
+    bbm_status status = check(K, F, &pcg);
 
     *info = (bbm_pcg_info){ .residual = 1, .element = -1 };
     memset(D, 0, 6 * (size_t)K->n * sizeof *D);

@@ -100,50 +100,36 @@ void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2]
 
 /* ------------------------------------------------------------------------- the gaps of an edge */
 
-/* Of the edge between P[0], P[1] of i and Q[0], Q[1] of j the gap (d1 + sign d2)/2 with the weight
- * W; j = NULL: Q are points of the wall. */
-void bbm_edge_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
-                  const bbm_vertex *const Q[2], double W[2][2], double sign, bbm_gap *g)
+/* Of an edge with the gaps d1 and d2 at its ends the gap (d1 + sign d2)/2 with the weight W. */
+void bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g)
 {
-    double T[2][6], at[2];
-
     memcpy(g->W, W, sizeof g->W);
     g->penalty = sign > 0;
-    for (int end = 0; end < 2; end++) {
-        const double share = end == 0 ? 0.5 : sign / 2;
-        g->d0[0] += share * (P[end]->u - Q[end]->u);
-        g->d0[1] += share * (P[end]->v - Q[end]->v);
-        bbm_step_matrix(i, P[end]->x, P[end]->y, T, at);
-        for (int a = 0; a < 12; a++)
-            g->Ti[a / 6][a % 6] += share * T[a / 6][a % 6];
-        if (!j)
-            continue;
-        bbm_step_matrix(j, Q[end]->x, Q[end]->y, T, at);
-        for (int a = 0; a < 12; a++)
-            g->Tj[a / 6][a % 6] += share * T[a / 6][a % 6];
+    for (int r = 0; r < 2; r++) {
+        g->d0[r] = (end[0].d0[r] + sign * end[1].d0[r]) / 2;
+        for (int a = 0; a < 6; a++) {
+            g->Ti[r][a] = (end[0].Ti[r][a] + sign * end[1].Ti[r][a]) / 2;
+            g->Tj[r][a] = (end[0].Tj[r][a] + sign * end[1].Tj[r][a]) / 2;
+        }
     }
 }
 
-/* Lists both gaps of an edge; j = -1: a fixed edge, held in the given directions. */
-static bbm_status list_edge(bbm_model *m, int i, const bbm_vertex *const P[2], int j,
-                            const bbm_vertex *const Q[2], int directions, double k, double M[2][2])
+/* Lists both gaps of an edge of element i, held in the given directions; j = -1: by the wall. */
+static void list_edge(bbm_model *m, int i, int j, const bbm_gap end[2], int directions, double k,
+                      double M[2][2])
 {
     double W[2][2][2] = { { { 2 * k, 0 }, { 0, 2 * k } } };
 
     memcpy(W[1], M, sizeof W[1]);
     for (int which = 0; which < 2; which++) {
-        bbm_gap *g = bbm_add_gap(m, i, j);
-        if (!g)
-            return BBM_NO_MEMORY;
         for (int a = 0; a < 4; a++)
             if (!(directions & 1 << a / 2) || !(directions & 1 << a % 2))
                 W[which][a / 2][a % 2] = 0;
-        g->node[0] = P[0]->node;
-        g->node[1] = P[1]->node;
-        bbm_edge_gap(&m->element[i], P, j < 0 ? NULL : &m->element[j], Q, W[which],
-                     which == 0 ? 1 : -1, g);
+        bbm_gap *g = bbm_add_gap(m, i, j);
+        for (int n = 0; n < 2 && j < 0; n++)
+            g->node[n] = end[n].node[0];
+        bbm_edge_gap(end, which == 0 ? 1 : -1, W[which], g);
     }
-    return BBM_OK;
 }
 
 /* The moment M that a quadrilateral asks for on its edge from vertex v on. */
@@ -180,17 +166,21 @@ static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
 }
 
 /* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. */
-static bbm_status list_bond(bbm_model *m, const bbm_bond *b)
+static void list_bond(bbm_model *m, const bbm_bond *b)
 {
     const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
-    const bbm_vertex *const P[2] = { &m->vertex[b->p[0]], &m->vertex[b->p[1]] };
-    const bbm_vertex *const Q[2] = { &m->vertex[b->q[0]], &m->vertex[b->q[1]] };
+    const double k = bbm_bonding_stiffness(m->par.alpha, i, j);
+    bbm_gap end[2];
     double M[2][2];
 
-    if (m->beyond->bonding == BBM_VERTICES || i->n != 4 || j->n != 4)
-        return bbm_list_bond(m, b);
+    if (m->beyond->bonding == BBM_VERTICES || i->n != 4 || j->n != 4) {
+        bbm_list_bond(m, b);
+        return;
+    }
+    for (int e = 0; e < 2; e++)
+        bbm_bonding_gap(i, &m->vertex[b->p[e]], j, &m->vertex[b->q[e]], k, &end[e]);
     bond_moment(m, b, M);
-    return list_edge(m, b->i, P, b->j, Q, BBM_XY, bbm_bonding_stiffness(m->par.alpha, i, j), M);
+    list_edge(m, b->i, b->j, end, BBM_XY, k, M);
 }
 
 /* The directions in which the edge of a quadrilateral from vertex v on is held: those of both its
@@ -205,39 +195,32 @@ static int held_edge(const bbm_model *m, const bbm_element *e, int v)
 
 /* Lists vertex v in the directions in which no edge holds it, and the edge from v on as a bond with
  * the wall: its moment is twice the element's own. */
-static bbm_status list_fixed(bbm_model *m, int v)
+static void list_fixed(bbm_model *m, int v)
 {
-    const int number = m->vertex[v].element, node = m->vertex[v].node;
-    const bbm_element *e = &m->element[number];
-    const int next = bbm_next_vertex(e, v), last = v > e->first ? v - 1 : e->first + e->n - 1;
-    const int edge = held_edge(m, e, v);
-    bbm_vertex W[2] = { m->vertex[v], m->vertex[next] };
-    const bbm_vertex *const P[2] = { &m->vertex[v], &m->vertex[next] };
-    const bbm_vertex *const Q[2] = { &W[0], &W[1] };
+    const int i = m->vertex[v].element;
+    const bbm_element *e = &m->element[i];
+    const int ends[2] = { v, bbm_next_vertex(e, v) };
+    const int last = v > e->first ? v - 1 : e->first + e->n - 1, edge = held_edge(m, e, v);
+    const double k = bbm_fixed_stiffness(m->par.alpha, e);
+    bbm_gap end[2];
     double M[2][2];
 
-    const bbm_status status
-        = bbm_list_fixed_point(m, v, m->node[node].held & ~(edge | held_edge(m, e, last)));
-    if (!edge || status)
-        return status;
-    for (int end = 0; end < 2; end++) {
-        W[end].u = m->node[W[end].node].wall[0];
-        W[end].v = m->node[W[end].node].wall[1];
-    }
+    bbm_list_fixed_point(m, v, m->node[m->vertex[v].node].held & ~(edge | held_edge(m, e, last)));
+    if (!edge)
+        return;
+    for (int n = 0; n < 2; n++)
+        bbm_fixed_gap(e, &m->vertex[ends[n]], &m->node[m->vertex[ends[n]].node], k, &end[n]);
     own_moment(m, e, v, M);
     for (int a = 0; a < 4; a++)
         M[a / 2][a % 2] *= 2;
-    return list_edge(m, number, P, -1, Q, edge, bbm_fixed_stiffness(m->par.alpha, e), M);
+    list_edge(m, i, -1, end, edge, k, M);
 }
 
 /* What glues, with whole edges where quadrilaterals meet. */
-bbm_status bbm_list_edge_gaps(bbm_model *m)
+void bbm_list_edge_gaps(bbm_model *m)
 {
-    bbm_status status = BBM_OK;
-
-    for (int b = 0; b < m->bonds && !status; b++)
-        status = list_bond(m, &m->bond[b]);
-    for (int v = 0; v < m->vertices && !status; v++)
-        status = list_fixed(m, v);
-    return status;
+    for (int b = 0; b < m->bonds; b++)
+        list_bond(m, &m->bond[b]);
+    for (int v = 0; v < m->vertices; v++)
+        list_fixed(m, v);
 }

@@ -10,9 +10,8 @@ static void release(bbm_model *m)
         return;
     bbm_free_factor(&m->beyond->factor);
     free(m->beyond->friction.x);
-    free(m->beyond->girth);
+    free(m->beyond->edge_load);
     free(m->beyond->joint);
-    free(m->beyond->water);
     free(m->beyond->support);
     free(m->beyond);
 }
@@ -21,25 +20,17 @@ static void release(bbm_model *m)
 static bbm_status check(bbm_model *m)
 {
     m->beyond->springs = bbm_spring_energy(m);
-    bbm_status status = bbm_measure_blocks(m);
-    if (!status)
-        status = bbm_lay_out_supports(m);
+    const bbm_status status = bbm_lay_out_supports(m);
     return status ? status : bbm_check_overlap(m);
 }
 
-/* The settings of all subjects, and before the first step bonds that hold. */
+/* Parameters and settings, and before the first step bonds that hold. */
 static bbm_status check_step(bbm_model *m)
 {
-    const bbm_beyond *b = m->beyond;
-
     bbm_begin_joints(m);
-    if (b->multiplier_rounds < 0)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "multiplier_rounds = %d, expected 0 or more",
-                        b->multiplier_rounds);
-    if (!isfinite(b->shake[0]) || !isfinite(b->shake[1]) || !isfinite(b->shake_omega))
-        return bbm_fail(m, BBM_BAD_PARAMETER, "shake = (%g, %g), shake_omega = %g, expected finite "
-                        "numbers", b->shake[0], b->shake[1], b->shake_omega);
-    if (m->info.step > 0 || b->bonding != BBM_MIDPOINTS)
+    if (bbm_check_parameters(m))
+        return BBM_BAD_PARAMETER;
+    if (m->info.step > 0 || m->beyond->bonding != BBM_MIDPOINTS)
         return BBM_OK;
     if (bbm_find_mechanism(m, &m->blamed[0]))
         return BBM_NO_MEMORY;
@@ -68,13 +59,7 @@ static bbm_status lay_out(bbm_model *m)
 static void begin(bbm_model *m)
 {
     bbm_set_middle(m);
-    bbm_press_water(m);
     bbm_start_multipliers(m);
-}
-
-static bbm_status check_listed(bbm_model *m)
-{
-    return bbm_is_static(m) ? bbm_check_supports(m) : BBM_OK;
 }
 
 /* A step that went well: right as far as one can tell, and without energy from nowhere. */
@@ -120,12 +105,13 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_step = check_step,
         .accelerate = accelerate,
         .begin = begin,
-        .check_listed = check_listed,
+        .check_listed = bbm_check_supports,
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
         .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,
         .find_friction = bbm_find_friction,
+        .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .is_exact = bbm_moves_exactly,
         .lay_out = lay_out,

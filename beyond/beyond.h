@@ -42,7 +42,13 @@ typedef struct {                /* supports.c, of a node                        
 } bbm_support;
 
 typedef struct { int block[2]; bbm_parameters par; } bbm_joint;     /* joints.c; -1: any block  */
-typedef struct { int load; double level, weight; } bbm_water;       /* water.c; m, N/m^2        */
+
+typedef struct {                /* pressure.c: on the edge that starts at the vertex a          */
+    int    a;
+    double f[2], pressure;      /* N/m      pressure: against the outward normal, turns with it */
+    double level, weight;       /* m, N/m^2 of water, which presses besides; 0: there is none   */
+    double q[BBM_GAUSS][2];     /* N/m      all of it at the Gauss points, of the step          */
+} bbm_edge_load;
 
 struct bbm_beyond {
     /* --- settings --- */
@@ -53,12 +59,12 @@ struct bbm_beyond {
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
     bbm_factor factor;
-    double *girth;              /* m        [elements] of blocks, refuse.c: their boundaries    */
     bbm_friction_search friction;
-    int joints, waters;
+    int joints;
     bbm_joint *joint;           /* [joints]                                                     */
-    bbm_water *water;           /* [waters] its loads among the line loads                      */
     bbm_support *support;       /* [nodes]                                                      */
+    int edge_loads;
+    bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
     double springs;             /* J        in bonds, fixed points and closed contacts          */
@@ -95,16 +101,19 @@ void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
-void       bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6], double X,
-                            double Y, double u[2]);
-void       bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_element *e,
-                            const bbm_vertex vertex[]);
+void       bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y,
+                            double u[2]);
+void       bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
 
 /* bending.c */
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
-void       bbm_edge_gap(const bbm_element *i, const bbm_vertex *const P[2], const bbm_element *j,
-                        const bbm_vertex *const Q[2], double W[2][2], double sign, bbm_gap *g);
-bbm_status bbm_list_edge_gaps(bbm_model *m);
+void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
+void       bbm_list_edge_gaps(bbm_model *m);
+
+/* pressure.c. After bbm_prepare: a load on a boundary edge, N/m. */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
+void       bbm_gather_edge_loads(bbm_model *m);
 
 /* multipliers.c */
 void       bbm_start_multipliers(bbm_model *m);
@@ -126,18 +135,16 @@ bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, doub
 void       bbm_begin_joints(bbm_model *m);
 const bbm_parameters *bbm_joint_strength(const bbm_model *m, int corner, int edge);
 
-/* strain.c, supports.c, water.c */
+/* strain.c, supports.c */
 void       bbm_set_plane_strain(bbm_model *m);          /* of a prepared model              */
 bbm_status bbm_lay_out_supports(bbm_model *m);
 void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
 void       bbm_find_reactions(bbm_model *m);
 void       bbm_stop_supports(bbm_model *m);
-bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
-void       bbm_press_water(bbm_model *m);
 
 /* refuse.c, statics.c */
+bbm_status bbm_check_parameters(bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
-bbm_status bbm_measure_blocks(bbm_model *m);
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
@@ -155,5 +162,6 @@ bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
 bbm_status bbm_find_mechanism(bbm_model *m, int *element);          /* of BBM_MIDPOINTS; or -1  */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
+int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
 
 #endif

@@ -137,8 +137,7 @@ bbm_status bbm_find_mechanism(bbm_model *m, int *element)
     *element = -1;
     if (m->beyond->bonding != BBM_MIDPOINTS)
         return BBM_OK;
-    if (bbm_list_gaps(m))
-        return BBM_NO_MEMORY;
+    bbm_list_gaps(m);
     int *place = calloc(2 * n + (size_t)m->gaps, sizeof *place);
     double (*sum)[4] = calloc(n, sizeof *sum), *held = calloc(n, sizeof *held);
     window w = { place, place + n, place + 2 * n, held, 0, NULL };

@@ -14,7 +14,7 @@
 
 void bbm_start_multipliers(bbm_model *m)
 {
-    for (int k = 0; k < m->gap_room; k++)
+    for (int k = 0; k < m->gaps; k++)
         for (int r = 0; r < 2; r++)
             m->gap[k].f[r] = bbm_is_static(m) ? m->gap[k].f_before[r] : 0;
     m->beyond->rounds_done = 0;

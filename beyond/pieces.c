@@ -9,6 +9,14 @@
  */
 #include "beyond.h"
 
+/* The root of e in the forest up[], with the path halved on the way. */
+int bbm_root_of(int up[], int e)
+{
+    while (up[e] != e)
+        e = up[e] = up[up[e]];
+    return e;
+}
+
 /* For each element the first one of its piece, the elements that bonds join to it; piece[elements]
  * of the caller. Returns the number of pieces: as many as blocks, if each holds together. */
 int bbm_find_pieces(const bbm_model *m, int piece[])

@@ -1,11 +1,10 @@
-/* refuse.c - solutions that are none.
+/* refuse.c - parameters that mean nothing, and solutions that are none.
  *
  * A step of which the equations were not solved, whose elements go too far for what is linear in
  * it, or whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and
  * the model stays as it was.
  */
 #include <math.h>
-#include <stdlib.h>
 
 #include "beyond.h"
 
@@ -21,6 +20,42 @@
 #define FAR_STRAIN 0.5
 #define FAR_TURN 1.0
 #define DEEP 0.1
+
+/* Refuses parameters and settings that mean nothing; a comparison with NaN is false, so NaN is
+ * refused too. */
+bbm_status bbm_check_parameters(bbm_model *m)
+{
+    const bbm_parameters *p = &m->par;
+    const bbm_beyond *b = m->beyond;
+    const double over = nextafter(0, 1), most = nextafter(INFINITY, 0);
+    const struct { const char *name; double value, low, high; const char *expected; } check[] = {
+        { "dt", p->dt, over, INFINITY, "more than 0" },
+        { "steps", p->steps, 1, most, "1 or more" },
+        { "tolerance", p->tolerance, 0, most, "0 or more" },
+        { "velocity_factor", p->velocity_factor, 0, 1, "0 to 1" },
+        { "alpha", p->alpha, over, most, "more than 0" },
+        { "gravity[0]", p->gravity[0], -most, most, "a finite number" },
+        { "gravity[1]", p->gravity[1], -most, most, "a finite number" },
+        { "p_n", p->p_n, over, most, "more than 0" },
+        { "p_s", p->p_s, over, most, "more than 0" },
+        { "friction", p->friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
+        { "cohesion", p->cohesion, 0, most, "0 or more" },
+        { "tension", p->tension, 0, most, "0 or more" },
+        { "pcg.omega", p->pcg.omega, over, nextafter(2, 0), "more than 0, less than 2" },
+        { "pcg.tolerance", p->pcg.tolerance, over, nextafter(1, 0), "more than 0, less than 1" },
+        { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
+        { "multiplier_rounds", b->multiplier_rounds, 0, most, "0 or more" },
+        { "shake[0]", b->shake[0], -most, most, "a finite number" },
+        { "shake[1]", b->shake[1], -most, most, "a finite number" },
+        { "shake_omega", b->shake_omega, -most, most, "a finite number" },
+    };
+
+    for (size_t i = 0; i < sizeof check / sizeof *check; i++)
+        if (!(check[i].value >= check[i].low && check[i].value <= check[i].high))
+            return bbm_fail(m, BBM_BAD_PARAMETER, "%s = %g, expected %s", check[i].name,
+                            check[i].value, check[i].expected);
+    return BBM_OK;
+}
 
 /* Whether the solution solves the equations, and turns and strains no element too far; a comparison
  * with NaN is false. */
@@ -51,28 +86,17 @@ bbm_status bbm_check_solution(bbm_model *m)
                                                  : "a smaller dt, velocity or load helps");
 }
 
-/* Measures the boundaries of the blocks of a prepared model. */
-bbm_status bbm_measure_blocks(bbm_model *m)
-{
-    free(m->beyond->girth);
-    m->beyond->girth = calloc((size_t)m->elements, sizeof *m->beyond->girth);
-    for (int e = 0; e < m->edges && m->beyond->girth; e++)
-        m->beyond->girth[m->edge[e].first] += m->edge[e].along.length;
-    return m->beyond->girth ? BBM_OK : BBM_NO_MEMORY;
-}
-
 /* The closed contact that is deepest against the size of its smaller block, a quarter of its
  * boundary; returns that share, or 0 if none is closed. */
 double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
 {
-    const double *girth = m->beyond->girth;
     int contacts;
     const bbm_contact *c = bbm_list_contacts(m, &contacts);
     double most = 0;
 
     for (int k = 0; k < contacts; k++) {
-        const double i = girth[m->edge[c[k].corner].first], j = girth[m->edge[c[k].edge].first];
-        const double share = -c[k].d_n / (fmin(i, j) / 4);
+        const double girth = fmin(bbm_girth(m, c[k].corner), bbm_girth(m, c[k].edge));
+        const double share = -c[k].d_n / (girth / 4);
         if (c[k].state != BBM_OPEN && share > most) {
             most = share;
             *deepest = &c[k];

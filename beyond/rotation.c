@@ -50,15 +50,13 @@ int bbm_moves_exactly(const bbm_model *m)
 /* How a point at (X, Y) from the barycentre moves: translation, strain, then the exact rotation,
  * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X; where rotations
  * are linear, its first order in r0, u = T D. */
-void bbm_move_exactly(const bbm_model *m, const bbm_element *e, const double D[6], double X,
-                      double Y, double u[2])
+void bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y, double u[2])
 {
     const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
     const int exact = bbm_moves_exactly(m);
     const double s = exact ? sin(D[2]) : D[2], c1 = exact ? -2 * pow(sin(D[2] / 2), 2) : 0;
     const double x = exact ? X + ux : X, y = exact ? Y + uy : Y;
 
-    (void)e;
     u[0] = D[0] + ux + c1 * x - s * y;
     u[1] = D[1] + uy + c1 * y + s * x;
 }
@@ -159,7 +157,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
 }
 
 /* Whether the vectors of bonds, fixed points, loads or contacts belong to another step than the
- * solution. */
+ * solution. Gravity has none; a load that depends on T has a moment, or strains its element. */
 int bbm_middle_is_off(const bbm_model *m)
 {
     int off = 0;
@@ -168,12 +166,8 @@ int bbm_middle_is_off(const bbm_model *m)
         return 0;
     for (int k = 0; k < m->gaps && !off; k++)
         off = is_off(m, m->gap[k].i) || (m->gap[k].j >= 0 && is_off(m, m->gap[k].j));
-    for (int v = 0; v < m->vertices && !off; v++) {
-        const double *load = m->node[m->vertex[v].node].load;
-        off = (load[0] != 0 || load[1] != 0) && is_off(m, m->vertex[v].element);
-    }
-    for (int l = 0; l < m->line_loads && !off; l++)
-        off = is_off(m, m->vertex[m->line_load[l].a].element);
+    for (int a = 0; a < 6 * m->elements && !off; a++)
+        off = a % 6 >= 2 && m->load[a] != 0 && is_off(m, a / 6);
     return off || bbm_contacts_are_off(m, SHARE);
 }
 
@@ -183,7 +177,7 @@ int bbm_renew_middle(bbm_model *m)
     if (!bbm_middle_is_off(m))
         return 0;
     bbm_set_middle(m);
-    (void)bbm_list_gaps(m);             /* as many as before: there is room */
+    bbm_list_gaps(m);
     return 1;
 }
 
@@ -201,15 +195,12 @@ static void turn_tensor(double s[3], double r)
 /* Stress and strain rates turn with an element that has moved, and the change of its moments by
  * strain, which no force of the step knows of, changes no energy: turning and straining slow down
  * or speed up together. */
-void bbm_turn_element(const bbm_model *m, const bbm_element *start, bbm_element *e,
-                      const bbm_vertex vertex[])
+void bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
 {
     double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
     double turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
     bbm_element end = *e;
 
-    if (!bbm_moves_exactly(m))
-        return;
     const double before = bbm_inertia_form(start, turning);
     turn_tensor(e->stress, e->D[2]);
     turn_tensor(rate, e->D[2]);

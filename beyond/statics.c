@@ -57,26 +57,31 @@ static int is_regular(double G[3][3])
     return 1;
 }
 
-/* Statics needs bodies that the wall holds, by themselves or through contacts. That a contact
- * holds in each direction is too kind to it: a block on a slope passes, and fails later. */
+/* Statics needs bodies that the wall holds, by themselves or through contacts; a component of K is
+ * a body. That a contact holds in each direction is too kind to it: a block on a slope passes, and
+ * fails later. */
 bbm_status bbm_check_supports(bbm_model *m)
 {
     const bbm_element *e = m->element;
-    int *body = calloc((size_t)m->elements, sizeof *body), loose = -1;
-    double (*G)[3][3] = calloc((size_t)m->elements, sizeof *G);
-    const bbm_status status = body && G ? BBM_OK : BBM_NO_MEMORY;
+    const int *body = m->K->component;
+    int loose = -1;
 
-    if (!status)
-        bbm_join_elements(m, body);
+    if (!bbm_is_static(m))
+        return BBM_OK;
+    int *first = calloc((size_t)m->elements, sizeof *first);
+    double (*G)[3][3] = calloc((size_t)m->elements, sizeof *G);
+    const bbm_status status = first && G ? BBM_OK : BBM_NO_MEMORY;
+    for (int i = m->elements - 1; i >= 0 && !status; i--)
+        first[body[i]] = i;
     for (int g = 0; g < m->gaps && !status; g++) {
-        const int i = m->gap[g].i, o = body[i];
+        const bbm_element *own = &e[m->gap[g].i], *o = &e[first[body[m->gap[g].i]]];
         if (m->gap[g].j < 0)
-            add_hold(m->gap[g], e[i].x - e[o].x, e[i].y - e[o].y, G[o]);
+            add_hold(m->gap[g], own->x - o->x, own->y - o->y, G[body[m->gap[g].i]]);
     }
     for (int i = 0; i < m->elements && !status && loose < 0; i++)
-        if (body[i] == i && !is_regular(G[i]))
+        if (first[body[i]] == i && !is_regular(G[body[i]]))
             loose = i;
-    free(body);
+    free(first);
     free(G);
     if (loose < 0)
         return status;
@@ -88,16 +93,14 @@ bbm_status bbm_check_supports(bbm_model *m)
 /* Whether every body of a prepared model is held, by itself or through contacts. */
 bbm_status bbm_check_held(bbm_model *m)
 {
-    bbm_status status = bbm_check_step(m);
+    const bbm_status status = bbm_check_step(m);
+    int other;
 
+    if (status)
+        return status;
     m->h = INFINITY;
-    if (!status) {
-        bbm_guess_step(m);
-        status = bbm_detect_contacts(m, NULL);
-    }
-    if (!status)
-        status = bbm_list_gaps(m);
-    return status ? status : bbm_check_supports(m);
+    bbm_begin_step(m);
+    return bbm_detect(m, &other);
 }
 
 /* --------------------------------------------------------------------- which block goes */
@@ -121,12 +124,12 @@ static bbm_status take_long_step(bbm_model *m, double *far)
     *far = load / mass * h2 / 2;
     m->h = sqrt(h2);
     m->K_is_kept = 0;
-    const bbm_status status = bbm_assemble(m);
+    bbm_assemble(m);
     m->h = INFINITY;
     for (int i = 0; i < m->elements; i++)
         bbm_gravity_submatrix(&m->element[i], push, &m->F[6 * i]);
     pcg.method = &bbm_eisenstat;
-    return status ? status : bbm_solve(m->K, m->F, m->D, &pcg, &info);
+    return bbm_solve(m->K, m->F, m->D, &pcg, &info);
 }
 
 static double way(const bbm_model *m, int i) { return hypot(m->D[6 * i], m->D[6 * i + 1]); }

@@ -159,11 +159,11 @@ static void describe(const model *p, const char *path)
 static void warn(const model *p, const char *path, int checking)
 {
     const bbm_model *m = p->m;
-    int held = 0, load = m->line_loads > 0 || p->moving || m->beyond->shake[0] != 0
+    int held = 0, load = m->beyond->edge_loads > 0 || p->moving || m->beyond->shake[0] != 0
                          || m->beyond->shake[1] != 0;
 
     for (int n = 0; n < m->nodes; n++) {
-        held |= m->node[n].held || m->beyond->waters > 0;
+        held |= m->node[n].held || m->beyond->edge_loads > 0;
         load |= m->node[n].load[0] != 0 || m->node[n].load[1] != 0;
     }
     for (int b = 0; b < p->blocks; b++)

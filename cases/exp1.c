@@ -165,7 +165,7 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         double u[2];
         x[i] = 6 * i;
         const struct case_value *f = case_find(ref, "v", x[i], 0);
-        bbm_displacement(&dda->element[0], x[i], 0, u);
+        bbm_displacement(&dda->element[0], dda->element[0].D, x[i], 0, u);
         v[0][i] = u[1];
         v[1][i] = case_at(bbm, x[i], 0).v;
         v[2][i] = f->six_node;

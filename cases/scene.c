@@ -409,7 +409,7 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
 }
 
 /* Arrows along a loaded edge, 10 pixels apart or more. */
-static void visit_edge(film *f, int frame, const bbm_line_load *l, point *last, visitor *visit)
+static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = place(f, frame, l->a), b = place(f, frame, l->b);
     const double length = hypot(b.x - a.x, b.y - a.y);
@@ -417,7 +417,7 @@ static void visit_edge(film *f, int frame, const bbm_line_load *l, point *last, 
     const int n = (int)fmax(1, length * f->scale / 16);
 
     for (int i = 0; i < n; i++) {
-        const double s = (i + 0.5) / n, *q = l->f[l->constant ? 0 : (int)(s * BBM_GAUSS)];
+        const double s = (i + 0.5) / n, *q = l->q[(int)(s * l->loads)];
         const point x = { a.x + s * (b.x - a.x), a.y + s * (b.y - a.y) };
         if (visit && hypot(x.x - last->x, x.y - last->y) * f->scale < 10)
             continue;
@@ -440,8 +440,14 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
             visit_force(f, kind, place(f, frame, m->adjacent[m->adjacent_first[i]]),
                         (point){ q[0], q[1] }, f->normal[i], visit);
     }
-    for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++)
-        visit_edge(f, frame, &m->line_load[i], &last, visit);
+    for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++) {
+        const bbm_line_load *l = &m->line_load[i];
+        visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f, 0 }, &last,
+                   visit);
+    }
+    scene_line l;
+    for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
+        visit_edge(f, frame, &l, &last, visit);
     for (int i = 0; (kind == LOCKED || kind == SLIDING) && i < g->forces; i++)
         if ((int)g->force[i].state == kind)
             visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },

@@ -73,4 +73,14 @@ typedef struct {                /* contours of a field over the present state   
 double scene_field(const bbm_result *r, const char *field);     /* NaN: there is none */
 int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
 
+/* A load along an edge from vertex a to b: the forces [N/m] at equal distances, and a pressure. */
+typedef struct {
+    int a, b, loads;
+    const double (*q)[2];
+    double pressure;
+} scene_line;
+
+/* beyond.c: load k of those that are given for an edge; 0: there are no more. */
+int scene_edge_load(const bbm_model *m, int k, scene_line *l);
+
 #endif

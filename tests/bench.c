@@ -1,10 +1,13 @@
-/* bench.c - `make bench`: how long the linear solver takes, and finding the contacts. First an iteration of the paper's
- * SSOR-PCG, in its textbook form and in Eisenstat's, then whole solutions of it and on two levels, up to 221,952
- * unknowns; then how the time to find the contacts grows with the model. What is compared is timed in turn in one run;
- * printed are medians and their ratio, since these survive a busy machine.
+/* bench.c - `make bench`: how long the linear solver takes, what contact costs, and finding the
+ * contacts. First an iteration of the paper's SSOR-PCG, in its textbook form and in Eisenstat's,
+ * then whole solutions of it and on two levels, up to 221,952 unknowns; then steps of blocks that
+ * slide, with friction in K and as a load; then how the time to find the contacts grows with the
+ * model. What is compared is timed in turn in one run; printed are medians and their ratio, since
+ * these survive a busy machine. Solutions and iterations are as many on every machine.
  *
- *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix Market form, so that
- *                                         any other solver can be timed with the same equations
+ *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix
+ *                                         Market form, so that any other solver can be timed with
+ *                                         the same equations
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,6 +16,7 @@
 
 #include "../beyond/beyond.h"
 #include "../cases/case.h"
+#include "rock.h"
 
 enum { TURNS = 9, ITERATIONS = 100 };
 
@@ -61,7 +65,8 @@ static double solve_time(bbm_model *m, const bbm_method *method, int iterations)
     return (double)(clock() - start) / CLOCKS_PER_SEC;
 }
 
-/* Seconds of one iteration: what further iterations add to a solve of one, so that setting up does not count. */
+/* Seconds of one iteration: what further iterations add to a solve of one, so that setting up does
+ * not count. */
 static double iteration_time(bbm_model *m, const bbm_method *method)
 {
     const double one = solve_time(m, method, 1);
@@ -96,7 +101,8 @@ static double median(double v[TURNS])
 static void print_forms(void)
 {
     printf("SSOR-PCG, omega = 1, alpha = 100: microseconds an iteration, medians of %d turns\n\n"
-           "| unknowns | textbook | Eisenstat | ratio | iterations to 1e-10, textbook | Eisenstat |\n"
+           "| unknowns | textbook | Eisenstat | ratio | iterations to 1e-10, textbook | Eisenstat "
+           "|\n"
            "|---|---|---|---|---|---|\n", TURNS);
     for (int n = 1; n <= 4; n *= 2) {
         bbm_model *m = beam(24 * n, 6 * n, CASE_CROSSED, 100);
@@ -106,8 +112,9 @@ static void print_forms(void)
             eisenstat[i] = 1e6 * iteration_time(m, &bbm_eisenstat);
             ratio[i] = eisenstat[i] / textbook[i];
         }
-        printf("| %d | %.1f | %.1f | %.2f | %d | %d |\n", 6 * m->elements, median(textbook), median(eisenstat),
-               median(ratio), iterations(m, NULL), iterations(m, &bbm_eisenstat));
+        printf("| %d | %.1f | %.1f | %.2f | %d | %d |\n", 6 * m->elements, median(textbook),
+               median(eisenstat), median(ratio), iterations(m, NULL),
+               iterations(m, &bbm_eisenstat));
         fflush(stdout);
         bbm_model_free(m);
     }
@@ -118,23 +125,22 @@ static void add_wall(bbm_model *m, int n)
 {
     for (int row = 0; row < n; row++)
         for (int i = 0; i < n; i++) {
-            const case_box b = { .block = row * n + i, .nx = 1, .ny = 1, .x = i + row % 2 / 2.0, .y = row, .w = 1, .h = 1 };
-            case_add_box(m, &b);
+            const double x = i + row % 2 / 2.0;
+            case_add_box(m, &(case_box){ .block = row * n + i, .nx = 1, .ny = 1, .x = x, .y = row,
+                                         .w = 1, .h = 1 });
         }
 }
 
 /* A subdivided block on a subdivided plate: straight sides of n and 2 n edges in contact. */
 static void add_long_sides(bbm_model *m, int n)
 {
-    const case_box plate = { .block = 0, .nx = 2 * n, .ny = 1, .x = -0.5, .y = -1, .w = 2 * n, .h = 1 };
-    const case_box block = { .block = 1, .nx = n, .ny = 1, .x = 0, .y = 0, .w = n, .h = 1 };
-
-    case_add_box(m, &plate);
-    case_add_box(m, &block);
+    case_add_box(m, &(case_box){ .block = 0, .nx = 2 * n, .ny = 1, .x = -0.5, .y = -1, .w = 2 * n,
+                                 .h = 1 });
+    case_add_box(m, &(case_box){ .block = 1, .nx = n, .ny = 1, .x = 0, .y = 0, .w = n, .h = 1 });
 }
 
-/* A model whose contacts have been found once and are closed, as in the middle of a run; they have a cohesion, so that
- * the length of each joint is looked up, too. */
+/* A model whose contacts have been found once and are closed, as in the middle of a run; they have
+ * a cohesion, so that the length of each joint is looked up, too. */
 static bbm_model *model_in_contact(void add(bbm_model *, int), int n)
 {
     bbm_model *m = case_model();
@@ -232,6 +238,46 @@ static void print_levels(void)
     }
 }
 
+/* --------------------------------------------------------------------------- what contact costs */
+
+typedef struct { double solutions, ms; } effort;        /* of a step, in the mean */
+
+static effort run_rock(const rock_scene *s, int friction_is_a_load)
+{
+    bbm_model *m = s->make();
+    effort e = { 0 };
+
+    case_must(m, m ? bbm_prepare(m) : BBM_NO_MEMORY);
+    if (friction_is_a_load) {
+        m->hook.friction = NULL;
+        m->hook.find_friction = NULL;
+    }
+    const clock_t start = clock();
+    for (int i = 0; i < s->steps; i++) {
+        case_must(m, bbm_step(m));
+        e.solutions += (double)m->info.passes / s->steps;
+    }
+    e.ms = 1e3 * (double)(clock() - start) / CLOCKS_PER_SEC / s->steps;
+    bbm_model_free(m);
+    return e;
+}
+
+static void print_contact(void)
+{
+    printf("\nFriction in K, and as the paper has it, a load with the N of the last solution until\n"
+           "both agree: means of all steps; ratio: of the times\n\n"
+           "| scene | steps | in K: solutions a step | ms | load: solutions a step | ms | ratio |\n"
+           "|---|---|---|---|---|---|---|\n");
+    for (int k = 0; k < ROCK_SCENES; k++) {
+        const effort in_K = run_rock(&rock[k], 0), load = run_rock(&rock[k], 1);
+        printf("| %s | %d | %.2f | %.3f | %.2f | %.3f | %.1f |\n", rock[k].name, rock[k].steps,
+               in_K.solutions, in_K.ms, load.solutions, load.ms, load.ms / in_K.ms);
+        fflush(stdout);
+    }
+}
+
+/* ---------------------------------------------------------------------------- for other solvers */
+
 static void write_block(FILE *f, const bbm_matrix *K, int i, int j)
 {
     double B[6][6];
@@ -252,8 +298,8 @@ static int write_matrix(const char *file, int rows)
         fprintf(stderr, "%s: cannot be written\n", file);
         return 1;
     }
-    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %d\n", 6 * m->elements, 6 * m->elements,
-            21 * m->elements + 36 * m->bonds);
+    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %d\n", 6 * m->elements,
+            6 * m->elements, 21 * m->elements + 36 * m->bonds);
     for (int i = 0; i < m->elements; i++)
         write_block(f, m->K, i, i);
     for (int b = 0; b < m->bonds; b++)
@@ -269,9 +315,11 @@ int main(int count, char **argument)
         return write_matrix(argument[2], atoi(argument[3]));
     print_forms();
     print_levels();
-    printf("\nDetection of contacts: edges that a corner is compared with, nanoseconds a boundary edge, and that against\n"
-           "the smallest model\n\n"
-           "| model | edges | contacts | compared | ns an edge | ratio |\n|---|---|---|---|---|---|\n");
+    print_contact();
+    printf("\nDetection of contacts: edges that a corner is compared with, nanoseconds a boundary\n"
+           "edge, and that against the smallest model\n\n"
+           "| model | edges | contacts | compared | ns an edge | ratio |\n"
+           "|---|---|---|---|---|---|\n");
     bench_detection("wall of bricks", add_wall, (const int[]){ 16, 50, 158 });
     bench_detection("two long sides", add_long_sides, (const int[]){ 166, 1666, 16666 });
     return 0;

@@ -194,6 +194,7 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
     bbm_element unit = m->element[0];
     double W[2][2][2];
     bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+    bbm_gap end[2];
     double own[2][2][2], K[6][6];
 
     ck_assert_int_eq(m->bonds, 1);
@@ -212,11 +213,12 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
         W[0][a / 2][a % 2] = a % 3 == 0 ? 2 * k : 0;
         W[1][a / 2][a % 2] = 2 * ratio[0] * ratio[1] * own[b->p[0] % 2][a / 2][a % 2];
     }
-    const bbm_vertex *const P[2] = { &start[b->p[0]], &start[b->p[1]] };
-    const bbm_vertex *const Q[2] = { &start[b->q[0]], &start[b->q[1]] };
+    for (int n = 0; n < 2; n++)
+        bbm_bonding_gap(&m->element[b->i], &start[b->p[n]], &m->element[b->j], &start[b->q[n]], k,
+                        &end[n]);
     for (int g = 0; g < 2; g++) {
         bbm_gap gap = { .i = b->i, .j = b->j };
-        bbm_edge_gap(&m->element[b->i], P, &m->element[b->j], Q, W[g], g == 0 ? 1 : -1, &gap);
+        bbm_edge_gap(end, g == 0 ? 1 : -1, W[g], &gap);
         bbm_bonding_submatrices(&gap, &s);
     }
     bbm_matrix_get(m->K, b->i, b->j, K);

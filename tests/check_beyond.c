@@ -229,6 +229,7 @@ START_TEST(the_edge_submatrices_are_derivatives_of_the_edge_energy)
     double W[2][2][2] = { { { 3, 0.5 }, { 0.5, 2 } }, { { 1, -0.3 }, { -0.3, 4 } } };
     bbm_model *m = make(&g, 100, 0, BBM_MOMENT);
     bbm_submatrices s;
+    bbm_gap end[2];
     double D[12] = { 0 }, K[12][12];
 
     ck_ok(bbm_prepare(m), m);
@@ -238,11 +239,12 @@ START_TEST(the_edge_submatrices_are_derivatives_of_the_edge_energy)
     }
     memset(&s, 0, sizeof s);
     const bbm_bond *b = &m->bond[0];
-    const bbm_vertex *const P[2] = { &m->vertex[b->p[0]], &m->vertex[b->p[1]] };
-    const bbm_vertex *const Q[2] = { &m->vertex[b->q[0]], &m->vertex[b->q[1]] };
+    for (int n = 0; n < 2; n++)
+        bbm_bonding_gap(&m->element[b->i], &m->vertex[b->p[n]], &m->element[b->j],
+                        &m->vertex[b->q[n]], 1, &end[n]);
     for (int k = 0; k < 2; k++) {
         bbm_gap gap = { .i = b->i, .j = b->j };
-        bbm_edge_gap(&m->element[b->i], P, &m->element[b->j], Q, W[k], k == 0 ? 1 : -1, &gap);
+        bbm_edge_gap(end, k == 0 ? 1 : -1, W[k], &gap);
         bbm_bonding_submatrices(&gap, &s);
     }
     for (int a = 0; a < 6; a++)

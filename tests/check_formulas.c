@@ -221,7 +221,7 @@ START_TEST(the_mode_matrix_moves_points_by_translation_rotation_and_strain)
         for (int a = 0; a < 6; a++)
             b.e.D[a] = random_number(&seed);
         displace(&b, b.e.D, x, y, expected);
-        bbm_displacement(&b.e, x, y, u);
+        bbm_displacement(&b.e, b.e.D, x, y, u);
         bbm_mode_matrix(&b.e, x, y, T);
         for (int r = 0; r < 2; r++) {
             double TD = 0;

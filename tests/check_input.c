@@ -455,6 +455,26 @@ START_TEST(parameters_outside_their_range_are_refused_by_name)
 }
 END_TEST
 
+/* Without the hook that names it, nothing is wrong in silence: the core refuses what is outside its
+ * range, the solver what is not finite, if the step uses it. */
+START_TEST(parameters_outside_their_range_are_refused_without_the_hook)
+{
+    const char *name = PARAMETERS[_i].name;
+    const int infinite = isinf(PARAMETERS[_i].value);
+    const int in_K = name[0] == 'g' || (infinite && name[0] == 'a');
+    bbm_model *m = held_square();
+
+    m->hook.check_step = NULL;
+    m->hook.joint_area = NULL;
+    memcpy((char *)&m->par + PARAMETERS[_i].offset, &PARAMETERS[_i].value, sizeof(double));
+    if (infinite && (strcmp(name, "tolerance") == 0 || name[1] == '_'))
+        ck_ok(bbm_step(m), m);                              /* p_n, p_s: nothing touches */
+    else
+        check_error(m, bbm_step(m), in_K ? BBM_NOT_FINITE : BBM_BAD_PARAMETER, "");
+    bbm_model_free(m);
+}
+END_TEST
+
 /* Without a hook that knows the area of a joint a strength would be of no effect. */
 START_TEST(a_strength_that_would_have_no_effect_is_refused)
 {
@@ -678,6 +698,7 @@ Suite *input_suite(void)
     };
     const loop_test bad_parameters[] = {
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
+        { parameters_outside_their_range_are_refused_without_the_hook, COUNT(PARAMETERS) },
         { a_strength_that_would_have_no_effect_is_refused, 1 },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },

@@ -185,6 +185,7 @@ START_TEST(the_vectors_are_off_when_an_element_turns_further_than_they_did)
         if (m->edge[e].element == PRESSED)
             ck_ok(bbm_load_edge(m, e, 0, 0, 1), m);
     m->h = m->par.dt;
+    bbm_assemble(m);                                        /* of gravity and loads */
     for (int k = 0; k < ALL; k++) {
         double *mid = &m->element[k].mode_D[2];
         m->D[6 * k + 2] = both - off;

@@ -499,7 +499,7 @@ START_TEST(what_is_loose_in_a_static_step_that_failed_is_named)
     ck_ok(bbm_prepare(m), m);
     m->h = INFINITY;
     m->acceleration[1] = _i < 2 ? -9.81 : 0;
-    ck_ok(bbm_assemble(m), m);
+    bbm_assemble(m);
     ck_assert_int_eq(bbm_explain(m, BBM_STOPPED), BBM_STOPPED);
     ck_assert_int_eq(bbm_explain(m, BBM_NOT_CONVERGED),
                      _i ? BBM_NO_EQUILIBRIUM : BBM_NOT_CONVERGED);

@@ -116,13 +116,20 @@ START_TEST(pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing)
     static const int wrong[][2] = { { 0, 2 }, { 2, 0 }, { 11, 1 }, { -1, 0 }, { 0, -1 }, { 12, 0 },
                                     { 0, 12 } };
     dense_system *s = new_system(CHAIN, 8);
-    double x[MOST_6], y[MOST_6], B[6][6] = { { 1 } };
+    double x[MOST_6], y[MOST_6], D[MOST_6], B[6][6] = { { 1 } };
+    const bbm_pcg pcg = accurate(1, NULL);
+    bbm_pcg_info info;
 
     bbm_matrix_multiply(s->K, s->F, x);
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
     for (int k = 0; k < COUNT(wrong); k++)
         ck_assert_int_eq(bbm_matrix_add(s->K, wrong[k][0], wrong[k][1], B), BBM_BAD_INDEX);
     bbm_matrix_multiply(s->K, s->F, y);
     ck_assert_mem_eq(x, y, (size_t)(6 * s->n) * sizeof *x);
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_BAD_INDEX);
+    ck_assert_int_eq(info.iterations, 0);
+    bbm_matrix_clear(s->K);
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_POSITIVE_DEFINITE);
     free_system(s);
 }
 END_TEST
