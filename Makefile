@@ -158,13 +158,13 @@ check-others: check-%: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $
 check-experiments: check-%: $O/check experiments
 	CK_RUN_SUITE=cases $(SAY)
 
-# Everything that the experiments print, the longest first, but after what the tests beside them need; what hangs is
+# Everything that the experiments print, after what the tests beside them need; what hangs is
 # ended after ten minutes of the processor.
 CONVERGE = exp1 exp2
 CALLS    = $(CASES:%=run-%) $(CONVERGE:%=converge-%) again without-beyond
 LIMIT    = mkdir -p out; ulimit -t 600;
 
-experiments: run-incline $(CALLS)
+experiments: $(CALLS)
 
 $(CALLS): | $O/check $(CASES:%=$O/failing/%)
 
