@@ -188,8 +188,8 @@ int model_build(model_reader *r)
 
 enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 
-/* What stands behind WHERE; block: -1, any. */
-typedef struct { int kind, found, block; double x[4]; } place;
+/* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
+typedef struct { int kind, found, block, whole; double x[4]; } place;
 
 /* Whether the block has the node; -1: some block. */
 static int has_node(const model_reader *r, int block, int node)
@@ -260,7 +260,7 @@ static int choose_set(model_reader *r, place *w, const char *word)
     if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
         return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
                               "of curves or points, expected one");
-    if (w->found < 0 && (w->block = model_find(&r->block_of, word)) < 0)
+    if (w->found < 0 && (w->block = w->whole = model_find(&r->block_of, word)) < 0)
         return model_unknown(r, r->set_of.count ? &r->set_of : &r->block_of, "set", word);
     return 1;
 }
@@ -310,7 +310,7 @@ static int where(model_reader *r, int nearest)
         choose_nearest(r, &w);
     else
         for (int n = 0; n < r->nodes; n++)
-            if (w.kind == BY_SET || is_there(r, &w, &r->node[n]))
+            if (w.kind == BY_SET ? has_node(r, w.whole, n) : is_there(r, &w, &r->node[n]))
                 choose(r, &w, n);
     if (r->chosen == 0)
         return model_blame(r, "no node there%s%.60s, expected a place that names one",

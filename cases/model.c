@@ -62,8 +62,7 @@ static int expand(model_reader *r, char **word)
             snprintf(name, sizeof name, "%.*s", (int)strspn(dollar + 1, MODEL_NAME), dollar + 1);
             return model_blame(r, "no `let` says what $%.60s is%s%s", name,
                                r->let_of.count ? ", expected one such as $" : "",
-                               model_nearest(name, (const void *)r->let_of.key, r->let_of.room,
-                                             sizeof(char *), text));
+                               model_nearest_of(&r->let_of, name, text));
         }
         const char *value = r->word[model_find(&r->let_of, name)];
         char *text = model_text(r, strlen(*word) + strlen(value));
@@ -87,8 +86,8 @@ static int expand_statement(model_reader *r)
 /* The number is the word behind the name, or that of the command line in its place. */
 static int read_let(model_reader *r)
 {
-    const char *word = expand_statement(r) ? model_name(r) : NULL,
-               *other = word ? given(r, word) : NULL;
+    const char *word = expand_statement(r) ? model_name(r) : NULL;
+    const char *other = word ? given(r, word) : NULL;
     double x;
 
     if (!word || !model_is_new(r, &r->let_of, "let", word) || !model_look(r))
@@ -123,8 +122,7 @@ static int give_numbers(model_reader *r)
             return model_fail(r, (model_place){ r->path, 0 },
                               "-d %.60s: expected NAME=VALUE with a name of a `let`%s%s", r->let[k],
                               r->let_of.count ? ", such as " : "; the model has none",
-                              model_nearest(name, (const void *)r->let_of.key, r->let_of.room,
-                                            sizeof(char *), text));
+                              model_nearest_of(&r->let_of, name, text));
     }
     return 1;
 }
@@ -385,10 +383,8 @@ static int find_last(model_reader *r, int of_elements)
     for (int k = 0; k < n; k++) {
         const char *word = of_elements ? r->element[k].id : r->node[k].id;
         if (strlen(word) > 17)
-            return model_blame(r,
-                               "an id of %d digits, expected at most 17 where blocks are numbered "
-                               "on",
-                               (int)strlen(word));
+            return model_blame(r, "an id of %d digits, expected at most 17 where blocks are "
+                               "numbered on", (int)strlen(word));
         const long long value = strtoll(word, NULL, 10);
         if (value > r->last[of_elements])
             r->last[of_elements] = value;
@@ -444,8 +440,8 @@ static int read_block(model_reader *r)
     int *corner = model_room(r, words, sizeof *corner);
     double xy[2] = { 0, 0 };
     for (int k = 0; k < words && good; k++) {
-        good =
-            corner && model_number(r, &xy[k % 2]) && (k % 2 == 0 || add_own_node(r, xy[0], xy[1]));
+        good = corner && model_number(r, &xy[k % 2])
+            && (k % 2 == 0 || add_own_node(r, xy[0], xy[1]));
         if (good)
             corner[k / 2] = r->nodes - 1;
     }
@@ -517,9 +513,7 @@ static int read_set(model_reader *r)
 {
     const char *word = model_name(r);
 
-    if (!word || !model_is_new(r, &r->set_of, "set", word))
-        return 0;
-    if (!model_keyword(r, "nodes"))
+    if (!word || !model_is_new(r, &r->set_of, "set", word) || !model_keyword(r, "nodes"))
         return 0;
     const int set = model_find_set(r, word);
     for (int good = set >= 0, first = 1; first || model_look(r); first = 0) {
@@ -535,20 +529,16 @@ static int read_use(model_reader *r)
 {
     const int material = model_known(r, &r->material_of, "material", model_word(r));
 
-    if (material < 0)
-        return 0;
-    if (!model_keyword(r, "on"))
+    if (material < 0 || !model_keyword(r, "on"))
         return 0;
     const char *word = model_word(r);
-    const int star = word && strcmp(word, "*") == 0,
-              block = star ? 0 : model_known(r, &r->block_of, "block", word);
+    const int star = word && strcmp(word, "*") == 0;
+    const int block = star ? 0 : model_known(r, &r->block_of, "block", word);
     if (block < 0 || !model_at_end(r))
         return 0;
     if (!star && !r->block[block].meshed)
-        return model_blame(r,
-                           "block '%s' has its material in its own statement, expected a block of "
-                           "a mesh",
-                           word);
+        return model_blame(r, "block '%s' has its material in its own statement, expected a "
+                           "block of a mesh", word);
     int *m = star ? &r->other_material : &r->block[block].material;
     if (*m >= 0)
         return model_blame(r, "a material for '%s' for the second time, expected one", word);
@@ -580,9 +570,7 @@ static int read_expect(model_reader *r)
         return 0;
     e.monitor = monitor;
     const int value = e.kind == MODEL_U || e.kind == MODEL_V;
-    if (value && !model_number(r, &e.value))
-        return 0;
-    if (!model_keyword(r, value ? "within" : "by"))
+    if ((value && !model_number(r, &e.value)) || !model_keyword(r, value ? "within" : "by"))
         return 0;
     char *last = model_look(r);
     const size_t n = last ? strlen(last) : 0;

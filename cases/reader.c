@@ -234,6 +234,11 @@ const char *model_nearest(const char *word, const void *names, int n, size_t str
     return text;
 }
 
+const char *model_nearest_of(const model_table *t, const char *word, char text[200])
+{
+    return model_nearest(word, (const void *)t->key, t->room, sizeof *t->key, text);
+}
+
 int model_unknown(model_reader *r, const model_table *t, const char *what, const char *word)
 {
     char text[200];
@@ -242,7 +247,7 @@ int model_unknown(model_reader *r, const model_table *t, const char *what, const
         return model_blame(r, "unknown %s '%.60s': the model has none", what, word);
     return model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", what,
                        word,
-                       model_nearest(word, (const void *)t->key, t->room, sizeof *t->key, text));
+                       model_nearest_of(t, word, text));
 }
 
 int model_is_name(const char *word)

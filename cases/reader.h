@@ -95,6 +95,7 @@ int   model_is_name(const char *word);
 /* The nearest ones to a word among n, `stride` bytes from name to name, NULL: none; as text. */
 const char *model_nearest(const char *word, const void *names, int n, size_t stride,
                           char text[200]);
+const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
 int   model_unknown(model_reader *r, const model_table *t, const char *what, const char *word);
 
 /* --- words of the statement in hand: reader.c --- */

@@ -210,6 +210,7 @@ static const wrong wrongs[] = {
     { "water-no-edge", ".model:7: no boundary edge has both ends there, expected one" },
     { "water-no-level", ".model:7: a word is missing, expected: water WHERE LEVEL [density VALUE]" },
     { "water-without-gravity", ".model:6: water without weight, expected gravity" },
+    { "set-of-another-block", ".model:7: no node there of block b, expected a place that names one" },
 };
 
 START_TEST(wrong_input_is_named_with_its_line_and_nothing_is_written)

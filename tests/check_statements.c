@@ -373,6 +373,22 @@ START_TEST(a_grid_has_its_cells_and_its_rim)
 END_TEST
 
 /* Two squares that share an edge, and two blocks of `block` there: of BLOCK takes one. */
+START_TEST(a_block_is_the_set_of_its_nodes)
+{
+    /* a and b share nodes 2 and 3; of those, the set a has two of b. */
+    static const char mesh[] = ROCK "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 2 0\nnode 6 2 1\n"
+                               "element 1 a rock 1 2 3 4\nelement 2 b rock 2 5 6 3\ngravity 0 -1\n";
+    static const struct { const char *where; int status, rows; } table[] = {
+        { "set a", 0, 4 }, { "set a of a", 0, 4 }, { "set a of b", 0, 2 }, { "set b of a", 0, 2 },
+    };
+    char text[LONG];
+
+    snprintf(text, sizeof text, "%sfix %s\ndynamic dt 0.01 steps 1\n", mesh, table[_i].where);
+    ck_assert_int_eq(run_text("whole", text), table[_i].status);
+    ck_assert_int_eq(shell("test $(wc -l < out/model/whole/reactions.csv) = %d", table[_i].rows + 1), 0);
+}
+END_TEST
+
 START_TEST(of_block_takes_the_nodes_of_one_block)
 {
     ck_assert_int_eq(run_text("of", ROCK "block a rock 0 0 1 0 1 1 0 1\nblock b rock 1 0 2 0 2 1 1 "
@@ -497,6 +513,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, the_first_domino_falls_where_its_energy_is_enough);
     tcase_add_test(t, each_block_of_a_column_carries_those_above);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
+    tcase_add_loop_test(t, a_block_is_the_set_of_its_nodes, 0, 4);
     tcase_add_test(t, of_block_takes_the_nodes_of_one_block);
     tcase_add_loop_test(t, what_is_expected_is_compared, 0, 8);
     tcase_add_test(t, a_number_of_the_command_line_takes_the_place_of_let);
