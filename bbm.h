@@ -461,6 +461,7 @@ int        bbm_moved_too_far(bbm_model *m);
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
 int        bbm_carries(const bbm_model *m, int corner, int edge);
+double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
 void       bbm_assemble_contacts(bbm_model *m);
 bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);

@@ -465,7 +465,7 @@ static double touch_between(const bbm_model *m, int c, int e)
  * the two blocks do. Nothing comes in from behind. What moves by T of the start of a step may also
  * end it inside, by its way; and a corner that slides on along a straight side, which may be bent
  * by now, keeps its contact. */
-static double allowed_depth(const bbm_model *m, int c, int e)
+double bbm_allowed_depth(const bbm_model *m, int c, int e)
 {
     const motion *i = motion_of(m, c), *j = motion_of(m, e);
     const double way = bbm_is_exact(m) ? 0 : i->travel + j->travel;
@@ -551,7 +551,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const motion *of = m->scratch->motion;
     const double turns = of[element_of(m, corner)].turn + of[element_of(m, e)].turn;
     const double approach = motion_of(m, corner)->travel + motion_of(m, e)->travel;
-    const double deep = allowed_depth(m, corner, e);
+    const double deep = bbm_allowed_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
     if (m->edge[e].block == m->edge[corner].block)
@@ -989,7 +989,7 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
  * edge from the start of the step to its end, unless it was closed and has not left. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    if (!c->was_closed && !c->inside && c->d_n0 < -allowed_depth(m, c->corner, c->edge))
+    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
     return (c->was_closed || is_on_edge(m, c)) && enters_at_end(m, c);
 }

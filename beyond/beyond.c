@@ -62,6 +62,14 @@ static void begin(bbm_model *m)
     bbm_start_multipliers(m);
 }
 
+/* A step that may begin: no corner has passed into a block, and in statics all bodies are held. */
+static bbm_status check_listed(bbm_model *m)
+{
+    const bbm_status status = bbm_check_passed(m);
+
+    return status ? status : bbm_check_supports(m);
+}
+
 /* A step that went well: right as far as one can tell, and without energy from nowhere. */
 static bbm_status accept(bbm_model *m, const bbm_model *end)
 {
@@ -105,7 +113,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_step = check_step,
         .accelerate = accelerate,
         .begin = begin,
-        .check_listed = bbm_check_supports,
+        .check_listed = check_listed,
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
         .strength = bbm_joint_strength,

@@ -58,6 +58,8 @@ struct bbm_beyond {
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
+    int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
+                                /* -1: none                                                     */
     bbm_factor factor;
     bbm_friction_search friction;
     int joints;
@@ -160,6 +162,8 @@ typedef struct {                /* elements i < j that overlap                  
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
+double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
+bbm_status bbm_check_passed(bbm_model *m);              /* of the pairs that the sweep has met  */
 bbm_status bbm_find_mechanism(bbm_model *m, int *element);          /* of BBM_MIDPOINTS; or -1  */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
 int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */

@@ -3,7 +3,8 @@
  * A contact keeps a corner out of an edge that it comes to from outside. Blocks that overlap from
  * the start have no such history: the corner is behind the edge, no spring pushes it out, and the
  * blocks fall through each other without a word. Such a model is refused, with the place and the
- * depth. Elements of one block may not overlap, either, and no element may meet itself.
+ * depth. Elements of one block may not overlap, either, and no element may meet itself. Should a
+ * step let a corner pass into a block all the same, the next one is refused.
  *
  * From an element that is not convex triangles are cut, ear by ear, until the rest is. Two convex
  * pieces overlap when no edge of either has the other piece wholly outside, and by the least way
@@ -236,4 +237,64 @@ bbm_status bbm_check_overlap(bbm_model *m)
     m->blamed[1] = o.i;
     return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d "
                     "with element %d, block %d with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
+}
+
+/* --------------------------------------------------------------------- blocks that passed by */
+
+/* How deep P lies in a block, the distance from its boundary; 0 outside. Edges that cross the
+ * horizontal line through P on its right count up or down: 1 inside, 0 outside or in a hole. An
+ * edge ends where the next one starts, for bonds may have opened there. */
+static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int block)
+{
+    double depth = INFINITY;
+    int winding = 0;
+
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *a = &m->vertex[m->edge[e].a];
+        const bbm_vertex *b = &m->vertex[m->edge[m->edge[e].after].a];
+        const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
+        const double px = P->x - a->x, py = P->y - a->y, d = px * y - py * x, s = px * x + py * y;
+        const int up = (py >= 0) - (P->y >= b->y);
+        if (m->edge[e].block != block)
+            continue;
+        depth = fmin(depth, hypot(d, fmax(0, fmax(-s, s - l * l))) / l);
+        winding += up * d < 0 ? up : 0;
+    }
+    return winding > 0 ? depth : 0;
+}
+
+/* How deep a corner lies in the block of an edge near it, deeper than contacts are, where no
+ * contact of the two blocks accounts for it: the last step let it pass. Else 0. */
+double bbm_depth_passed(const bbm_model *m, int corner, int edge)
+{
+    const bbm_vertex *P = &m->vertex[m->edge[corner].a], *a = &m->vertex[m->edge[edge].a];
+    const bbm_direction t = m->edge[edge].along;
+    const int block = m->edge[edge].block, other = m->edge[corner].block;
+    const double allowed = bbm_allowed_depth(m, corner, edge);
+    const double before = (P->x - a->x) * t.y - (P->y - a->y) * t.x;
+
+    if (block == other || before >= -allowed || m->edge[corner].side != corner)
+        return 0;
+    for (int k = 0; k < m->contacts; k++) {
+        const int i = m->edge[m->contact[k].corner].block, j = m->edge[m->contact[k].edge].block;
+        const int both = (i == block && j == other) || (i == other && j == block);
+        if (both && (m->contact[k].state != BBM_OPEN || m->contact[k].inside))
+            return 0;
+    }
+    const double depth = depth_in_block(m, P, block);
+    return depth > allowed ? depth : 0;
+}
+
+/* Refuses a step that starts so. */
+bbm_status bbm_check_passed(bbm_model *m)
+{
+    const int corner = m->beyond->passed[0], edge = m->beyond->passed[1];
+
+    if (corner < 0)
+        return BBM_OK;
+    const bbm_vertex *P = &m->vertex[m->edge[corner].a];
+    return bbm_fail(m, BBM_BLOCKS_OVERLAP, "step %d: a corner of block %d passed into block %d at "
+                    "(%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
+                    m->edge[corner].block, m->edge[edge].block, P->x, P->y,
+                    bbm_depth_passed(m, corner, edge));
 }

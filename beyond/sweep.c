@@ -50,6 +50,10 @@ static bbm_status compare(bbm_model *m, const box *c, const box *e)
     for (int k = X; k <= Y; k++)
         if (c->at[k] < e->low[k] || c->at[k] > e->high[k])
             return BBM_OK;
+    if (bbm_depth_passed(m, c->edge, e->edge) > 0) {
+        m->beyond->passed[0] = c->edge;
+        m->beyond->passed[1] = e->edge;
+    }
     return bbm_add_pair(m, c->edge, e->edge);
 }
 
@@ -58,6 +62,7 @@ bbm_status bbm_sweep(bbm_model *m, double search)
     box *b = malloc(((size_t)m->edges + 1) * sizeof *b);
     bbm_status status = b ? BBM_OK : BBM_NO_MEMORY;
 
+    m->beyond->passed[0] = -1;
     for (int e = 0; e < m->edges && !status; e++)
         b[e] = box_of(m, e, search);
     if (!status)

@@ -667,6 +667,70 @@ START_TEST(a_corner_that_left_after_it_opened_inside_comes_in_anew)
 }
 END_TEST
 
+/* ---------------------------------------------------------------------- a corner that passed by */
+
+/* The deepest of all corners in the blocks of all edges, as the check before a step has it. */
+static double deepest_passed(const bbm_model *m)
+{
+    double most = 0;
+
+    for (int c = 0; c < m->edges; c++)
+        for (int e = 0; e < m->edges; e++)
+            most = fmax(most, bbm_depth_passed(m, c, e));
+    return most;
+}
+
+/* Two squares of 1 m; the right one is put with its lower left corner 1 cm deep in the left one, or
+ * beside it, and is fast enough for 1 cm. The step after that is refused and says where. */
+START_TEST(a_corner_that_passed_into_a_block_is_refused)
+{
+    const double in = _i == 0 ? 0.01 : -0.01;
+    bbm_model *m = new_blocks();
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 1.5, .y = 0.5, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    run_steps(m, 1);
+    ck_assert(deepest_passed(m) == 0);
+    shift_element(m, e, -0.5 - in, 0);
+    set_velocity(m, e, -1, 0);
+    ck_near(deepest_passed(m), fmax(in, 0), 1, ROUNDING);
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == (_i ? BBM_OK : BBM_BLOCKS_OVERLAP), "%s", bbm_message(m));
+    ck_assert(_i || strstr(bbm_message(m), "step 2: a corner of block 1 passed into block 0 at "
+                                           "(0.99, 0.5), 0.01 m deep"));
+    bbm_model_free(m);
+}
+END_TEST
+
+/* A stone in the hole of a ring, whose wall of 2 mm is thinner than its way of 3 cm in a step: its
+ * corners are behind the ring's outer edges and in none of its elements. In the wall they are. */
+START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
+{
+    const double out[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } }, wall = 2e-3;
+    bbm_model *m = new_blocks();
+
+    m->par.gravity[1] = 0;
+    for (int k = 0; k < 8; k++)
+        bbm_add_node(m, out[k % 4][0] * (k < 4 ? 1 : 1 - wall),
+                     out[k % 4][1] * (k < 4 ? 1 : 1 - wall), NULL);
+    for (int k = 0; k < 4; k++)
+        bbm_add_element(m, 7, ROCK, 4, (int[]){ k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k }, NULL);
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 0.89, .w = 0.1, .h = 0.1 });
+    ck_ok(bbm_prepare(m), m);
+    set_velocity(m, e, 3, 0);
+    m->h = m->par.dt;
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_assert_int_lt(m->beyond->passed[0], 0);
+    ck_assert(deepest_passed(m) == 0);
+    shift_element(m, e, 0.009, 0);                      /* 1 mm from either side of the wall */
+    ck_near(deepest_passed(m), 1e-3, 1, ROUNDING);
+    bbm_model_free(m);
+}
+END_TEST
+
 Suite *entrance_suite(void)
 {
     Suite *s = suite_create("entrance");
@@ -697,9 +761,14 @@ Suite *entrance_suite(void)
         { a_corner_that_opens_inside_may_close_again, 3 },
         { a_corner_that_left_after_it_opened_inside_comes_in_anew, 2 },
     };
+    const loop_test passed[] = {
+        { a_corner_that_passed_into_a_block_is_refused, 2 },
+        { a_stone_in_a_hole_is_not_in_the_ring, 1 },
+    };
 
     add_case(s, "hits", hits, COUNT(hits));
     add_case(s, "depth", depth, COUNT(depth));
     add_case(s, "inside", inside, COUNT(inside));
+    add_case(s, "passed", passed, COUNT(passed));
     return s;
 }
