@@ -293,6 +293,7 @@ void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
 {
     double at[2];
 
+    g->node[0] = g->node[1] = P->node;
     g->d0[0] = P->u - W->wall[0];
     g->d0[1] = P->v - W->wall[1];
     bbm_step_matrix(e, P->x, P->y, g->Ti, at);
@@ -667,13 +668,10 @@ static bbm_status solve(bbm_model *m)
 /* One pass of the open-close iteration, 3.8. `changed`: a state or F is new, so solve again. */
 static bbm_status open_close(bbm_model *m, int *changed)
 {
-    bbm_pass pass;
-    const bbm_status status = bbm_open_close(m, &pass);
+    const bbm_pass pass = bbm_open_close(m);
 
     m->K_is_kept = 0;
     *changed = pass == BBM_PASS_AGAIN && !is_spent(m);
-    if (status)
-        return status;
     if (pass == BBM_PASS_DONE && m->hook.settled && m->hook.settled(m))
         *changed = m->K_is_kept = 1;
     return pass == BBM_PASS_DONE || *changed ? BBM_OK : unsettled(m);
@@ -877,10 +875,17 @@ bbm_status bbm_run(bbm_model *m)
 
 /* ------------------------------------------------------------------ results, section 4 */
 
-/* von Mises stress in plane stress. */
-double bbm_mises(const double s[3])
+/* szz: none in plane stress. */
+double bbm_stress_out_of_plane(const bbm_model *m, const bbm_element *e)
 {
-    return sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]);
+    return m->hook.out_of_plane ? m->hook.out_of_plane(e) : 0;
+}
+
+/* von Mises stress. */
+double bbm_mises(const double s[3], double szz)
+{
+    return sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]
+                + szz * (szz - s[0] - s[1]));
 }
 
 /* Displacement and stress at a grid point: the mean over the elements of a block (-1: of all) that
@@ -901,6 +906,7 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
         r->v += v->v;
         for (int k = 0; k < 3; k++)
             r->stress[k] += e->stress[k];
+        r->szz += bbm_stress_out_of_plane(m, e);
         count++;
     }
     if (count == 0)
@@ -909,7 +915,8 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
     r->v /= count;
     for (int k = 0; k < 3; k++)
         r->stress[k] /= count;
-    r->mises = bbm_mises(r->stress);
+    r->szz /= count;
+    r->mises = bbm_mises(r->stress, r->szz);
     return BBM_OK;
 }
 

@@ -148,6 +148,7 @@ typedef struct {
     double W[2][2];             /* N/m      weight: k I for a spring k       */
     double f[2];                /* N        multiplier: what it carries besides W d; 0: paper   */
     double f_before[2];         /* N        the same at the end of the last step                */
+    int    node[2];             /* j = -1: the grid points that are held, half each             */
 } bbm_gap;
 
 typedef struct {                /* a load along a boundary edge                                 */
@@ -275,14 +276,13 @@ typedef struct {
     bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
     double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
+    const bbm_parameters *(*strength)(const bbm_model *m, int corner, int edge); /* of a contact */
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
-    bbm_status (*find_friction)(bbm_model *m, int pass);    /* the next N of friction as a load; */
-                                                            /* pass 0: of new states            */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
     int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */
@@ -293,6 +293,7 @@ typedef struct {
                                                             /* in place of u = T D              */
     void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
                                                             /* an element that has moved, if so */
+    double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
 } bbm_hooks;
@@ -347,6 +348,7 @@ struct bbm_model {
 typedef struct {                /* at a grid point                                              */
     double u, v;                /* m                                                            */
     double stress[3];           /* Pa       sx, sy, sxy                                         */
+    double szz;                 /* Pa       out of the plane                                    */
     double mises;               /* Pa       von Mises                                           */
 } bbm_result;
 
@@ -358,7 +360,8 @@ bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8 
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
 void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
                              double u[2]);                  /* (1)                              */
-double      bbm_mises(const double stress[3]);
+double      bbm_stress_out_of_plane(const bbm_model *m, const bbm_element *e);  /* Pa           */
+double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */
 
@@ -421,6 +424,7 @@ void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s,
                              bbm_submatrices *s);                               /* (63), (64)   */
 void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr,
                                 bbm_submatrices *s);                            /* (65)-(69)    */
+const bbm_parameters *bbm_strength_of(const bbm_model *m, const bbm_contact *c);
 double bbm_shear_strength(const bbm_parameters *p, double N, double area);
 bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c,
                                  double tolerance);                             /* the table    */
@@ -458,7 +462,7 @@ int        bbm_carries(const bbm_model *m, int corner, int edge);
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
 void       bbm_assemble_contacts(bbm_model *m);
-bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass);
+bbm_pass   bbm_open_close(bbm_model *m);
 bbm_status bbm_store_contacts(bbm_model *m);
 
 /* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is

@@ -170,6 +170,12 @@ void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_
     }
 }
 
+/* The strengths that a contact has: those of the model, or of its joint. */
+const bbm_parameters *bbm_strength_of(const bbm_model *m, const bbm_contact *c)
+{
+    return m->hook.strength ? m->hook.strength(m, c->corner, c->edge) : &m->par;
+}
+
 static double tan_friction(const bbm_parameters *p) { return tan(p->friction * acos(-1) / 180); }
 
 /* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65), with cohesion on
@@ -767,7 +773,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
     if (!old && m->info.step == 0 && m->info.t == 0
         && fmax(fabs(f.d), f.beyond) <= touch) {
         c->area = m->hook.joint_area ? m->hook.joint_area(m, p.corner, p.edge) : 0;
-        c->state = is_strong(&m->par, c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
+        c->state = is_strong(bbm_strength_of(m, c), c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
     }
     if (has_left(m, c)) {
         c->state = BBM_OPEN;
@@ -845,10 +851,12 @@ static double friction_force(const bbm_parameters *p, const bbm_contact *c)
 /* Friction as a load under the N of the last solution, Eq. (65), (69), or as a hook has it. */
 static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
 {
-    c->friction_in_K = m->hook.friction && !is_strengthless(&m->par, c, c->N_of_friction)
+    const bbm_parameters *p = bbm_strength_of(m, c);
+
+    c->friction_in_K = m->hook.friction && !is_strengthless(p, c, c->N_of_friction)
                     && m->hook.friction(m, c, t, s);
     if (!c->friction_in_K)
-        bbm_friction_submatrices(t, c->anchor, friction_force(&m->par, c), s);
+        bbm_friction_submatrices(t, c->anchor, friction_force(p, c), s);
 }
 
 /* Adds the springs of the closed contacts, Eq. (58) and (63), or spring and friction, Eq. (65),
@@ -899,7 +907,7 @@ static void measure(const bbm_model *m, bbm_contact *c)
     c->d_s = c->time_left * spring_length(m, c, &s);
     c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
     c->T = open ? 0 : m->par.p_s * c->d_s;
-    if (c->friction_in_K && !is_strengthless(&m->par, c, c->N))
+    if (c->friction_in_K && !is_strengthless(bbm_strength_of(m, c), c, c->N))
         c->N_of_friction = c->N;
 }
 
@@ -935,24 +943,20 @@ static int forces_agree(const bbm_model *m)
 {
     int agree = 1;
 
-    for (int k = 0; k < m->scratch->contacts && agree && m->par.friction > 0; k++) {
+    for (int k = 0; k < m->scratch->contacts && agree; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
-        agree = c->state != BBM_SLIDE || fabs(c->N - c->N_of_friction) <= c->force_tolerance;
+        agree = c->state != BBM_SLIDE || bbm_strength_of(m, c)->friction == 0
+             || fabs(c->N - c->N_of_friction) <= c->force_tolerance;
     }
     return agree;
 }
 
-/* Takes the N of the solution for the friction of the next one, or what a hook finds better. */
-static bbm_status renew_friction(bbm_model *m)
+/* Takes the N of the solution for the friction of the next one. */
+static void renew_friction(bbm_contact_scratch *w)
 {
-    bbm_contact_scratch *w = m->scratch;
-
-    if (m->hook.find_friction)
-        return m->hook.find_friction(m, w->friction_passes++);
     for (int k = 0; k < w->contacts; k++)
         w->contact[k].N_of_friction = w->contact[k].N;
     w->friction_passes++;
-    return BBM_OK;
 }
 
 /* ------------------------------------------------------------- the open-close iteration: states */
@@ -1042,9 +1046,10 @@ static void change_state(const bbm_model *m, bbm_contact *c)
     if (closes) {
         c->time_left = 1 - d0 / (d0 - c->d_n);
         c->anchor = s / m->edge[c->edge].along.length;
+        const bbm_parameters *p = bbm_strength_of(m, c);
         const double T = c->time_left * m->par.p_s * fabs(slip);
         const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
-        const int slides = ++c->closings > 1 || T > bbm_shear_strength(&m->par, N, c->area);
+        const int slides = ++c->closings > 1 || T > bbm_shear_strength(p, N, c->area);
         c->next_state = slides ? BBM_SLIDE : BBM_LOCK;
     }
     if (c->next_state == BBM_SLIDE) {
@@ -1059,8 +1064,9 @@ static void change_state(const bbm_model *m, bbm_contact *c)
  * under as much pressure, the contact first slides, which takes the spring away. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_contact_state next = bbm_next_state(&m->par, c, c->force_tolerance);
-    const double strength = bbm_shear_strength(&m->par, fabs(c->N), c->area);
+    const bbm_parameters *p = bbm_strength_of(m, c);
+    const bbm_contact_state next = bbm_next_state(p, c, c->force_tolerance);
+    const double strength = bbm_shear_strength(p, fabs(c->N), c->area);
 
     if (c->state == BBM_OPEN && next != BBM_OPEN && is_blocked(m, c))
         return BBM_OPEN;
@@ -1076,7 +1082,7 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
         return m->par.p_n * (c->rest - c->d_n);
     if (c->next_state == BBM_OPEN)
         return -c->N;
-    return fabs(fabs(c->T) - bbm_shear_strength(&m->par, c->N, c->area));
+    return fabs(fabs(c->T) - bbm_shear_strength(bbm_strength_of(m, c), c->N, c->area));
 }
 
 /* Changes the states that do not fit the solution, all or the one that fits worst, which is the
@@ -1133,7 +1139,7 @@ static void note_depth(const bbm_model *m, const bbm_contact *c)
 
 /* One look at the solution: whether the friction forces belong to their N, then the states to the
  * forces, and the vectors of the step to the displacements - but not with a K that is kept. */
-bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
+bbm_pass bbm_open_close(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
 
@@ -1146,18 +1152,16 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
     }
     find_tolerances(m);
     if (!forces_agree(m)) {
-        *pass = w->friction_passes < FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
-        return renew_friction(m);
+        renew_friction(w);
+        return w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
     }
     w->friction_passes = 0;
     note_states(w);
     const int changes = change_states(m);
     const int renewed = !m->K_is_kept && m->hook.renew && m->hook.renew(m);
     if (!changes && !renewed)
-        *pass = BBM_PASS_DONE;
-    else
-        *pass = ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
-    return BBM_OK;
+        return BBM_PASS_DONE;
+    return ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
 }
 
 /* ------------------------------------------------------------------------------ end of the step */
@@ -1167,7 +1171,7 @@ bbm_status bbm_open_close(bbm_model *m, bbm_pass *pass)
  * broken. */
 static void store_contact(bbm_model *m, bbm_contact *c)
 {
-    const double strength = bbm_shear_strength(&m->par, c->N, c->area);
+    const double strength = bbm_shear_strength(bbm_strength_of(m, c), c->N, c->area);
 
     note_depth(m, c);
     if (c->state == BBM_SLIDE)

@@ -125,7 +125,10 @@ static void list_edge(bbm_model *m, int i, int j, const bbm_gap end[2], int dire
         for (int a = 0; a < 4; a++)
             if (!(directions & 1 << a / 2) || !(directions & 1 << a % 2))
                 W[which][a / 2][a % 2] = 0;
-        bbm_edge_gap(end, which == 0 ? 1 : -1, W[which], bbm_add_gap(m, i, j));
+        bbm_gap *g = bbm_add_gap(m, i, j);
+        for (int n = 0; n < 2 && j < 0; n++)
+            g->node[n] = end[n].node[0];
+        bbm_edge_gap(end, which == 0 ? 1 : -1, W[which], g);
     }
 }
 

@@ -11,6 +11,8 @@ static void release(bbm_model *m)
     bbm_free_sliding(&m->beyond->sliding);
     free(m->beyond->sign);
     free(m->beyond->edge_load);
+    free(m->beyond->joint);
+    free(m->beyond->support);
     free(m->beyond);
 }
 
@@ -18,12 +20,14 @@ static void release(bbm_model *m)
 static bbm_status check(bbm_model *m)
 {
     m->beyond->springs = bbm_spring_energy(m);
-    return bbm_check_overlap(m);
+    const bbm_status status = bbm_lay_out_supports(m);
+    return status ? status : bbm_check_overlap(m);
 }
 
 /* Parameters and settings, and before the first step bonds that hold. */
 static bbm_status check_step(bbm_model *m)
 {
+    bbm_begin_joints(m);
     if (bbm_check_parameters(m))
         return BBM_BAD_PARAMETER;
     if (m->info.step > 0 || m->beyond->bonding != BBM_MIDPOINTS)
@@ -76,12 +80,15 @@ static bbm_status accept(bbm_model *m, const bbm_model *end)
         status = bbm_check_depth(m);
     if (status)
         return status;
+    bbm_find_reactions(m);
     status = bbm_check_balance(m, end, &gain, &there);
     if (status == BBM_ENERGY)
         return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: %g J more than its loads' "
                         "work, of %g J", m->info.step + 1, m->info.t, m->h, gain, there);
-    if (!status)
+    if (!status) {
         bbm_store_multipliers(m);
+        bbm_stop_supports(m);
+    }
     return status;
 }
 
@@ -109,6 +116,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check_listed = check_listed,
         .find_pairs = bbm_sweep,
         .joint_area = bbm_joint_area,
+        .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,

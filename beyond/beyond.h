@@ -30,9 +30,18 @@ typedef struct {                /* sliding.c: friction in K                     
     double *L, *U;              /* [room]    U by columns                                       */
 } bbm_sliding;
 
+typedef struct {                /* supports.c, of a node                                        */
+    double force[2];            /* N        on it, at the end of the last step; 0: it is free   */
+    double moved[2];            /* m        its wall point, since that step                     */
+} bbm_support;
+
+typedef struct { int block[2]; bbm_parameters par; } bbm_joint;     /* joints.c; -1: any block  */
+
 typedef struct {                /* pressure.c: on the edge that starts at the vertex a          */
     int    a;
     double f[2], pressure;      /* N/m      pressure: against the outward normal, turns with it */
+    double level, weight;       /* m, N/m^2 of water, which presses besides; 0: there is none   */
+    double q[BBM_GAUSS][2];     /* N/m      all of it at the Gauss points, of the step          */
 } bbm_edge_load;
 
 struct bbm_beyond {
@@ -47,6 +56,9 @@ struct bbm_beyond {
                                 /* -1: none                                                     */
     bbm_sliding sliding;
     int *sign;                  /* [elements] or NULL, interpolation.c: of the second set       */
+    int joints;
+    bbm_joint *joint;           /* [joints]                                                     */
+    bbm_support *support;       /* [nodes]                                                      */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
@@ -101,6 +113,7 @@ void       bbm_list_edge_gaps(bbm_model *m);
 
 /* pressure.c. After bbm_prepare: a load on a boundary edge, N/m. */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
 void       bbm_gather_edge_loads(bbm_model *m);
 
 /* multipliers.c */
@@ -117,6 +130,17 @@ void       bbm_free_sliding(bbm_sliding *s);
 /* sweep.c, joints.c */
 bbm_status bbm_sweep(bbm_model *m, double search);
 double     bbm_joint_area(const bbm_model *m, int corner, int edge);
+bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
+                         double tension);
+void       bbm_begin_joints(bbm_model *m);
+const bbm_parameters *bbm_joint_strength(const bbm_model *m, int corner, int edge);
+
+/* strain.c, supports.c */
+void       bbm_set_plane_strain(bbm_model *m);          /* of a prepared model              */
+bbm_status bbm_lay_out_supports(bbm_model *m);
+void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
+void       bbm_find_reactions(bbm_model *m);
+void       bbm_stop_supports(bbm_model *m);
 
 /* refuse.c, statics.c */
 bbm_status bbm_check_parameters(bbm_model *m);

@@ -78,8 +78,9 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
 
 /* What the springs of a contact hold; friction holds what its shear spring would, see
  * bbm_store_contacts. */
-static double contact_energy(const bbm_parameters *p, const bbm_contact *c)
+static double contact_energy(const bbm_model *m, const bbm_contact *c)
 {
+    const bbm_parameters *p = bbm_strength_of(m, c);
     const double T = c->state == BBM_SLIDE ? bbm_shear_strength(p, c->N, c->area) : c->T;
 
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
@@ -98,7 +99,7 @@ double bbm_spring_energy(const bbm_model *m)
             energy += g->d0[r] * (g->f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]) / 2;
     }
     for (int k = 0; k < contacts; k++)
-        energy += contact_energy(&m->par, &c[k]);
+        energy += contact_energy(m, &c[k]);
     return energy;
 }
 
@@ -127,6 +128,11 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, d
             *there += fabs(m->load[a] * m->D[a]);
         }
     }
+    for (int n = 0; n < m->nodes; n++)
+        for (int a = 0; a < 2; a++) {
+            work += b->support[n].force[a] * b->support[n].moved[a];
+            *there += fabs(b->support[n].force[a] * b->support[n].moved[a]);
+        }
     *gain -= work;
     if (bbm_is_static(m) || m->par.velocity_factor < 1)
         *gain = *there = 0;

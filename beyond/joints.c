@@ -1,12 +1,16 @@
-/* joints.c - cohesion and tensile strength of unbroken joints.
+/* joints.c - cohesion and tensile strength of unbroken joints, and joints of their own strength.
  *
  * Beyond the paper, whose contacts have friction alone. Where blocks touch at the start there is a
  * joint; cohesion and tensile strength act on its area, of which each contact stands for a share:
  * to both sides half the way to the next point that touches. The shares add up to the joint. A
  * contact has its share until it opens, or slips though it has a shear strength: from then on it
  * is 0.
+ *
+ * The strengths are those of the model, unless a joint is given for the two blocks: the first one
+ * that fits counts.
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include "beyond.h"
 
@@ -56,4 +60,51 @@ double bbm_joint_area(const bbm_model *m, int corner, int edge)
     }
     return length * fmin(m->element[m->edge[corner].element].material.thickness,
                          m->element[e->element].material.thickness);
+}
+
+/* Adds a joint between two blocks, -1: any; angle in degrees, strengths in Pa. */
+bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
+                         double tension)
+{
+    bbm_beyond *b = m->beyond;
+
+    if (!(friction >= 0 && friction < 90 && cohesion >= 0 && cohesion < INFINITY && tension >= 0
+          && tension < INFINITY))
+        return bbm_fail(m, BBM_BAD_PARAMETER, "a joint with friction = %g, cohesion = %g, tension "
+                        "= %g, expected 0 or more, and less than 90 degrees", friction, cohesion,
+                        tension);
+    bbm_joint *more = realloc(b->joint, ((size_t)b->joints + 1) * sizeof *more);
+    if (!more)
+        return BBM_NO_MEMORY;
+    b->joint = more;
+    b->joint[b->joints++] = (bbm_joint){
+        { block[0], block[1] },
+        { .friction = friction, .cohesion = cohesion, .tension = tension }
+    };
+    return BBM_OK;
+}
+
+/* A step begins: the stiffness of contacts is the same everywhere. */
+void bbm_begin_joints(bbm_model *m)
+{
+    for (int k = 0; k < m->beyond->joints; k++) {
+        m->beyond->joint[k].par.p_n = m->par.p_n;
+        m->beyond->joint[k].par.p_s = m->par.p_s;
+    }
+}
+
+static int fits(const int block[2], int i, int j)
+{
+    return (block[0] < 0 || block[0] == i) && (block[1] < 0 || block[1] == j);
+}
+
+/* The strengths between the blocks of two boundary edges. */
+const bbm_parameters *bbm_joint_strength(const bbm_model *m, int corner, int edge)
+{
+    const int i = m->edge[corner].block, j = m->edge[edge].block;
+
+    for (int k = 0; k < m->beyond->joints; k++)
+        if (fits(m->beyond->joint[k].block, i, j) || fits(m->beyond->joint[k].block, j, i))
+            return &m->beyond->joint[k].par;
+    return &m->par;
 }

@@ -1,10 +1,11 @@
-/* pressure.c - loads on one boundary edge: a traction, and a pressure that turns with the edge.
+/* pressure.c - loads on one boundary edge: a traction, a pressure that turns with the edge, water.
  *
  * Beyond the paper, whose loads along a line, Eq. (38)-(43), lie between two grid points and keep
  * their direction. Where blocks share grid points, or an edge is known by its number alone, the
  * load belongs to one of the edges between them. The block lies on the left of an edge from a to b,
  * and a pressure p pushes that way, p (-(b - a)_y, (b - a)_x)/|b - a|, with the edge in the middle
- * of the step: its work is then p times the area that the edge sweeps.
+ * of the step: its work is then p times the area that the edge sweeps. Still water up to the level
+ * y = Y presses with its weight times Y - y, above the level with nothing.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -26,11 +27,69 @@ bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pr
     if (!larger)
         return m->status = bbm_fail(m, BBM_NO_MEMORY, "%d loaded edges", b->edge_loads);
     b->edge_load = larger;
-    larger[b->edge_loads++] = (bbm_edge_load){ m->edge[edge].a, { fx, fy }, pressure };
+    larger[b->edge_loads++] = (bbm_edge_load){ .a = m->edge[edge].a, .f = { fx, fy },
+                                               .pressure = pressure };
     return BBM_OK;
 }
 
-/* Adds them to the loads of the step, Eq. (43). */
+/* p = c[0] + c[1] s for the depths below the level (negative: above it) at both ends. Along an edge
+ * displacements are linear in the way s, so that force and moment are all that an element feels: an
+ * edge that the level crosses gets the p that has the same two,
+ *     int p ds = c0 + c1/2,  int p s ds = c0/2 + c1/3. */
+static void press(double depth_a, double depth_b, double c[2])
+{
+    const double most = fmax(depth_a, depth_b), least = fmin(depth_a, depth_b);
+
+    c[0] = depth_a;
+    c[1] = depth_b - depth_a;
+    if (least >= 0)
+        return;
+    const double wet = most > 0 ? most / (most - least) : 0;    /* share of the edge */
+    const double force = fmax(most, 0) * wet / 2;
+    const double s = depth_a > depth_b ? wet / 3 : 1 - wet / 3; /* where that acts */
+    c[1] = 12 * force * s - 6 * force;
+    c[0] = force - c[1] / 2;
+}
+
+/* What lies on the edge in the step. */
+static void find_load(const bbm_model *m, bbm_edge_load *load)
+{
+    const bbm_vertex *a = &m->vertex[load->a];
+    const bbm_element *e = &m->element[a->element];
+    const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
+    double T[2][6], am[2], bm[2], c[2] = { 0, 0 };
+
+    bbm_step_matrix(e, a->x, a->y, T, am);
+    bbm_step_matrix(e, b->x, b->y, T, bm);
+    if (load->weight > 0)
+        press(load->level - am[1], load->level - bm[1], c);
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, share;
+        bbm_gauss_point(g, &s, &share);
+        const double p = (load->pressure + load->weight * (c[0] + c[1] * s))
+                         / hypot(b->x - a->x, b->y - a->y);
+        load->q[g][0] = load->f[0] - p * (bm[1] - am[1]);
+        load->q[g][1] = load->f[1] + p * (bm[0] - am[0]);
+    }
+}
+
+/* Water up to the level on a boundary edge of the prepared model; its weight is that of a m^3 times
+ * the thickness. */
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
+{
+    const bbm_status status = bbm_load_edge(m, edge, 0, 0, level * weight);
+
+    if (status)
+        return status;
+    bbm_edge_load *load = &m->beyond->edge_load[m->beyond->edge_loads - 1];
+    load->pressure = 0;
+    load->level = level;
+    load->weight = weight;
+    find_load(m, load);
+    return BBM_OK;
+}
+
+/* Adds them to the loads of the step, Eq. (42). */
 void bbm_gather_edge_loads(bbm_model *m)
 {
     for (int l = 0; l < m->beyond->edge_loads; l++) {
@@ -38,11 +97,7 @@ void bbm_gather_edge_loads(bbm_model *m)
         const bbm_vertex *a = &m->vertex[load->a];
         const bbm_element *e = &m->element[a->element];
         const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
-        const double p = load->pressure / hypot(b->x - a->x, b->y - a->y);
-        double T[2][6], am[2], bm[2];
-        bbm_step_matrix(e, a->x, a->y, T, am);
-        bbm_step_matrix(e, b->x, b->y, T, bm);
-        const double f[2] = { load->f[0] - p * (bm[1] - am[1]), load->f[1] + p * (bm[0] - am[0]) };
-        bbm_constant_load_submatrix(e, a, b, f, &m->load[6 * a->element]);
+        find_load(m, &m->beyond->edge_load[l]);
+        bbm_varying_load_submatrix(e, a, b, load->q, &m->load[6 * a->element]);
     }
 }

@@ -1,8 +1,10 @@
-/* bbm.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results (write.c).
+/* bbm.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results
+ * (write.c).
  *
- * Exit status: 0, all is done; 1, the run failed, with what was computed until then in the files; 2, the input is
- * wrong, and nothing was written; 130, 143: interrupted (Ctrl-C, kill), with what was computed until then in the files.
- * Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
+ * Exit status: 0, all is done, and as expected; 1, the run failed, with what was computed until
+ * then in the files; 2, the input is wrong, and nothing was written; 3, an `expect` of the model
+ * is not met; 130, 143: interrupted (Ctrl-C, kill), with what was computed until then in the
+ * files. Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <signal.h>
@@ -13,17 +15,26 @@
 
 #include "write.h"
 
-/* The signal that came. Signals have no other way to say something: this variable, and it alone, has file scope. */
+/* The signal that came. Signals have no other way to say something: this variable, and it alone,
+ * has file scope. */
 static volatile sig_atomic_t stopped;
-enum { NAMED = 10 };                            /* pieces of a block that a warning names at most */
+enum { NAMED = 10, SHOWN = 30 };     /* pieces of a block that a warning names, blocks of --check */
 
-typedef struct { const char *model, *matrix; char folder[1024]; int quiet, exit; } arguments;  /* exit: -1, go on    */
+typedef struct {
+    const char *model, *matrix;
+    char folder[1024], **let;                   /* let: [lets] NAME=VALUE */
+    int lets, quiet, check, exit;               /* exit: -1, go on */
+} arguments;
 
 static const char *usage(void)
 {
-    return "usage: bbm [-q] [-o FOLDER] [-m FILE] MODEL\n"
+    return "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
+           "  MODEL       a model file; -: standard input\n"
+           "  -d          takes the place of `let NAME`; may be given several times\n"
+           "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
            "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
-           "  -m FILE     the matrix of the first solution (Matrix Market), and its right-hand side as FILE.rhs\n"
+           "  -m FILE     the matrix of the first solution (Matrix Market), and its right-hand "
+           "side as FILE.rhs\n"
            "  -q          quiet: errors and warnings alone\n"
            "  -h, --version\n";
 }
@@ -39,7 +50,7 @@ static int name_folder(arguments *a, const char *given)
 {
     const char *base = strrchr(a->model, '/'), *dot;
 
-    base = given ? given : base ? base + 1 : a->model;
+    base = given ? given : strcmp(a->model, "-") == 0 ? "stdin" : base ? base + 1 : a->model;
     dot = given ? NULL : strrchr(base, '.');
     const size_t n = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     if (n == 0 || n >= sizeof a->folder)
@@ -55,13 +66,13 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     const char *folder = NULL;
     int options = 1;
 
-    *a = (arguments){ .exit = -1 };
+    *a = (arguments){ .exit = -1, .let = argv };
     for (int k = 1; k < argc; k++) {
 #ifdef _WIN32
         for (char *c = argv[k]; *c; c++)
             *c = *c == '\\' ? '/' : *c;        /* both part folders there */
 #endif
-        const char *word = argv[k], **value = strncmp(word, "-o", 2) == 0 ? &folder : &a->matrix;
+        const char *word = argv[k], *let, **value = &let;
         if (!options || word[0] != '-' || word[1] == '\0') {
             if (a->model)
                 return complain(a, "expected one model file");
@@ -74,31 +85,46 @@ static int read_arguments(arguments *a, int argc, char *argv[])
             return printf("%s", usage()), a->exit = 0;
         } else if (strcmp(word, "--version") == 0) {
             return printf("bbm %s\n", BBM_VERSION), a->exit = 0;
-        } else if (word[1] == 'o' || word[1] == 'm') {
+        } else if (strcmp(word, "--check") == 0) {
+            a->check = 1;
+        } else if (word[1] == 'o' || word[1] == 'm' || word[1] == 'd') {
+            if (word[1] != 'd')
+                value = word[1] == 'o' ? &folder : &a->matrix;
             *value = word[2] ? word + 2 : argv[++k];
             if (k == argc || **value == '\0')
-                return complain(a, "-o and -m need a name");
+                return complain(a, "-o and -m need a name, -d NAME=VALUE");
+            if (value == &let)                  /* they gather at the front of argv */
+                a->let[a->lets++] = word[2] ? argv[k] + 2 : argv[k];
         } else {
-            return complain(a, "unknown option");
+            fprintf(stderr, "bbm: unknown option %.60s\n%s", word, usage());
+            return a->exit = 2;
         }
     }
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
 }
 
-/* --------------------------------------------------------------------------------------------------- progress */
+/* ------------------------------------------------------------------------------------- progress */
 
-typedef struct { int shown, steps, begun; clock_t start, last; } progress;      /* begun: a line without its end */
+typedef struct {
+    int shown, steps, begun;                    /* begun: a line without its end */
+    clock_t start, last;
+    time_t said;
+} progress;
+enum { SILENCE = 10 };                          /* s between lines of progress that go to a file */
 
 static void show_progress(progress *s, const bbm_model *m, int step)
 {
     const double each = (double)(clock() - s->start) / CLOCKS_PER_SEC / (step > 0 ? step : 1);
 
-    if (!s->shown || (clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps))
+    if (!s->shown || (isatty(2) ? clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps
+                                : time(NULL) < s->said + SILENCE))
         return;
     s->last = clock();
-    fprintf(stderr, "\rstep %d of %d, t = %.6g s, %d open-close passes, %d contacts, %.0f s left   ", step, s->steps,
-            m->info.t, m->info.passes, m->info.contacts, each * (s->steps - step));
-    s->begun = 1;
+    s->said = time(NULL);
+    s->begun = isatty(2);
+    fprintf(stderr, "%sstep %d of %d, %d open-close passes, %d contacts, %.0f s left%s",
+            s->begun ? "\r" : "", step, s->steps, m->info.passes, m->info.contacts,
+            each * (s->steps - step), s->begun ? "   " : "\n");
     fflush(stderr);
 }
 
@@ -109,34 +135,56 @@ static void end_progress(progress *s)
     s->begun = 0;
 }
 
+static const char *plural(int n) { return n == 1 ? "" : "s"; }
+
 static void describe(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
 
     printf("%s%s%s\n", path, p->title ? ": " : "", p->title ? p->title : "");
-    printf("%d elements in %d blocks, %d nodes, %d bonds; ", m->elements,
-           p->blocks, m->nodes, m->bonds);
-    if (p->dynamic)
-        printf("dynamic, %d steps of %g s%s\n", m->par.steps, m->par.dt, p->settle ? ", settled before" : "");
+    printf("%d element%s in %d block%s, %d nodes, %d bond%s; ", m->elements, plural(m->elements),
+           p->blocks, plural(p->blocks), m->nodes, m->bonds, plural(m->bonds));
+    if (!p->dynamic)
+        printf("static, %s%d step%s\n", m->par.tolerance > 0 ? "at most " : "", m->par.steps,
+               plural(m->par.steps));
+    else if (p->settle)
+        printf("dynamic, %d step%s of %g s after %d quasi-static ones\n", m->par.steps,
+               plural(m->par.steps), m->par.dt, p->settle);
     else
-        printf("static, %d step%s%s\n", m->par.steps, m->par.steps == 1 ? "" : "s",
-               m->par.tolerance > 0 ? " at most" : "");
+        printf("dynamic, %d step%s of %g s\n", m->par.steps, plural(m->par.steps), m->par.dt);
     fflush(stdout);
 }
 
 /* What the file leaves out and hardly means. */
-static void warn(const model *p, const char *path)
+static void warn(const model *p, const char *path, int checking)
 {
     const bbm_model *m = p->m;
-    int held = 0;
+    int held = 0, load = m->beyond->edge_loads > 0 || p->moving || m->beyond->shake[0] != 0
+                         || m->beyond->shake[1] != 0;
 
-    for (int n = 0; n < m->nodes; n++)
-        held |= m->node[n].held;
+    for (int n = 0; n < m->nodes; n++) {
+        held |= m->node[n].held || m->beyond->edge_loads > 0;
+        load |= m->node[n].load[0] != 0 || m->node[n].load[1] != 0;
+    }
+    for (int b = 0; b < p->blocks; b++)
+        load |= p->velocity[b].given;
+    for (int e = 0; e < m->elements; e++)
+        for (int k = 0; k < 3; k++)
+            load |= m->element[e].stress[k] != 0;
+    if (checking && !load && m->par.gravity[0] == 0 && m->par.gravity[1] == 0)
+        fprintf(stderr,
+                "%s: warning: nothing loads the model; gravity, load, traction, pressure or fix "
+                "... by does\n",
+                path);
     if (!held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))
-        fprintf(stderr, "%s: warning: nothing is fixed: under gravity all blocks fall; fixblock or fix holds them\n",
+        fprintf(stderr,
+                "%s: warning: nothing is fixed: under gravity all blocks fall; fixblock or fix "
+                "holds them\n",
                 path);
     if (p->slippery)
-        fprintf(stderr, "%s: warning: blocks touch without friction: `contact friction DEGREES` gives it\n", path);
+        fprintf(stderr,
+                "%s: warning: blocks touch without friction: `contact friction DEGREES` gives it\n",
+                path);
 }
 
 static void summarise(const model *p, const char *folder)
@@ -149,21 +197,78 @@ static void summarise(const model *p, const char *folder)
         if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int e = 0; e < m->elements; e++)
-        if (bbm_mises(m->element[e].stress) > most)
-            most = bbm_mises(m->element[e].stress), e_most = e;
-    printf("%d step%s, t = %g s, %d contacts closed, residual %.1e\n", m->info.step, m->info.step == 1 ? "" : "s",
-           m->info.t, m->info.contacts, m->info.pcg.residual);
+        if (model_mises(m, e) > most)
+            most = model_mises(m, e), e_most = e;
+    printf("%d step%s, ", m->info.step, plural(m->info.step));
     if (p->dynamic)
-        printf("no step made more than %.1e of its energy beyond the work of loads\n", m->beyond->gain);
-    printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element %s\nresults in %s\n", far,
-           p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
+        printf("t = %g s, ", m->info.t);
+    printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
+           m->info.pcg.residual);
+    if (p->dynamic)
+        printf("no step made more than %.1e of its energy beyond the work of loads\n",
+               m->beyond->gain);
+    printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element "
+           "%s\nresults in %s\n",
+           far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
 }
 
-/* A block whose elements nothing bonds together may be meant, but is said: with an element of each piece. */
+/* What came out beside what was expected of it; the number of those not met. */
+static int compare(const model *p, int quiet)
+{
+    static const char *const kind[] = { "u", "v", "moves", "stays" };
+    int missed = 0;
+
+    for (int k = 0; k < p->expectations; k++) {
+        const model_expected *e = &p->expected[k];
+        const int value = e->kind == MODEL_U || e->kind == MODEL_V;
+        double u[2];
+        model_place_of(p, &p->monitor[e->monitor], u);
+        const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
+        const int met = value ? fabs(got - e->value) <= e->within
+                      : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
+        missed += !met;
+        if (met && quiet)
+            continue;
+        printf("expected: %s %s ", p->monitor[e->monitor].name, kind[e->kind]);
+        if (value)
+            printf("%.6g within %.2g m; computed: %.6g m: ", e->value, e->within, got);
+        else
+            printf("by %s than %.6g m; computed: %.6g m: ",
+                   e->kind == MODEL_MOVES ? "more" : "less", e->within, got);
+        printf("%s\n", met ? "ok" : "NOT MET");
+    }
+    return missed;
+}
+
+/* Elements, fixed nodes and mass of each block. */
+static void describe_blocks(const model *p)
+{
+    const bbm_model *m = p->m;
+
+    printf("%-20s %9s %12s %14s\n", "block", "elements", "fixed nodes", "mass [kg]");
+    for (int b = 0; b < p->blocks && b < SHOWN; b++) {
+        int elements = 0, fixed = 0;
+        double mass = 0;
+        for (int e = 0; e < m->elements; e++) {
+            const bbm_element *i = &m->element[e];
+            elements += i->block == b;
+            mass += i->block == b ? i->material.density * i->material.thickness * i->A0 : 0;
+        }
+        for (int n = 0; n < m->nodes; n++)
+            fixed += p->node_block[n] == b && m->node[n].held;
+        printf("%-20s %9d %12d %14.6g\n", p->block[b], elements, fixed, mass);
+    }
+    if (p->blocks > SHOWN)
+        printf("... and %d more\n", p->blocks - SHOWN);
+}
+
+/* A block whose elements nothing bonds together may be meant, but is said: with an element of
+ * each piece. */
 static void warn_of_pieces(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
-    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece), *count = piece + m->elements;
+    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece),
+        *count = piece + m->elements;
 
     if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
         free(piece);
@@ -174,8 +279,9 @@ static void warn_of_pieces(const model *p, const char *path)
     for (int b = 0; b < p->blocks; b++) {
         int left = count[b] > 1 ? NAMED : 0;
         if (count[b] > 1)
-            fprintf(stderr, "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements", path,
-                    p->block[b], count[b]);
+            fprintf(stderr,
+                    "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements",
+                    path, p->block[b], count[b]);
         for (int e = 0; e < m->elements && left > 0; e++)
             if (piece[e] == e && m->element[e].block == b)
                 fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
@@ -186,7 +292,7 @@ static void warn_of_pieces(const model *p, const char *path)
     free(piece);
 }
 
-/* --------------------------------------------------------------------------------------------------- the run */
+/* -------------------------------------------------------------------------------------- the run */
 
 /* Quasi-static steps without shaking. */
 static bbm_status settle(model *p)
@@ -217,13 +323,15 @@ static bbm_status run_steps(write_results *w, progress *s)
     if (!status)
         write_step(w, 0);
     for (int step = 1; step <= par->steps && !status && !w->status && !met && !stopped; step++) {
+        model_move_supports(w->p, w->p->dynamic ? step * par->dt : INFINITY);
         status = bbm_step(m);
         if (!status)
             write_step(w, step);
         met = !status && par->tolerance > 0 && m->info.change <= par->tolerance;
         show_progress(s, m, met ? s->steps : step);
     }
-    return !status && !w->status && !stopped && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED : status;
+    return !status && !w->status && !stopped && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED
+                                                                           : status;
 }
 
 /* Statics without equilibrium, by the names of the file. */
@@ -232,27 +340,34 @@ static void report_loose(const model *p, const char *path)
     const bbm_model *m = p->m;
     const int i = m->blamed[0], j = m->blamed[1];
 
-    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path, m->info.step + 1,
-            p->block[m->element[i].block], p->element[i]);
+    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path,
+            m->info.step + 1, p->block[m->element[i].block], p->element[i]);
     if (j >= 0)
-        fprintf(stderr, "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix it, or use dynamic\n",
+        fprintf(stderr,
+                "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix "
+                "it, or use dynamic\n",
                 p->block[m->element[j].block], p->element[j]);
     else
         fprintf(stderr, "is free to move; fix it, or use dynamic\n");
 }
 
-/* The message of a run that failed; `when`: in which part of it. The library's own message may name the step. */
+/* The message of a run that failed; `when`: in which part of it. The library's own message may
+ * name the step. */
 static void report(const model *p, bbm_status status, const char *when, const arguments *a)
 {
     const bbm_model *m = p->m;
     const char *message = *m->message ? m->message : bbm_status_text(status);
 
     if (stopped)
-        fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in %s\n",
-                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t, a->folder);
+        fprintf(stderr,
+                "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in "
+                "%s\n",
+                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t,
+                a->folder);
     else if (status == BBM_STEPS_EXHAUSTED)
-        fprintf(stderr, "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n", a->model,
-                m->info.step, m->info.change, m->par.tolerance);
+        fprintf(stderr,
+                "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n",
+                a->model, m->info.step, m->info.change, m->par.tolerance);
     else if (status == BBM_NO_EQUILIBRIUM)
         report_loose(p, a->model);
     else if (status && strstr(message, "step "))
@@ -272,8 +387,8 @@ static int before_solution(const bbm_model *m, void *results)
     return stopped != 0;
 }
 
-/* The first signal is noted; another one, or the same more than a second later, ends the program at once. (timeout(1)
- * sends the same to the program and to its group.) */
+/* The first signal is noted; another one, or the same more than a second later, ends the program
+ * at once. (timeout(1) sends the same to the program and to its group.) */
 static void stop(int number)
 {
     static volatile time_t first;
@@ -300,16 +415,58 @@ static void catch_signals(void)
             signal(caught[k], SIG_IGN);
 }
 
+/* --check: how many contacts touch at the start; those are closed in statics. -1: no memory. */
+static int count_contacts(bbm_model *m)
+{
+    int contacts, touching = 0;
+
+    m->h = INFINITY;
+    bbm_guess_step(m);
+    if (bbm_detect_contacts(m, NULL))
+        return -1;
+    const bbm_contact *c = bbm_list_contacts(m, &contacts);
+    for (int k = 0; k < contacts; k++)
+        touching += c[k].state != BBM_OPEN;
+    return touching;
+}
+
+/* What the model is, block by block, and a picture of it. */
+static int check(model *p, const arguments *a)
+{
+    bbm_model *m = p->m;
+    const bbm_parameters *par = &m->par;
+    write_results w = { .p = p, .source = a->model, .folder = a->folder };
+    const int touching = count_contacts(m);
+
+    warn(p, a->model, 1);
+    warn_of_pieces(p, a->model);
+    if (!a->quiet) {
+        describe(p, a->model);
+        describe_blocks(p);
+        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees\n", touching,
+               plural(touching), par->p_n, par->p_s, par->friction);
+    }
+    if (touching < 0 || !write_check(&w))
+        return 1;
+    if (!a->quiet)
+        printf("nothing was computed; a picture is in %s/model.svg\n", a->folder);
+    return 0;
+}
+
 static int run(model *p, const arguments *a, clock_t start)
 {
-    write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix, .start = start,
+    write_results w = { .p = p,
+                        .source = a->model,
+                        .folder = a->folder,
+                        .matrix = a->matrix,
+                        .start = start,
                         .reading = clock() - start };
-    progress s = { !a->quiet && isatty(2), p->m->par.steps, 0, clock(), 0 };
+    progress s = { !a->quiet, p->m->par.steps, 0, clock(), 0, time(NULL) };
     bbm_status status = BBM_OK;
     const char *when = "settling, ";
 
     catch_signals();
-    warn(p, a->model);
+    warn(p, a->model, 0);
     warn_of_pieces(p, a->model);
     p->m->monitor = before_solution;
     p->m->monitor_context = &w;
@@ -326,20 +483,22 @@ static int run(model *p, const arguments *a, clock_t start)
         write_close(&w);
         report(p, status, when, a);
     }
-    if (!a->quiet && !status && !w.status && !stopped)
+    if (stopped || status || w.status)
+        return stopped ? 128 + (int)stopped : 1;
+    if (!a->quiet)
         summarise(p, a->folder);
-    return stopped ? 128 + (int)stopped : status || w.status ? 1 : 0;
+    return compare(p, a->quiet) > 0 ? 3 : 0;
 }
 
 static int read_and_run(const arguments *a, clock_t start)
 {
     model p;
-    int status = model_read(a->model, &p);
+    int status = model_read(a->model, a->lets, a->let, &p);
 
     if (status)
         fprintf(stderr, "%s\n", p.message);
     else
-        status = run(&p, a, start);
+        status = a->check ? check(&p, a) : run(&p, a, start);
     model_free(&p);
     return status;
 }
@@ -350,7 +509,7 @@ int main(int argc, char *argv[])
     arguments a;
 
 #ifdef SIGXFSZ
-    signal(SIGPIPE, SIG_IGN);                   /* a pipe or a disk that takes no more is an error like another */
+    signal(SIGPIPE, SIG_IGN);     /* a pipe or a disk that takes no more is an error like another */
     signal(SIGXFSZ, SIG_IGN);
 #endif
     read_arguments(&a, argc, argv);

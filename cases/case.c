@@ -33,14 +33,18 @@ void case_print_parameters(const bbm_model *m)
 
     printf("\nTable 1 - parameters\n\n"
            "| dt [s] | steps at most | tolerance (71) | omega | tolerance PCG | alpha |%s\n"
-           "|---|---|---|---|---|---|%s\n| %g | %d | %g | %g | %g | %g |",
-           touch ? " p_n [N/m] | p_s [N/m] |" : "", touch ? "---|---|" : "", p->dt, p->steps,
-           p->tolerance, p->pcg.omega, p->pcg.tolerance, p->alpha);
+           "|---|---|---|---|---|---|%s\n| ",
+           touch ? " p_n [N/m] | p_s [N/m] |" : "", touch ? "---|---|" : "");
+    printf(isinf(p->dt) ? "static" : "%g", p->dt);
+    printf(" | %d | %g | %g | %g | %g |", p->steps, p->tolerance, p->pcg.omega, p->pcg.tolerance,
+           p->alpha);
     if (touch)
         printf(" %g | %g |", p->p_n, p->p_s);
-    printf("\n\n%d step%s, the last with %d SSOR-PCG iterations to a residual of %.1e\n",
-           m->info.step, m->info.step == 1 ? "" : "s", m->info.pcg.iterations,
-           m->info.pcg.residual);
+    printf("\n\n%d step%s", m->info.step, m->info.step == 1 ? "" : "s");
+    if (m->info.step > p->steps)
+        printf(", of which %d to come to rest before", m->info.step - p->steps);
+    printf("; the last with %d SSOR-PCG iterations to a residual of %.1e\n",
+           m->info.pcg.iterations, m->info.pcg.residual);
 }
 
 /* --------------------------------------------------------------------------------------- meshes */
@@ -65,27 +69,33 @@ static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j
  *     |   |    |/  |    |  \|    | o |     quads; alternating, by i + j even or odd; crossed
  *     a---b    a---b    a---b    |/ \|
  *                                a---b */
+int case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners)
+{
+    const int *n = node;
+    const int halves[2][6] = { { n[0], n[1], n[2], n[2], n[3], n[0] },
+                               { n[0], n[1], n[3], n[2], n[3], n[1] } };
+
+    *corners = cut == CASE_QUADS ? 4 : 3;
+    if (cut == CASE_QUADS)
+        memcpy(element[0], n, 4 * sizeof *n);
+    for (int k = 0; k < 2 && cut == CASE_ALTERNATING; k++)
+        memcpy(element[k], &halves[odd][3 * k], 3 * sizeof *n);
+    for (int k = 0; k < 4 && cut == CASE_CROSSED; k++)
+        memcpy(element[k], (int[]){ n[k], n[(k + 1) % 4], n[4] }, 3 * sizeof *n);
+    return cut == CASE_QUADS ? 1 : cut == CASE_CROSSED ? 4 : 2;
+}
+
 static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
 {
-    const int a = grid_node(g, i, j), b = grid_node(g, i + 1, j);
-    const int c = grid_node(g, i + 1, j + 1), d = grid_node(g, i, j + 1);
-    const int quad[4] = { a, b, c, d };
+    int node[5] = { grid_node(g, i, j), grid_node(g, i + 1, j), grid_node(g, i + 1, j + 1),
+                    grid_node(g, i, j + 1) };
+    int element[4][4], corners;
 
-    if (g->cut == CASE_QUADS) {
-        bbm_add_element(m, g->block, g->material, 4, quad, NULL);
-    } else if (g->cut == CASE_ALTERNATING) {
-        const int rising = (i + j) % 2 == 0;
-        const int lower[3] = { a, b, rising ? c : d }, upper[3] = { c, d, rising ? a : b };
-        bbm_add_element(m, g->block, g->material, 3, lower, NULL);
-        bbm_add_element(m, g->block, g->material, 3, upper, NULL);
-    } else {
-        int o = 0;
-        add_mapped_node(m, g, i + 0.5, j + 0.5, &o);
-        for (int k = 0; k < 4; k++) {
-            const int triangle[3] = { quad[k], quad[(k + 1) % 4], o };
-            bbm_add_element(m, g->block, g->material, 3, triangle, NULL);
-        }
-    }
+    if (g->cut == CASE_CROSSED)
+        add_mapped_node(m, g, i + 0.5, j + 0.5, &node[4]);
+    const int cells = case_cut_cell(g->cut, (i + j) % 2, node, element, &corners);
+    for (int k = 0; k < cells; k++)
+        bbm_add_element(m, g->block, g->material, corners, element[k], NULL);
 }
 
 void case_add_grid(bbm_model *m, case_grid *g)
@@ -193,14 +203,6 @@ bbm_model *case_block_on_slope(const case_slope *s)
     m->par.friction = s->friction;
     m->par.pcg.tolerance = 1e-14;
     return m;
-}
-
-double case_slid(const bbm_model *m, double angle)
-{
-    const bbm_element *e = &m->element[m->elements - 1];
-    const double a = angle * acos(-1) / 180;
-
-    return -cos(a) * e->sum[0] - sin(a) * e->sum[1];
 }
 
 void case_step(bbm_model *m, case_effort *e, scene *s)

@@ -42,6 +42,9 @@ void   case_must(const bbm_model *m, bbm_status s);
 bbm_model *case_model(void);
 bbm_model *case_paper_model(void);
 
+/* The elements of a cell, of so many corners each; returns their number. node[4] is the one in the
+ * middle, where it is crossed; odd: i + j of its place. */
+int    case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners);
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
 /* A block of one element: the polygon through xy, nodes of its own. Returns the element. */
@@ -56,7 +59,6 @@ void   case_fix_block(bbm_model *m, int block);                 /* every node of
  * 0.4 p_n, 2500 kg/m^3 and gravity. Angles in degrees. */
 typedef struct { double angle, w, h, friction, p_n, dt; int base; } case_slope;
 bbm_model *case_block_on_slope(const case_slope *s);
-double case_slid(const bbm_model *m, double angle);     /* its barycentre's way down the incline */
 int    case_node(const bbm_model *m, double x, double y);       /* the node nearest to (x, y)   */
 bbm_result case_at(const bbm_model *m, double x, double y);     /* the result there             */
 /* u, v, sxx, syy, sxy, svm */

@@ -132,16 +132,14 @@ static void print_run(case_results *r, const slide *s, const exp3_variant *v)
     case_row(r, name, nowhere, high, 0, "theory");
     snprintf(name, sizeof name, "%s.penetration", v->name);
     case_row(r, name, nowhere, s->m->info.penetration, static_depth, "theory");
-    printf("| %s | %.9f, %+.1e | %.9f, %+.1e | %.1e | %.3e | %.3e | %d | %d |\n", v->label, end[0],
-           e0, end[2], e1, high, static_depth, s->m->info.penetration, s->m->info.contacts,
-           s->effort.passes);
+    printf("| %s | %+.1e | %+.1e | %.1e | %.3e | %.3e | %d | %d |\n", v->label, e0, e1, high,
+           static_depth, s->m->info.penetration, s->m->info.contacts, s->effort.passes);
 }
 
 static void print_tables(case_results *r, const slide s[], const exp3_variant v[], int runs)
 {
-    printf("\n| t = %g s | centre u [m], error | P u [m], error | largest abs v of P [m] "
-           "| W/(4 p_n) [m] | deepest [m] | contacts | passes |\n"
-           "|---|---|---|---|---|---|---|---|\n", STEPS * DT);
+    printf("\n| t = %g s | error of u: centre | of P | most v of P [m] | W/(4 p_n) [m] | deepest [m] "
+           "| contacts | passes |\n|---|---|---|---|---|---|---|---|\n", STEPS * DT);
     for (int k = 0; k < runs; k++)
         print_run(r, &s[k], &v[k]);
     printf("\nP stays within W/(4 p_n) of its height: each of the three grid points inside the "

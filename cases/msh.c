@@ -1,38 +1,40 @@
 /* msh.c - Gmsh's mesh files, MSH 2.2 and 4.1, ASCII (gmsh.info, "MSH file format").
  *
- * Both are sections of numbers, $Name ... $EndName. Wanted are $PhysicalNames, $Nodes and $Elements, and of 4.1 also
- * $Entities: in 2.2 each element names its physical group, in 4.1 the curve or surface that it lies in does.
- * Triangles and quadrilaterals become elements, their physical surface is their block. Every physical group, of points,
- * curves or surfaces, is a set of nodes. Other sections are passed over, and so is z.
+ * Both are sections of numbers, $Name ... $EndName. Wanted are $PhysicalNames, $Nodes and
+ * $Elements, and of 4.1 also $Entities: in 2.2 each element names its physical group, in 4.1 the
+ * curve or surface that it lies in does. Triangles and quadrilaterals become elements, their
+ * physical surface is their block. Every physical group, of points, curves or surfaces, is a set
+ * of nodes. Other sections are passed over, and so is z.
  *
- * The file is read word by word; the words are cut out of its text, in place, and ids are words of it. The numbers of
- * things that a section announces are only counted down, never trusted with memory.
- */
+ * The file is read word by word; the words are cut out of its text, in place, and ids are words
+ * of it. The numbers of things that a section announces are only counted down, never trusted
+ * with memory. */
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "model.h"
+#include "reader.h"
 
-/* A physical group with its name, or an entity (point, curve, surface) with its groups tag[first .. first+n-1]. */
+/* A physical group with its name, or an entity (point, curve, surface) with its groups tag[first
+ * .. first+n-1]. */
 typedef struct { int dimension, number; const char *name; int first, n; } entry;
-typedef struct { int count; entry *entry; } list;               /* sorted by dimension and number                  */
+typedef struct { int count; entry *entry; } list;               /* sorted by dimension and number */
 
 typedef struct {
     model_reader *r;
-    model_place at, statement;          /* the last word, and `mesh` in the model file                             */
-    int line;                           /* of what is left of the file                                             */
+    model_place at, statement;          /* the last word, and `mesh` in the model file */
+    int line;                           /* of what is left of the file */
     char *text, *end;
     char section[40];
-    int version;                        /* 22 or 41; 0: not known yet                                              */
-    int tags, done;                     /* done: 1: $Nodes, 2: $Elements                                           */
+    int version;                        /* 22 or 41; 0: not known yet */
+    int tags, done;                     /* done: 1: $Nodes, 2: $Elements */
     list group, entity;
-    const char **tag;                   /* [tags]       words                                                      */
+    const char **tag;                   /* [tags]       words */
 } mesh;
 
-/* ----------------------------------------------------------------------------------------------------- words */
+/* ---------------------------------------------------------------------------------------- words */
 
 static int wrong(mesh *m, const char *word, const char *expected)
 {
@@ -62,7 +64,8 @@ static char *next_word(mesh *m)
     char *word = look_word(m);
 
     if (!word)
-        model_fail(m->r, m->at, "the file ends inside $%s, expected $End%s", m->section, m->section);
+        model_fail(m->r, m->at, "the file ends inside $%s, expected $End%s", m->section,
+                   m->section);
     return word;
 }
 
@@ -112,14 +115,15 @@ static int end_section(mesh *m)
     return wrong(m, word, "the end of the section");
 }
 
-/* -------------------------------------------------------------------------------------------- groups, entities */
+/* ----------------------------------------------------------------------------- groups, entities */
 
 static int compare(const void *p, const void *q)
 {
     const entry *a = p, *b = q;
 
-    return a->dimension != b->dimension ? (a->dimension > b->dimension) - (a->dimension < b->dimension)
-                                        : (a->number > b->number) - (a->number < b->number);
+    return a->dimension != b->dimension
+               ? (a->dimension > b->dimension) - (a->dimension < b->dimension)
+               : (a->number > b->number) - (a->number < b->number);
 }
 
 static const entry *find(const list *l, int dimension, int number_of)
@@ -177,7 +181,7 @@ static int read_tags(mesh *m, int n)
     while (n-- > 0) {
         if (!model_grow(m->r, &m->tag, m->tags, sizeof *m->tag) || !(word = next_word(m)))
             return 0;
-        m->tag[m->tags++] = word + (word[0] == '-');        /* a reversed curve has a negative tag */
+        m->tag[m->tags++] = word + (word[0] == '-');       /* a reversed curve has a negative tag */
     }
     return 1;
 }
@@ -217,7 +221,7 @@ static int read_entities(mesh *m)
     return end_section(m);
 }
 
-/* ------------------------------------------------------------------------------------------- nodes, elements */
+/* ------------------------------------------------------------------------------ nodes, elements */
 
 static int read_place(mesh *m, model_node *n)
 {
@@ -242,7 +246,8 @@ static int read_nodes_22(mesh *m)
     return end_section(m);
 }
 
-/* 4.1: for each entity its dimension, tag, whether there are parameters, n; n numbers; n times x y z and parameters. */
+/* 4.1: for each entity its dimension, tag, whether there are parameters, n; n numbers; n times x
+ * y z and parameters. */
 static int read_nodes_41(mesh *m)
 {
     model_reader *r = m->r;
@@ -301,7 +306,10 @@ static int add_element(mesh *m, model_element *e, const int corner[], const char
     if (dimension < 2)
         return 1;
     if (tags == 0)
-        return model_fail(r, e->at, "element %s lies in no physical surface, expected one, which is its block", e->id);
+        return model_fail(r, e->at,
+                          "element %s lies in no physical surface, expected one, which is its "
+                          "block",
+                          e->id);
     e->block = model_find_block(r, name_of(m, 2, tag[0]), m->statement);
     if (e->block < 0)
         return 0;
@@ -317,8 +325,11 @@ static int read_element(mesh *m, const char *number_of, int type, const char **t
 
     e.n = type == 15 ? 1 : type >= 1 && type <= 3 ? type + 1 : 0;
     if (e.n == 0)
-        return model_fail(m->r, m->at, "element %s is of type %d, expected 15, 1, 2 or 3: a point, or a line, triangle "
-                          "or quadrilateral of first order", number_of, type);
+        return model_fail(m->r, m->at,
+                          "element %s is of type %d, expected 15, 1, 2 or 3: a point, or a line, "
+                          "triangle "
+                          "or quadrilateral of first order",
+                          number_of, type);
     for (int k = 0; k < e.n; k++) {
         const char *word = id(m);
         if (!word)
@@ -363,14 +374,15 @@ static int read_elements_41(mesh *m)
         const entry *e = find(&m->entity, head[0], head[1]);
         while (head[3]-- > 0) {
             const char *number_of = id(m);
-            if (!number_of || !read_element(m, number_of, head[2], e ? m->tag + e->first : NULL, e ? e->n : 0))
+            if (!number_of
+                || !read_element(m, number_of, head[2], e ? m->tag + e->first : NULL, e ? e->n : 0))
                 return 0;
         }
     }
     return end_section(m);
 }
 
-/* -------------------------------------------------------------------------------------------------- the file */
+/* ------------------------------------------------------------------------------------- the file */
 
 static int read_format(mesh *m)
 {
@@ -395,7 +407,8 @@ static int pass_over(mesh *m)
         const char *word = next_word(m);
         if (!word)
             return 0;
-        if (strncmp(word, "$End", 4) == 0 && strncmp(word + 4, m->section, sizeof m->section - 1) == 0)
+        if (strncmp(word, "$End", 4) == 0
+            && strncmp(word + 4, m->section, sizeof m->section - 1) == 0)
             return 1;
     }
 }
@@ -434,7 +447,8 @@ static int read_sections(mesh *m)
             return 0;
     }
     if (m->done != 3)
-        return model_fail(m->r, m->at, "the file ends without $%s, expected one", m->done & 1 ? "Elements" : "Nodes");
+        return model_fail(m->r, m->at, "the file ends without $%s, expected one",
+                          m->done & 1 ? "Elements" : "Nodes");
     return 1;
 }
 

@@ -1,5 +1,6 @@
-/* write.c - results as files. Every number has 15 significant digits, those of K and F 17, with which a double comes
- * back as it was. Nodes are those of the library's model: a node of the file for each block that has it. */
+/* write.c - results as files. Every number has 15 significant digits, those of K and F 17, with
+ * which a double comes back as it was. Nodes are those of the library's model: a node of the
+ * file for each block that has it. */
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <errno.h>
@@ -13,11 +14,15 @@
 
 enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */
 
-/* ------------------------------------------------------------------------------------------------------ files */
+/* ---------------------------------------------------------------------------------------- files */
 
 static int fail(write_results *w, const char *path, const char *why)
 {
-    fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step, path, why);
+    if (w->begun)
+        fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step,
+                path, why);
+    else
+        fprintf(stderr, "%s: %s cannot be written: %s\n", w->source, path, why);
     w->status = 1;
     return 0;
 }
@@ -38,7 +43,7 @@ static int close_file(write_results *w, output *f)
     return output_close(f) ? 1 : fail(w, f->path, strerror(errno));
 }
 
-/* ----------------------------------------------------------------------------------------------------- tables */
+/* --------------------------------------------------------------------------------------- tables */
 
 static void put_numbers(FILE *f, int n, const double x[])
 {
@@ -61,17 +66,56 @@ static void put_nodes(FILE *f, const model *p)
     }
 }
 
+/* In dynamics with the velocity of the barycentre that the last step hands on. */
 static void put_elements(FILE *f, const model *p)
 {
-    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises\n");
+    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises%s\n",
+            p->dynamic ? ",vx,vy,spin" : "");
     for (int e = 0; e < p->m->elements; e++) {
         const bbm_element *i = &p->m->element[e];
-        const double mises = bbm_mises(i->stress);
+        const double mises = model_mises(p->m, e);
         fprintf(f, "%s,%s", p->element[e], p->block[i->block]);
         put_numbers(f, 2, p->centre[e]);
         put_numbers(f, 3, i->sum);
         put_numbers(f, 3, i->stress);
         put_numbers(f, 1, &mises);
+        put_numbers(f, p->dynamic ? 3 : 0, i->V);
+        fputc('\n', f);
+    }
+}
+
+static const char *const state_name[] = { "OPEN", "LOCK", "SLIDE" };
+
+/* The closed ones: where the corner is, what presses and shears, how far it is outside. */
+static void put_contacts(FILE *f, const model *p)
+{
+    const bbm_model *m = p->m;
+
+    fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
+        if (c->state == BBM_OPEN)
+            continue;
+        fprintf(f, "%s,%s", p->block[m->edge[c->corner].block], p->block[m->edge[c->edge].block]);
+        put_numbers(f, 2, (double[]){ P1->x, P1->y });
+        fprintf(f, ",%s", state_name[c->state]);
+        put_numbers(f, 3, (double[]){ c->N, c->T, c->d_n });
+        fputc('\n', f);
+    }
+}
+
+/* The force of the support on each fixed node. */
+static void put_reactions(FILE *f, const model *p)
+{
+    fprintf(f, "node,x,y,fx,fy\n");
+    for (int n = 0; n < p->m->nodes; n++) {
+        const bbm_node *a = &p->m->node[n];
+        if (!a->held)
+            continue;
+        fprintf(f, "%s", p->node[n]);
+        put_numbers(f, 2, (double[]){ a->x, a->y });
+        put_numbers(f, 2, p->m->beyond->support[n].force);
         fputc('\n', f);
     }
 }
@@ -85,15 +129,9 @@ static void put_history(const write_results *w, int step)
 
     fprintf(w->history.file, "%d,%.15g", step, time_of(p, step));
     for (int k = 0; k < p->monitors; k++) {
-        const model_monitor *m = &p->monitor[k];
-        double mean[2] = { 0, 0 };
-        for (int n = 0; n < m->nodes; n++) {
-            bbm_result r;
-            bbm_nodal_result(p->m, m->node[n], -1, &r);
-            mean[0] += r.u / m->nodes;
-            mean[1] += r.v / m->nodes;
-        }
-        put_numbers(w->history.file, 2, mean);
+        double u[2];
+        model_place_of(p, &p->monitor[k], u);
+        put_numbers(w->history.file, 2, u);
     }
     fputc('\n', w->history.file);
 }
@@ -105,9 +143,10 @@ static void put_summary(const write_results *w, int step)
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
-    fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes, i->iterations,
-            i->pcg.residual, i->contacts);
-    put_numbers(w->summary.file, 5, (double[]){ e.kinetic, e.elastic, e.springs, b->work, b->gained });
+    fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes,
+            i->iterations, i->pcg.residual, i->contacts);
+    put_numbers(w->summary.file, 5,
+                (double[]){ e.kinetic, e.elastic, e.springs, b->work, b->gained });
     fputc('\n', w->summary.file);
 }
 
@@ -117,18 +156,22 @@ static void put_timing(FILE *f, const write_results *w)
 {
     const double *s = w->p->m->info.seconds;
 
-    fprintf(f, "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\niterate,%.15g\n",
-            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION], s[BBM_ITERATE]);
+    fprintf(f,
+            "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\niterate,%"
+            ".15g\n",
+            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION],
+            s[BBM_ITERATE]);
     fprintf(f, "write,%.15g\ntotal,%.15g\n", seconds(w->writing), seconds(clock() - w->start));
 }
 
-/* -------------------------------------------------------------------------------------------------------- VTK */
+/* ------------------------------------------------------------------------------------------ VTK */
 
-static void put_scalars(FILE *f, const bbm_model *m, const char *name, int component)
+static double stress_of(const bbm_model *m, int element, const char *field)
 {
-    fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name);
-    for (int e = 0; e < m->elements; e++)
-        fprintf(f, "%.15g\n", component < 3 ? m->element[e].stress[component] : bbm_mises(m->element[e].stress));
+    bbm_result r = { .mises = model_mises(m, element) };
+
+    memcpy(r.stress, m->element[element].stress, sizeof r.stress);
+    return scene_field(&r, field);
 }
 
 static void put_cells(FILE *f, const bbm_model *m)
@@ -145,13 +188,15 @@ static void put_cells(FILE *f, const bbm_model *m)
         fprintf(f, "%d\n", m->element[e].n == 3 ? 5 : m->element[e].n == 4 ? 9 : 7);
 }
 
-/* Legacy VTK, ASCII: points where they started, with the displacement as a vector to warp by; cells with stress. */
+/* Legacy VTK, ASCII: points where they started, with the displacement as a vector to warp by;
+ * cells with stress. */
 static void put_vtk(FILE *f, const model *p, double t)
 {
     const bbm_model *m = p->m;
-    static const char *const name[] = { "sxx", "syy", "sxy", "mises" };
+    static const char *const name[] = { "sxx", "syy", "sxy", "mises", "s1", "s2" };
 
-    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET UNSTRUCTURED_GRID\n", p->title ? p->title : "bbm");
+    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET UNSTRUCTURED_GRID\n",
+            p->title ? p->title : "bbm");
     fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, m->nodes);
     for (int n = 0; n < m->nodes; n++)
         fprintf(f, "%.15g %.15g 0\n", m->node[n].x, m->node[n].y);
@@ -159,8 +204,11 @@ static void put_vtk(FILE *f, const model *p, double t)
     fprintf(f, "CELL_DATA %d\nSCALARS block int 1\nLOOKUP_TABLE default\n", m->elements);
     for (int e = 0; e < m->elements; e++)
         fprintf(f, "%d\n", m->element[e].block);
-    for (int k = 0; k < 4; k++)
-        put_scalars(f, m, name[k], k);
+    for (int k = 0; k < 6; k++) {
+        fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name[k]);
+        for (int e = 0; e < m->elements; e++)
+            fprintf(f, "%.15g\n", stress_of(m, e, name[k]));
+    }
     fprintf(f, "POINT_DATA %d\nVECTORS u double\n", m->nodes);
     for (int n = 0; n < m->nodes; n++) {
         bbm_result r;
@@ -169,19 +217,72 @@ static void put_vtk(FILE *f, const model *p, double t)
     }
 }
 
-static int write_vtk(write_results *w, int step)
+/* The force on the block of P1, N out of the edge's block, or T along its edge. */
+static void put_force(FILE *f, const bbm_model *m, const bbm_contact *c, int shear)
 {
-    output f;
-    char name[32], path[LONGEST];
+    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l,
+                 y = (P3->y - P2->y) / l;
 
-    snprintf(name, sizeof name, "step_%06d.vtk", step);
-    if (!open_file(w, &f, path_of(w, name, path)))
-        return 0;
-    put_vtk(f.file, w->p, time_of(w->p, step));
-    return close_file(w, &f);
+    if (shear)
+        fprintf(f, "%.15g %.15g 0\n", -c->T * x, -c->T * y);
+    else
+        fprintf(f, "%.15g %.15g 0\n", -c->N * y, c->N * x);
 }
 
-/* --------------------------------------------------------------------------------------------------- pictures */
+/* The closed contacts as points, with the forces on the corner's block. */
+static void put_vtk_contacts(FILE *f, const model *p, double t)
+{
+    const bbm_model *m = p->m;
+    const int n = m->info.contacts;
+
+    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET POLYDATA\n",
+            p->title ? p->title : "bbm");
+    fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, n);
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            fprintf(f, "%.15g %.15g 0\n", m->vertex[m->edge[m->contact[k].corner].a].x,
+                    m->vertex[m->edge[m->contact[k].corner].a].y);
+    fprintf(f, "VERTICES %d %d\n", n, 2 * n);
+    for (int k = 0; k < n; k++)
+        fprintf(f, "1 %d\n", k);
+    fprintf(f, "POINT_DATA %d\nSCALARS state int 1\nLOOKUP_TABLE default\n", n);
+    for (int k = 0; k < m->contacts; k++)
+        if (m->contact[k].state != BBM_OPEN)
+            fprintf(f, "%d\n", (int)m->contact[k].state);
+    for (int shear = 0; shear < 2; shear++) {
+        fprintf(f, "VECTORS %s double\n", shear ? "shear" : "normal");
+        for (int k = 0; k < m->contacts; k++)
+            if (m->contact[k].state != BBM_OPEN)
+                put_force(f, m, &m->contact[k], shear);
+    }
+}
+
+static int write_vtk(write_results *w, int step)
+{
+    static const struct {
+        const char *form;
+        void (*put)(FILE *f, const model *p, double t);
+    } part[] = {
+        { "step_%06d.vtk", put_vtk },
+        { "contacts_%06d.vtk", put_vtk_contacts },
+    };
+    int good = 1;
+
+    for (int k = 0; k < 2 && good; k++) {
+        output f;
+        char name[32], path[LONGEST];
+        snprintf(name, sizeof name, part[k].form, step);
+        good = open_file(w, &f, path_of(w, name, path));
+        if (good) {
+            part[k].put(f.file, w->p, time_of(w->p, step));
+            good = close_file(w, &f);
+        }
+    }
+    return good;
+}
+
+/* ------------------------------------------------------------------------------------- pictures */
 
 /* A picture that cannot be made costs no results. */
 static void draw_pictures(write_results *w)
@@ -189,7 +290,7 @@ static void draw_pictures(write_results *w)
     const bbm_model *m = w->p->m;
     const double now = m->info.t;
     scene end = { .title = w->p->title };
-    const char *field = w->p->field ? w->p->field : "mises";
+    const char *field = w->p->field;
     scene_map map = { w->p->title, field, w->p->scale };
     char path[LONGEST], name[20];
 
@@ -197,7 +298,7 @@ static void draw_pictures(write_results *w)
     if (!scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now))
         fail(w, path, strerror(errno));
     scene_free(&end);
-    if (w->p->dynamic && (w->film.frames > 0 || w->film.failed))    /* neither: the start has failed */
+    if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
         if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
             fail(w, path, strerror(errno));
     if (w->p->dynamic && map.scale == 0)
@@ -207,7 +308,7 @@ static void draw_pictures(write_results *w)
         fail(w, path, strerror(errno));
 }
 
-/* ---------------------------------------------------------------------------------------------- Matrix Market */
+/* -------------------------------------------------------------------------------- Matrix Market */
 
 static int compare_pairs(const void *p, const void *q)
 {
@@ -216,8 +317,8 @@ static int compare_pairs(const void *p, const void *q)
     return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and contacts. Returns their
- * number. */
+/* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and
+ * contacts. Returns their number. */
 static int list_blocks(const bbm_model *m, int (*pair)[2])
 {
     int n = 0;
@@ -238,8 +339,8 @@ static int list_blocks(const bbm_model *m, int (*pair)[2])
 
 static void put_matrix(FILE *f, const bbm_model *m, int blocks, int (*pair)[2])
 {
-    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * m->elements, 6 * m->elements,
-            36LL * (blocks - m->elements) + 21LL * m->elements);
+    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * m->elements,
+            6 * m->elements, 36LL * (blocks - m->elements) + 21LL * m->elements);
     for (int k = 0; k < blocks; k++) {
         const int i = pair[k][0], j = pair[k][1];
         double B[6][6];
@@ -278,7 +379,7 @@ void write_matrix(write_results *w)
     w->writing += clock() - start;
 }
 
-/* ------------------------------------------------------------------------------------------------- the run */
+/* -------------------------------------------------------------------------------------- the run */
 
 /* Whether a name of n letters is that of a field's picture. */
 static int is_map(const char *name, size_t n)
@@ -292,17 +393,24 @@ static int is_map(const char *name, size_t n)
     return 0;
 }
 
-/* The length of a name that a run writes, without the ending of a temporary file; 0: it is another one. */
+/* The length of a name that a run writes, without the ending of a temporary file; 0: it is
+ * another one. */
 static size_t is_ours(const char *name, long *process)
 {
-    static const char *const all[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv",
-                                       "contacts.svg", "movie.svg", "mises.svg" };
-    const size_t temporary = output_is_temporary(name, process), n = temporary ? temporary : strlen(name);
-    const size_t digits = strncmp(name, "step_", 5) == 0 ? strspn(name + 5, "0123456789") : 0;
+    static const char *const all[] = { "nodes.csv",     "elements.csv", "history.csv",
+                                       "summary.csv",   "timing.csv",   "contacts.svg",
+                                       "movie.svg",     "mises.svg",    "contacts.csv",
+                                       "reactions.csv", "model.svg" };
+    const size_t temporary = output_is_temporary(name, process),
+                 n = temporary ? temporary : strlen(name);
+    const size_t start = strncmp(name, "step_", 5) == 0       ? 5
+                         : strncmp(name, "contacts_", 9) == 0 ? 9
+                                                              : 0;
+    const size_t digits = start ? strspn(name + start, "0123456789") : 0;
 
     if (!temporary)
         *process = 0;
-    if (digits > 0 && n == 9 + digits && strncmp(name + 5 + digits, ".vtk", 4) == 0)
+    if (digits > 0 && n == start + digits + 4 && strncmp(name + start + digits, ".vtk", 4) == 0)
         return n;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
@@ -310,8 +418,9 @@ static size_t is_ours(const char *name, long *process)
     return is_map(name, n) ? n : 0;
 }
 
-/* Looks through the folder: whether another run writes there (some systems do not let its files be removed, others can
- * tell); then removes what an earlier one left, so that all that stands there is of one run. */
+/* Looks through the folder: whether another run writes there (some systems do not let its files
+ * be removed, others can tell); then removes what an earlier one left, so that all that stands
+ * there is of one run. */
 static int empty_folder(write_results *w)
 {
     char path[LONGEST], why[100];
@@ -326,7 +435,8 @@ static int empty_folder(write_results *w)
             if (!is_ours(entry->d_name, &process) || stat(path_of(w, entry->d_name, path), &what)
                 || !S_ISREG(what.st_mode))
                 continue;
-            snprintf(why, sizeof why, "process %ld writes there; another folder may be given with -o", process);
+            snprintf(why, sizeof why,
+                     "process %ld writes there; another folder may be given with -o", process);
             if (process > 0 && (output_is_alive(process) || remove(path)))
                 fail(w, path, why);
             else if (process == 0 && pass == 1 && remove(path))
@@ -337,17 +447,42 @@ static int empty_folder(write_results *w)
     return !w->status;
 }
 
+/* Makes the folder, if need be. */
+static int open_folder(write_results *w)
+{
+    char path[LONGEST];
+
+    if ((size_t)snprintf(path, sizeof path, "%s/contacts_2147483647.vtk", w->folder) >= sizeof path)
+        return fail(w, w->folder, strerror(ENAMETOOLONG));
+    if (!output_make_folder(w->folder))
+        return fail(w, w->folder,
+                    errno == EEXIST ? "it is there and no folder; another one may be given with -o"
+                                    : strerror(errno));
+    return 1;
+}
+
+int write_check(write_results *w)
+{
+    scene start = { .title = w->p->title };
+    char path[LONGEST];
+
+    if (!open_folder(w))
+        return 0;
+    scene_record(&start, w->p->m);
+    if (!scene_write_panels(&start, w->p->m, path_of(w, "model.svg", path), 1, (double[]){ 0 }))
+        fail(w, path, strerror(errno));
+    scene_free(&start);
+    return !w->status;
+}
+
 int write_open(write_results *w)
 {
     char path[LONGEST];
 
-    if ((size_t)snprintf(path, sizeof path, "%s/step_2147483647.vtk", w->folder) >= sizeof path)
-        return fail(w, w->folder, strerror(ENAMETOOLONG));
-    if (!output_make_folder(w->folder))
-        return fail(w, w->folder, errno == EEXIST ? "it is there and no folder; another one may be given with -o"
-                                                  : strerror(errno));
-    if (!empty_folder(w) || !open_file(w, &w->history, path_of(w, "history.csv", path)))
+    if (!open_folder(w) || !empty_folder(w)
+        || !open_file(w, &w->history, path_of(w, "history.csv", path)))
         return 0;
+    w->begun = 1;
     if (!open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
         output_drop(&w->history);
         return 0;
@@ -356,7 +491,8 @@ int write_open(write_results *w)
     for (int k = 0; k < w->p->monitors; k++)
         fprintf(w->history.file, ",%s_u,%s_v", w->p->monitor[k].name, w->p->monitor[k].name);
     fprintf(w->history.file, "\n");
-    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,external,gained\n");
+    fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,"
+                             "springs,external,gained\n");
     w->film.title = w->p->title;
     return 1;
 }
@@ -384,15 +520,19 @@ int write_close(write_results *w)
 {
     const clock_t start = clock();
     const model *p = w->p;
-    const struct { const char *name; void (*put)(FILE *f, const model *p); } table[] = {
-        { "nodes.csv", put_nodes }, { "elements.csv", put_elements },
+    const struct { const char *name; void (*put)(FILE *f, const model *p);
+    } table[] = {
+        { "nodes.csv", put_nodes },
+        { "elements.csv", put_elements },
+        { "contacts.csv", put_contacts },
+        { "reactions.csv", put_reactions },
     };
     output f;
     char path[LONGEST];
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 4; k++)
         if (open_file(w, &f, path_of(w, table[k].name, path))) {
             table[k].put(f.file, p);
             close_file(w, &f);

@@ -1,11 +1,12 @@
-/* write.h - the results of a model file as files: CSV, VTK for ParaView, pictures (SVG), K and F (Matrix Market).
+/* write.h - the results of a model file as files: CSV, VTK for ParaView, pictures (SVG), K and F
+ * (Matrix Market).
  *
- *     write_open          makes the folder, or empties it of an earlier run, begins history.csv and summary.csv
+ *     write_open       makes the folder, or empties it of an earlier run, begins history.csv, summary.csv
  *     write_step          a row of each, a picture, for the start (step 0) and each nominal step
- *     write_close         the end of the run: nodes.csv, elements.csv, timing.csv, pictures
+ *     write_close         the end of the run: nodes.csv, elements.csv, contacts.csv, ... pictures
  *
- * A file has its name when it is complete (output.h). Each error is a line on stderr and makes `status` 1; what comes
- * after it still tries to keep what there is.
+ * A file has its name when it is complete (output.h). Each error is a line on stderr and makes
+ * `status` 1; what comes after it still tries to keep what there is.
  */
 #ifndef WRITE_H
 #define WRITE_H
@@ -18,17 +19,18 @@
 
 typedef struct {
     model *p;
-    const char *source, *folder, *matrix;   /* the model file, for messages; matrix: of -m, or NULL               */
+    const char *source, *folder, *matrix; /* the model file, for messages; matrix: of -m, or NULL */
     output history, summary;
     scene film;
-    int matrix_done, step;              /* step: the last one that has its rows                                   */
-    clock_t reading, start, writing;    /* CPU time of reading, at the start of the program, of writing           */
-    int status;                         /* 0, or 1 after a message                                                */
+    int matrix_done, begun, step;  /* begun: files are open; step: the last one that has its rows */
+    clock_t reading, start, writing;    /* CPU time: of reading, at the start, of writing        */
+    int status;                         /* 0, or 1 after a message */
 } write_results;
 
+int  write_check(write_results *w);                         /* model.svg alone */
 int  write_open(write_results *w);
-int  write_step(write_results *w, int step);                /* 1, or 0 after an error                              */
+int  write_step(write_results *w, int step);                /* 1, or 0 after an error */
 int  write_close(write_results *w);
-void write_matrix(write_results *w);                        /* K and F of -m, once: of the first solution         */
+void write_matrix(write_results *w);                /* K and F of -m, once: of the first solution */
 
 #endif

@@ -271,10 +271,8 @@ static effort run_rock(const rock_scene *s, int friction_is_a_load)
     effort e = { 0 };
 
     case_must(m, m ? bbm_prepare(m) : BBM_NO_MEMORY);
-    if (friction_is_a_load) {
+    if (friction_is_a_load)
         m->hook.friction = NULL;
-        m->hook.find_friction = NULL;
-    }
     const clock_t start = clock();
     for (int i = 0; i < s->steps; i++) {
         case_must(m, bbm_step(m));

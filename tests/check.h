@@ -64,6 +64,8 @@ Suite *theory_suite(void);
 Suite *equations_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
+Suite *statements_suite(void);
+Suite *moving_suite(void);
 Suite *scenes_suite(void);
 Suite *files_suite(void);
 Suite *pictures_suite(void);

@@ -135,19 +135,7 @@ static const struct { const char *name, *quantity; double most; } moving[] = {
     /* v within the static penetration of one corner, W/(2 p_n) = 9.8e-8 m. */
     { "exp3", "without.mark.v", 9.81e-8 },      { "exp3", "rigid.mark.v", 9.81e-8 },
     { "exp3", "gravity.mark.v", 9.81e-8 },
-    /* Stop: the moment of standstill falls inside a step, a dt^2/2 = 4e-4 m for dt = 0.01. */
-    { "incline", "stops after 3 m/s down 30 degrees at phi = 40; dt = 0.01", 1e-3 },
-    { "incline", "1 s after 1 m/s down 30 degrees at phi = 10; dt = 0.01", 1e-9 },
-    { "shaken", "slip1.a10.phi20.dt0.01.p_n1e+09", 0.01 },
-    { "shaken", "slip5.a10.phi20.dt0.01.p_n1e+09", 0.01 },
-    { "shaken", "slip5.a10.phi20.dt0.01.p_n1e+11", 0.01 },
-    { "shaken", "slip5.a10.phi20.dt0.002.p_n1e+11", 0.01 },
     { "topple", "agreeing", 0 },
-    { "column", "force under block 1 ", 1e-9 }, { "column", "penetration under block 1 ", 1e-9 },
-    { "column", "force under block 10", 1e-9 }, { "column", "penetration under block 10", 1e-9 },
-    { "column", "largest velocity", 1e-9 },     { "column", "largest drift", 1e-12 },
-    { "overhang", "0.98 stands", 0 },           { "overhang", "1.02 stands", 0 },
-    { "overhang", "greatest overhang", 1e-3 },
     { "impact", "momentum for phi = 0 p_n = 1e+09", 1e-9 },
     { "impact", "momentum for phi = 30 p_n = 1e+11", 1e-9 },
     /* What the strain of the impact, 7e-4 in it, changes of the moment of inertia of squares that
@@ -165,19 +153,6 @@ static const struct { const char *name, *quantity; double most; } moving[] = {
     { "arch", "11 voussoirs, 1.005 ", 0 },      { "arch", "11 voussoirs, 0.995 ", 0 },
     { "arch", "16 voussoirs, 1.005 ", 0 },      { "arch", "16 voussoirs, 0.995 ", 0 },
     { "arch", "21 voussoirs, 1.005 ", 0 },      { "arch", "21 voussoirs, 0.995 ", 0 },
-    /* Bisected to 2e-3 of 38 degrees and 2e-2 of 29, where a fall takes longer than is waited.
-     * Above its limit not all joints of the slope slip. */
-    { "slope", "least phi", 1e-3 },             { "slope", "largest push", 5e-3 },
-    { "slope", "stands 0.02 degrees above", 0 }, { "slope", "stands 0.02 degrees below", 0 },
-    { "tilt", "largest tilt", 1e-3 },
-    { "tilt", "stands 0.1 degrees below", 0 },  { "tilt", "stands 0.1 degrees above", 0 },
-    /* The moment of the impact: dt is 1e-3 to 1e-2 of it. Housner's angles are small: 4e-3 is the
-     * promise. */
-    { "rocking", "height 2 m, th0 = 0.5 a", 1e-3 }, { "rocking", "height 5 m, th0 = 0.2 a", 1e-3 },
-    { "rocking", "height 5 m, th0 = 0.2 a, Housner", 4e-3 },
-    { "rocking", "height 5 m, th0 = 0.5 a, Housner", 4e-3 },
-    { "rocking", "height 10 m, th0 = 0.8 a, Housner", 4e-3 },
-    { "rocking", "height 10 m, th0 = 0.95 a", 1e-3 },
     { "resting", "faces too, mean of row 1", 1e-5 },
     { "resting", "faces too, mean of row 8", 1e-5 },
 };
@@ -192,26 +167,6 @@ START_TEST(a_moving_case_meets_its_target)
     const double difference = r.computed - r.reference;
     ck_assert_double_eq_tol(r.error, r.reference != 0 ? difference / r.reference : difference,
                             1e-3 * fabs(r.error) + 1e-12);
-}
-END_TEST
-
-START_TEST(the_incline_is_right_for_every_friction_angle)
-{
-    static const char *const how[4] = {
-        "dt0.01.p_n1e+09", "dt0.01.p_n1e+10", "dt0.01.p_n1e+11", "dt0.002.p_n1e+11",
-    };
-    static const int phi[7] = { 0, 10, 20, 25, 29, 31, 40 }, pieces[2] = { 1, 13 };
-
-    for (int p = 0; p < 2; p++)
-        for (int f = 0; f < 7; f++) {
-            char name[80];
-            snprintf(name, sizeof name, "%s.base%d.%s.phi%d", phi[f] > 30 ? "stick" : "slide",
-                     pieces[p], how[_i], phi[f]);
-            /* The promise: 1e-5, but 1e-4 at 29 degrees, where 4 % of the weight's pull is left;
-             * 1e-5 m of drift. */
-            ck_assert_double_le(fabs(find_result("incline", name).error),
-                                phi[f] == 29 ? 1e-4 : 1e-5);
-        }
 }
 END_TEST
 
@@ -264,10 +219,8 @@ START_TEST(every_file_of_an_experiment_is_complete)
         "exp1/fig10", "exp1/fig11", "exp1/fig12", "exp1/fig13", "exp1/deformed", "exp2/fig15",
         "exp2/fig16", "exp2/fig17", "exp2/fig18", "exp2/fig19", "exp2/fig20", "exp2/fig21a",
         "exp2/fig21b", "exp2/fig22", "exp2/fig23", "exp2/deformed", "exp3/fig25", "exp3/slide",
-        "exp3/states", "incline/slide", "incline/distance", "shaken/slip", "topple/chart",
-        "column/forces", "overhang/movie", "drop/rebound", "impact/cradle", "turning/area",
-        "resting/faces", "arch/thrust", "arch/folds", "slope/pushes", "slope/falls", "tilt/states",
-        "rocking/rocking",
+        "exp3/states", "topple/chart", "drop/rebound", "impact/cradle", "turning/area",
+        "resting/faces", "arch/thrust", "arch/folds",
     };
 
     for (size_t i = 0; i < sizeof svg / sizeof *svg; i++) {
@@ -448,7 +401,6 @@ Suite *cases_suite(void)
     tcase_add_unchecked_fixture(t, run_experiments, NULL);
     tcase_add_loop_test(t, an_experiment_meets_its_target, 0, COUNT(targets));
     tcase_add_loop_test(t, a_moving_case_meets_its_target, 0, COUNT(moving));
-    tcase_add_loop_test(t, the_incline_is_right_for_every_friction_angle, 0, 4);
     tcase_add_loop_test(t, a_dropped_block_never_rebounds_faster_than_it_came, 0, 7);
     tcase_add_test(t, the_arch_needs_the_thickness_of_the_literature);
     tcase_add_test(t, theory_in_the_results_is_the_textbook_formula);

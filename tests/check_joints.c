@@ -225,6 +225,22 @@ START_TEST(blocks_that_come_to_touch_have_no_tensile_strength)
 }
 END_TEST
 
+START_TEST(a_joint_of_no_meaning_is_refused)
+{
+    static const double strength[][3] = {
+        { 90, 0, 0 }, { -1, 0, 0 }, { NAN, 0, 0 }, { 0, -1, 0 }, { 0, INFINITY, 0 }, { 0, 0, NAN },
+    };
+    const double *s = strength[_i];
+    bbm_model *m;
+
+    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
+    ck_assert_int_eq(bbm_add_joint(m, (int[]){ 0, -1 }, s[0], s[1], s[2]), BBM_BAD_PARAMETER);
+    ck_assert_ptr_nonnull(strstr(bbm_message(m), "expected 0 or more, and less than 90 degrees"));
+    ck_assert_int_eq(bbm_add_joint(m, (int[]){ 0, -1 }, 89, 0, 1e300), BBM_OK);
+    bbm_model_free(m);
+}
+END_TEST
+
 Suite *joints_suite(void)
 {
     Suite *s = suite_create("joints");
@@ -238,6 +254,7 @@ Suite *joints_suite(void)
         { a_joint_that_broke_has_no_strength_left, 1 },
         { the_areas_of_a_joints_contacts_add_up_to_its_own, COUNT(PIECES) * COUNT(SEATS) },
         { blocks_that_come_to_touch_have_no_tensile_strength, 1 },
+        { a_joint_of_no_meaning_is_refused, 6 },
     };
 
     add_case(s, "joints", e, COUNT(e));

@@ -80,7 +80,8 @@ static Suite *(*const SUITES[])(void) = {
     theory_suite, equations_suite,
 #endif
 #ifdef CASES
-    cases_suite, model_suite, scenes_suite, files_suite, pictures_suite,
+    cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
+    pictures_suite,
 #endif
 };
 

@@ -15,13 +15,12 @@
 typedef struct { const char *name, *message; } wrong;
 
 static const wrong wrongs[] = {
-    { "unknown-statement", ".model:9: unknown statement 'elephant', expected one like node, element, material, "
-      "static" },
+    { "unknown-statement", ".model:9: unknown statement 'elephant', expected one such as element, expect, let" },
     { "blocks-overlap", ".model:11: element 9 of block 'stone' lies 0.005 m deep in element 1 of block 'base' at 0.5 "
       "0.9975, expected blocks that touch at most" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
-    { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x] [y]" },
+    { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x [by U]] [y [by V]]" },
     { "missing-word", ".model:3: a word is missing, expected: node ID X Y" },
     { "missing-value", ".model:5: not a number: 'nu', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
@@ -55,22 +54,23 @@ static const wrong wrongs[] = {
     { "velocity-twice", ".model:10: a velocity of 'b' for the second time, expected one" },
     { "stress-twice", ".model:10: a stress of 'b' for the second time, expected one" },
     { "fixblock-twice", ".model:10: block 'b' is fixed for the second time, expected once" },
-    { "unknown-node", ".model:6: unknown node '5', expected one that the model has" },
-    { "unknown-node-where", ".model:9: unknown node '7', expected one that the model has" },
-    { "unknown-material", ".model:6: unknown material 'iron', expected one that the model has" },
-    { "unknown-block", ".model:9: unknown block 'c', expected one that the model has" },
-    { "unknown-block-velocity", ".model:9: unknown block 'c', expected one that the model has" },
-    { "unknown-set", ".model:9: unknown set 'c', expected one that the model has" },
-    { "unknown-place", ".model:9: unknown place 'right', expected: load WHERE FX FY" },
+    { "unknown-node", ".model:6: unknown node '5', expected one that the model has, such as 1, 2, 3" },
+    { "unknown-node-where", ".model:9: unknown node '7', expected one that the model has, such as 1, 2, 3" },
+    { "unknown-material", ".model:6: unknown material 'iron', expected one that the model has, such as steel" },
+    { "unknown-block", ".model:9: unknown block 'c', expected one that the model has, such as b" },
+    { "unknown-block-velocity", ".model:9: unknown block 'c', expected one that the model has, such as b" },
+    { "unknown-set", ".model:9: unknown set 'c', expected one that the model has, such as b" },
+    { "unknown-place", ".model:9: unknown place 'right', expected node ID, at X Y, set NAME or box XMIN YMIN XMAX "
+      "YMAX in: load WHERE FX FY" },
     { "unknown-choice", ".model:9: 'both', expected one of exact|linear" },
     { "unknown-choice-bond", ".model:9: 'corners', expected one of vertices|midpoints|moment|auto" },
     { "bad-name", ".model:6: not a name (letters, digits, _ - .): 'b,c', expected: element ID BLOCK MATERIAL N1 N2 "
       "N3 [N4 ...]" },
     { "unused-node", ".model:9: no element has node 5, expected one" },
-    { "zero-area", ".model:5: element 1 has no area, or one too large, expected a polygon" },
-    { "zero-area-node-twice", ".model:4: element 1 has no area, or one too large, expected a polygon" },
-    { "self-crossing", ".model:6: the boundary of element 1 meets itself, expected a simple polygon" },
-    { "too-large", ".model:6: element 1 has no area, or one too large, expected a polygon" },
+    { "zero-area", ".model:5: element 1 of block 'b' has no area, or one too large, expected a polygon" },
+    { "zero-area-node-twice", ".model:4: element 1 of block 'b' has no area, or one too large, expected a polygon" },
+    { "self-crossing", ".model:6: the boundary of element 1 of block 'b' meets itself, expected a simple polygon" },
+    { "too-large", ".model:6: element 1 of block 'b' has no area, or one too large, expected a polygon" },
     { "overlap", ".model:9: element 2 lies on another one of its block, expected elements side by side" },
     { "e-zero", ".model:5: E is 0, expected more than 0" },
     { "e-negative", ".model:5: E is -1, expected more than 0" },
@@ -85,7 +85,8 @@ static const wrong wrongs[] = {
     { "friction-negative", ".model:9: friction is -1, expected 0 to less than 90 degrees" },
     { "cohesion-negative", ".model:9: cohesion is -1, expected 0 or more" },
     { "dt-zero", ".model:8: dt is 0, expected more than 0" },
-    { "dt-missing", ".model:8: dt is missing, expected: dynamic dt VALUE steps N [damping VALUE] [settle N]" },
+    { "dt-missing", ".model:8: dt is missing, expected: dynamic dt VALUE steps N [damping VALUE] [settle N] [ramp "
+      "T]" },
     { "damping", ".model:8: damping is 1.5, expected 0 to 1" },
     { "omega-zero", ".model:9: omega is 0, expected more than 0 and less than 2" },
     { "omega-two", ".model:9: omega is 2, expected more than 0 and less than 2" },
@@ -96,7 +97,7 @@ static const wrong wrongs[] = {
     { "where-box-reversed", ".model:9: a box from 1, 1 to 0, 0, expected: box XMIN YMIN XMAX YMAX" },
     { "traction-inside", ".model:9: no boundary edge has both ends there, expected one" },
     { "pressure-inside", ".model:10: no boundary edge has both ends there, expected one" },
-    { "use-without-mesh", ".model:9: block 'b' has its material by `element`, expected a block of a mesh" },
+    { "use-without-mesh", ".model:9: block 'b' has its material in its own statement, expected a block of a mesh" },
     { "no-element", ".model: the model has no element, expected: element ..., or mesh FILE" },
     { "empty", ".model: neither static nor dynamic, expected one of them" },
     { "static-and-dynamic", ".model:9: static and dynamic, expected one of them" },
@@ -132,14 +133,84 @@ static const wrong wrongs[] = {
     { "msh-no-surface", ".msh:19: element 2 lies in no physical surface, expected one, which is its block" },
     { "msh-no-surface-41", ".msh:31: element 2 lies in no physical surface, expected one, which is its block" },
     { "msh-name", ".msh:6: '\"the' in $PhysicalNames, expected a name in quotes, without blanks" },
-    { "msh-zero-area", ".msh:19: element 2 has no area, or one too large, expected a polygon" },
+    { "msh-zero-area", ".msh:19: element 2 of block 'plate' has no area, or one too large, expected a polygon" },
     { "msh-id-of-the-model", ".model:6: node '1' for the second time, expected a new one" },
     { "msh-no-material", ".model:1: block 'plate' has no material, expected: use MATERIAL on plate" },
     { "msh-use-twice", ".model:6: a material for '*' for the second time, expected one" },
-    { "msh-use-unknown", ".model:6: unknown block 'disc', expected one that the model has" },
+    { "msh-use-unknown", ".model:6: unknown block 'disc', expected one that the model has, such as plate" },
     { "msh-set-twice", ".model:6: set 'left' for the second time, expected a new one" },
     { "msh-set-of-two-kinds", ".model:4: the mesh has several groups of that name, one of surfaces and one of "
       "curves or points, expected one" },
+    { "block-crossing", ".model:7: the boundary of element 3 of block 'c' meets itself, expected a simple polygon" },
+    { "block-flat", ".model:7: element 3 of block 'c' has no area, or one too large, expected a polygon" },
+    { "block-long-id", ".model:6: an id of 18 digits, expected at most 17 where blocks are numbered on" },
+    { "block-not-a-number", ".model:7: not a number: 'two', expected: block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 "
+      "Y4 ...]" },
+    { "block-odd", ".model:7: block 'c' has 5 coordinates, expected X Y of 3 corners or more" },
+    { "block-of-elements", ".model:6: block 'a' for the second time, expected a new one" },
+    { "block-overlap", ".model:7: element 3 of block 'c' lies 0.1 m deep in element 2 of block 'b' at 1.225 1.95, "
+      "expected blocks that touch at most" },
+    { "block-twice", ".model:7: block 'b' for the second time, expected a new one" },
+    { "block-two-corners", ".model:7: block 'c' has 4 coordinates, expected X Y of 3 corners or more" },
+    { "block-unknown-material", ".model:7: unknown material 'rokc', expected one that the model has, such as rock" },
+    { "expect-by", ".model:8: not the word by: 'within', expected: expect NAME u|v VALUE within TOLERANCE [%], or "
+      "expect NAME moves|stays by TOLERANCE" },
+    { "expect-kind", ".model:8: 'w', expected one of u|v|moves|stays" },
+    { "expect-percent-of-zero", ".model:8: a tolerance in % of 0, expected one in metre" },
+    { "expect-short", ".model:8: a word is missing, expected: expect NAME u|v VALUE within TOLERANCE [%], or "
+      "expect NAME moves|stays by TOLERANCE" },
+    { "expect-surplus", ".model:8: surplus word 'm', expected: expect NAME u|v VALUE within TOLERANCE [%], or "
+      "expect NAME moves|stays by TOLERANCE" },
+    { "expect-unknown", ".model:8: unknown monitor 'tip', expected one that the model has, such as top" },
+    { "expect-within", ".model:8: not the word within: 'by', expected: expect NAME u|v VALUE within TOLERANCE "
+      "[%], or expect NAME moves|stays by TOLERANCE" },
+    { "expect-zero", ".model:8: a tolerance of 0, expected more than 0" },
+    { "fix-by-missing", ".model:7: a word is missing, expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "fix-by-not-a-number", ".model:7: not a number: 'y', expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "fix-by-two", ".model:8: node 5 is displaced by 0.2 in x here, by 0.1 in another statement, expected one of "
+      "them" },
+    { "fix-by-without-direction", ".model:7: unknown option 'by', expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "fix-x-twice", ".model:7: x for the second time, expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "grid-kind", ".model:7: 'hexagons', expected one of quads|triangles|crossed" },
+    { "grid-missing", ".model:7: a word is missing, expected: grid NAME MATERIAL X0 Y0 X1 Y1 NX NY "
+      "[quads|triangles|crossed]" },
+    { "grid-no-cells", ".model:7: NX is 0, expected a whole number, 1 or more" },
+    { "grid-reversed", ".model:7: a grid from 1 3 to 0 4, expected X0 < X1 and Y0 < Y1" },
+    { "grid-rim-twice", ".model:8: set 'c.left' for the second time, expected a new one" },
+    { "grid-surplus", ".model:7: surplus word '3', expected: grid NAME MATERIAL X0 Y0 X1 Y1 NX NY "
+      "[quads|triangles|crossed]" },
+    { "grid-too-many", ".model:7: a grid of 10000 x 10000 cells, expected at most 4000000" },
+    { "joint-cohesion", ".model:7: cohesion is -1, expected 0 or more" },
+    { "joint-friction", ".model:7: friction is 90, expected 0 to less than 90 degrees" },
+    { "joint-one-block", ".model:7: a word is missing, expected: joint BLOCK BLOCK [friction DEGREES] [cohesion "
+      "PASCAL] [tension PASCAL]" },
+    { "joint-option", ".model:7: unknown option 'strength', expected: joint BLOCK BLOCK [friction DEGREES] "
+      "[cohesion PASCAL] [tension PASCAL]" },
+    { "joint-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
+    { "let-below", ".model:7: no `let` says what $b is" },
+    { "let-dollar", ".model:7: no `let` says what $ is" },
+    { "let-missing", ".model:7: a word is missing, expected: let NAME VALUE" },
+    { "let-none", ".model:7: no `let` says what $psi is" },
+    { "let-not-a-number", ".model:7: not a number: 'thirty', expected: let NAME VALUE" },
+    { "let-surplus", ".model:7: surplus word '40', expected: let NAME VALUE" },
+    { "let-twice", ".model:8: let 'phi' for the second time, expected a new one" },
+    { "let-unknown", ".model:8: no `let` says what $psi is, expected one such as $phi" },
+    { "of-missing", ".model:7: a word is missing, expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "of-other-block", ".model:7: no node there of block b, expected a place that names one" },
+    { "of-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
+    { "output-field", ".model:7: 'szz', expected one of mises|sxx|syy|sxy|s1|s2|u|v" },
+    { "output-scale", ".model:7: scale is 0, expected more than 0" },
+    { "plane-kind", ".model:7: 'stain', expected one of stress|strain" },
+    { "plane-twice", ".model:8: plane for the second time, after line 7, expected it once" },
+    { "ramp-negative", ".model:7: ramp is -1, expected 0 or more" },
+    { "unknown-block-nearest", ".model:4: unknown block 'aa', expected one that the model has, such as a, b" },
+    { "unknown-set-or-block", ".model:7: unknown set 'slab', expected one that the model has, such as a, b" },
+    { "water-density", ".model:7: density is 0, expected more than 0" },
+    { "water-dry", ".model:7: no edge there lies below y = 0.5, expected one under water" },
+    { "water-no-edge", ".model:7: no boundary edge has both ends there, expected one" },
+    { "water-no-level", ".model:7: a word is missing, expected: water WHERE LEVEL [density VALUE]" },
+    { "water-without-gravity", ".model:6: water without weight, expected gravity" },
+    { "set-of-another-block", ".model:7: no node there of block b, expected a place that names one" },
 };
 
 START_TEST(wrong_input_is_named_with_its_line_and_nothing_is_written)
@@ -213,14 +284,14 @@ static const target targets[] = {
     { "incline", "history.csv", "100,", "corner_v", -0.45320, 3e-5 },
     /* The weight above the middle of the lowest block: 9.5 W; at rest. */
     { "column", "elements.csv", "2,b1,", "syy", -9.5 * 24525, 3 },
-    { "column", "summary.csv", "100,", "kinetic", 0, 1e-9 },
+    { "column", "summary.csv", "1000,", "kinetic", 0, 1e-9 },
     { "overhang", "history.csv", "200,", "end_u", 0, 1e-3 },
     { "arch", "history.csv", "100,", "crown_v", 0, 2e-3 },
     /* P/(pi R t) and -3 P/(pi R t); the mesh has eight rings. */
     { "disc", "nodes.csv", "1,disc", "sxx", 0.3183e6, 0.02e6 },
     { "disc", "nodes.csv", "1,disc", "syy", -0.9549e6, 0.02e6 },
     /* The dam leans down the stream and stands. */
-    { "dam", "history.csv", "", "crest_u", 5e-4, 1e-4 },
+    { "dam", "history.csv", "", "crest_u", 1.7e-4, 0.35e-4 },
 };
 
 static void run_models(void)
@@ -384,7 +455,7 @@ START_TEST(settling_ends_in_equilibrium_at_time_zero)
     ck_assert_double_eq(cell("column", "history.csv", "0,", "t"), 0);
     /* The column of ten blocks has sunk in by the sum of (11 - k) W/(2 kn), and been squeezed a little. */
     ck_near(cell("column", "history.csv", "0,", "top_v"), -55 * 24525 / 2e9, 7e-4, 0.2);
-    ck_relative(cell("column", "history.csv", "100,", "top_v"), cell("column", "history.csv", "0,", "top_v"), 1e-6);
+    ck_relative(cell("column", "history.csv", "1000,", "top_v"), cell("column", "history.csv", "0,", "top_v"), 1e-6);
 }
 END_TEST
 

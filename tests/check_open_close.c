@@ -33,7 +33,7 @@ static int feed(bbm_model *m, double u, double v, double w, bbm_pass *pass)
     for (*pass = BBM_PASS_AGAIN; *pass == BBM_PASS_AGAIN && n < 100000; n++) {
         m->D[6] = u;
         m->D[7] = n % 2 ? w : v;
-        ck_ok(bbm_open_close(m, pass), m);
+        *pass = bbm_open_close(m);
     }
     ck_assert_int_eq(m->info.passes, n);
     return n;
@@ -90,7 +90,7 @@ START_TEST(a_pass_that_renews_the_vectors_is_no_cycle)
     for (int k = 0; k < 3; k++) {
         m->D[7] = k < 2 ? -0.01 : 0.01;
         m->D[8] = k == 1 ? 0.01 : 0;
-        ck_ok(bbm_open_close(m, &pass), m);
+        pass = bbm_open_close(m);
         ck_assert_int_eq(pass, BBM_PASS_AGAIN);
     }
     ck_ok(bbm_store_contacts(m), m);
@@ -104,11 +104,10 @@ END_TEST
 START_TEST(a_set_of_states_that_comes_back_is_a_cycle)
 {
     bbm_model *m = block_on_table();
-    bbm_pass pass;
 
     for (int k = 0; k < 3; k++) {
         m->D[7] = k % 2 ? 0.01 : -0.01;
-        ck_ok(bbm_open_close(m, &pass), m);
+        (void)bbm_open_close(m);
     }
     ck_ok(bbm_store_contacts(m), m);
     ck_assert_int_eq(m->info.contacts, 1);
@@ -124,13 +123,12 @@ START_TEST(a_cycle_is_broken_one_by_one_for_as_many_passes_again)
     const double v[] = { -0.01, 0.01, -0.01, -0.01, 0.01 };
     const int closed[] = { 2, 0, 1, 2, 0 };
     bbm_model *m = block_on_table();
-    bbm_pass pass;
 
     m->par.friction = 0;
     for (int k = 0; k < COUNT(v); k++) {
         int n, count = 0;
         m->D[7] = v[k];
-        ck_ok(bbm_open_close(m, &pass), m);
+        (void)bbm_open_close(m);
         const bbm_contact *c = bbm_list_contacts(m, &n);
         for (int q = 0; q < n; q++)
             count += c[q].state != BBM_OPEN;
@@ -145,14 +143,13 @@ END_TEST
 START_TEST(a_contact_that_closes_outside_the_cone_of_friction_slides)
 {
     bbm_model *m = block_on_table();
-    bbm_pass pass;
     int n;
 
     m->par.friction = 30;
     m->D[7] = -1e-4;
     m->D[6] = (_i % 2 ? 1 : -1) * (_i < 2 ? 0.99 : 1.01)
             * 1e-4 * tan(PI / 6) * m->par.p_n / m->par.p_s;
-    ck_ok(bbm_open_close(m, &pass), m);
+    (void)bbm_open_close(m);
     const bbm_contact *c = bbm_list_contacts(m, &n);
     for (int k = 0; k < n; k++) {
         ck_assert_int_eq(c[k].state, _i < 2 ? BBM_LOCK : BBM_SLIDE);
@@ -167,7 +164,6 @@ END_TEST
 START_TEST(a_contact_that_its_shear_spring_pulls_open_slides_first)
 {
     bbm_model *m = block_on_table();
-    bbm_pass pass;
     int n;
 
     m->par.friction = 30;
@@ -175,7 +171,7 @@ START_TEST(a_contact_that_its_shear_spring_pulls_open_slides_first)
     for (int k = 0; k < 3; k++) {
         m->D[6] = k ? u : 0;
         m->D[7] = k ? 1e-4 : -1e-4;
-        ck_ok(bbm_open_close(m, &pass), m);
+        (void)bbm_open_close(m);
         const bbm_contact *c = bbm_list_contacts(m, &n);
         for (int q = 0; q < n; q++)
             ck_assert_int_eq(c[q].state, k == 0 ? BBM_LOCK : k == 1 && _i ? BBM_SLIDE : BBM_OPEN);
@@ -462,10 +458,10 @@ START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
         m->D[6] = k < 2 ? 0 : -turn / 2;
         m->D[7] = -0.01;
         m->D[8] = k < 2 ? 0 : turn;
-        ck_ok(bbm_open_close(m, &pass), m);
+        pass = bbm_open_close(m);
     }
     ck_assert_int_eq(pass, _i % 2 ? BBM_PASS_DONE : BBM_PASS_AGAIN);
-    ck_ok(bbm_open_close(m, &pass), m);
+    pass = bbm_open_close(m);
     ck_assert_int_eq(pass, BBM_PASS_DONE);
     ck_assert_int_eq(bbm_middle_is_off(m), _i == 3);
     bbm_model_free(m);
@@ -511,7 +507,6 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
 {
     const double p = ldexp(1, 30), tip[2] = { 1, 64 / p }, beside[2] = { -1, 64 / p };
     bbm_model *m = new_blocks();
-    bbm_pass pass;
     int n, other;
 
     m->par.gravity[1] = 0;
@@ -537,7 +532,7 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
     }
     m->F[12 + _i % 2] = WRONG[_i].third;
     m->F[18] = 1e30;                                    /* K does not connect it */
-    ck_ok(bbm_open_close(m, &pass), m);
+    (void)bbm_open_close(m);
     ck_assert_int_eq(bbm_contacts_are_off(m, 0.25), 0);
     m->vertex[m->element[1].first].y = WRONG[_i].at / p;
     bbm_contact *c = find_listed(m, 1, 0, 0, 2);

@@ -31,7 +31,7 @@ static void check_reader(const char *path)
 {
     model p;
 
-    if ((model_read(path, &p) != 0) != (p.message[0] != '\0') || p.status < 0 || p.status > 2)
+    if ((model_read(path, 0, NULL, &p) != 0) != (p.message[0] != '\0') || p.status < 0 || p.status > 2)
         abort();
     if (p.status == 0 && p.m->elements < LARGE) {
         p.m->par.pcg.iterations = 50;

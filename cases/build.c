@@ -1,0 +1,560 @@
+/* build.c - the library's model of what the statements say, and the statements that need it:
+ * where it is held and loaded, WHERE by its nodes. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reader.h"
+
+/* Of the model's size: nodes closer to a given place, or to the rim of a box, are there. */
+#define NEAR 1e-6
+
+/* ----------------------------------------------------------------- building the library's model */
+
+/* What the file leaves out: the contacts are as stiff as the softest material of a block that is
+ * not fixed, for a fixed one is often given an E that only says "rigid". */
+static void set_defaults(model_reader *r)
+{
+    bbm_parameters *p = &r->p->m->par;
+    double softest[2] = { INFINITY, INFINITY };         /* of the blocks that are free, of all */
+
+    for (int e = 0; e < r->elements; e++) {
+        const bbm_material *m = &r->material[r->element[e].material];
+        for (int k = r->block[r->element[e].block].fixed; k < 2; k++)
+            softest[k] = fmin(softest[k], m->E * m->thickness);
+    }
+    r->p->slippery = r->blocks > 1 && p->p_n != 0 && p->p_s != 0 && p->friction < 0;
+    r->no_shear = p->p_s == 0;
+    p->friction = fmax(p->friction, 0);
+    if (p->p_n < 0)
+        p->p_n = 50 * softest[isinf(softest[0]) ? 1 : 0];
+    if (p->p_s < 0)
+        p->p_s = 0.4 * p->p_n;
+    if (p->p_s == 0)                          /* a shear spring that carries nothing: no friction */
+        p->friction = p->cohesion = 0;
+    if (p->p_n == 0)                            /* no contact: springs that cannot be felt */
+        p->p_n = 1e-200;
+    if (p->p_s == 0)
+        p->p_s = 0.4 * p->p_n;
+}
+
+static int give_materials(model_reader *r)
+{
+    for (int e = 0; e < r->elements; e++) {
+        model_element *el = &r->element[e];
+        const model_block *b = &r->block[el->block];
+        if (el->material < 0)
+            el->material = b->material >= 0 ? b->material : r->other_material;
+        if (el->material < 0)
+            return model_fail(r, b->at, "block '%s' has no material, expected: use MATERIAL on %s",
+                              b->name, b->name);
+    }
+    return 1;
+}
+
+/* Lists the blocks that meet at each node, in their order: each gets a node of its own. */
+static int copy_nodes(model_reader *r)
+{
+    for (int e = 0; e < r->elements; e++)
+        for (int k = r->element[e].first; k < r->element[e].first + r->element[e].n; k++) {
+            int *link = &r->node[r->corner[k]].first;
+            while (*link >= 0 && r->copy[*link].block != r->element[e].block)
+                link = &r->copy[*link].next;
+            if (*link >= 0)
+                continue;
+            *link = r->copies;
+            if (!model_grow(r, &r->copy, r->copies, sizeof *r->copy))
+                return 0;
+            r->copy[r->copies++] = (model_copy){ -1, r->element[e].block, -1 };
+        }
+    return 1;
+}
+
+static int add_nodes(model_reader *r)
+{
+    model *p = r->p;
+
+    p->node = model_room(r, r->copies, sizeof *p->node);
+    p->node_block = model_room(r, r->copies, sizeof *p->node_block);
+    for (int n = 0, now = 0; n < r->nodes && !p->status; n++) {
+        model_node *a = &r->node[n];
+        if (a->first < 0 && a->by_hand)
+            return model_fail(r, a->at, "no element has node %s, expected one", a->id);
+        for (int c = a->first; c >= 0; c = r->copy[c].next, now++) {
+            r->copy[c].node = now;
+            p->node[now] = a->id;
+            p->node_block[now] = r->copy[c].block;
+            if (bbm_add_node(p->m, a->x, a->y, NULL))
+                return model_out_of_memory(r);
+        }
+    }
+    return !p->status;
+}
+
+static int add_element(model_reader *r, const model_element *e)
+{
+    int *corner = &r->corner[e->first], index;
+
+    for (int k = 0; k < e->n; k++) {
+        int c = r->node[corner[k]].first;
+        while (r->copy[c].block != e->block)
+            c = r->copy[c].next;
+        corner[k] = r->copy[c].node;
+    }
+    const bbm_status status = bbm_add_element(r->p->m, e->block, e->material, e->n, corner, &index);
+    if (status == BBM_NO_MEMORY)
+        return model_out_of_memory(r);
+    if (status == BBM_SELF_CROSSING)
+        return model_fail(r, e->at, "the boundary of element %s of block '%s' meets itself, "
+                          "expected a simple polygon", e->id, r->block[e->block].name);
+    const bbm_element *b = status ? NULL : &r->p->m->element[index];
+    if (!b || !(b->A > 0) || !isfinite(b->x * b->Sxx) || !isfinite(b->y * b->Syy))
+        return model_fail(r, e->at, "element %s of block '%s' has no area, or one too large, "
+                          "expected a polygon", e->id, r->block[e->block].name);
+    r->p->element[index] = e->id;
+    r->p->centre[index][0] = b->x;
+    r->p->centre[index][1] = b->y;
+    return 1;
+}
+
+/* Box of the nodes in use: their copies are the nodes of the library. */
+static void measure_box(model_reader *r)
+{
+    const bbm_model *m = r->p->m;
+
+    r->low[0] = r->low[1] = INFINITY;
+    r->high[0] = r->high[1] = -INFINITY;
+    for (int n = 0; n < m->nodes; n++) {
+        r->low[0] = fmin(r->low[0], m->node[n].x);
+        r->low[1] = fmin(r->low[1], m->node[n].y);
+        r->high[0] = fmax(r->high[0], m->node[n].x);
+        r->high[1] = fmax(r->high[1], m->node[n].y);
+    }
+    r->margin = NEAR * hypot(r->high[0] - r->low[0], r->high[1] - r->low[1]);
+}
+
+/* Names the blocks and the elements that lie in each other. */
+static int overlap(model_reader *r)
+{
+    const model *p = r->p;
+    bbm_overlap o;
+
+    if (bbm_find_overlap(p->m, &o))
+        return model_out_of_memory(r);
+    return model_fail(r, r->element[o.j].at,
+                      "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
+                      "%g %g, expected blocks that touch at most",
+                      p->element[o.j], r->block[r->element[o.j].block].name, o.depth,
+                      p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
+}
+
+int model_build(model_reader *r)
+{
+    model *p = r->p;
+
+    if (r->elements == 0)
+        return model_fail(r, (model_place){ r->path, 0 },
+                          "the model has no element, expected: element ..., or mesh "
+                          "FILE");
+    if (!give_materials(r) || !copy_nodes(r) || !add_nodes(r))
+        return 0;
+    set_defaults(r);
+    for (int k = 0; k < r->materials; k++)
+        bbm_add_material(p->m, &r->material[k], NULL);
+    p->element = model_room(r, r->elements, sizeof *p->element);
+    p->centre = model_room(r, r->elements, sizeof *p->centre);
+    for (int e = 0; e < r->elements && !p->status; e++)
+        add_element(r, &r->element[e]);
+    if (p->status)
+        return 0;
+    measure_box(r);
+    const bbm_status status = bbm_prepare(p->m);
+    const model_element *e = &r->element[status == BBM_OVERLAP ? p->m->blamed[0] : 0];
+    if (status == BBM_OVERLAP)
+        return model_fail(r, e->at, "element %s lies on another one of its block, expected "
+                          "elements side by side", e->id);
+    if (status)
+        return status == BBM_BLOCKS_OVERLAP ? overlap(r) : model_refused(r, status);
+    if (r->plane_strain)
+        bbm_set_plane_strain(p->m);
+    p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
+    p->wall = model_room(r, p->m->nodes, sizeof *p->wall);
+    r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
+    return !p->status;
+}
+
+/* ---------------------------------------------------------------------------------------- WHERE */
+
+enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
+
+/* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
+typedef struct { int kind, found, block, whole; double x[4]; } place;
+
+/* Whether the block has the node; -1: some block. */
+static int has_node(const model_reader *r, int block, int node)
+{
+    int c = r->node[node].first;
+
+    while (c >= 0 && block >= 0 && r->copy[c].block != block)
+        c = r->copy[c].next;
+    return c >= 0;
+}
+
+/* Takes the library nodes of a node, each once for a statement. */
+static void choose(model_reader *r, const place *w, int node)
+{
+    model_node *n = &r->node[node];
+    const int mark = (int)(r->s - r->statement) + 1;
+
+    if (n->mark == mark || !has_node(r, w->block, node))
+        return;
+    n->mark = mark;
+    r->places++;
+    for (int c = n->first; c >= 0; c = r->copy[c].next)
+        if (w->block < 0 || r->copy[c].block == w->block)
+            r->chosen_node[r->chosen++] = r->copy[c].node;
+}
+
+/* The first of the nearest nodes; that others lie there as well is said. */
+static void choose_nearest(model_reader *r, const place *w)
+{
+    double best = INFINITY;
+    int found = -1, others = 0;
+
+    for (int n = 0; n < r->nodes; n++) {
+        const double d = has_node(r, w->block, n)
+                             ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1])
+                             : INFINITY;
+        if (d < best - r->margin)
+            best = d, found = n, others = 0;
+        else if (isfinite(d) && d <= best + r->margin
+                 && hypot(r->node[n].x - r->node[found].x, r->node[n].y - r->node[found].y)
+                        <= r->margin)
+            others++;
+    }
+    if (found < 0)
+        return;
+    choose(r, w, found);
+    if (others > 0)
+        fprintf(stderr,
+                "%s:%d: note: %d nodes lie there, node %s of block '%s' is taken; `of BLOCK` takes "
+                "another\n",
+                r->s->at.file, r->s->at.line, others + 1, r->node[found].id,
+                r->block[r->copy[r->node[found].first].block].name);
+}
+
+static int is_there(const model_reader *r, const place *w, const model_node *n)
+{
+    const double *x = w->x, d = r->margin;
+
+    if (w->kind == BY_AT)
+        return hypot(n->x - x[0], n->y - x[1]) <= d;
+    return n->x >= x[0] - d && n->x <= x[2] + d && n->y >= x[1] - d && n->y <= x[3] + d;
+}
+
+/* A set, or all nodes of a block. */
+static int choose_set(model_reader *r, place *w, const char *word)
+{
+    w->found = model_find(&r->set_of, word);
+    if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
+        return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
+                              "of curves or points, expected one");
+    if (w->found < 0 && (w->block = w->whole = model_find(&r->block_of, word)) < 0)
+        return model_unknown(r, r->set_of.count ? &r->set_of : &r->block_of, "set", word);
+    return 1;
+}
+
+/* The words of WHERE. */
+static int read_place(model_reader *r, place *w)
+{
+    static const char *const kind[] = { "node", "at", "set", "box" };
+    static const int numbers[] = { 0, 2, 0, 4 };
+    const char *word = NULL;
+
+    *w = (place){ .block = -1 };
+    while (w->kind < 4 && !model_skip(r, kind[w->kind]))
+        w->kind++;
+    if (w->kind == 4)
+        return !model_look(r) ? model_word(r) != NULL
+             : model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME or box "
+                              "XMIN YMIN XMAX YMAX in: %s", model_look(r), model_form(r->s));
+    for (int k = 0; k < numbers[w->kind]; k++)
+        if (!model_number(r, &w->x[k]))
+            return 0;
+    if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of, "node", model_id(r))) < 0)
+        return 0;
+    if (w->kind == BY_SET && (!(word = model_word(r)) || !choose_set(r, w, word)))
+        return 0;
+    if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
+        return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
+                           w->x[0], w->x[1], w->x[2], w->x[3]);
+    return !model_skip(r, "of") || (w->block = model_next_block(r)) >= 0;
+}
+
+/* WHERE: the nodes that it names, at least one, in r->chosen_node. `nearest`: at X Y is the
+ * nearest node, however far. */
+static int where(model_reader *r, int nearest)
+{
+    place w;
+
+    r->chosen = r->places = 0;
+    if (!read_place(r, &w))
+        return 0;
+    if (w.kind == BY_NODE)
+        choose(r, &w, w.found);
+    else if (w.kind == BY_SET && w.found >= 0)
+        for (int k = 0; k < r->set[w.found].n; k++)
+            choose(r, &w, r->set[w.found].node[k]);
+    else if (w.kind == BY_AT && nearest)
+        choose_nearest(r, &w);
+    else
+        for (int n = 0; n < r->nodes; n++)
+            if (w.kind == BY_SET ? has_node(r, w.whole, n) : is_there(r, &w, &r->node[n]))
+                choose(r, &w, n);
+    if (r->chosen == 0)
+        return model_blame(r, "no node there%s%.60s, expected a place that names one",
+                           w.block >= 0 ? " of block " : "",
+                           w.block >= 0 ? r->block[w.block].name : "");
+    return 1;
+}
+
+/* --------------------------------------------------------------- statements that need the model */
+
+/* x and y, each with `by`; none: both. */
+int model_fix(model_reader *r)
+{
+    static const char *const name[] = { "x", "y" };
+    double by[2] = { 0, 0 };
+    int directions = 0;
+    model *p = r->p;
+
+    if (!where(r, 0))
+        return 0;
+    while (model_look(r)) {
+        const int a = model_skip(r, "x") ? 0 : model_skip(r, "y") ? 1 : -1;
+        if (a < 0)
+            return model_wrong(r, "unknown option", model_look(r));
+        if (directions & 1 << a)
+            return model_blame(r, "%s for the second time, expected: %s", name[a],
+                               model_form(r->s));
+        directions |= 1 << a;
+        if (model_skip(r, "by") && !model_number(r, &by[a]))
+            return 0;
+    }
+    directions = directions ? directions : BBM_XY;
+    for (int k = 0; k < r->chosen; k++) {
+        const int n = r->chosen_node[k];
+        for (int a = 0; a < 2; a++) {
+            if (directions & p->m->node[n].held & 1 << a && p->wall[n][a] != by[a])
+                return model_blame(r, "node %s is displaced by %g in %s here, by %g in another "
+                                      "statement, expected one of them", p->node[n], by[a],
+                                   name[a], p->wall[n][a]);
+            p->wall[n][a] = directions & 1 << a ? by[a] : p->wall[n][a];
+        }
+        p->moving |= by[0] != 0 || by[1] != 0;
+        bbm_fix_node(p->m, n, directions, 0, 0);
+    }
+    return 1;
+}
+
+/* What meets at a library node. */
+static int meeting(const bbm_model *m, int node)
+{
+    return m->adjacent_first[node + 1] - m->adjacent_first[node];
+}
+
+/* Each node of the file has the same share, and of that each element there. */
+int model_load_nodes(model_reader *r)
+{
+    bbm_model *m = r->p->m;
+    double f[2];
+
+    if (!where(r, 0) || !model_numbers(r, 2, f))
+        return 0;
+    for (int k = 0, end; k < r->chosen; k = end) {
+        int all = 0;
+        for (end = k;
+             end < r->chosen && r->p->node[r->chosen_node[end]] == r->p->node[r->chosen_node[k]];
+             end++)
+            all += meeting(m, r->chosen_node[end]);
+        for (int c = k; c < end; c++) {
+            const double share = (double)meeting(m, r->chosen_node[c]) / all / r->places;
+            bbm_add_load(m, r->chosen_node[c], share * f[0], share * f[1]);
+        }
+    }
+    return m->status ? model_blame(r, "loads too large to add up, expected finite ones") : 1;
+}
+
+/* Pa; of water: weight in N/m^3, level in m. */
+typedef struct { double t[2], pressure, weight, level; } edge_load;
+
+/* Loads the boundary edges with both ends in WHERE. */
+static int load_edges(model_reader *r, const edge_load *l)
+{
+    bbm_model *m = r->p->m;
+    char *in = model_room(r, m->nodes, 1);
+    int found = 0, wet = 0;
+
+    if (!in)
+        return 0;
+    for (int k = 0; k < r->chosen; k++)
+        in[r->chosen_node[k]] = 1;
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *a = &m->vertex[m->edge[e].a], *b = &m->vertex[m->edge[e].b];
+        const double t = m->element[m->edge[e].element].material.thickness;
+        if (!in[a->node] || !in[b->node])
+            continue;
+        found = 1;
+        wet |= fmin(a->y, b->y) < l->level;
+        if (l->weight > 0)
+            bbm_add_water(m, e, l->level, l->weight * t);
+        else
+            bbm_load_edge(m, e, l->t[0] * t, l->t[1] * t, l->pressure * t);
+    }
+    free(in);
+    if (!found)
+        return model_blame(r, "no boundary edge has both ends there, expected one");
+    if (l->weight > 0 && !wet)
+        return model_blame(r, "no edge there lies below y = %g, expected one under water",
+                           l->level);
+    if (m->status == BBM_NO_MEMORY)
+        return model_out_of_memory(r);
+    return m->status ? model_blame(r, "a load too large, expected a finite one") : 1;
+}
+
+int model_traction(model_reader *r)
+{
+    edge_load l = { { 0, 0 }, 0, 0, 0 };
+
+    return where(r, 0) && model_numbers(r, 2, l.t) && load_edges(r, &l);
+}
+
+int model_pressure(model_reader *r)
+{
+    edge_load l = { { 0, 0 }, 0, 0, 0 };
+
+    return where(r, 0) && model_numbers(r, 1, &l.pressure) && load_edges(r, &l);
+}
+
+int model_water(model_reader *r)
+{
+    const double *g = r->p->m->par.gravity;
+    double density = 1000;
+    edge_load l = { { 0, 0 }, 0, 0, 0 };
+    model_option o[] = { ABOVE_ZERO("density", &density) };
+
+    if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, LENGTH(o), o))
+        return 0;
+    l.weight = density * hypot(g[0], g[1]);
+    if (!(l.weight > 0))
+        return model_blame(r, "water without weight, expected gravity");
+    return load_edges(r, &l);
+}
+
+/* What is left out is as in `contact`. */
+int model_joint(model_reader *r)
+{
+    const bbm_parameters *p = &r->p->m->par;
+    double friction = p->friction, cohesion = p->cohesion, tension = p->tension;
+    model_option o[] = { ANGLE("friction", &friction), FROM_ZERO("cohesion", &cohesion),
+                         FROM_ZERO("tension", &tension) };
+    int block[2];
+
+    for (int k = 0; k < 2; k++) {
+        block[k] = -1;
+        if (!model_skip(r, "*") && (block[k] = model_next_block(r)) < 0)
+            return 0;
+    }
+    if (!model_options(r, LENGTH(o), o))
+        return 0;
+    r->p->slippery = 0;
+    if (r->no_shear)
+        friction = cohesion = 0;
+    return bbm_add_joint(r->p->m, block, friction, cohesion, tension) ? model_out_of_memory(r) : 1;
+}
+
+int model_velocities(model_reader *r)
+{
+    const int block = model_next_block(r);
+    model_velocity v = { { 0, 0, 0 }, 1 };
+
+    if (block < 0 || !model_number(r, &v.V[0]) || !model_number(r, &v.V[1])
+        || (model_look(r) && !model_number(r, &v.V[2])) || !model_at_end(r))
+        return 0;
+    if (r->p->velocity[block].given)
+        return model_blame(r, "a velocity of '%s' for the second time, expected one",
+                           r->block[block].name);
+    r->p->velocity[block] = v;
+    return 1;
+}
+
+int model_stress(model_reader *r)
+{
+    const int block = model_next_block(r);
+
+    if (block < 0)
+        return 0;
+    model_block *b = &r->block[block];
+    if (b->stressed++)
+        return model_blame(r, "a stress of '%s' for the second time, expected one", b->name);
+    return model_number(r, &b->stress[0]) && model_number(r, &b->stress[1])
+           && model_number(r, &b->stress[2]) && model_at_end(r);
+}
+
+int model_monitors(model_reader *r)
+{
+    const char *word = model_name(r);
+    model *p = r->p;
+
+    if (!word || !model_is_new(r, &r->monitor_of, "monitor", word) || !where(r, 1)
+        || !model_at_end(r))
+        return 0;
+    if (!model_grow(r, &p->monitor, p->monitors, sizeof *p->monitor)
+        || !model_enter(r, &r->monitor_of, word, p->monitors))
+        return 0;
+    model_monitor *m = &p->monitor[p->monitors++];
+    *m = (model_monitor){ word, 0, NULL };
+    for (int k = 0; k < r->chosen; k++) {
+        if (!model_grow(r, &m->node, m->nodes, sizeof *m->node))
+            return 0;
+        m->node[m->nodes++] = r->chosen_node[k];
+    }
+    return 1;
+}
+
+/* What the statements have noted for each block goes to its nodes and elements; statics must be
+ * held. */
+int model_finish(model_reader *r)
+{
+    model *p = r->p;
+
+    for (int n = 0; n < p->m->nodes; n++)
+        if (r->block[p->node_block[n]].fixed)
+            bbm_fix_node(p->m, n, BBM_XY, 0, 0);
+    for (int e = 0; e < p->m->elements; e++)
+        memcpy(p->m->element[e].stress, r->block[p->m->element[e].block].stress,
+               sizeof p->m->element[e].stress);
+    p->block = model_room(r, r->blocks, sizeof *p->block);
+    for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
+        p->block[p->blocks] = r->block[p->blocks].name;
+    int loose;
+    if (p->status)
+        return 0;
+    if (bbm_find_mechanism(p->m, &loose))
+        return model_out_of_memory(r);
+    if (loose >= 0)
+        return model_fail(r, r->element[loose].at,
+                          "the elements of block '%s' are bonded at midpoints and can turn against "
+                          "each other, expected: bond at moment",
+                          p->block[p->m->element[loose].block]);
+    const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
+    if (status == BBM_FREE_TO_MOVE)
+        return model_fail(r, (model_place){ r->path, 0 },
+                          "block '%s' is free to move, expected fix, fixblock or a "
+                          "contact that holds it in statics",
+                          p->block[p->m->element[p->m->blamed[0]].block]);
+    if (status)
+        return model_refused(r, status);
+    return !p->status;
+}

@@ -1,0 +1,441 @@
+/* reader.c - what the readers of files share: errors, memory, tables of names, and the words,
+ * numbers and options of a statement. */
+#include <ctype.h>
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "reader.h"
+
+enum { LARGEST = 1 << 28 };     /* bytes of a file: a longer one, or one without end, is no model */
+
+/* ------------------------------------------------------------------------ errors, memory, words */
+
+/* The first error stays. */
+static int note(model_reader *r, model_place at, const char *format, va_list args)
+{
+    char *message = r->p->message;
+    const size_t room = sizeof r->p->message;
+
+    if (r->p->status)
+        return 0;
+    r->p->status = 2;
+    size_t used = (size_t)snprintf(message, room, "%.200s:", at.file);
+    if (at.line > 0)
+        used += (size_t)snprintf(message + used, room - used, "%d:", at.line);
+    message[used++] = ' ';
+    vsnprintf(message + used, room - used, format, args);
+    for (char *c = message; *c; c++)
+        if (iscntrl((unsigned char)*c))
+            *c = '?';
+    return 0;
+}
+
+int model_fail(model_reader *r, model_place at, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    note(r, at, format, args);
+    va_end(args);
+    return 0;
+}
+
+int model_blame(model_reader *r, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    note(r, r->s->at, format, args);
+    va_end(args);
+    return 0;
+}
+
+int model_out_of_memory(model_reader *r)
+{
+    model_fail(r, (model_place){ r->path, 0 }, "out of memory");
+    r->p->status = 1;
+    return 0;
+}
+
+/* No line is to blame for that. */
+int model_refused(model_reader *r, bbm_status status)
+{
+    if (status == BBM_NO_MEMORY)
+        return model_out_of_memory(r);
+    return model_fail(r, (model_place){ r->path, 0 }, "%.400s",
+                      *bbm_message(r->p->m) ? bbm_message(r->p->m) : bbm_status_text(status));
+}
+
+/* The room is a power of two, 16 at least: when the count has reached it, it is doubled. */
+int model_grow(model_reader *r, void *array, int count, size_t size)
+{
+    void **a = array, *more;
+
+    if (count != 0 && (count < 16 || (count & (count - 1)) != 0))
+        return 1;
+    more = count > INT_MAX / 4 ? NULL : realloc(*a, (count == 0 ? 16 : 2 * (size_t)count) * size);
+    if (!more)
+        return model_out_of_memory(r);
+    *a = more;
+    return 1;
+}
+
+void *model_room(model_reader *r, int count, size_t size)
+{
+    void *p = calloc((size_t)count + 1, size);
+
+    if (!p)
+        model_out_of_memory(r);
+    return p;
+}
+
+/* Room for a text that is kept until model_free; NULL: no memory. */
+char *model_text(model_reader *r, size_t size)
+{
+    model *p = r->p;
+    char *text = model_grow(r, &p->text, p->texts, sizeof *p->text) ? calloc(size + 1, 1) : NULL;
+
+    if (text)
+        p->text[p->texts++] = text;
+    else
+        model_out_of_memory(r);
+    return text;
+}
+
+/* The place of a key in the table, or the empty one where it belongs; FNV-1a. */
+static int place_of(const model_table *t, const char *key)
+{
+    unsigned hash = 2166136261u;
+
+    for (const char *c = key; *c; c++)
+        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    int i = (int)(hash & (unsigned)(t->room - 1));
+    while (t->key[i] && strcmp(t->key[i], key) != 0)
+        i = (i + 1) & (t->room - 1);
+    return i;
+}
+
+int model_find(const model_table *t, const char *key)
+{
+    const int i = t->room ? place_of(t, key) : 0;
+
+    return t->room && t->key[i] ? t->value[i] : -1;
+}
+
+int model_enter(model_reader *r, model_table *t, const char *key, int value)
+{
+    if (2 * t->count >= t->room) {
+        const int room = t->room ? 2 * t->room : 64;
+        model_table larger = { room, t->count, model_room(r, room, sizeof(int)),
+                               model_room(r, room, sizeof(char *)) };
+        for (int k = 0; k < t->room && larger.value && larger.key; k++)
+            if (t->key[k]) {
+                const int to = place_of(&larger, t->key[k]);
+                larger.key[to] = t->key[k];
+                larger.value[to] = t->value[k];
+            }
+        model_table *old = larger.value && larger.key ? t : &larger;
+        free(old->value);
+        free((void *)old->key);
+        if (old == &larger)
+            return 0;
+        *t = larger;
+    }
+    const int i = place_of(t, key);
+    t->count += t->key[i] == NULL;
+    t->key[i] = key;
+    t->value[i] = value;
+    return 1;
+}
+
+/* The whole file as a text with a 0 behind it, kept until model_free; NULL after an error. */
+char *model_load(model_reader *r, const char *path, model_place at, size_t *size)
+{
+    model *p = r->p;
+    FILE *f = path == r->path && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    size_t room = 65536, got = 1;
+    char *text = f ? malloc(room) : NULL;
+
+    *size = 0;
+    while (text && got > 0 && *size < LARGEST - 1) {
+        got = fread(text + *size, 1, room - 1 - *size, f);
+        *size += got;
+        if (*size == room - 1 && room < LARGEST) {
+            char *more = realloc(text, room *= 2);
+            if (!more)
+                free(text);
+            text = more;
+        }
+    }
+    const int bad = !f || ferror(f), why = errno;
+    if (bad)
+        model_fail(r, at, "%.200s cannot be read: %s", path, strerror(why));
+    else if (*size == LARGEST - 1)
+        model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
+    else if (!text || !model_grow(r, &p->text, p->texts, sizeof *p->text))
+        model_out_of_memory(r);
+    if (f && f != stdin)
+        fclose(f);
+    if (p->status) {
+        free(text);
+        return NULL;
+    }
+    text[*size] = '\0';
+    return p->text[p->texts++] = text;
+}
+
+/* How many letters, large or small, are to be changed, added or taken away (Levenshtein 1966). */
+static int distance(const char *a, const char *b)
+{
+    enum { MOST = 40 };
+    int row[MOST + 1], n = 0;
+
+    for (; n < MOST && b[n]; n++)
+        row[n] = n;
+    row[n] = n;
+    for (int i = 0; i < MOST && a[i]; i++) {
+        int diagonal = row[0]++;
+        for (int k = 0; k < n; k++) {
+            const int change =
+                diagonal + (tolower((unsigned char)a[i]) != tolower((unsigned char)b[k]));
+            diagonal = row[k + 1];
+            const int other = (row[k] < diagonal ? row[k] : diagonal) + 1;
+            row[k + 1] = change < other ? change : other;
+        }
+    }
+    return row[n];
+}
+
+const char *model_nearest(const char *word, const void *names, int n, size_t stride, char text[200])
+{
+    const char *found[3] = { NULL, NULL, NULL };
+    int d[3] = { INT_MAX, INT_MAX, INT_MAX };
+
+    for (int k = 0; k < n; k++) {
+        const char *const name = *(const char *const *)((const char *)names + (size_t)k * stride);
+        int at = 3;
+        const int far = name ? distance(word, name) : INT_MAX;
+        for (; at > 0 && name
+               && (far < d[at - 1] || (far == d[at - 1] && strcmp(name, found[at - 1]) < 0));
+             at--)
+            if (at < 3)
+                found[at] = found[at - 1], d[at] = d[at - 1];
+        if (at < 3)
+            found[at] = name, d[at] = far;
+    }
+    text[0] = '\0';
+    for (int k = 0; k < 3 && found[k]; k++)
+        snprintf(text + strlen(text), 200 - strlen(text), "%s%.60s", k ? ", " : "", found[k]);
+    return text;
+}
+
+const char *model_nearest_of(const model_table *t, const char *word, char text[200])
+{
+    return model_nearest(word, (const void *)t->key, t->room, sizeof *t->key, text);
+}
+
+int model_unknown(model_reader *r, const model_table *t, const char *what, const char *word)
+{
+    char text[200];
+
+    if (t->count == 0)
+        return model_blame(r, "unknown %s '%.60s': the model has none", what, word);
+    return model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", what,
+                       word,
+                       model_nearest_of(t, word, text));
+}
+
+int model_is_name(const char *word)
+{
+    return *word && word[strspn(word, MODEL_NAME)] == '\0';
+}
+
+int model_wrong(model_reader *r, const char *what, const char *word)
+{
+    return model_blame(r, "%s '%.60s', expected: %s", what, word, model_form(r->s));
+}
+
+/* The word that comes next stays; NULL at the end. */
+char *model_look(const model_reader *r)
+{
+    return r->next < r->s->n ? r->word[r->s->first + r->next] : NULL;
+}
+
+char *model_word(model_reader *r)
+{
+    char *word = model_look(r);
+
+    if (word)
+        r->next++;
+    else
+        model_blame(r, "a word is missing, expected: %s", model_form(r->s));
+    return word;
+}
+
+/* Takes the next word if it is this one. */
+int model_skip(model_reader *r, const char *word)
+{
+    const int there = model_look(r) && strcmp(model_look(r), word) == 0;
+
+    r->next += there;
+    return there;
+}
+
+int model_keyword(model_reader *r, const char *word)
+{
+    if (model_skip(r, word))
+        return 1;
+    return model_look(r) ? model_blame(r, "not the word %s: '%.60s', expected: %s", word,
+                                       model_look(r), model_form(r->s))
+                         : model_word(r) != NULL;
+}
+
+int model_at_end(model_reader *r)
+{
+    return model_look(r) ? model_wrong(r, "surplus word", model_look(r)) : 1;
+}
+
+int model_number(model_reader *r, double *x)
+{
+    char *word = model_word(r), *end;
+
+    if (!word)
+        return 0;
+    *x = strtod(word, &end);
+    if (*word == '\0' || *end != '\0' || strpbrk(word, "xXpP"))
+        return model_wrong(r, "not a number:", word);
+    if (!isfinite(*x))
+        return model_wrong(r, "not a finite number:", word);
+    return 1;
+}
+
+/* The last words of a statement. */
+int model_numbers(model_reader *r, int n, double x[])
+{
+    for (int k = 0; k < n; k++)
+        if (!model_number(r, &x[k]))
+            return 0;
+    return model_at_end(r);
+}
+
+int model_whole(model_reader *r, const char *what, int least, int *n)
+{
+    char *word = model_word(r), *end;
+
+    if (!word)
+        return 0;
+    errno = 0;
+    const long value = strtol(word, &end, 10);
+    if (*end != '\0' || end == word)
+        return model_wrong(r, "not a whole number:", word);
+    if (value < least)
+        return model_blame(r, "%s is %ld, expected a whole number, %d or more", what, value, least);
+    if (errno || value > INT_MAX / 2)
+        return model_wrong(r, "too large:", word);
+    *n = (int)value;
+    return 1;
+}
+
+const char *model_name(model_reader *r)
+{
+    const char *word = model_word(r);
+
+    if (word && !model_is_name(word))
+        return model_wrong(r, "not a name (letters, digits, _ - .):", word), NULL;
+    return word;
+}
+
+/* An id is a whole number; zeros before it do not count. */
+const char *model_id(model_reader *r)
+{
+    const char *word = model_word(r);
+
+    if (word && word[strspn(word, "0123456789")] != '\0')
+        return model_wrong(r, "an id is a whole number, not", word), NULL;
+    while (word && word[0] == '0' && word[1] != '\0')
+        word++;
+    return word;
+}
+
+/* The number that a word stands for in a table; -1 after an error. */
+int model_known(model_reader *r, const model_table *t, const char *what, const char *word)
+{
+    const int found = word ? model_find(t, word) : -1;
+
+    if (word && found < 0)
+        model_unknown(r, t, what, word);
+    return found;
+}
+
+int model_next_block(model_reader *r)
+{
+    return model_known(r, &r->block_of, "block", model_word(r));
+}
+
+int model_is_new(model_reader *r, const model_table *t, const char *what, const char *word)
+{
+    if (model_find(t, word) >= 0)
+        return model_blame(r, "%s '%.60s' for the second time, expected a new one", what, word);
+    return 1;
+}
+
+/* -------------------------------------------------------------------------------------- options */
+
+int model_choice(model_reader *r, const char *choices, int *n)
+{
+    const char *word = model_word(r);
+    const size_t length = word ? strlen(word) : 0;
+
+    *n = 0;
+    for (const char *c = choices; word && c; c = strchr(c, '|'), *n += 1) {
+        c += *c == '|';
+        if (strncmp(c, word, length) == 0 && (c[length] == '|' || c[length] == '\0'))
+            return 1;
+    }
+    return word ? model_blame(r, "'%.60s', expected one of %s", word, choices) : 0;
+}
+
+static int in_range(model_reader *r, const model_option *o)
+{
+    const double x = *o->x;
+    const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
+                     && (o->rim[1] == ']' ? x <= o->high : x < o->high);
+
+    return good ? 1 : model_blame(r, "%s is %g, expected %s", o->name, x, o->expected);
+}
+
+static int option_value(model_reader *r, model_option *o)
+{
+    if (o->seen)
+        return model_blame(r, "%s for the second time, expected: %s", o->name, model_form(r->s));
+    o->seen = 1;
+    if (o->flag)
+        return *o->flag = 1;
+    if (o->choices)
+        return model_choice(r, o->choices, o->n);
+    if (o->n)
+        return model_whole(r, o->name, o->least, o->n);
+    return model_number(r, o->x) && in_range(r, o);
+}
+
+int model_options(model_reader *r, int n, model_option o[])
+{
+    while (model_look(r)) {
+        int k = 0;
+        while (k < n && !model_skip(r, o[k].name))
+            k++;
+        if (k == n)
+            return model_wrong(r, "unknown option", model_look(r));
+        if (!option_value(r, &o[k]))
+            return 0;
+    }
+    for (int k = 0; k < n; k++)
+        if (o[k].needed && !o[k].seen)
+            return model_blame(r, "%s is missing, expected: %s", o[k].name, model_form(r->s));
+    return 1;
+}

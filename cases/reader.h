@@ -1,0 +1,166 @@
+/* reader.h - what the readers of model files share: reader.c, model.c, build.c, msh.c.
+ *
+ * Reading has three steps: the file is cut into statements and words; the statements are carried
+ * out in an order in which each finds what it needs; the first error ends it all with one
+ * sentence, FILE:LINE: what is wrong, and what was expected. msh.c does the same for mesh files
+ * and puts nodes, elements and sets in the same reader.
+ *
+ * Every function of a statement takes its words one by one and returns 1, or 0 after model_fail.
+ * Words are never copied: names and ids point into texts that are kept until model_free.
+ */
+#ifndef READER_H
+#define READER_H
+
+#include <stddef.h>
+
+#include "model.h"
+
+typedef struct { const char *file; int line; } model_place;     /* line 0: none is to blame */
+typedef struct {                /* from a word to a number                                          */
+    int room, count, *value;
+    const char **key;
+} model_table;
+
+typedef struct {                /* words first .. first+n-1                                         */
+    model_place at;
+    int first, n, kind;
+} model_statement;
+
+typedef struct {
+    const char *id;
+    double x, y;
+    model_place at;
+    int by_hand, first, mark;   /* first copy, or -1; the last statement that named it */
+} model_node;
+
+typedef struct {                /* corner[first .. first+n-1] */
+    const char *id;
+    model_place at;
+    int block, material, first, n;
+} model_element;
+
+typedef struct {
+    const char *name;
+    model_place at;
+    int material, meshed, fixed, stressed;      /* material: by `use`, or -1 */
+    double stress[3];
+} model_block;
+
+/* dimensions: bits, of points, curves, surfaces of a mesh. A copy is that of a node for a block: its
+ * library node, and the next copy, or -1. */
+typedef struct { int n, *node, dimensions; } model_set;
+typedef struct { int node, block, next; } model_copy;
+
+typedef struct {
+    model *p;
+    const char *path;                       /* of the model file */
+    int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
+    char *const *let;                       /* [lets]       NAME=VALUE of the command line */
+    char **word;                            /* [words] */
+    model_statement *statement;             /* [statements] */
+    model_node *node;
+    model_element *element;
+    int *corner;                            /* [corners]    nodes of the elements */
+    model_block *block;
+    bbm_material *material;
+    model_set *set;
+    model_copy *copy;
+    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of;
+    long long last[2];                   /* the largest id of a node, of an element; 0: not known */
+    int other_material;                     /* of `use MATERIAL on *`, or -1 */
+    int plane_strain, no_shear;             /* no_shear: ks is 0 */
+    int chosen, places, *chosen_node;     /* what the last WHERE names: library nodes, of so many */
+                                            /* nodes of the file */
+    double low[2], high[2], margin;    /* m    the model's box; lengths below the margin are none */
+    const model_statement *s;               /* in hand, and its next word */
+    int next;
+    model_place seen[40];                   /* where a statement that makes sense once stands */
+} model_reader;
+
+/* --- errors, memory, tables: reader.c --- */
+/* They return 0; the first message stays. model_blame: at the statement in hand. */
+int   model_fail(model_reader *r, model_place at, const char *format, ...);
+int   model_blame(model_reader *r, const char *format, ...);
+int   model_out_of_memory(model_reader *r);
+int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
+/* Room for one more; 0: no memory. */
+int   model_grow(model_reader *r, void *array, int count, size_t size);
+void *model_room(model_reader *r, int count, size_t size);      /* zeros, and one more; or NULL */
+char *model_text(model_reader *r, size_t size);                 /* kept until model_free */
+/* With a 0 behind it; or NULL. */
+char *model_load(model_reader *r, const char *path, model_place at, size_t *size);
+int   model_find(const model_table *t, const char *key);        /* -1: not there */
+int   model_enter(model_reader *r, model_table *t, const char *key, int value);
+int   model_is_name(const char *word);
+/* The nearest ones to a word among n, `stride` bytes from name to name, NULL: none; as text. */
+const char *model_nearest(const char *word, const void *names, int n, size_t stride,
+                          char text[200]);
+const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
+int   model_unknown(model_reader *r, const model_table *t, const char *what, const char *word);
+
+/* --- words of the statement in hand: reader.c --- */
+const char *model_form(const model_statement *s);               /* model.c */
+int   model_wrong(model_reader *r, const char *what, const char *word);
+char *model_look(const model_reader *r);           /* the word that comes next, it stays; or NULL */
+char *model_word(model_reader *r);
+int   model_skip(model_reader *r, const char *word);     /* takes the next word if it is this one */
+int   model_keyword(model_reader *r, const char *word);        /* this one must come next */
+int   model_at_end(model_reader *r);
+int   model_number(model_reader *r, double *x);
+int   model_numbers(model_reader *r, int n, double x[]);        /* and nothing behind them */
+int   model_whole(model_reader *r, const char *what, int least, int *n);
+const char *model_name(model_reader *r);
+const char *model_id(model_reader *r);
+int   model_known(model_reader *r, const model_table *t, const char *what, const char *word);
+int   model_is_new(model_reader *r, const model_table *t, const char *what, const char *word);
+int   model_next_block(model_reader *r);
+int   model_choice(model_reader *r, const char *choices, int *n);
+
+/* `word value`, in any order, each once. One of: a number (low to high, with the rims of `rim`), a
+ * whole number, a choice (its place in the list), a flag without a value. */
+typedef struct {
+    const char *name;
+    double *x, low, high;
+    const char *rim, *expected;     /* rim: [] both in, () both out, and so on */
+    int    *n, least;
+    const char *choices;            /* "a|b|c" */
+    int    *flag;
+    int    needed, seen;
+} model_option;
+
+int   model_options(model_reader *r, int n, model_option o[]);
+
+#define RANGE(text, where, from, to, rims, words) \
+    { .name = text, .x = where, .low = from, .high = to, .rim = rims, .expected = words }
+#define ABOVE_ZERO(text, where) RANGE(text, where, 0, INFINITY, "()", "more than 0")
+#define FROM_ZERO(text, where) RANGE(text, where, 0, INFINITY, "[)", "0 or more")
+#define ANGLE(text, where) RANGE(text, where, 0, 90, "[)", "0 to less than 90 degrees")
+#define COUNT(t_text, t_where, t_least) { .name = t_text, .n = t_where, .least = t_least }
+#define CHOICE(text, where, list) { .name = text, .n = where, .choices = list }
+/* The letters of a name. */
+#define MODEL_NAME "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-."
+#define LENGTH(array) ((int)(sizeof array / sizeof *array))
+
+/* --- nodes, elements, blocks and sets: model.c --- */
+int   model_add_node(model_reader *r, const model_node *n);
+int   model_add_element(model_reader *r, const model_element *e, const int corner[]);
+/* A new one if need be; -1: no memory. */
+int   model_find_block(model_reader *r, const char *name, model_place at);
+int   model_find_set(model_reader *r, const char *name);
+int   model_add_to_set(model_reader *r, int set, int node);
+int   model_read_mesh(model_reader *r, const char *path, model_place at);   /* in msh.c */
+
+/* --- the library's model, and the statements that need it: build.c --- */
+int   model_build(model_reader *r);
+int   model_finish(model_reader *r);
+int   model_fix(model_reader *r);
+int   model_load_nodes(model_reader *r);
+int   model_traction(model_reader *r);
+int   model_pressure(model_reader *r);
+int   model_water(model_reader *r);
+int   model_velocities(model_reader *r);
+int   model_stress(model_reader *r);
+int   model_joint(model_reader *r);
+int   model_monitors(model_reader *r);
+
+#endif

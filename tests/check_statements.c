@@ -1,0 +1,525 @@
+/* check_statements.c - what the statements of model files compute, against theory: plane strain,
+ * water, supports that move, the strength of each joint; forces of contacts and supports; models
+ * that check themselves; numbers with a name. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "programs.h"
+
+#define ROCK "material rock E 1e10 nu 0.25 density 2500\n"
+
+/* The sum of a column of out/model/NAME/FILE over the rows that contain `part`. */
+static double sum(const char *name, const char *file, const char *column, const char *part)
+{
+    char text[LONG];
+
+    ck_assert_int_eq(shell("awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == \"%s\") c = k; "
+                           "next } "
+                           "/%s/ { s += $c } END { printf \"%%.15g\", s }' out/model/%s/%s > "
+                           "out/model/sum",
+                           column, part, name, file),
+                     0);
+    return strtod(slurp("out/model/sum", text), NULL);
+}
+
+/* --------------------------------------------------------------------------------- plane strain */
+
+START_TEST(a_bar_in_plane_strain_is_stiffer)
+{
+    static const char *const cut[] = { "quads", "triangles", "crossed" };
+    const double E = 1e9, nu = 0.4, s = 1e6, L = 4;
+    char text[LONG];
+
+    snprintf(text, sizeof text, "plane strain\nmaterial a E %g nu %g density 1 thickness 0.5\n"
+             "grid bar a 0 0 %g 1 8 2 %s\nfix set bar.left x\nfix at 0 0 y\n"
+             "traction set bar.right %g 0\nstatic\nmonitor end at 4 1\n", E, nu, L, cut[_i], s);
+    ck_assert_int_eq(run_text("strain", text), 0);
+    /* ex = s (1 - nu^2)/E, ey = -s nu (1 + nu)/E, szz = nu s; the bonds give way to 1e-6 of it */
+    const double ex = s * (1 - nu * nu) / E, mises = s * sqrt(1 + nu * nu - nu);
+    ck_relative(cell("strain", "history.csv", "1,", "end_u"), ex * L, 1e-6);
+    ck_relative(cell("strain", "history.csv", "1,", "end_v"), -s * nu * (1 + nu) / E, 1e-5);
+    ck_relative(cell("strain", "elements.csv", "1,", "mises"), mises, 1e-5);
+    ck_relative(cell("strain", "nodes.csv", "1,", "mises"), mises, 1e-5);
+    ck_relative(cell("strain", "summary.csv", "1,", "elastic"), s * ex / 2 * L * 0.5, 1e-5);
+    ck_relative(sum("strain", "reactions.csv", "fx", ""), -s * 0.5, 1e-8);
+}
+END_TEST
+
+/* A quarter of a tube under pressure from inside, a = 1 m, b = 2 m: 12 rings of 16 cells. */
+static void write_tube(const char *plane, double E, double nu, double p)
+{
+    FILE *f = fopen("out/model/tube.model", "w");
+
+    ck_assert_ptr_nonnull(f);
+    fprintf(f, "plane %s\nmaterial a E %g nu %g density 1\n", plane, E, nu);
+    for (int k = 0; k < 13 * 17; k++) {
+        const double r = 1 + k / 17 / 12.0, phi = k % 17 / 16.0 * acos(-1) / 2;
+        fprintf(f, "node %d %.12g %.12g\n", k + 1, r * cos(phi), k % 17 == 16 ? r : r * sin(phi));
+    }
+    for (int k = 0; k < 12 * 16; k++) {
+        const int a = k / 16 * 17 + k % 16 + 1;
+        fprintf(f, "element %d tube a %d %d %d %d\n", k + 1, a, a + 17, a + 18, a + 1);
+    }
+    fprintf(f, "set inside nodes");
+    for (int k = 1; k <= 17; k++)
+        fprintf(f, " %d", k);
+    fprintf(f, "\nfix box 0 0 2 0 y\nfix box -1e-9 1 1e-9 2 x\npressure set inside %g\nstatic\n"
+            "monitor in node 1\nmonitor out at 2 0\n", p);
+    fclose(f);
+}
+
+START_TEST(a_thick_walled_tube_widens_as_lame_says)
+{
+    const double E = 1e10, nu = 0.3, p = 1e6, a = 1, b = 2;
+    const double E1 = _i ? E / (1 - nu * nu) : E, n = _i ? nu / (1 - nu) : nu;
+
+    write_tube(_i ? "strain" : "stress", E, nu, p);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/tube.model -o out/model/tube", BUILD), 0);
+    /* u(r) = p a^2/(E (b^2 - a^2)) ((1 - nu) r + (1 + nu) b^2/r), with E1, n in plane strain; the
+     * polygon of 16 sides is off by (pi/32)^2/2 = 0.5 % */
+    const double c = p * a * a / (E1 * (b * b - a * a));
+    ck_relative(cell("tube", "history.csv", "1,", "in_u"), c * ((1 - n) * a + (1 + n) * b * b / a),
+                0.01);
+    ck_relative(cell("tube", "history.csv", "1,", "out_u"), c * ((1 - n) * b + (1 + n) * b), 0.01);
+    /* the supports hold half the tube together: p a on each */
+    ck_relative(sum("tube", "reactions.csv", "fx", ""), -p * a, 1e-6);
+    ck_relative(sum("tube", "reactions.csv", "fy", ""), -p * a, 1e-6);
+}
+END_TEST
+
+/* --------------------------------------------------------------------------- water and supports */
+
+/* The levels cross an edge, run through a node, lie above the crest. */
+static const double levels[] = { 16.5, 16, 25, 0.1 };
+
+START_TEST(a_dam_carries_the_force_of_the_water_to_its_base)
+{
+    const double h = levels[_i], over = fmax(0, h - 20), g = 10, rho = 1030;
+    const double force = rho * g * (h * h - over * over) / 2, top = h - over;
+    char text[LONG];
+
+    snprintf(text, sizeof text, "plane strain\nmaterial concrete E 25e9 nu 0.2 density 2400\n"
+             "grid dam concrete 0 0 8 20 4 10\nfix set dam.bottom\ngravity 0 -10\n"
+             "water set dam.left %g density 1030\nstatic\n", h);
+    ck_assert_int_eq(run_text("water", text), 0);
+    ck_relative(sum("water", "reactions.csv", "fx", ""), -force, 1e-6);
+    ck_relative(sum("water", "reactions.csv", "fy", ""), 8 * 20 * 2400 * g, 1e-6);
+    /* Moment about the middle of the base: int rho g (h - y) y dy over the wet height */
+    double turning = 0;
+    for (int k = 1; k <= 5; k++) {
+        char row[10];
+        snprintf(row, sizeof row, "%d,", k);
+        turning += cell("water", "reactions.csv", row, "fy") * (2 * (k - 1) - 4);
+    }
+    ck_near(turning, rho * g * (h * top * top / 2 - top * top * top / 3),
+            rho * g * 20 * 20 * 20 / 6, 1e-6);
+}
+END_TEST
+
+START_TEST(the_shipped_dam_stands_against_its_water)
+{
+    ck_assert_int_eq(shell("%s/bbm -q cases/models/dam.model -o out/model/dammed", BUILD), 0);
+    /* It sinks by 0.1 mm, and so gets 2/160,000 more. */
+    ck_relative(sum("dammed", "reactions.csv", "fx", ""), -1000 * 9.81 * 16 * 16 / 2, 2e-5);
+    /* The joint leans by 1e-5, and so the water presses on it, too. */
+    ck_relative(sum("dammed", "contacts.csv", "normal", "^dam,rock"),
+                2400 * 9.81 * 16 * (12 + 3) / 2, 1e-5);
+}
+END_TEST
+
+START_TEST(reactions_balance_forces_and_moments_however_elements_are_bonded)
+{
+    static const char *const cut[] = { "quads", "triangles", "crossed" };
+    char text[LONG], said[LONG];
+
+    snprintf(text, sizeof text, ROCK "grid a rock 0 0 4 1 6 2 %s\nfix set a.left\nfix at 4 0 y\n"
+             "load at 4 1 2e5 -1e5\ngravity 0 -10\nbond at %s\n%s\n", cut[_i % 3],
+             _i < 6 ? "moment" : "vertices", _i / 3 % 2 ? "static" : "dynamic dt 0.01 steps 400 damping 0.9");
+    ck_assert_int_eq(run_text("held", text), 0);
+    ck_relative(sum("held", "reactions.csv", "fx", ""), -2e5, 1e-5);
+    ck_relative(sum("held", "reactions.csv", "fy", ""), 1e5 + 1e5, 1e-5);
+    /* About the origin: the load, and the weight of 100 kN at x = 2 m. */
+    ck_assert_int_eq(shell("awk -F, 'NR > 1 { m += $2 * $5 - $3 * $4 } END { printf \"%%.15g\", m }' "
+                           "out/model/held/reactions.csv > out/model/sum"), 0);
+    ck_relative(strtod(slurp("out/model/sum", said), NULL), 4 * 1e5 + 1 * 2e5 + 2 * 1e5, 1e-3);
+}
+END_TEST
+
+/* A bar between two walls, one of which moves; slowly, so that the middle follows. */
+static const char *const pulled[] = { "static", "static steps 3",
+                                      "dynamic dt 0.001 steps 1000 ramp 0.8" };
+
+START_TEST(a_support_that_moves_pulls_its_bar)
+{
+    char text[LONG];
+
+    snprintf(text, sizeof text,
+             "material a E 1e9 nu 0.3 density 1000\ngrid bar a 0 0 4 1 8 2\nfix set bar.left x\n"
+             "fix at 0 0 y\nfix set bar.right x by 0.004\n%s\nmonitor middle at 2 0\nmonitor end "
+             "at 4 0\n",
+             pulled[_i]);
+    ck_assert_int_eq(run_text("pulled", text), 0);
+    const double most = _i == 2 ? 2e-3 : 1e-3;   /* u/L = 1e-3 more in dynamics */
+    ck_relative(cell("pulled", "history.csv", "", "end_u"), 0.004, 1e-5);
+    ck_relative(cell("pulled", "history.csv", "", "middle_u"), 0.002, most);
+    const double right = cell("pulled", "reactions.csv", "9,", "fx")
+                         + cell("pulled", "reactions.csv", "18,", "fx")
+                         + cell("pulled", "reactions.csv", "27,", "fx");
+    ck_relative(right, 1e6, most);
+    ck_near(sum("pulled", "reactions.csv", "fx", ""), 0, 1e6, 1e-5);
+    /* E A u^2/(2 L); in dynamics the support's work is that */
+    ck_relative(cell("pulled", "summary.csv", "", "elastic"), 1e9 * 0.004 * 0.004 / 8, 3 * most);
+    if (_i == 2)
+        ck_relative(cell("pulled", "summary.csv", "", "external"), 1e9 * 0.004 * 0.004 / 8,
+                    3 * most);
+}
+END_TEST
+
+START_TEST(a_support_that_moves_carries_its_block_along)
+{
+    ck_assert_int_eq(run_text("carried", ROCK "block table rock 0 0 4 0 4 1 0 1\nblock stone rock "
+                                              "1 1 2 1 2 2 1 2\n"
+                                              "fixblock table\nfix set table x by 0.1\ngravity 0 "
+                                              "-10\ncontact friction 40\n"
+                                              "dynamic dt 0.01 steps 100 settle 20\nmonitor stone "
+                                              "at 1 2\nexpect stone u 0.1 within 1 %\n"),
+                     0);
+    ck_relative(sum("carried", "reactions.csv", "fy", ""), 5 * 25000.0,
+                0.01);                      /* it rocks a little */
+}
+END_TEST
+
+/* ------------------------------------------------------------------------------------- contacts */
+
+START_TEST(two_joints_on_one_slope_have_their_own_friction)
+{
+    static const char *const order[] = { "joint low base friction 10\njoint * * friction "
+                                         "35\ncontact friction 89\n",
+                                         "joint base low friction 10\ncontact friction 35\n" };
+    const double a = 20 * acos(-1) / 180, g = 9.81, tan10 = tan(acos(-1) / 18);
+    char text[LONG];
+
+    snprintf(text, sizeof text,
+             ROCK "block base rock 0 0 20 %.12g 20 -9 0 -9\nblock low rock 1 %.12g 3 %.12g 3.5 1 "
+                  "1.5 1\n"
+                  "block high rock 8 %.12g 10 %.12g 10.5 0 8.5 0\nfixblock base\ngravity 0 "
+                  "-9.81\n%s"
+                  "dynamic dt 0.005 steps 200\nmonitor low at 1 -0.4 of low\nmonitor high at 8 -3 "
+                  "of high\n"
+                  "expect high stays by 1e-5\n",
+             -20 * tan(a), -tan(a), -3 * tan(a), -8 * tan(a), -10 * tan(a), order[_i]);
+    ck_assert_int_eq(run_text("joints", text), 0);       /* its springs give way by 1e-6 m */
+    ck_relative(cell("joints", "history.csv", "200,", "low_u"),
+                g * (sin(a) - cos(a) * tan10) / 2 * cos(a), 1e-3);
+    ck_assert_int_eq(shell("grep -c '^low,.*SLIDE' out/model/joints/contacts.csv > out/model/said"),
+                     0);
+}
+END_TEST
+
+/* A lump of 49 kN hangs from 1 m^2 of a joint; 60 kPa hold it, 40 kPa do not. The first joint that
+ * fits counts. */
+START_TEST(a_joint_holds_by_its_own_tensile_strength)
+{
+    static const struct { const char *joints; int status; } table[] = {
+        { "joint roof lump tension 60e3\njoint * * tension 40e3\n", 0 },
+        { "joint * * tension 40e3\njoint roof lump tension 60e3\n", 3 },
+        { "contact tension 60e3\n", 0 }, { "contact tension 40e3\n", 3 },
+        { "contact tension 60e3\njoint lump roof friction 20\n", 0 },
+        { "contact tension 60e3\njoint lump * tension 0\n", 3 },
+    };
+    char text[LONG];
+
+    snprintf(text, sizeof text,
+             ROCK "block roof rock 0 2 3 2 3 3 0 3\nblock lump rock 1 0 2 0 2 2 1 2\nfixblock "
+                  "roof\n%s"
+                  "gravity 0 -9.81\ndynamic dt 0.001 steps 200 settle 100\nmonitor lump at 1 "
+                  "0\nexpect lump stays by 1e-3\n",
+             table[_i].joints);
+    ck_assert_int_eq(run_text("hangs", text), table[_i].status);
+}
+END_TEST
+
+START_TEST(contacts_and_reactions_carry_the_weight)
+{
+    ck_assert_int_eq(run_text("stack", ROCK "grid table rock 0 0 4 1 4 1\nblock a rock 1 1 2 1 2 2 "
+                                            "1 2\n"
+                                            "block b rock 1 2 2 2 2 3 1 3\nfix set "
+                                            "table.bottom\ngravity 0 -10\ncontact friction 30\n"
+                                            "static steps 5\noutput vtk\n"),
+                     0);
+    ck_relative(sum("stack", "contacts.csv", "normal", "^a,table"), 50000, 1e-6);
+    ck_relative(sum("stack", "contacts.csv", "normal", "^b,a"), 25000, 1e-6);
+    ck_near(sum("stack", "contacts.csv", "shear", ""), 0, 25000, 1e-6);
+    ck_relative(sum("stack", "reactions.csv", "fy", ""), 150000, 1e-6);
+    ck_assert_int_eq(shell("test $(sed -n 's/^POINT_DATA //p' out/model/stack/contacts_000005.vtk) "
+                           "= "
+                           "$(($(wc -l < out/model/stack/contacts.csv) - 1))"),
+                     0);
+    ck_assert_int_eq(shell("test $(sed '/VECTORS shear/q' out/model/stack/contacts_000005.vtk | "
+                           "sed '1,/VECTORS normal/d' | awk '{ s += $2 } END { print (s > 74999 && "
+                           "s < 75001) }') = 1"),
+                     0);
+    ck_assert_int_eq(shell("grep -q 'SCALARS s1 double 1' out/model/stack/step_000005.vtk"), 0);
+}
+END_TEST
+
+START_TEST(a_slide_has_its_velocities)
+{
+    ck_assert_int_eq(run_text("thrown", ROCK "block a rock 0 0 1 0 1 1 0 1\nvelocity a 3 4 0.5\n"
+                              "dynamic dt 0.01 steps 10\n"), 0);
+    ck_relative(cell("thrown", "elements.csv", "1,", "vx"), 3, 1e-9);
+    ck_relative(cell("thrown", "elements.csv", "1,", "vy"), 4, 1e-9);
+    ck_relative(cell("thrown", "elements.csv", "1,", "spin"), 0.5, 1e-6);
+}
+END_TEST
+
+/* A shipped model with other numbers; the exit status. */
+static int run_with(const char *model, const char *lets)
+{
+    return shell("%s/bbm -q cases/models/%s.model %s -o out/model/%s > out/model/said 2> "
+                 "out/model/err",
+                 BUILD, model, lets, model);
+}
+
+/* 0.02 degrees above and below the least friction angle by limit equilibrium, 38.13392 degrees. */
+START_TEST(the_slope_of_columns_stands_above_its_limit_alone)
+{
+    ck_assert_int_eq(run_with("slope", "-d phi=38.11392"), 3);
+    ck_assert_int_eq(run_with("slope", "-d phi=38.15392"), 0);
+    /* The push by limit equilibrium; above the limit not all joints slip. */
+    ck_relative(sum("slope", "contacts.csv", "normal", "^c6,c7,")
+                    + sum("slope", "contacts.csv", "normal", "^c7,c6,"),
+                4803220, 5e-3);
+}
+END_TEST
+
+/* A thousandth of 28.98456 degrees less and more. */
+START_TEST(the_wall_stands_when_it_is_tilted_less_than_its_limit)
+{
+    for (int k = 0; k < 2; k++) {
+        const double a = 28.98456039 * (k ? 1.001 : 0.999) * acos(-1) / 180;
+        char lets[100];
+        snprintf(lets, sizeof lets, "-d gx=%.9g -d gy=%.9g", 9.81 * sin(a), -9.81 * cos(a));
+        ck_assert_int_eq(run_with("tilt", lets), k ? 3 : 0);
+    }
+}
+END_TEST
+
+/* Limit analysis of the displaced arch: it falls when each support has moved by 0.589 m. */
+START_TEST(an_arch_on_spreading_supports_falls_at_the_spread_of_limit_analysis)
+{
+    ck_assert_int_eq(run_with("spread", "-d half=0.601"), 3);
+    ck_assert_double_lt(cell("spread", "history.csv", "3000,", "crown_v"), -3);
+    ck_assert_int_eq(run_with("spread", "-d half=0.577"), 0);
+}
+END_TEST
+
+START_TEST(the_first_domino_falls_where_its_energy_is_enough)
+{
+    ck_assert_int_eq(run_with("dominoes", "-d spin=-1.45"), 3);
+    ck_assert_int_eq(run_with("dominoes", "-d spin=-1.6"), 0);
+}
+END_TEST
+
+START_TEST(each_block_of_a_column_carries_those_above)
+{
+    const double W = 2500 * 9.81;
+
+    ck_assert_int_eq(run_with("column", ""), 0);
+    for (int k = 1; k <= 10; k++) {
+        char row[40];
+        snprintf(row, sizeof row, k > 1 ? "^b%d,b%d," : "^b%d,base", k, k - 1);
+        ck_relative(sum("column", "contacts.csv", "normal", row), (11 - k) * W, 1e-9);
+        ck_relative(sum("column", "contacts.csv", "gap", row), -(11 - k) * W / 1e9, 1e-9);
+    }
+    ck_near(cell("column", "history.csv", "1000,", "top_v"),
+            cell("column", "history.csv", "0,", "top_v"), 1, 1e-12);
+    for (int a = 0; a < 3; a++)
+        ck_near(cell("column", "elements.csv", "11,", (const char *[]){ "vx", "vy", "spin" }[a]), 0,
+                1, 1e-9);
+}
+END_TEST
+
+/* ---------------------------------------------------------------------------- blocks and places */
+
+START_TEST(a_grid_has_its_cells_and_its_rim)
+{
+    static const struct { const char *cut; int elements, nodes; } grid[] = {
+        { "", 6, 12 }, { "quads", 6, 12 }, { "triangles", 12, 12 }, { "crossed", 24, 18 },
+    };
+    char text[LONG];
+
+    snprintf(text, sizeof text,
+             ROCK "node 40 9 9\nnode 41 10 9\nnode 42 9 10\nelement 7 a rock 40 41 42\nfixblock a\n"
+                  "grid g rock 0 0 3 2 3 2 %s\nfix set g.bottom\nfix set g.top x\nfix set "
+                  "g.left\nfix set g.right y\n"
+                  "gravity 0 -10\nstatic\n",
+             grid[_i].cut);
+    ck_assert_int_eq(run_text("grid", text), 0);
+    ck_assert_int_eq(shell("test $(wc -l < out/model/grid/elements.csv) = %d && test $(wc -l < "
+                           "out/model/grid/nodes.csv) "
+                           "= %d",
+                           grid[_i].elements + 2, grid[_i].nodes + 4),
+                     0);
+    ck_assert_int_eq(shell("grep -q '^43,g,0,0,' out/model/grid/nodes.csv && grep -q '^8,g,' "
+                           "out/model/grid/elements.csv"),
+                     0);
+    /* 3 of a, all of the rim */
+    ck_assert_int_eq(shell("test $(wc -l < out/model/grid/reactions.csv) = 14"), 0);
+}
+END_TEST
+
+/* Two squares that share an edge, and two blocks of `block` there: of BLOCK takes one. */
+START_TEST(a_block_is_the_set_of_its_nodes)
+{
+    /* a and b share nodes 2 and 3; of those, the set a has two of b. */
+    static const char mesh[] = ROCK "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 2 0\nnode 6 2 1\n"
+                               "element 1 a rock 1 2 3 4\nelement 2 b rock 2 5 6 3\ngravity 0 -1\n";
+    static const struct { const char *where; int status, rows; } table[] = {
+        { "set a", 0, 4 }, { "set a of a", 0, 4 }, { "set a of b", 0, 2 }, { "set b of a", 0, 2 },
+    };
+    char text[LONG];
+
+    snprintf(text, sizeof text, "%sfix %s\ndynamic dt 0.01 steps 1\n", mesh, table[_i].where);
+    ck_assert_int_eq(run_text("whole", text), table[_i].status);
+    ck_assert_int_eq(shell("test $(wc -l < out/model/whole/reactions.csv) = %d", table[_i].rows + 1), 0);
+}
+END_TEST
+
+START_TEST(of_block_takes_the_nodes_of_one_block)
+{
+    ck_assert_int_eq(run_text("of", ROCK "block a rock 0 0 1 0 1 1 0 1\nblock b rock 1 0 2 0 2 1 1 "
+                                         "1\nfix set a\n"
+                                         "fix box 1 0 1 1 of b x\ngravity 0 -10\ndynamic dt 0.01 "
+                                         "steps 10\nmonitor a at 1 1 of a\n"
+                                         "monitor b at 1 1 of b\nmonitor both at 1 1\ncontact "
+                                         "friction 0\n"),
+                     0);
+    ck_near(cell("of", "history.csv", "10,", "a_v"), 0, 1, 1e-9);
+    ck_relative(cell("of", "history.csv", "10,", "b_v"), -0.05, 1e-3);
+    ck_near(cell("of", "history.csv", "10,", "both_v"), 0, 1, 1e-9);
+    char said[LONG];
+    ck_assert_str_eq(slurp("out/model/of.err", said), "out/model/of.model:10: note: 2 nodes lie "
+                                                      "there, node 3 of block 'a' "
+                                                      "is taken; `of BLOCK` takes another\n");
+}
+END_TEST
+
+/* --------------------------------------------------------------------- expectations and numbers */
+
+#define FALL ROCK "let g 10\nlet steps 100\nblock a rock 0 0 1 0 1 1 0 1\ngravity 0 -$g\n" \
+    "dynamic dt 0.01 steps $steps\nmonitor a at 0 0\n"
+
+START_TEST(what_is_expected_is_compared)
+{
+    static const struct { const char *expect; int status; const char *said; } table[] = {
+        { "a v -5 within 1 %", 0, "a v -5 within 0.05 m; computed: -5 m: ok" },
+        { "a v -5 within 1%", 0, "a v -5 within 0.05 m; computed: -5 m: ok" },
+        { "a v -5.1 within 0.09", 3, "a v -5.1 within 0.09 m; computed: -5 m: NOT MET" },
+        { "a u 0 within 1e-9", 0, "a u 0 within 1e-09 m; computed: " },
+        { "a moves by 4", 0, "a moves by more than 4 m; computed: 5 m: ok" },
+        { "a moves by 6", 3, "a moves by more than 6 m; computed: 5 m: NOT MET" },
+        { "a stays by 6", 0, "a stays by less than 6 m; computed: 5 m: ok" },
+        { "a stays by 4", 3, "a stays by less than 4 m; computed: 5 m: NOT MET" },
+    };
+    char text[LONG], said[LONG];
+
+    snprintf(text, sizeof text, FALL "expect %s\n", table[_i].expect);
+    write_text("out/model/fell.model", text);
+    ck_assert_int_eq(shell("%s/bbm out/model/fell.model -o out/model/fell > out/model/said 2> "
+                           "out/model/err",
+                           BUILD),
+                     table[_i].status);
+    ck_assert_msg(strstr(slurp("out/model/said", said), table[_i].said) != NULL, "%s", said);
+}
+END_TEST
+
+START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
+{
+    char said[LONG];
+
+    write_text("out/model/let.model", FALL "let twice $g\ntitle g is $g\n");
+    ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=20 -dsteps=50 -o out/model/let 2> "
+                           "out/model/err",
+                           BUILD),
+                     0);
+    ck_relative(cell("let", "history.csv", "50,", "a_v"), -20 * 0.125, 1e-9);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d f=20 2> out/model/err", BUILD), 2);
+    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model: -d f=20: expected "
+                                                   "NAME=VALUE with a name of a `let`, "
+                                                   "such as g, steps, twice\n");
+    ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=1O 2> out/model/err", BUILD), 2);
+    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model:2: not a number: '1O', "
+                                                   "expected: let NAME VALUE\n");
+    ck_assert_int_eq(shell("%s/bbm - < out/model/let.model -o out/model/let 2> out/model/err | "
+                           "grep -q -- '-: g is 10'", BUILD), 0);
+    ck_relative(cell("let", "history.csv", "100,", "a_v"), -5, 1e-9);
+}
+END_TEST
+
+START_TEST(a_check_draws_and_computes_nothing)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("rm -rf out/model/arch_; %s/bbm --check cases/models/arch.model -o "
+                           "out/model/arch_ "
+                           "> out/model/said",
+                           BUILD),
+                     0);
+    ck_assert_ptr_nonnull(strstr(slurp("out/model/said", said), "32 contacts at the start; kn "
+                                                                "1e+10 N/m"));
+    ck_assert_int_eq(shell("test \"$(ls out/model/arch_)\" = model.svg"), 0);
+}
+END_TEST
+
+START_TEST(the_example_of_the_document_runs_when_it_is_pasted)
+{
+    ck_assert_int_eq(shell("sed -n '/^    # ten lines/,/^$/s/^    //p' doc/model-file.md > "
+                           "out/model/slope.model; "
+                           "test $(wc -l < out/model/slope.model) -gt 10"),
+                     0);
+    ck_assert_int_eq(shell("%s/bbm out/model/slope.model -o out/model/slope > out/model/said 2> "
+                           "out/model/err && "
+                           "! test -s out/model/err && grep -q 'foot u .*: ok' out/model/said",
+                           BUILD),
+                     0);
+}
+END_TEST
+
+Suite *statements_suite(void);
+
+Suite *statements_suite(void)
+{
+    Suite *s = suite_create("statements");
+    TCase *t = tcase_create("statements");
+
+    tcase_add_loop_test(t, a_bar_in_plane_strain_is_stiffer, 0, 3);
+    tcase_add_loop_test(t, a_thick_walled_tube_widens_as_lame_says, 0, 2);
+    tcase_add_loop_test(t, a_dam_carries_the_force_of_the_water_to_its_base, 0, 4);
+    tcase_add_test(t, the_shipped_dam_stands_against_its_water);
+    tcase_add_loop_test(t, reactions_balance_forces_and_moments_however_elements_are_bonded, 0, 12);
+    tcase_add_loop_test(t, a_support_that_moves_pulls_its_bar, 0, 3);
+    tcase_add_test(t, a_support_that_moves_carries_its_block_along);
+    tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
+    tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
+    tcase_add_test(t, contacts_and_reactions_carry_the_weight);
+    tcase_add_test(t, a_slide_has_its_velocities);
+    tcase_add_test(t, the_slope_of_columns_stands_above_its_limit_alone);
+    tcase_add_test(t, the_wall_stands_when_it_is_tilted_less_than_its_limit);
+    tcase_add_test(t, an_arch_on_spreading_supports_falls_at_the_spread_of_limit_analysis);
+    tcase_add_test(t, the_first_domino_falls_where_its_energy_is_enough);
+    tcase_add_test(t, each_block_of_a_column_carries_those_above);
+    tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
+    tcase_add_loop_test(t, a_block_is_the_set_of_its_nodes, 0, 4);
+    tcase_add_test(t, of_block_takes_the_nodes_of_one_block);
+    tcase_add_loop_test(t, what_is_expected_is_compared, 0, 8);
+    tcase_add_test(t, a_number_of_the_command_line_takes_the_place_of_let);
+    tcase_add_test(t, a_check_draws_and_computes_nothing);
+    tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
+    tcase_set_timeout(t, 60);
+    suite_add_tcase(s, t);
+    return s;
+}
