@@ -1,8 +1,7 @@
-# beam.awk - a beam of 48 m x 12 m for Exercises 12 and 13: nx x ny cells, each cut into four
-# triangles by its diagonals; pulled at its end (pull=1), or bent. With kn=1e9 each triangle is a
-# block, held to the next ones by unbroken joints: the sub-block DDA of doc/paper.md.
-# With quads=1 the cells stay whole.
-#     awk -v nx=8 -v ny=2 -v alpha=100 -v augment=0 -f doc/exercises/beam.awk > out/beam.model
+# beam.awk - the beam of Experiment I for limits.md and paper.md: nx x ny cells, each cut into four
+# triangles by its diagonals, or whole with quads=1. With kn=1e9 each triangle is a block, held to
+# the next ones by unbroken joints: the sub-block DDA.
+#     awk -v nx=8 -v ny=2 -v alpha=100 -v augment=0 -f doc/beam.awk > out/beam.model
 BEGIN {
     print "title", nx * ny * 4, "triangles\nmaterial soft E 30e6 nu 0.3 density 1\nstatic"
     print "bond alpha", alpha, "augment", augment "\npcg tolerance 1e-11"
@@ -26,10 +25,5 @@ BEGIN {
         }
     if (kn)
         print "contact kn", kn, "ks", kn, "friction 45 cohesion 1e9 tension 1e9"
-    if (pull) {
-        print "fix box 0 -6 0 6 x\nfix at 0 -6 y\ntraction box 48 -6 48 6 1000 0"
-        print "monitor end at 48 -6"
-    } else {
-        print "fix box 0 -6 0 6\nload box 48 -6 48 6 0 -1000\nmonitor middle at 24 0"
-    }
+    print "fix box 0 -6 0 6\nload box 48 -6 48 6 0 -1000\nmonitor middle at 24 0"
 }
