@@ -227,7 +227,7 @@ bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, 
 
 /* Passes that change states or renew the vectors of the step, and that change friction forces
  * between two of them. */
-enum { PASSES = 60, FRICTION_PASSES = 100 };
+enum { PASSES = 40, FRICTION_PASSES = 100 };
 
 typedef struct { int corner, edge, dropped; } pair;         /* what may touch               */
 
