@@ -2,8 +2,8 @@
  *
  * A contact keeps a corner out of an edge that it comes to from outside. Blocks that overlap from
  * the start have no such history: the corner is behind the edge, no spring pushes it out, and the
- * blocks fall through each other without a word. Such a model is refused, with the place and the
- * depth. Elements of one block may not overlap, either, and no element may meet itself.
+ * blocks fall through each other. Such a model is refused, with the place and the depth. Elements
+ * of one block may not overlap, either, and no element may meet itself.
  *
  * From an element that is not convex triangles are cut, ear by ear, until the rest is. Two convex
  * pieces overlap when no edge of either has the other piece wholly outside, and by the least way
