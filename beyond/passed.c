@@ -2,9 +2,9 @@
  *
  * The rules by which contacts are listed and closed keep corners outside. Should a step let one
  * pass all the same - two soft corners that glance off each other and turn - nothing would push it
- * out again: it starts the next step deeper in the block than contacts are, no contact of the two
- * blocks is closed or has opened inside, and the blocks would go through each other. That step is
- * refused. The sweep asks for each corner near an edge.
+ * out again: it starts the next step deeper in the block than contacts are and moves in, no contact
+ * of the two blocks is closed or has opened inside, and they would go through each other. That step
+ * is refused. The sweep asks for each corner near an edge.
  */
 #include <math.h>
 
@@ -62,8 +62,23 @@ static int are_in_contact(const bbm_model *m, int i, int j)
     return found;
 }
 
+/* Whether the corner moves out of the edge. */
+static int moves_out(const bbm_model *m, int corner, int edge)
+{
+    const bbm_vertex *P = &m->vertex[m->edge[corner].a];
+    const bbm_element *i = &m->element[m->edge[corner].element];
+    const bbm_element *j = &m->element[m->edge[edge].element];
+    const bbm_direction t = m->edge[edge].along;
+    double vi[2], vj[2];
+
+    bbm_displacement(i, i->V, P->x, P->y, vi);
+    bbm_displacement(j, j->V, P->x, P->y, vj);
+    return (vi[0] - vj[0]) * t.y - (vi[1] - vj[1]) * t.x > 0;
+}
+
 /* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are,
- * where no contact of the two blocks accounts for it: the last step let it pass. Else 0. */
+ * where no contact of the two blocks accounts for it: the last step let it pass. Else 0, and where
+ * it is on its way out. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
     const bbm_vertex *P = &m->vertex[m->edge[corner].a], *a = &m->vertex[m->edge[edge].a];
@@ -73,7 +88,7 @@ double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 
     if (own == other || m->edge[corner].side != corner)
         return 0;
-    if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length)
+    if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length || moves_out(m, corner, edge))
         return 0;
     const double depth = depth_in_block(m, P, edge);
     const int passed = depth > bbm_allowed_depth(m, corner, edge) && !are_in_contact(m, own, other);
