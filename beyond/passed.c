@@ -10,42 +10,51 @@
 
 #include "beyond.h"
 
-/* Takes an edge for the distance of P from a boundary, and for the number of edges that cross the
- * horizontal line through P on its right, up less down. An edge ends where the next one starts, for
- * bonds may have opened there. Returns twice its part of the area that the boundary encloses. */
-static double count_edge(const bbm_model *m, int e, const bbm_vertex *P, double *distance,
-                         int *winding)
+typedef struct {                /* where a vertex P lies against a boundary                     */
+    double distance;            /* m                                                            */
+    int    nearest;             /* edge                                                         */
+    int    winding;             /* of the boundary round P                                      */
+    double area;                /* m^2      twice what it encloses; of a hole < 0               */
+} place;
+
+/* Takes one more edge of the boundary. It ends where the next one starts, for bonds may have opened
+ * there, and counts as winding if it crosses the horizontal line through P on its right: up or
+ * down. */
+static void take_edge(const bbm_model *m, int e, const bbm_vertex *P, place *at)
 {
     const bbm_vertex *a = &m->vertex[m->edge[e].a], *b = &m->vertex[m->edge[m->edge[e].after].a];
     const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
     const double px = P->x - a->x, py = P->y - a->y, d = px * y - py * x, s = px * x + py * y;
+    const double distance = hypot(d, fmax(0, fmax(-s, s - l * l))) / l;
     const int up = (py >= 0) - (P->y >= b->y);
 
-    *distance = fmin(*distance, hypot(d, fmax(0, fmax(-s, s - l * l))) / l);
-    *winding += up * d < 0 ? up : 0;
-    return -d;
+    at->winding += up * d < 0 ? up : 0;
+    at->area -= d;
+    if (distance < at->distance) {
+        at->distance = distance;
+        at->nearest = e;
+    }
 }
 
-/* How deep P lies in the block of an edge, the distance from its boundary; 0 outside. The outer
- * boundary, which encloses an area > 0, goes round what is inside once, and so does that of a hole,
- * the other way. Outside the one that the edge belongs to, the others need not be asked. */
-static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int edge)
+/* How deep P lies in the block of an edge, the distance from its boundary, and from which edge; 0
+ * outside. The outer boundary goes round what is inside once, and so does that of a hole, the other
+ * way. Outside the one that the edge belongs to, the others need not be asked. */
+static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int edge, int *nearest)
 {
-    double depth = INFINITY, area = 0;
-    int winding = 0, e = edge;
+    place own = { .distance = INFINITY }, all = own;
+    int e = edge;
 
     do {
-        area += count_edge(m, e, P, &depth, &winding);
+        take_edge(m, e, P, &own);
         e = m->edge[e].after;
     } while (e != edge);
-    if (area > 0 && winding <= 0)
+    if (own.area > 0 && own.winding <= 0)
         return 0;
-    depth = INFINITY;
-    winding = 0;
     for (e = 0; e < m->edges; e++)
         if (m->edge[e].block == m->edge[edge].block)
-            (void)count_edge(m, e, P, &depth, &winding);
-    return winding > 0 ? depth : 0;
+            take_edge(m, e, P, &all);
+    *nearest = all.nearest;
+    return all.winding > 0 ? all.distance : 0;
 }
 
 /* Whether the blocks i and j have a contact that is closed or has opened inside. */
@@ -88,11 +97,13 @@ double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 
     if (own == other || m->edge[corner].side != corner)
         return 0;
-    if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length || moves_out(m, corner, edge))
+    if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length)
         return 0;
-    const double depth = depth_in_block(m, P, edge);
-    const int passed = depth > bbm_allowed_depth(m, corner, edge) && !are_in_contact(m, own, other);
-    return passed ? depth : 0;
+    int nearest = edge;
+    const double depth = depth_in_block(m, P, edge, &nearest);
+    if (depth <= bbm_allowed_depth(m, corner, edge) || moves_out(m, corner, nearest))
+        return 0;
+    return are_in_contact(m, own, other) ? 0 : depth;
 }
 
 /* Refuses a step that starts so. */

@@ -723,8 +723,8 @@ START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
     ck_ok(bbm_detect_contacts(m, NULL), m);
     ck_assert_int_lt(m->beyond->passed[0], 0);
     ck_assert(deepest_passed(m) == 0);
-    shift_element(m, e, 0.009, 0);                      /* 1 mm from either side of the wall */
-    ck_near(deepest_passed(m), 1e-3, 1, ROUNDING);
+    shift_element(m, e, 8.5e-3, 0);                     /* 0.5 mm from the inner side of the wall */
+    ck_near(deepest_passed(m), 5e-4, 1, ROUNDING);
     bbm_model_free(m);
 }
 END_TEST
