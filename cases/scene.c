@@ -546,15 +546,16 @@ static void put_entry(film *f, legend *l, const char *symbol, const char *text)
 static void put_force_entry(film *f, legend *l, int kind, const char *name, const char *unit)
 {
     const double size = f->most[kind];
-    const int power = size >= 1e6 ? 2 : size >= 1e3 ? 1 : 0;
+    static const char *const prefix[] = { "", "k", "M", "G" };
+    const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
     char symbol[160], text[60];
 
     if (size <= 0)
         return;
     snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%.2fm-6 -3l6 3l-6 3\" fill=\"none\" %s/>",
              f->length[kind], kind == LOCKED ? "stroke=\"#000000\"" : style[kind]);
-    snprintf(text, sizeof text, "%s%.3g %s%s", name, size / pow(1000, power),
-             power == 2 ? "M" : power ? "k" : "", unit);
+    snprintf(text, sizeof text, "%s%.3g %s%s", name, size / pow(1000, power), prefix[power],
+             unit);
     put_entry(f, l, symbol, text);
 }
 
