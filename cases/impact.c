@@ -96,8 +96,12 @@ static void show_momentum(case_results *r)
             if (k > 2 && p_n > 1e9)
                 continue;
             meet(0.3, phi, p_n, dt, error);
-            printf("| phi = %d, p_n = %g, dt = %g s | %.1e | %.1e | %+.2e |\n", phi, p_n, dt, error[0],
-                   error[1], error[2]);
+            printf("| phi = %d, p_n = %g, dt = %g s | %.1e | ", phi, p_n, dt, error[0]);
+            if (phi == 0)
+                printf("no force");
+            else
+                printf("%.1e", error[1]);
+            printf(" | %+.2e |\n", error[2]);
             snprintf(name, sizeof name, "momentum for phi = %d p_n = %g dt = %g", phi, p_n, dt);
             case_row(r, name, nowhere, 1 + error[0], 1, "theory");
             snprintf(name, sizeof name, "angular momentum gained for phi = %d p_n = %g dt = %g", phi, p_n, dt);

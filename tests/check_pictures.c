@@ -83,10 +83,11 @@ static void make_pictures(void)
                            "%s/bbm -q out/model/drawn.model "
                            "-o out/model/drawn-$(basename $m .model) "
                            "|| exit 1; done", BUILD), 0);
-    ck_assert_int_eq(shell("for p in arch drop topple; do %s/$p > out/model/drawn.log || "
-                           "exit 1; done", BUILD), 0);
+    ck_assert_int_eq(shell("mkdir -p out/model/programs && cd out/model/programs && "
+                           "for p in arch drop topple; do ../../../%s/$p > drawn.log || exit 1; done",
+                           BUILD), 0);
     ck_assert_int_eq(glob("out/model/drawn-*/*.svg", 0, NULL, &pictures), 0);
-    ck_assert_int_eq(glob("out/*/*.svg", GLOB_APPEND, NULL, &pictures), 0);
+    ck_assert_int_eq(glob("out/model/programs/out/*/*.svg", GLOB_APPEND, NULL, &pictures), 0);
     ck_assert_int_gt((int)pictures.gl_pathc, 30);
 }
 
