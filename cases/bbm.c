@@ -146,13 +146,13 @@ static void describe(const model *p, const char *path)
     printf("%d element%s in %d block%s, %d nodes, %d bond%s; ", m->elements, plural(m->elements),
            p->blocks, plural(p->blocks), m->nodes, m->bonds, plural(m->bonds));
     if (!p->dynamic)
-        printf("static, %s%d step%s\n", m->par.tolerance > 0 ? "at most " : "", m->par.steps,
+        printf("static, %s%d step%s", m->par.tolerance > 0 ? "at most " : "", m->par.steps,
                plural(m->par.steps));
-    else if (p->settle)
-        printf("dynamic, %d step%s of %g s after %d quasi-static ones\n", m->par.steps,
-               plural(m->par.steps), m->par.dt, p->settle);
     else
-        printf("dynamic, %d step%s of %g s\n", m->par.steps, plural(m->par.steps), m->par.dt);
+        printf("dynamic, %d step%s of %g s", m->par.steps, plural(m->par.steps), m->par.dt);
+    if (p->settle)
+        printf(" after %d quasi-static one%s", p->settle, plural(p->settle));
+    puts("");
     fflush(stdout);
 }
 
@@ -288,17 +288,17 @@ static void warn_of_pieces(const model *p, const char *path)
     for (int e = 0; e < m->elements; e++)
         count[m->element[e].block] += piece[e] == e;
     for (int b = 0; b < p->blocks; b++) {
-        int left = count[b] > 1 ? NAMED : 0;
-        if (count[b] > 1)
-            fprintf(stderr,
-                    "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements",
-                    path, p->block[b], count[b]);
+        int left = NAMED;
+        if (count[b] < 2)
+            continue;
+        fprintf(stderr,
+                "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements",
+                path, p->block[b], count[b]);
         for (int e = 0; e < m->elements && left > 0; e++)
             if (piece[e] == e && m->element[e].block == b)
                 fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
-        if (count[b] > 1)
-            fprintf(stderr, "%s; elements are bonded along sides whose two nodes they share\n",
-                    count[b] > NAMED ? " ..." : "");
+        fprintf(stderr, "%s; elements are bonded along sides whose two nodes they share\n",
+                count[b] > NAMED ? " ..." : "");
     }
     free(piece);
 }

@@ -1033,9 +1033,10 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
 {
     const char *field = map->field ? map->field : "mises";
     const size_t all = (size_t)m->vertices;
-    double (*place)[2] = malloc(2 * all * sizeof *place);       /* at the start, and magnified */
+    double (*place)[2] = malloc(2 * all * sizeof *place);       /* as at the start, and magnified */
     nodal *n = malloc((size_t)m->nodes * sizeof *n);
-    scene_frame state[2] = { { .at = place }, { .at = place ? place + all : NULL } };
+    scene_frame state[2] = { { m->info.t, .at = place },
+                             { m->info.t, .at = place ? place + all : NULL } };
     scene s = { .frames = 2, .vertices = m->vertices, .frame = state };
     film f = { .s = &s, .m = m };
     char title[300];
@@ -1056,7 +1057,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
             place[v][0] = m->node[i].x + times * n[i].u;
             place[v][1] = m->node[i].y + times * n[i].v;
         }
-        snprintf(title, sizeof title, "%s%sdisplacements × %g", map->title ? map->title : "",
+        snprintf(title, sizeof title, "%s%sdisplacements × %.12g", map->title ? map->title : "",
                  map->title ? ", " : "", scale);
         s.title = scale == 0 || scale == 1 ? map->title : title;
         errno = EDOM;
