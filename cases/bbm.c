@@ -105,6 +105,8 @@ static int read_arguments(arguments *a, int argc, char *argv[])
 
 /* ------------------------------------------------------------------------------------- progress */
 
+static const char *plural(int n) { return n == 1 ? "" : "s"; }
+
 typedef struct {
     int shown, steps, begun;                    /* begun: a line without its end */
     clock_t start, last;
@@ -122,9 +124,10 @@ static void show_progress(progress *s, const bbm_model *m, int step)
     s->last = clock();
     s->said = time(NULL);
     s->begun = isatty(2);
-    fprintf(stderr, "%sstep %d of %d, %d open-close passes, %d contacts, %.0f s left%s",
-            s->begun ? "\r" : "", step, s->steps, m->info.passes, m->info.contacts,
-            each * (s->steps - step), s->begun ? "   " : "\n");
+    fprintf(stderr, "%sstep %d of %d, %d open-close pass%s, %d contact%s, %.0f s left%s",
+            s->begun ? "\r" : "", step, s->steps, m->info.passes, m->info.passes == 1 ? "" : "es",
+            m->info.contacts, plural(m->info.contacts), each * (s->steps - step),
+            s->begun ? "   " : "\n");
     fflush(stderr);
 }
 
@@ -135,8 +138,6 @@ static void end_progress(progress *s)
     s->begun = 0;
 }
 
-static const char *plural(int n) { return n == 1 ? "" : "s"; }
-
 static void describe(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
@@ -145,14 +146,19 @@ static void describe(const model *p, const char *path)
     printf("%d element%s in %d block%s, %d nodes, %d bond%s; ", m->elements, plural(m->elements),
            p->blocks, plural(p->blocks), m->nodes, m->bonds, plural(m->bonds));
     if (!p->dynamic)
-        printf("static, %s%d step%s\n", m->par.tolerance > 0 ? "at most " : "", m->par.steps,
+        printf("static, %s%d step%s", m->par.tolerance > 0 ? "at most " : "", m->par.steps,
                plural(m->par.steps));
-    else if (p->settle)
-        printf("dynamic, %d step%s of %g s after %d quasi-static ones\n", m->par.steps,
-               plural(m->par.steps), m->par.dt, p->settle);
     else
-        printf("dynamic, %d step%s of %g s\n", m->par.steps, plural(m->par.steps), m->par.dt);
+        printf("dynamic, %d step%s of %g s", m->par.steps, plural(m->par.steps), m->par.dt);
+    if (p->settle)
+        printf(" after %d quasi-static one%s", p->settle, plural(p->settle));
+    puts("");
     fflush(stdout);
+}
+
+static void put_warning(const char *path, const char *text)
+{
+    fprintf(stderr, "%s: warning: %s\n", path, text);
 }
 
 /* What the file leaves out and hardly means. */
@@ -172,19 +178,13 @@ static void warn(const model *p, const char *path, int checking)
         for (int k = 0; k < 3; k++)
             load |= m->element[e].stress[k] != 0;
     if (checking && !load && m->par.gravity[0] == 0 && m->par.gravity[1] == 0)
-        fprintf(stderr,
-                "%s: warning: nothing loads the model; gravity, load, traction, pressure or fix "
-                "... by does\n",
-                path);
+        put_warning(path, "nothing loads the model; gravity, load, traction, pressure or fix ... "
+                          "by does");
     if (!held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))
-        fprintf(stderr,
-                "%s: warning: nothing is fixed: under gravity all blocks fall; fixblock or fix "
-                "holds them\n",
-                path);
+        put_warning(path, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds "
+                          "them");
     if (p->slippery)
-        fprintf(stderr,
-                "%s: warning: blocks touch without friction: `contact friction DEGREES` gives it\n",
-                path);
+        put_warning(path, "no friction between blocks: `contact friction DEGREES` gives it");
 }
 
 static void summarise(const model *p, const char *folder)
@@ -210,6 +210,17 @@ static void summarise(const model *p, const char *folder)
     printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
+}
+
+static void warn_of_turns(const model *p, const char *path)
+{
+    double most = 0;
+
+    for (int e = 0; e < p->m->elements && !p->dynamic; e++)
+        most = fmax(most, fabs(p->m->element[e].sum[2]));
+    if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
+        put_warning(path, "elements turn by more than 0.1 rad, which statics takes as small: "
+                          "lengths are wrong; dynamic with damping 0 has them right");
 }
 
 /* What came out beside what was expected of it; the number of those not met. */
@@ -277,17 +288,17 @@ static void warn_of_pieces(const model *p, const char *path)
     for (int e = 0; e < m->elements; e++)
         count[m->element[e].block] += piece[e] == e;
     for (int b = 0; b < p->blocks; b++) {
-        int left = count[b] > 1 ? NAMED : 0;
-        if (count[b] > 1)
-            fprintf(stderr,
-                    "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements",
-                    path, p->block[b], count[b]);
+        int left = NAMED;
+        if (count[b] < 2)
+            continue;
+        fprintf(stderr,
+                "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements",
+                path, p->block[b], count[b]);
         for (int e = 0; e < m->elements && left > 0; e++)
             if (piece[e] == e && m->element[e].block == b)
                 fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
-        if (count[b] > 1)
-            fprintf(stderr, "%s; elements are bonded along sides whose two nodes they share\n",
-                    count[b] > NAMED ? " ..." : "");
+        fprintf(stderr, "%s; elements are bonded along sides whose two nodes they share\n",
+                count[b] > NAMED ? " ..." : "");
     }
     free(piece);
 }
@@ -443,8 +454,9 @@ static int check(model *p, const arguments *a)
     if (!a->quiet) {
         describe(p, a->model);
         describe_blocks(p);
-        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees\n", touching,
-               plural(touching), par->p_n, par->p_s, par->friction);
+        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s of "
+               "other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,
+               m->beyond->joints, plural(m->beyond->joints));
     }
     if (touching < 0 || !write_check(&w))
         return 1;
@@ -487,6 +499,7 @@ static int run(model *p, const arguments *a, clock_t start)
         return stopped ? 128 + (int)stopped : 1;
     if (!a->quiet)
         summarise(p, a->folder);
+    warn_of_turns(p, a->model);
     return compare(p, a->quiet) > 0 ? 3 : 0;
 }
 

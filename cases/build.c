@@ -178,6 +178,9 @@ int model_build(model_reader *r)
         return status == BBM_BLOCKS_OVERLAP ? overlap(r) : model_refused(r, status);
     if (r->plane_strain)
         bbm_set_plane_strain(p->m);
+    for (int b = 0; b < r->blocks; b++)         /* a block is a set, too: -2 - b */
+        if (model_find(&r->set_of, r->block[b].name) < 0)
+            model_enter(r, &r->set_of, r->block[b].name, -2 - b);
     p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
     p->wall = model_room(r, p->m->nodes, sizeof *p->wall);
     r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
@@ -260,8 +263,10 @@ static int choose_set(model_reader *r, place *w, const char *word)
     if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
         return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
                               "of curves or points, expected one");
-    if (w->found < 0 && (w->block = w->whole = model_find(&r->block_of, word)) < 0)
-        return model_unknown(r, r->set_of.count ? &r->set_of : &r->block_of, "set", word);
+    if (w->found == -1)
+        return model_unknown(r, &r->set_of, "set", word);
+    if (w->found < 0)
+        w->block = w->whole = -2 - w->found;
     return 1;
 }
 
@@ -452,10 +457,11 @@ int model_water(model_reader *r)
     return load_edges(r, &l);
 }
 
-/* What is left out is as in `contact`. */
+/* What is left out is as in `contact`. A joint that can never count is hardly meant. */
 int model_joint(model_reader *r)
 {
     const bbm_parameters *p = &r->p->m->par;
+    const bbm_beyond *b = r->p->m->beyond;
     double friction = p->friction, cohesion = p->cohesion, tension = p->tension;
     model_option o[] = { ANGLE("friction", &friction), FROM_ZERO("cohesion", &cohesion),
                          FROM_ZERO("tension", &tension) };
@@ -468,6 +474,15 @@ int model_joint(model_reader *r)
     }
     if (!model_options(r, LENGTH(o), o))
         return 0;
+    if (block[0] >= 0 && block[0] == block[1])
+        return model_blame(r, "a joint of a block with itself, expected two blocks");
+    for (int k = 0; k < b->joints; k++) {
+        const int *a = b->joint[k].block;
+        if (((a[0] < 0 || a[0] == block[0]) && (a[1] < 0 || a[1] == block[1]))
+            || ((a[0] < 0 || a[0] == block[1]) && (a[1] < 0 || a[1] == block[0])))
+            fprintf(stderr, "%s:%d: warning: this joint never counts, below one that fits the same "
+                            "blocks\n", r->s->at.file, r->s->at.line);
+    }
     r->p->slippery = 0;
     if (r->no_shear)
         friction = cohesion = 0;

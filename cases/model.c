@@ -25,12 +25,12 @@ enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000 };
 
 /* -------------------------------------------------------------------------- numbers with a name */
 
-/* What the command line says of a name, or NULL. */
+/* What the command line says of a name, the last time, or NULL. */
 static const char *given(const model_reader *r, const char *name)
 {
     const size_t n = strlen(name);
 
-    for (int k = 0; k < r->lets; k++)
+    for (int k = r->lets; k-- > 0; )
         if (strncmp(r->let[k], name, n) == 0 && r->let[k][n] == '=')
             return r->let[k] + n + 1;
     return NULL;
@@ -627,14 +627,14 @@ static const struct kind {
     { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
     { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
       model_joint, MODEL, 0 },
-    { "fix", "fix WHERE [x [by U]] [y [by V]]", model_fix, MODEL, 0 },
-    { "load", "load WHERE FX FY", model_load_nodes, MODEL, 0 },
-    { "traction", "traction WHERE TX TY", model_traction, MODEL, 0 },
-    { "pressure", "pressure WHERE P", model_pressure, MODEL, 0 },
-    { "water", "water WHERE LEVEL [density VALUE]", model_water, MODEL, 0 },
+    { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, 0 },
+    { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, 0 },
+    { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, 0 },
+    { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, 0 },
+    { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
     { "stress", "stress BLOCK SXX SYY SXY", model_stress, MODEL, 0 },
-    { "monitor", "monitor NAME WHERE", model_monitors, MODEL, 0 },
+    { "monitor", "monitor NAME WHERE [of BLOCK]", model_monitors, MODEL, 0 },
     { "expect",
       "expect NAME u|v VALUE within TOLERANCE [%], or expect NAME moves|stays by TOLERANCE",
       read_expect, MONITORS, 0 },
@@ -737,7 +737,8 @@ static const model_place *place_of(const model_reader *r, int (*read)(model_read
 
 static int check_kind(model_reader *r)
 {
-    const model_place *s = place_of(r, read_static), *d = place_of(r, read_dynamic);
+    const model_place *s = place_of(r, read_static), *d = place_of(r, read_dynamic),
+                      *v = place_of(r, model_velocities), *a = place_of(r, read_shake);
 
     if (s->line && d->line)
         return model_fail(r, s->line > d->line ? *s : *d,
@@ -745,6 +746,9 @@ static int check_kind(model_reader *r)
     if (!s->line && !d->line)
         return model_fail(r, (model_place){ r->path, 0 },
                           "neither static nor dynamic, expected one of them");
+    if (s->line && (v->line || a->line))
+        return model_fail(r, v->line ? *v : *a, "%s in statics, expected dynamic",
+                          v->line ? "velocity" : "shake");
     return 1;
 }
 

@@ -19,6 +19,7 @@
 enum { TEXT = 14, ROW = 22, TICK_TEXT = 48, LEVELS = 11 };  /* pixels; the last: wanted bands */
 
 static const double LETTER = 7.8;       /* pixels, generous mean width of a letter of size TEXT */
+static const double UNSEEN = 1e-3;      /* of a step: results end there that may be meant to be 0 */
 
 /* ------------------------------------------------------------------------------- file and text */
 
@@ -240,8 +241,8 @@ static void round_axis(plot_axis *a)    /* to whole steps */
 {
     if (a->log)
         return;
-    a->lo = floor(a->lo / a->step + 1e-9) * a->step;
-    a->hi = ceil(a->hi / a->step - 1e-9) * a->step;
+    a->lo = floor(a->lo / a->step + UNSEEN) * a->step;
+    a->hi = ceil(a->hi / a->step - UNSEEN) * a->step;
 }
 
 static double shown_pixel(const plot_axis *a, double shown)
@@ -547,6 +548,7 @@ plot_axis plot_bar_axis(const plot_quantity *q, double low, double high)
 
     bar.step = nice_step((bar.hi - bar.lo) / LEVELS, 1);
     round_axis(&bar);
+    bar.lo -= 1e-6 * bar.step;          /* a field that is one level, but for rounding: one colour */
     return bar;
 }
 

@@ -246,8 +246,7 @@ int model_unknown(model_reader *r, const model_table *t, const char *what, const
     if (t->count == 0)
         return model_blame(r, "unknown %s '%.60s': the model has none", what, word);
     return model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", what,
-                       word,
-                       model_nearest_of(t, word, text));
+                       word, model_nearest_of(t, word, text));
 }
 
 int model_is_name(const char *word)

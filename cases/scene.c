@@ -546,15 +546,16 @@ static void put_entry(film *f, legend *l, const char *symbol, const char *text)
 static void put_force_entry(film *f, legend *l, int kind, const char *name, const char *unit)
 {
     const double size = f->most[kind];
-    const int power = size >= 1e6 ? 2 : size >= 1e3 ? 1 : 0;
+    static const char *const prefix[] = { "", "k", "M", "G" };
+    const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
     char symbol[160], text[60];
 
     if (size <= 0)
         return;
     snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%.2fm-6 -3l6 3l-6 3\" fill=\"none\" %s/>",
              f->length[kind], kind == LOCKED ? "stroke=\"#000000\"" : style[kind]);
-    snprintf(text, sizeof text, "%s%.3g %s%s", name, size / pow(1000, power),
-             power == 2 ? "M" : power ? "k" : "", unit);
+    snprintf(text, sizeof text, "%s%.3g %s%s", name, size / pow(1000, power), prefix[power],
+             unit);
     put_entry(f, l, symbol, text);
 }
 
@@ -1032,9 +1033,10 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
 {
     const char *field = map->field ? map->field : "mises";
     const size_t all = (size_t)m->vertices;
-    double (*place)[2] = malloc(2 * all * sizeof *place);       /* at the start, and magnified */
+    double (*place)[2] = malloc(2 * all * sizeof *place);       /* as at the start, and magnified */
     nodal *n = malloc((size_t)m->nodes * sizeof *n);
-    scene_frame state[2] = { { .at = place }, { .at = place ? place + all : NULL } };
+    scene_frame state[2] = { { m->info.t, .at = place },
+                             { m->info.t, .at = place ? place + all : NULL } };
     scene s = { .frames = 2, .vertices = m->vertices, .frame = state };
     film f = { .s = &s, .m = m };
     char title[300];
@@ -1055,7 +1057,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
             place[v][0] = m->node[i].x + times * n[i].u;
             place[v][1] = m->node[i].y + times * n[i].v;
         }
-        snprintf(title, sizeof title, "%s%sdisplacements × %g", map->title ? map->title : "",
+        snprintf(title, sizeof title, "%s%sdisplacements × %.12g", map->title ? map->title : "",
                  map->title ? ", " : "", scale);
         s.title = scale == 0 || scale == 1 ? map->title : title;
         errno = EDOM;

@@ -18,7 +18,7 @@ enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, a
 
 static int fail(write_results *w, const char *path, const char *why)
 {
-    if (w->begun)
+    if (w->p->m->info.step > 0)
         fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step,
                 path, why);
     else
@@ -482,7 +482,6 @@ int write_open(write_results *w)
     if (!open_folder(w) || !empty_folder(w)
         || !open_file(w, &w->history, path_of(w, "history.csv", path)))
         return 0;
-    w->begun = 1;
     if (!open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
         output_drop(&w->history);
         return 0;

@@ -22,7 +22,7 @@ typedef struct {
     const char *source, *folder, *matrix; /* the model file, for messages; matrix: of -m, or NULL */
     output history, summary;
     scene film;
-    int matrix_done, begun, step;  /* begun: files are open; step: the last one that has its rows */
+    int matrix_done, step;              /* step: the last one that has its rows */
     clock_t reading, start, writing;    /* CPU time: of reading, at the start, of writing        */
     int status;                         /* 0, or 1 after a message */
 } write_results;

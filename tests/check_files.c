@@ -164,7 +164,7 @@ START_TEST(what_cannot_be_written_is_status_1_with_a_message)
           "none/below cannot be written: No such file" },
         { "bbm -q cases/models/incline.model -o Makefile", "it is there and no folder" },
         { "bbm -q cases/models/incline.model -o out/model/full -m /dev/full",
-          "/dev/full cannot be written: No space" },
+          "incline.model: /dev/full cannot be written: No space" },
         { "bbm cases/models/incline.model -o out/model/full > /dev/full",
           "stdout cannot be written" },
     };
@@ -558,9 +558,14 @@ START_TEST(what_is_hardly_meant_is_a_warning)
         "gravity 0 -10\n%sdynamic dt 0.01 steps 2\n";
     static const char falls[] = "out/model/warn.model: warning: nothing is fixed: under gravity all "
         "blocks fall; fixblock or fix holds them\n";
-    static const char slips[] = "out/model/warn.model: warning: blocks touch without friction: "
+    static const char slips[] = "out/model/warn.model: warning: no friction between blocks: "
         "`contact friction DEGREES` gives it\n";
+    static const char rod[] = STEEL "grid rod steel 0 0 10 0.5 20 1\nfix set rod.left\nstatic\n"
+        "load set rod.right 0 %s\n";             /* turns by P L^2/(2 E I): 0.05, 0.19 */
+    static const char turns[] = "out/model/warn.model: warning: elements turn by more than 0.1 rad, "
+        "which statics takes as small: lengths are wrong; dynamic with damping 0 has them right\n";
     const struct { const char *text, *more, *said; } call[] = {
+        { rod, "1e6", "" }, { rod, "4e6", turns },
         { fall, "", falls }, { fall, "fix node 1\n", "" }, { fall, "fixblock b\n", "" },
         { two, "", slips }, { two, "contact kn 1e9\n", slips }, { two, "contact friction 0\n", "" },
         { two, "contact friction 30\n", "" }, { two, "contact kn 0\n", "" },

@@ -20,14 +20,14 @@ static const wrong wrongs[] = {
       "0.9975, expected blocks that touch at most" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
-    { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
     { "missing-word", ".model:3: a word is missing, expected: node ID X Y" },
     { "missing-value", ".model:5: not a number: 'nu', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
     { "missing-option", ".model:5: density is missing, expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
     { "missing-word-set", ".model:9: a word is missing, expected: set NAME nodes ID ID ..." },
-    { "missing-word-where", ".model:9: a word is missing, expected: load WHERE FX FY" },
+    { "missing-word-where", ".model:9: a word is missing, expected: load WHERE [of BLOCK] FX FY" },
     { "missing-word-element", ".model:6: element 1 has 2 nodes, expected 3 or more" },
     { "surplus-word", ".model:3: surplus word '0', expected: node ID X Y" },
     { "surplus-word-static", ".model:8: unknown option '3', expected: static [steps N] [tolerance VALUE]" },
@@ -61,7 +61,7 @@ static const wrong wrongs[] = {
     { "unknown-block-velocity", ".model:9: unknown block 'c', expected one that the model has, such as b" },
     { "unknown-set", ".model:9: unknown set 'c', expected one that the model has, such as b" },
     { "unknown-place", ".model:9: unknown place 'right', expected node ID, at X Y, set NAME or box XMIN YMIN XMAX "
-      "YMAX in: load WHERE FX FY" },
+      "YMAX in: load WHERE [of BLOCK] FX FY" },
     { "unknown-choice", ".model:9: 'both', expected one of exact|linear" },
     { "unknown-choice-bond", ".model:9: 'corners', expected one of vertices|midpoints|moment|auto" },
     { "bad-name", ".model:6: not a name (letters, digits, _ - .): 'b,c', expected: element ID BLOCK MATERIAL N1 N2 "
@@ -165,12 +165,13 @@ static const wrong wrongs[] = {
     { "expect-within", ".model:8: not the word within: 'by', expected: expect NAME u|v VALUE within TOLERANCE "
       "[%], or expect NAME moves|stays by TOLERANCE" },
     { "expect-zero", ".model:8: a tolerance of 0, expected more than 0" },
-    { "fix-by-missing", ".model:7: a word is missing, expected: fix WHERE [x [by U]] [y [by V]]" },
-    { "fix-by-not-a-number", ".model:7: not a number: 'y', expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "fix-by-missing", ".model:7: a word is missing, expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
+    { "fix-by-not-a-number", ".model:7: not a number: 'y', expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
     { "fix-by-two", ".model:8: node 5 is displaced by 0.2 in x here, by 0.1 in another statement, expected one of "
       "them" },
-    { "fix-by-without-direction", ".model:7: unknown option 'by', expected: fix WHERE [x [by U]] [y [by V]]" },
-    { "fix-x-twice", ".model:7: x for the second time, expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "fix-by-without-direction", ".model:7: unknown option 'by', expected: fix WHERE [of BLOCK] [x [by U]] [y "
+      "[by V]]" },
+    { "fix-x-twice", ".model:7: x for the second time, expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
     { "grid-kind", ".model:7: 'hexagons', expected one of quads|triangles|crossed" },
     { "grid-missing", ".model:7: a word is missing, expected: grid NAME MATERIAL X0 Y0 X1 Y1 NX NY "
       "[quads|triangles|crossed]" },
@@ -182,6 +183,10 @@ static const wrong wrongs[] = {
     { "grid-too-many", ".model:7: a grid of 10000 x 10000 cells, expected at most 4000000" },
     { "joint-cohesion", ".model:7: cohesion is -1, expected 0 or more" },
     { "joint-friction", ".model:7: friction is 90, expected 0 to less than 90 degrees" },
+    { "joint-itself", ".model:7: a joint of a block with itself, expected two blocks" },
+    { "near-block", ".model:8: unknown set 'bb', expected one that the model has, such as b, a, bottom" },
+    { "shake-static", ".model:7: shake in statics, expected dynamic" },
+    { "velocity-static", ".model:7: velocity in statics, expected dynamic" },
     { "joint-one-block", ".model:7: a word is missing, expected: joint BLOCK BLOCK [friction DEGREES] [cohesion "
       "PASCAL] [tension PASCAL]" },
     { "joint-option", ".model:7: unknown option 'strength', expected: joint BLOCK BLOCK [friction DEGREES] "
@@ -195,7 +200,7 @@ static const wrong wrongs[] = {
     { "let-surplus", ".model:7: surplus word '40', expected: let NAME VALUE" },
     { "let-twice", ".model:8: let 'phi' for the second time, expected a new one" },
     { "let-unknown", ".model:8: no `let` says what $psi is, expected one such as $phi" },
-    { "of-missing", ".model:7: a word is missing, expected: fix WHERE [x [by U]] [y [by V]]" },
+    { "of-missing", ".model:7: a word is missing, expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
     { "of-other-block", ".model:7: no node there of block b, expected a place that names one" },
     { "of-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
     { "output-field", ".model:7: 'szz', expected one of mises|sxx|syy|sxy|s1|s2|u|v" },
@@ -208,7 +213,7 @@ static const wrong wrongs[] = {
     { "water-density", ".model:7: density is 0, expected more than 0" },
     { "water-dry", ".model:7: no edge there lies below y = 0.5, expected one under water" },
     { "water-no-edge", ".model:7: no boundary edge has both ends there, expected one" },
-    { "water-no-level", ".model:7: a word is missing, expected: water WHERE LEVEL [density VALUE]" },
+    { "water-no-level", ".model:7: a word is missing, expected: water WHERE [of BLOCK] LEVEL [density VALUE]" },
     { "water-without-gravity", ".model:6: water without weight, expected gravity" },
     { "set-of-another-block", ".model:7: no node there of block b, expected a place that names one" },
 };

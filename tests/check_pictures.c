@@ -374,9 +374,11 @@ START_TEST(a_picture_says_the_time_that_it_shows)
     for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
         snprintf(model, sizeof model, FALL "%s", call[k].dynamic);
         ck_assert_int_eq(run_text("time", model), 0);
-        char *text = read_all("out/model/time/contacts.svg");
-        ck_assert_msg(strstr(text, call[k].said), "%s: not %s", call[k].dynamic, call[k].said);
-        free(text);
+        for (int map = 0; map < 2; map++) {
+            char *text = read_all(map ? "out/model/time/mises.svg" : "out/model/time/contacts.svg");
+            ck_assert_msg(strstr(text, call[k].said), "%s: not %s", call[k].dynamic, call[k].said);
+            free(text);
+        }
     }
 }
 END_TEST
@@ -436,6 +438,26 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
         ck_assert_int_eq(count(name, ">fixed in one direction<"), drawn[k].roller);
         ck_assert_int_eq(count(name, ">load "), drawn[k].load);
     }
+}
+END_TEST
+
+START_TEST(a_field_that_is_one_level_has_one_colour_and_large_forces_are_short)
+{
+    int bands = 0;
+
+    ck_assert_int_eq(run_text("even", "material a E 1e9 nu 0.25 density 1\ngrid a a 0 0 4 2 4 2\n"
+                              "fix set a.left x\nfix at 0 0 y\ntraction set a.right 1e6 0\nstatic\n"
+                              "output svg field sxx\n"), 0);
+    char *text = read_all("out/model/even/sxx.svg");
+    for (const char *s = strstr(text, "stroke-width=\"0.6\" d=\"M"); s; bands++)
+        s = strstr(s + 1, "stroke-width=\"0.6\" d=\"M");
+    ck_assert_int_eq(bands, 1);
+    free(text);
+    ck_assert_int_eq(run_text("even", "material a E 1e12 nu 0.25 density 1\ngrid a a 0 0 4 2 4 2\n"
+                              "fix set a.left\nload at 4 1 0 -2.5e9\nstatic\noutput svg\n"), 0);
+    text = read_all("out/model/even/contacts.svg");
+    ck_assert_ptr_nonnull(strstr(text, ">load 2.5 GN<"));
+    free(text);
 }
 END_TEST
 
@@ -507,6 +529,7 @@ Suite *pictures_suite(void)
     tcase_add_test(t, the_shipped_models_are_drawn_with_all_elements_the_right_way_round);
     tcase_add_test(t, a_picture_says_the_time_that_it_shows);
     tcase_add_test(t, a_title_with_other_letters_is_right);
+    tcase_add_test(t, a_field_that_is_one_level_has_one_colour_and_large_forces_are_short);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);
     suite_add_tcase(s, t);
