@@ -15,7 +15,7 @@
  * of p_n between the masses m, m.
  *
  * Angular momentum is kept up to the strain of the blocks, with friction and without. The forces of a contact act at
- * the points of the middle of the step, where their moments sum to zero (beyond/middle.c). The paper's shear forces,
+ * the points of the middle of the step, where their moments sum to zero (beyond/rotation.c). The paper's shear forces,
  * (60)-(62) of the start, would leave a couple of the shear force and the penetration. What is left falls as 1/E and
  * grows as the force of the impact does, as p_n^(1/2): strain changes the moment of inertia of what turns (turn_element
  * in bbm.c). The time step hardly changes it. The table gives the error as a share of what the first block brings along,
