@@ -117,24 +117,6 @@ static double computed(const bbm_model *m, const char *quantity, double x, doubl
 
 /* --------------------------------------------------------------------------------------- tables */
 
-/* Every reference value of a variant against the computed one: the rows of results.csv. */
-static void compare_all(case_results *r, const bbm_model *m, const char *variant,
-                        const case_reference *ref)
-{
-    for (int i = 0; i < ref->values; i++) {
-        const struct case_value *f = &ref->value[i];
-        const double xy[2] = { f->x, f->y };
-        char name[40];
-        if (isnan(f->x))
-            continue;
-        const double value = computed(m, f->quantity, f->x, f->y);
-        snprintf(name, sizeof name, "%s.%s", variant, f->quantity);
-        case_row(r, name, xy, value, theory(f->quantity, f->x, f->y), "theory");
-        case_row(r, name, xy, value, f->converged, "fem");
-        case_row(r, name, xy, value, f->six_node, "fem_coarse");
-    }
-}
-
 typedef struct { const char *quantity; double x, y; } place_of;
 
 static void print_table(const char *title, const bbm_model *m, const case_reference *ref,
@@ -247,11 +229,11 @@ static void draw_line(case_results *r, const bbm_model *const m[2], const case_r
     snprintf(csv, sizeof csv, "%s.csv", l->file);
     snprintf(svg, sizeof svg, "%s.svg", l->file);
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
-    case_draw_chart(r, svg, &(plot_chart){
-                        .title = l->title, .count = 4, .series = s,
-                        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
-                        .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
-                               l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } });
+    case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
+        .title = l->title, .count = 4, .series = s,
+        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
+        .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
+               l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } }));
     case_write_curves(r, csv, header, l->count, 4, &table[0][0]);
 }
 
@@ -284,7 +266,7 @@ static void draw_maps(case_results *r, const bbm_model *m)
     };
 
     for (int k = 0; k < 6; k++)
-        case_draw_map(r, map[k].file, m, &map[k].map);
+        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
 }
 
 /* ---------------------------------------------------------------------------------- convergence */
@@ -326,7 +308,7 @@ int main(int argc, char **argv)
         case_progress(k == 0 ? "plate b5, uniform stress" : "plate k5, exact tractions");
         m[k] = solve_plate(variant[k], 2, 1000);
         case_read_reference("exp2", variant[k], &ref[k]);
-        compare_all(&r, m[k], variant[k], &ref[k]);
+        case_compare_all(&r, &(case_problem){ computed, theory }, m[k], variant[k], &ref[k]);
     }
     case_print_parameters(m[0]);
     for (int k = 0; k < 2; k++)
