@@ -137,24 +137,18 @@ void case_fix_block(bbm_model *m, int block)
             bbm_fix_node(m, m->vertex[v].node, BBM_XY, 0, 0);
 }
 
-int case_node(const bbm_model *m, double x, double y)
+bbm_result case_at(const bbm_model *m, double x, double y)
 {
     double least = INFINITY;
-    int best = 0;
+    int nearest = 0;
+    bbm_result r;
 
     for (int n = 0; n < m->nodes; n++) {
         const double distance = hypot(m->node[n].x - x, m->node[n].y - y);
         if (distance < least)
-            least = distance, best = n;
+            least = distance, nearest = n;
     }
-    return best;
-}
-
-bbm_result case_at(const bbm_model *m, double x, double y)
-{
-    bbm_result r;
-
-    case_must(NULL, bbm_nodal_result(m, case_node(m, x, y), -1, &r));
+    case_must(NULL, bbm_nodal_result(m, nearest, -1, &r));
     return r;
 }
 

@@ -56,8 +56,7 @@ void   case_fix_block(bbm_model *m, int block);                 /* every node of
  * and gravity. The friction angle in degrees. */
 typedef struct { double E, nu, dt, p_n, friction, tolerance; } case_blocks;
 bbm_model *case_moving_model(const case_blocks *b);
-int    case_node(const bbm_model *m, double x, double y);       /* the node nearest to (x, y)   */
-bbm_result case_at(const bbm_model *m, double x, double y);     /* the result there             */
+bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */
 /* u, v, sxx, syy, sxy, svm */
 double case_quantity(const bbm_result *r, const char *quantity);
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
