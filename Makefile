@@ -7,6 +7,8 @@
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
 # make windows   ./bbm for Windows (mingw-w64)
+# make exercise N=07   a copy without one function, and its tests; doc/exercises
+# make figures   draws doc/figures             make check-exercises   each red as it begins, green in the end
 # One goal is made with as many jobs as there are processors, unless -j says how many.
 
 ifeq ($(MAKELEVEL)$(word 2,$(MAKECMDGOALS))$(filter -j%,$(MAKEFLAGS)),0)
@@ -18,7 +20,7 @@ CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CORE     = bbm contact solver
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy interpolation joints mechanism multipliers overlap pieces pressure \
+BEYOND   = beyond bending coarse eisenstat energy interpolation joints mechanism multipliers overlap passed pieces pressure \
            refuse rotation sliding statics strain supports sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch
@@ -87,6 +89,13 @@ $O/paper/formulas: $O/tests/check_paper.o $O/tests/check_formulas.o $O/tests/sha
 bbm: $O/bbm
 	cp $O/bbm bbm
 
+# The figures of the documents, by doc/figures.c; a test compares them.
+figures: $O/figures
+	$O/figures doc/figures
+
+$O/figures: $O/doc/figures.o $O/cases/plot.o $O/cases/output.o $(CORE:%=$O/%.o)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
 $O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
@@ -143,11 +152,31 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
+# --- exercises, see doc/exercises/README.md: a copy of a source in out/exercise/N, and its tests ---
+ALONE = $(CORE:%=$O/%.o)
+EXERCISE = O="$O" COMPILE="$(CC) $(STRICT) -Wno-unused -Wno-unused-parameter $(CPPFLAGS) $(CFLAGS) -O0" FAILING="$(FAILING)" \
+LINK="$(CC) $(CFLAGS) $(LDFLAGS)" LIBS="$(CHECK) -lm" TESTED="$O/tests/check_main.o $(TESTED)" ALONE="$(ALONE)" \
+MAKE="$(MAKE) -s" sh tests/exercise.sh
+
+exercise:
+	+@$(EXERCISE) begin $(or $(N),0)
+
+check-exercises: $O/quick $(ALONE)
+	@$(EXERCISE) prove
+
+# The figures of the documents, their commands and what these print.
+check-documents: $O/figures $O/bbm experiments
+	@rm -rf $O/drawn && mkdir $O/drawn && $O/figures $O/drawn && diff -r $O/drawn doc/figures || \
+	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
+	@for f in $$(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do \
+	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
+	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
+
 # The tests in two parts side by side, each to a file: those of what the experiments print, and all others.
 PARTS = others experiments
 SAY   = $O/check > $O/$*.said 2>&1 || echo "ended with status $$?" >> $O/$*.said
 
-check: $(PARTS:%=check-%) check-smoke
+check: $(PARTS:%=check-%) check-exercises check-documents check-smoke
 	@cat $(PARTS:%=$O/%.said)
 	@awk -F '[:,]' '/^[0-9]+%: Checks:/ { run += $$3; failed += $$5 + $$7 } /^ended with status/ { bad = 1 } \
 	END { print run " checks, " failed " failed" (bad ? ": not passed" : ""); exit bad }' $(PARTS:%=$O/%.said)
@@ -225,9 +254,10 @@ fuzz:
 	$(READER:%=cases/%.c) $(SHARED:%=cases/%.c) $(LIBRARY:%=%.c) -lm
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
+# What a student has written in out/exercise stays.
 clean:
-	rm -rf out bbm
+	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
-.PHONY: check $(PARTS:%=check-%) check-smoke experiments $(CALLS)
+.PHONY: check $(PARTS:%=check-%) check-smoke check-exercises check-documents experiments exercise figures $(CALLS)
 .DELETE_ON_ERROR:

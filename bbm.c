@@ -821,21 +821,22 @@ static int is_lost(bbm_status s)
 
 /* One time step. If it fails, dt is halved and the step done again, down to dt/1024, as long as
  * that takes no more than some solutions; the nominal step is completed in parts, which grow again.
- * In statics all contacts of a block may begin to slide in one pass, and nothing holds it then,
- * though not all would have to: the second trial lets one contact change in each pass, so that the
- * others can take over. A step that fails leaves the model as the last part left it. */
+ * A static step has three trials. In the second one friction is a load in any case: K stays
+ * symmetric. All contacts of a block may begin to slide in one pass, and nothing holds it then,
+ * though not all would have to: the third lets one contact change in each pass, so that the others
+ * can take over. A step that fails leaves the model as the last part left it. */
 bbm_status bbm_step(bbm_model *m)
 {
     int left = PARTS, part = PARTS;
     bbm_status status = bbm_check_step(m);
 
-    m->info.passes = m->info.cuts = m->info.iterations = m->one_by_one = 0;
+    m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
     while (!status && left > 0) {
         m->h = isinf(m->par.dt) ? INFINITY : m->par.dt * part / PARTS;
         status = try_step(m);
         const int again = is_lost(status) || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG;
-        if (bbm_is_static(m) && is_lost(status) && !m->one_by_one) {
-            m->one_by_one = 1;
+        if (bbm_is_static(m) && is_lost(status) && m->trial < BBM_ONE_BY_ONE) {
+            m->trial++;
             status = BBM_OK;
         } else if (bbm_is_static(m) || !again || part == 1 || is_spent(m)) {
             left -= part;

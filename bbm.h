@@ -186,6 +186,8 @@ typedef struct {                /* what a solve did                             
 enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
 typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;
+/* Trials of a static step: as ever; friction as a load in any case; one change of state a pass. */
+enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
 
 typedef struct {                /* vertex P1 of one block against an edge P2 P3 of another      */
@@ -330,7 +332,7 @@ struct bbm_model {
     double h;                   /* s        dt, or a part of it                                 */
     double acceleration[2];     /* m/s^2    of gravity                                          */
     int detections;             /* of contacts                                                  */
-    int one_by_one;             /* one contact changes its state in a pass                      */
+    int trial;                  /* of a static step                                             */
     int K_is_kept;              /* F alone is assembled                                         */
     /* --- results --- */
     bbm_info info;

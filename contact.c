@@ -783,7 +783,7 @@ static void make_contact(bbm_model *m, pair p, bbm_contact *c)
         place_anchor(m, c, c->T);
         c->rest = bbm_is_exact(m) ? fmin(0, c->d_n0 + c->N / m->par.p_n) : 0;
     }
-    if (m->one_by_one && c->state == BBM_SLIDE)
+    if (m->trial == BBM_ONE_BY_ONE && c->state == BBM_SLIDE)
         c->state = BBM_LOCK;
 }
 
@@ -819,7 +819,7 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
         make_contact(m, w->pair[k], &list[k]);
     w->is_listed = 1;
     w->passes = w->friction_passes = 0;
-    w->one_until = m->one_by_one ? PASSES + 1 : 0;
+    w->one_until = m->trial == BBM_ONE_BY_ONE ? PASSES + 1 : 0;
     return BBM_OK;
 }
 
@@ -1061,7 +1061,8 @@ static void change_state(const bbm_model *m, bbm_contact *c)
 
 /* The state that a contact takes in the next pass. What is blocked stays open. A locked contact in
  * tension may have been pulled open by its shear spring: if that carries more than friction would
- * under as much pressure, the contact first slides, which takes the spring away. */
+ * under as much pressure, the contact first slides, which takes the spring away - but not where
+ * friction is a load of a static step: it would push the wrong way. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_parameters *p = bbm_strength_of(m, c);
@@ -1070,7 +1071,8 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
 
     if (c->state == BBM_OPEN && next != BBM_OPEN && is_blocked(m, c))
         return BBM_OPEN;
-    if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0)
+    if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0
+        && m->trial != BBM_FRICTION_A_LOAD)
         return BBM_SLIDE;
     return next;
 }

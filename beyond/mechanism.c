@@ -4,7 +4,7 @@
  * A grid of rectangles bonded so has a motion that costs nothing: neighbours turn in opposite
  * senses, like a chequerboard of gears, about the middles of their common sides (doc/limits.md,
  * section 2). The equations are then singular, or what holds the motion has nothing to do with the
- * body's stiffness, and the displacements are wrong without a word.
+ * body's stiffness: the displacements are wrong, and nothing in them says so.
  *
  * Rigid elements tell it, since what strains an element costs energy in any case. Let each have
  * three unknowns, two displacements and a rotation. Let E be the energy of unit springs in all gaps

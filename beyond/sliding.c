@@ -52,7 +52,7 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
     bbm_term *k = &m->K->term[m->K->terms];
     bbm_spring n, s;
 
-    if (p == 0)
+    if (p == 0 || m->trial == BBM_FRICTION_A_LOAD)
         return 0;
     bbm_normal_vectors(t, &n);
     bbm_shear_vectors(t, c->anchor, &s);

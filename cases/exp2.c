@@ -9,7 +9,7 @@
  *         |_________|-> s       (72) is exact
  *         1 o  o    5       One large step, as in the paper.
  *
- * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for three
+ * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for four
  * values of alpha. */
 #include <math.h>
 #include <stdlib.h>
@@ -256,7 +256,7 @@ static void draw_maps(case_results *r, const bbm_model *m)
 
 /* ---------------------------------------------------------------------------------- convergence */
 
-/* The error of u(1,0) and of sxx(0,1), plate k5, on three meshes for three values of alpha. */
+/* The error of u(1,0) and of sxx(0,1), plate k5, on three meshes for four values of alpha. */
 static void converge(void)
 {
     printf("\nExperiment II, plate k5: error of u(1,0) | of sxx(0,1) against theory (72)\n\n"

@@ -8,6 +8,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include <ctype.h>
 #include <glob.h>
+#include <glob.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -264,7 +265,7 @@ static int has_word(const char *text, const char *word)
 }
 
 /* Each name in the picture of the house, a word with an underscore in it, is one of the sources; each
- * file is there. */
+ * file is there, and each file of beyond/ is in it. */
 START_TEST(the_picture_of_the_house_names_what_there_is)
 {
     const char *const path[] = { "bbm.h", "bbm.c", "contact.c", "solver.c", "beyond/beyond.c" };
@@ -299,6 +300,13 @@ START_TEST(the_picture_of_the_house_names_what_there_is)
         }
     }
     ck_assert(names > 30 && files > 15);
+    glob_t all;
+    ck_assert_int_eq(glob("beyond/*.c", 0, NULL, &all), 0);
+    for (size_t k = 0; k < all.gl_pathc; k++)
+        ck_assert_msg(strstr(picture, all.gl_pathv[k] + strlen("beyond/"))
+                      || strcmp(all.gl_pathv[k], "beyond/beyond.c") == 0,
+                      "doc/house.svg lacks %s", all.gl_pathv[k]);
+    globfree(&all);
     for (int k = 0; k < 5; k++)
         free(source[k]);
     free(picture);

@@ -414,10 +414,10 @@ START_TEST(a_step_that_starts_again_begins_from_the_last_one)
     ck_assert_int_eq(n, 1 + _i);
     for (int slid = 0; slid < 2; slid++) {
         ck_assert_int_eq(look_at(m, 1, 0, -1e-3), 1 + _i);
-        m->one_by_one = 1;
+        m->trial = BBM_ONE_BY_ONE;
         bbm_guess_step(m);
         ck_ok(bbm_detect_contacts(m, NULL), m);
-        m->one_by_one = 0;
+        m->trial = BBM_AS_EVER;
         bbm_contact *list = bbm_list_contacts(m, &n);
         ck_assert_int_eq(n, 1 + _i);
         for (int k = 0; k < n; k++) {

@@ -1,0 +1,124 @@
+#!/bin/sh
+# exercise.sh - the exercises of doc/exercises: copies of the sources, and their tests.
+#
+#   exercise.sh begin N      makes the copy of exercise N in out/exercise/N, unless it is there, and
+#                            runs its tests
+#   exercise.sh prove        all exercises: red as they begin, green with the source as it is
+#
+# The first table of a page says what is done: the kind, the file, the function that is taken out,
+# the tests: a group of those of `make quick`, or `program`, a program that tests itself. An error
+# that is to be found is a row of doc/teacher.md: the exercise, the file, a piece of a line, and what
+# stands in its place.
+#
+# `make exercise` gives O, where the objects are; COMPILE, FAILING, LINK, LIBS, parts of commands;
+# TESTED and ALONE, the objects for tests and for programs; MAKE.
+set -eu
+unset CK_RUN_SUITE CK_INCLUDE_TAGS CK_EXCLUDE_TAGS
+PAGES=doc/exercises
+CUT=tests/exercise.awk
+
+# The fields of the first row of the tables in file $1 that fits the condition $2, a line each.
+row()
+{
+    awk -F ' *[|] *' "/^[|]/ && $2"' { for (k = 2; k < NF; k++) { gsub(/`/, "", $k); print $k }; exit }' "$1"
+}
+
+# Reads the page of exercise $1.
+read_page()
+{
+    page=$(ls $PAGES/"$1"-*.md 2> /dev/null || :)
+    [ -f "$page" ] || { echo "there is no exercise $1 in $PAGES: make exercise N=01"; exit 2; }
+    { read -r kind; read -r file; read -r name; read -r tests; } << END
+$(row "$page" '++rows == 3')
+END
+}
+
+# Writes the copy with which exercise $1 begins to $2.
+write_copy()
+{
+    case $kind in
+    'fill in' | extend)
+        NAME=$name awk -f $CUT "$file" > "$2" ;;
+    'find the error')
+        { read -r _; read -r _; IFS= read -r from; IFS= read -r to; } << END
+$(row doc/teacher.md "\$2 == \"$1\"")
+END
+        FROM=$from TO=$to awk -f $CUT "$file" > "$2" ;;
+    *)
+        cp "$file" "$2" ;;
+    esac
+}
+
+# Makes $2/tests with the source $1, a copy of $file or that itself.
+build()
+{
+    if [ "$tests" = program ]; then
+        $COMPILE -I. -c -o "$2/copy.o" "$1"
+        $LINK -o "$2/tests" "$2/copy.o" $ALONE $LIBS
+    else
+        others=$(for o in $TESTED; do [ "$o" = "$O/failing/${file%.c}.o" ] || echo "$o"; done)
+        $COMPILE $FAILING -I. -I"$(dirname "$file")" -c -o "$2/copy.o" "$1"
+        $LINK -o "$2/tests" "$2/copy.o" $others $LIBS
+    fi
+}
+
+is_a_model() { [ "$kind" = predict ] || [ "$kind" = measure ]; }
+
+begin()
+{
+    read_page "$1"
+    here=out/exercise/$1
+    copy=$here/$(basename "$file")
+    mkdir -p "$here"
+    if is_a_model; then $MAKE bbm; else $MAKE "$O/quick" $ALONE; fi
+    [ -f "$copy" ] || { write_copy "$1" "$copy.new"; mv "$copy.new" "$copy"; }
+    echo "The task: $page"
+    echo "The copy: $copy"
+    if is_a_model; then return; fi
+    build "$copy" "$here"
+    CK_RUN_CASE=$tests "$here/tests" || { echo "Red: not yet right."; exit 1; }
+    echo "Green: done."
+}
+
+complain() { echo "$page: $1"; cat "$here/said"; exit 1; }
+
+prove_one()
+{
+    read_page "$1"
+    here=$O/exercise/$1
+    copy=$here/$(basename "$file")
+    mkdir -p "$here"
+    write_copy "$1" "$copy"
+    is_a_model && return
+    build "$copy" "$here" > "$here/said" 2>&1 || complain "its copy cannot be built"
+    ! CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "green as it begins"
+    grep -q 'Failures: [1-9]\|Errors: [1-9]\|^wrong: ' "$here/said" || complain "no test is red"
+    if [ "$tests" = program ]; then build "$file" "$here"; else cp "$O/quick" "$here/tests"; fi
+    CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "red with $file itself"
+}
+
+# What is not there, or there twice, is no exercise.
+prove_cut()
+{
+    for function in no_such_function bbm_add_pair; do
+        ! NAME=$function awk -f $CUT bbm.c > /dev/null 2>&1 || { echo "$CUT found $function"; exit 1; }
+    done
+    ! FROM='return' TO='' awk -f $CUT bbm.c > /dev/null 2>&1 || { echo "$CUT took the first of many"; exit 1; }
+}
+
+prove()
+{
+    prove_cut
+    count=0
+    for p in $PAGES/[0-9]*.md; do
+        number=$(basename "$p" | sed 's/-.*//')
+        (prove_one "$number")
+        count=$((count + 1))
+    done
+    echo "$count exercises: red as they begin, green with the sources"
+}
+
+case $1 in
+begin) case $2 in ?) begin "0$2" ;; *) begin "$2" ;; esac ;;
+prove) prove ;;
+esac
