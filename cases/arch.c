@@ -28,7 +28,7 @@
 
 enum { N = 15, SETTLE = 100, STEPS = 400 };
 
-static const double R = 10, density = 2500, RIGHT = 1.57079632679489661923;
+static const double R = 10, RIGHT = 1.57079632679489661923;
 
 static double joint(int n, double k)        /* angle of joint k = 0 .. n from the right springing */
 {
@@ -117,25 +117,20 @@ static double least_friction(double ratio)
 static bbm_model *build_arch(int n, double ratio, double friction)
 {
     const double t = ratio * R, ri = R - t / 2, ro = R + t / 2;
-    bbm_model *m = case_model();
+    bbm_model *m = case_moving_model(&(case_blocks){ 1e12, 0.2, 0.01, 1e10, friction, 1e-12 });
 
-    bbm_add_material(m, &(bbm_material){ 1e14, 0.25, density, 1 }, NULL);
-    bbm_add_material(m, &(bbm_material){ 1e12, 0.2, density, 1 }, NULL);
     case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = ri - 1, .y = -1, .w = t + 2, .h = 1 });
     for (int k = 0; k < n; k++) {
-        const double a = joint(n, k), b = joint(n, k + 1);
-        case_add_polygon(m, k + 1, 1, 4, (double[4][2]){ { ri * cos(a), ri * sin(a) }, { ro * cos(a), ro * sin(a) },
-                                                         { ro * cos(b), ro * sin(b) }, { ri * cos(b), ri * sin(b) } });
+        int node[4];
+        for (int c = 0; c < 4; c++) {
+            const double a = joint(n, k + c / 2), r = c % 3 ? ro : ri;
+            bbm_add_node(m, r * cos(a), r * sin(a), &node[c]);
+        }
+        bbm_add_element(m, k + 1, 1, 4, node, NULL);
     }
     case_add_box(m, &(case_box){ .block = n + 1, .nx = 1, .ny = 1, .x = -ro - 1, .y = -1, .w = t + 2, .h = 1 });
     case_fix_block(m, 0);
     case_fix_block(m, n + 1);
-    m->par.dt = 0.01;
-    m->par.gravity[1] = -9.81;
-    m->par.p_n = 1e10;
-    m->par.p_s = 4e9;
-    m->par.friction = friction;
-    m->par.pcg.tolerance = 1e-12;
     case_must(m, bbm_prepare(m));
     return m;
 }
@@ -149,15 +144,25 @@ static double moved(const bbm_model *m)
     return d;
 }
 
-/* Whether an arch stands. */
-static int stands(int n, double ratio, double friction)
+/* Lets an arch go until a voussoir has moved `far`, and records it unless s is NULL. */
+static bbm_model *let_go(int n, double ratio, double friction, double far, scene *s)
 {
     bbm_model *m = build_arch(n, ratio, friction);
 
     case_settle(m, SETTLE);
-    for (int i = 0; i < STEPS && moved(m) < 0.2; i++)
-        case_step(m, NULL, NULL);
+    m->info.t = 0;
+    if (s)
+        scene_record(s, m);
+    for (int i = 0; i < STEPS && moved(m) < far; i++)
+        case_step(m, s);
+    return m;
+}
+
+static int stands(int n, double ratio, double friction)
+{
+    bbm_model *m = let_go(n, ratio, friction, 0.2, NULL);
     const double d = moved(m);
+
     bbm_model_free(m);
     return d < 0.2;
 }
@@ -225,16 +230,15 @@ static void draw_thrust(plot *p, double top, const bbm_model *m, const char *tit
 static void draw_thrusts(case_results *r)
 {
     bbm_model *thick = build_arch(N, 0.15, 30), *thin = build_arch(N, 0.107, 30);
-    char path[128];
     plot p;
 
     case_settle(thick, SETTLE);
     case_settle(thin, SETTLE);
-    if (!plot_open(&p, case_path(r, "thrust.svg", path), 800, 940))
-        case_progress("thrust.svg cannot be written");
-    draw_thrust(&p, 0, thick, "Line of thrust of an arch of thickness 0.15 R");
-    draw_thrust(&p, 470, thin, "Line of thrust near the least thickness: 0.107 R");
-    plot_close(&p);
+    if (case_draw(r, plot_open(&p, case_path(r, "thrust.svg"), 800, 940))) {
+        draw_thrust(&p, 0, thick, "Line of thrust of an arch of thickness 0.15 R");
+        draw_thrust(&p, 470, thin, "Line of thrust near the least thickness: 0.107 R");
+        case_draw(r, plot_close(&p));
+    }
     bbm_model_free(thick);
     bbm_model_free(thin);
 }
@@ -242,25 +246,21 @@ static void draw_thrusts(case_results *r)
 /* Lets an arch go and draws it: NAME.svg at rest or its fall, NAME-states.svg. Returns whether it stood. */
 static int show(case_results *r, double ratio, double friction, const char *name, const char *title)
 {
-    bbm_model *m = build_arch(N, ratio, friction);
     scene s = { .title = title, .window = { -13, 13, -1.2, 11.2 } };
-    char file[60];
-
-    case_settle(m, SETTLE);
-    m->info.t = 0;
-    scene_record(&s, m);
-    for (int i = 0; i < STEPS && moved(m) < 8; i++)
-        case_step(m, NULL, &s);
+    bbm_model *m = let_go(N, ratio, friction, 8, &s);
     const int stood = moved(m) < 0.2;
     const double t = m->info.t;
+    char file[60];
+
     snprintf(file, sizeof file, "%s.svg", name);
     if (stood)
-        case_draw_panels(r, file, m, &s, 1, &t);
+        case_draw(r, scene_write_panels(&s, m, case_path(r, file), 1, &t));
     else
-        case_draw_movie(r, file, m, &s);
+        case_draw(r, scene_write_movie(&s, m, case_path(r, file)));
     snprintf(file, sizeof file, "%s-states.svg", name);
     if (!stood)
-        case_draw_panels(r, file, m, &s, 4, (double[]){ 0.25 * t, 0.5 * t, 0.75 * t, t });
+        case_draw(r, scene_write_panels(&s, m, case_path(r, file), 4,
+                                        (double[]){ 0.25 * t, 0.5 * t, 0.75 * t, t }));
     scene_free(&s);
     bbm_model_free(m);
     return stood;

@@ -64,9 +64,9 @@ static int copy_nodes(model_reader *r)
             if (*link >= 0)
                 continue;
             *link = r->copies;
-            if (!model_grow(r, &r->copy, r->copies, sizeof *r->copy))
+            const model_copy copy = { -1, r->element[e].block, -1 };
+            if (!model_add(r, &r->copy, &r->copies, sizeof copy, &copy))
                 return 0;
-            r->copy[r->copies++] = (model_copy){ -1, r->element[e].block, -1 };
         }
     return 1;
 }
@@ -118,20 +118,19 @@ static int add_element(model_reader *r, const model_element *e)
     return 1;
 }
 
-/* Box of the nodes in use: their copies are the nodes of the library. */
-static void measure_box(model_reader *r)
+/* By the box of the nodes in use: their copies are the nodes of the library. */
+static void set_margin(model_reader *r)
 {
-    const bbm_model *m = r->p->m;
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
 
-    r->low[0] = r->low[1] = INFINITY;
-    r->high[0] = r->high[1] = -INFINITY;
-    for (int n = 0; n < m->nodes; n++) {
-        r->low[0] = fmin(r->low[0], m->node[n].x);
-        r->low[1] = fmin(r->low[1], m->node[n].y);
-        r->high[0] = fmax(r->high[0], m->node[n].x);
-        r->high[1] = fmax(r->high[1], m->node[n].y);
+    for (int n = 0; n < r->p->m->nodes; n++) {
+        const double x[2] = { r->p->m->node[n].x, r->p->m->node[n].y };
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], x[k]);
+            high[k] = fmax(high[k], x[k]);
+        }
     }
-    r->margin = NEAR * hypot(r->high[0] - r->low[0], r->high[1] - r->low[1]);
+    r->margin = NEAR * hypot(high[0] - low[0], high[1] - low[1]);
 }
 
 /* Names the blocks and the elements that lie in each other. */
@@ -168,7 +167,7 @@ int model_build(model_reader *r)
         add_element(r, &r->element[e]);
     if (p->status)
         return 0;
-    measure_box(r);
+    set_margin(r);
     const bbm_status status = bbm_prepare(p->m);
     const model_element *e = &r->element[status == BBM_OVERLAP ? p->m->blamed[0] : 0];
     if (status == BBM_OVERLAP)
@@ -521,21 +520,18 @@ int model_monitors(model_reader *r)
 {
     const char *word = model_name(r);
     model *p = r->p;
+    model_monitor m = { word, 0, NULL };
 
     if (!word || !model_is_new(r, &r->monitor_of, "monitor", word) || !where(r, 1)
-        || !model_at_end(r))
+        || !model_at_end(r) || !model_enter(r, &r->monitor_of, word, p->monitors))
         return 0;
-    if (!model_grow(r, &p->monitor, p->monitors, sizeof *p->monitor)
-        || !model_enter(r, &r->monitor_of, word, p->monitors))
-        return 0;
-    model_monitor *m = &p->monitor[p->monitors++];
-    *m = (model_monitor){ word, 0, NULL };
-    for (int k = 0; k < r->chosen; k++) {
-        if (!model_grow(r, &m->node, m->nodes, sizeof *m->node))
-            return 0;
-        m->node[m->nodes++] = r->chosen_node[k];
-    }
-    return 1;
+    m.node = model_room(r, r->chosen, sizeof *m.node);
+    for (; m.node && m.nodes < r->chosen; m.nodes++)
+        m.node[m.nodes] = r->chosen_node[m.nodes];
+    if (m.node && model_add(r, &p->monitor, &p->monitors, sizeof m, &m))
+        return 1;
+    free(m.node);
+    return 0;
 }
 
 /* What the statements have noted for each block goes to its nodes and elements; statics must be

@@ -110,19 +110,6 @@ void case_add_grid(bbm_model *m, case_grid *g)
     case_must(m, m->status);
 }
 
-int case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[2])
-{
-    int node[64], element = -1;
-
-    if (n > 64)
-        stop("case_add_polygon", "more than 64 vertices");
-    for (int i = 0; i < n; i++)
-        bbm_add_node(m, xy[i][0], xy[i][1], &node[i]);
-    bbm_add_element(m, block, material, n, node, &element);
-    case_must(m, m->status);
-    return element;
-}
-
 static void place_in_box(double i, double j, const void *box, double xy[2])
 {
     const case_box *b = box;
@@ -150,24 +137,18 @@ void case_fix_block(bbm_model *m, int block)
             bbm_fix_node(m, m->vertex[v].node, BBM_XY, 0, 0);
 }
 
-int case_node(const bbm_model *m, double x, double y)
+bbm_result case_at(const bbm_model *m, double x, double y)
 {
     double least = INFINITY;
-    int best = 0;
+    int nearest = 0;
+    bbm_result r;
 
     for (int n = 0; n < m->nodes; n++) {
         const double distance = hypot(m->node[n].x - x, m->node[n].y - y);
         if (distance < least)
-            least = distance, best = n;
+            least = distance, nearest = n;
     }
-    return best;
-}
-
-bbm_result case_at(const bbm_model *m, double x, double y)
-{
-    bbm_result r;
-
-    case_must(NULL, bbm_nodal_result(m, case_node(m, x, y), -1, &r));
+    case_must(NULL, bbm_nodal_result(m, nearest, -1, &r));
     return r;
 }
 
@@ -183,35 +164,25 @@ double case_quantity(const bbm_result *r, const char *quantity)
 
 /* ---------------------------------------------------------------------------- blocks that touch */
 
-bbm_model *case_block_on_slope(const case_slope *s)
+bbm_model *case_moving_model(const case_blocks *b)
 {
-    const double turn = s->angle * acos(-1) / 180;
     bbm_model *m = case_model();
 
     bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
-    bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
-    case_add_box(m, &(case_box){ .nx = s->base, .ny = 1, .x = -12, .y = -1, .w = 18, .h = 1,
-                                 .turn = turn });
-    case_fix_block(m, 0);
-    case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = s->w,
-                                 .h = s->h, .turn = turn });
-    m->par.dt = s->dt;
+    bbm_add_material(m, &(bbm_material){ b->E, b->nu, 2500, 1 }, NULL);
+    m->par.dt = b->dt;
     m->par.velocity_factor = 1;
     m->par.gravity[1] = -9.81;
-    m->par.p_n = s->p_n;
-    m->par.p_s = 0.4 * s->p_n;
-    m->par.friction = s->friction;
-    m->par.pcg.tolerance = 1e-14;
+    m->par.p_n = b->p_n;
+    m->par.p_s = 0.4 * b->p_n;
+    m->par.friction = b->friction;
+    m->par.pcg.tolerance = b->tolerance;
     return m;
 }
 
-void case_step(bbm_model *m, case_effort *e, scene *s)
+void case_step(bbm_model *m, scene *s)
 {
     case_must(m, bbm_step(m));
-    if (e) {
-        e->passes = e->passes > m->info.passes ? e->passes : m->info.passes;
-        e->cuts += m->info.cuts;
-    }
     if (s)
         scene_record(s, m);
 }
@@ -220,7 +191,7 @@ void case_settle(bbm_model *m, int steps)
 {
     m->par.velocity_factor = 0;
     for (int i = 0; i < steps; i++)
-        case_step(m, NULL, NULL);
+        case_step(m, NULL);
     m->par.velocity_factor = 1;
 }
 
@@ -284,10 +255,10 @@ const struct case_value *case_find(const case_reference *r, const char *quantity
 
 /* ----------------------------------------------------------------------------- results as files */
 
-const char *case_path(const case_results *r, const char *file, char path[128])
+const char *case_path(case_results *r, const char *file)
 {
-    snprintf(path, 128, "%s/%s", r->folder, file);
-    return path;
+    snprintf(r->path, sizeof r->path, "%s/%s", r->folder, file);
+    return r->path;
 }
 
 static void make_folder(const char *path)
@@ -298,15 +269,13 @@ static void make_folder(const char *path)
 
 void case_open(case_results *r, const char *name)
 {
-    char path[128];
-
     snprintf(r->folder, sizeof r->folder, "out/%s", name);
     r->worst = r->failed = 0;
     make_folder("out");
     make_folder(r->folder);
-    r->csv = fopen(case_path(r, "results.csv", path), "w");
+    r->csv = fopen(case_path(r, "results.csv"), "w");
     if (!r->csv)
-        stop(path, strerror(errno));
+        stop(r->path, strerror(errno));
     fprintf(r->csv, "quantity,x,y,computed,reference,kind,relative_error\n");
 }
 
@@ -334,6 +303,26 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
     return error;
 }
 
+void case_compare_all(case_results *r, const case_problem *p, const bbm_model *m,
+                      const char *variant, const case_reference *ref)
+{
+    for (int i = 0; i < ref->values; i++) {
+        const struct case_value *f = &ref->value[i];
+        const double xy[2] = { f->x, f->y };
+        char name[40];
+        if (isnan(f->x))
+            continue;
+        const double value = p->computed(m, f->quantity, f->x, f->y);
+        const double exact = p->theory(f->quantity, f->x, f->y);
+        snprintf(name, sizeof name, "%s.%s", variant, f->quantity);
+        if (!isnan(exact))
+            case_row(r, name, xy, value, exact, "theory");
+        if (!isnan(f->converged))
+            case_row(r, name, xy, value, f->converged, "fem");
+        case_row(r, name, xy, value, f->six_node, "fem_coarse");
+    }
+}
+
 double case_compare(case_results *r, const char *name, double computed, double reference)
 {
     const double nowhere[2] = { NAN, NAN };
@@ -343,14 +332,13 @@ double case_compare(case_results *r, const char *name, double computed, double r
     return error;
 }
 
-void case_write_curves(const case_results *r, const char *file, const char *header, int rows,
+void case_write_curves(case_results *r, const char *file, const char *header, int rows,
                        int columns, const double *table)
 {
-    char path[128];
-    FILE *f = fopen(case_path(r, file, path), "w");
+    FILE *f = fopen(case_path(r, file), "w");
 
     if (!f)
-        stop(path, strerror(errno));
+        stop(r->path, strerror(errno));
     fprintf(f, "%s\n", header);
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < columns; j++) {
@@ -360,58 +348,14 @@ void case_write_curves(const case_results *r, const char *file, const char *head
             fputc(j + 1 < columns ? ',' : '\n', f);
         }
     if (ferror(f) | fclose(f))
-        stop(path, "could not be written");
+        stop(r->path, "could not be written");
 }
 
-/* ------------------------------------------------------------------------------------- pictures */
-
-/* What is left of a picture that could not be made: a line, and the exit status. */
-static void finish(case_results *r, const char *path, int done)
+int case_draw(case_results *r, int done)
 {
     if (!done) {
-        fprintf(stderr, "%s could not be written: %s\n", path, strerror(errno));
+        fprintf(stderr, "%s could not be written: %s\n", r->path, strerror(errno));
         r->failed = 1;
     }
-}
-
-void case_draw_chart(case_results *r, const char *file, const plot_chart *c)
-{
-    char path[128];
-
-    finish(r, path, plot_write_chart(case_path(r, file, path), c));
-}
-
-void case_open_page(case_results *r, const char *file, plot *p, double width, double height)
-{
-    char path[128];
-
-    finish(r, path, plot_open(p, case_path(r, file, path), width, height));
-}
-
-void case_close_page(case_results *r, plot *p)
-{
-    if (p->out.file)
-        finish(r, p->out.path, plot_close(p));
-}
-
-void case_draw_movie(case_results *r, const char *file, const bbm_model *m, const scene *s)
-{
-    char path[128];
-
-    finish(r, path, scene_write_movie(s, m, case_path(r, file, path)));
-}
-
-void case_draw_panels(case_results *r, const char *file, const bbm_model *m, const scene *s, int n,
-                      const double time[])
-{
-    char path[128];
-
-    finish(r, path, scene_write_panels(s, m, case_path(r, file, path), n, time));
-}
-
-void case_draw_map(case_results *r, const char *file, const bbm_model *m, const scene_map *map)
-{
-    char path[128];
-
-    finish(r, path, scene_write_map(m, case_path(r, file, path), map));
+    return done;
 }

@@ -28,7 +28,7 @@ typedef struct {                    /* values of cases/fem.csv for one problem a
 } case_reference;
 
 typedef struct {                    /* out/NAME/results.csv                                     */
-    char folder[64];
+    char folder[64], path[128];     /* path: of case_path, the last file                        */
     FILE *csv;
     double worst;                   /* largest |relative error| of the rows since it was set to 0 */
     int failed;                     /* 1: a picture could not be made                           */
@@ -47,27 +47,22 @@ bbm_model *case_paper_model(void);
 int    case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners);
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
-/* A block of one element: the polygon through xy, nodes of its own. Returns the element. */
-int    case_add_polygon(bbm_model *m, int block, int material, int n, double (*xy)[2]);
 /* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h, then turned about the
  * origin by an angle. Returns its first element; element (i, j) is j nx + i further. */
 typedef struct { int block, material, nx, ny; double x, y, w, h, turn; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
 void   case_fix_block(bbm_model *m, int block);                 /* every node of it             */
-/* Element 0: a fixed, rigid incline, falling to the left, from `base` pieces; the last element: a
- * block that stands on it, its lower left corner in the origin. Ready to be prepared, with p_s =
- * 0.4 p_n, 2500 kg/m^3 and gravity. Angles in degrees. */
-typedef struct { double angle, w, h, friction, p_n, dt; int base; } case_slope;
-bbm_model *case_block_on_slope(const case_slope *s);
-int    case_node(const bbm_model *m, double x, double y);       /* the node nearest to (x, y)   */
-bbm_result case_at(const bbm_model *m, double x, double y);     /* the result there             */
+/* A model of blocks that move: material 0 is rigid, 1 has E and nu, both 2500 kg/m^3; p_s = 0.4 p_n
+ * and gravity. The friction angle in degrees. */
+typedef struct { double E, nu, dt, p_n, friction, tolerance; } case_blocks;
+bbm_model *case_moving_model(const case_blocks *b);
+bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */
 /* u, v, sxx, syy, sxy, svm */
 double case_quantity(const bbm_result *r, const char *quantity);
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
 double case_percent(double computed, double reference);
 
-typedef struct { int passes, cuts; } case_effort;   /* most passes of a step; all halvings of dt */
-void   case_step(bbm_model *m, case_effort *e, scene *s);       /* one step; e and s may be NULL */
+void   case_step(bbm_model *m, scene *s);              /* one step, recorded unless s is NULL    */
 /* Quasi-static steps, to start a run in equilibrium: springs that are loaded suddenly would
  * swing. */
 void   case_settle(bbm_model *m, int steps);
@@ -76,6 +71,11 @@ void   case_read_reference(const char *problem, const char *variant, case_refere
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
                                    double y);
 void   case_free_reference(case_reference *r);
+/* Of u, v, sxx, .. at a grid point: the computed value, and theory's, NaN where there is none. */
+typedef struct {
+    double (*computed)(const bbm_model *m, const char *quantity, double x, double y);
+    double (*theory)(const char *quantity, double x, double y);
+} case_problem;
 
 /* Makes out/NAME and opens its results.csv. */
 void   case_open(case_results *r, const char *name);
@@ -86,25 +86,18 @@ int    case_close(case_results *r);
  * Returns the error. */
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
                 double reference, const char *kind);
+/* Every reference value of a variant against the computed one: the rows of results.csv. */
+void   case_compare_all(case_results *r, const case_problem *p, const bbm_model *m,
+                        const char *variant, const case_reference *ref);
 /* The row `| name | computed | theory | error |` on stdout and in results.csv (without a place). */
 double case_compare(case_results *r, const char *name, double computed, double reference);
-const char *case_path(const case_results *r, const char *file, char path[128]);
+const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
 /* table [rows][columns] as CSV */
-void   case_write_curves(const case_results *r, const char *file, const char *header, int rows,
+void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
                          int columns, const double *table);
-
-/* Pictures in the folder of the results: FILE.svg. One that cannot be made is said on stderr, and
- * case_close tells. */
-void   case_draw_chart(case_results *r, const char *file, const plot_chart *c);
-/* Several charts in one file, by plot.h. */
-void   case_open_page(case_results *r, const char *file, plot *p, double width, double height);
-void   case_close_page(case_results *r, plot *p);
-void   case_draw_movie(case_results *r, const char *file, const bbm_model *m, const scene *s);
-/* The frames nearest to n times. */
-void   case_draw_panels(case_results *r, const char *file, const bbm_model *m, const scene *s,
-                        int n, const double time[]);
-/* Contours of a field of scene.h. */
-void   case_draw_map(case_results *r, const char *file, const bbm_model *m, const scene_map *map);
+/* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
+ * and case_close tells. Returns done. */
+int    case_draw(case_results *r, int done);
 void   case_print_parameters(const bbm_model *m);       /* Table 1, and what the solution took  */
 void   case_progress(const char *what);                 /* one line on stdout, at once          */
 

@@ -20,10 +20,20 @@
 static const double L = EXP1_LENGTH, H = EXP1_HEIGHT, P = 1000, E = 30e6, nu = 0.3;
 static const double I = 12.0 * 12 * 12 / 12;
 
-/* Eq. (70). */
-static void theory(double x, double y, double u[2])
+/* Eq. (70), u or v. */
+static double theory(const char *quantity, double x, double y)
 {
+    double u[2];
+
     theory_beam_displacement(&(theory_beam){ P, L, H, E, nu }, x, y, u);
+    return quantity[0] == 'u' ? u[0] : quantity[0] == 'v' ? u[1] : NAN;
+}
+
+static double computed(const bbm_model *m, const char *quantity, double x, double y)
+{
+    const bbm_result r = case_at(m, x, y);
+
+    return case_quantity(&r, quantity);
 }
 
 /* Parabolic shear that sums to P, a field for the line loads [N/m]. */
@@ -52,10 +62,9 @@ static void load(bbm_model *m, char variant, int left, int right, int row, int r
 {
     for (int j = 0; j <= rows; j++) {
         const bbm_node *n = &m->node[left + j * row];
-        double u[2] = { 0, 0 };
-        if (variant == 'c')
-            theory(n->x, n->y, u);
-        bbm_fix_node(m, left + j * row, BBM_XY, u[0], u[1]);
+        const double u = variant == 'c' ? theory("u", n->x, n->y) : 0;
+        const double v = variant == 'c' ? theory("v", n->x, n->y) : 0;
+        bbm_fix_node(m, left + j * row, BBM_XY, u, v);
     }
     if (variant == 'a')
         bbm_add_load(m, right + rows / 2 * row, 0, -P);
@@ -119,30 +128,6 @@ static bbm_model *solve_dda(double alpha)
 
 /* --------------------------------------------------------------------------------------- tables */
 
-/* Every reference value of a variant against the computed one: the rows of results.csv. */
-static void compare_all(case_results *r, const bbm_model *m, char variant,
-                        const case_reference *ref)
-{
-    for (int i = 0; i < ref->values; i++) {
-        const struct case_value *f = &ref->value[i];
-        const double xy[2] = { f->x, f->y };
-        char name[40];
-        if (isnan(f->x))
-            continue;
-        const bbm_result here = case_at(m, f->x, f->y);
-        const double computed = case_quantity(&here, f->quantity);
-        snprintf(name, sizeof name, "%c.%s", variant, f->quantity);
-        if (strlen(f->quantity) == 1) {
-            double u[2];
-            theory(f->x, f->y, u);
-            case_row(r, name, xy, computed, u[f->quantity[0] - 'u'], "theory");
-        }
-        if (!isnan(f->converged))
-            case_row(r, name, xy, computed, f->converged, "fem");
-        case_row(r, name, xy, computed, f->six_node, "fem_coarse");
-    }
-}
-
 /* A mesh of n triangles with B boundary edges and no hole has 1 + (n + B)/2 grid points and (3 n +
  * B)/2 edges, and a six-node triangle has a node at each. */
 static void print_table_2(const bbm_model *dda, const bbm_model *bbm)
@@ -173,8 +158,7 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         v[0][i] = u[1];
         v[1][i] = case_at(bbm, x[i], 0).v;
         v[2][i] = f->six_node;
-        theory(x[i], 0, u);
-        v[3][i] = u[1];
+        v[3][i] = theory("v", x[i], 0);
         for (int c = 0; c < 5; c++)
             table[i][c] = c ? v[c - 1][i] : x[i];
         if (i == 0)
@@ -190,9 +174,9 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         { .name = "BBM", .n = N, .x = x, .y = v[1], .style = PLOT_MARKS, .look = 2 },
         { .name = "DDA, one block", .n = N, .x = x, .y = v[0], .style = PLOT_BOTH, .look = 4 },
     };
-    case_draw_chart(r, "fig10.svg", &(plot_chart){
-                        .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0, 0, 0 },
-                        .y = { "v", "m", 0, 0, 0 }, .count = 4, .series = s });
+    case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
+        .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0, 0, 0 },
+        .y = { "v", "m", 0, 0, 0 }, .count = 4, .series = s }));
     case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5, &table[0][0]);
 }
 
@@ -210,20 +194,17 @@ static void print_table_3(const bbm_model *const m[3], const case_reference ref[
            "|---|---|---|---|---|---|---|\n");
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 6; i++) {
-            const bbm_result here = case_at(m[k], at[i].x, at[i].y);
-            const double computed = case_quantity(&here, at[i].quantity);
-            double u[2];
-            theory(at[i].x, at[i].y, u);
-            const double exact = u[at[i].quantity[0] - 'u'];
+            const double value = computed(m[k], at[i].quantity, at[i].x, at[i].y);
+            const double exact = theory(at[i].quantity, at[i].x, at[i].y);
             printf("| %c | %s(%.0f,%.0f) | %.5f | ", "abc"[k], at[i].quantity, at[i].x, at[i].y,
-                   1e3 * computed);
+                   1e3 * value);
             if (exact == 0) {
                 printf("0, by symmetry | 0 | | |\n");
                 continue;
             }
             const double fem = case_find(&ref[k], at[i].quantity, at[i].x, at[i].y)->converged;
             printf("%.5f | %.5f | %+.2f %% | %+.2f %% |\n", 1e3 * fem, 1e3 * exact,
-                   case_percent(computed, fem), case_percent(computed, exact));
+                   case_percent(value, fem), case_percent(value, exact));
         }
 }
 
@@ -255,7 +236,7 @@ static void draw_maps(case_results *r, const bbm_model *m)
     };
 
     for (int k = 0; k < 4; k++)
-        case_draw_map(r, map[k].file, m, &map[k].map);
+        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
 }
 
 /* ---------------------------------------------------------------------------------- convergence */
@@ -300,11 +281,11 @@ int main(int argc, char **argv)
     printf("\n# Experiment I: cantilever\n\n");
     case_open(&r, "exp1");
     for (int k = 0; k < 3; k++) {
-        char variant[2] = { "abc"[k], '\0' };
+        const char variant[2] = { "abc"[k], '\0' };
         case_progress(progress[k]);
         m[k] = solve_beam(variant[0], 2, 1000);
         case_read_reference("exp1", variant, &ref[k]);
-        compare_all(&r, m[k], variant[0], &ref[k]);
+        case_compare_all(&r, &(case_problem){ computed, theory }, m[k], variant, &ref[k]);
     }
     case_print_parameters(m[0]);
     print_table_2(dda, m[0]);

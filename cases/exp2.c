@@ -20,12 +20,6 @@
 
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
 
-/* Eq. (72). */
-static void theory_stress(double x, double y, double s[3])
-{
-    theory_plate_stress(&(theory_plate){ S, E, nu }, x, y, s);
-}
-
 /* Stress along the circle around the hole through (x, y). */
 static double hoop(const double stress[3], double x, double y)
 {
@@ -40,31 +34,21 @@ static double theory(const char *quantity, double x, double y)
     double u[2], s[3];
 
     theory_plate_displacement(&(theory_plate){ S, E, nu }, x, y, u);
-    theory_stress(x, y, s);
+    theory_plate_stress(&(theory_plate){ S, E, nu }, x, y, s);
     return strcmp(quantity, "u") == 0 ? u[0] : strcmp(quantity, "v") == 0 ? u[1]
          : strcmp(quantity, "sxx") == 0 ? s[0] : strcmp(quantity, "syy") == 0 ? s[1]
          : strcmp(quantity, "sxy") == 0 ? s[2] : hoop(s, x, y);
 }
 
-/* Tractions [N/m] of (72) on x = 5 and on y = 5. */
-static void traction_right(double x, double y, const void *unused, double f[2])
+/* Traction [N/m] of (72) on a side with the outward normal n. */
+static void traction(double x, double y, const void *normal, double f[2])
 {
+    const double *n = normal;
     double s[3];
 
-    (void)unused;
-    theory_stress(x, y, s);
-    f[0] = t * s[0];
-    f[1] = t * s[2];
-}
-
-static void traction_top(double x, double y, const void *unused, double f[2])
-{
-    double s[3];
-
-    (void)unused;
-    theory_stress(x, y, s);
-    f[0] = t * s[2];
-    f[1] = t * s[1];
+    theory_plate_stress(&(theory_plate){ S, E, nu }, x, y, s);
+    f[0] = t * (s[0] * n[0] + s[2] * n[1]);
+    f[1] = t * (s[2] * n[0] + s[1] * n[1]);
 }
 
 /* Point i, j of the mesh: ring line i of 17 k, ray j of 12 k (k = 2 is the experiment's). On the
@@ -86,6 +70,7 @@ static bbm_model *solve_plate(const char *variant, int k, double alpha)
 {
     bbm_model *m = case_paper_model();
     case_grid g = { .nx = 17 * k, .ny = 12 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
+    static const double right[2] = { 1, 0 }, top[2] = { 0, 1 };
     const int row = g.nx + 1, exact = strcmp(variant, "k5") == 0;
 
     bbm_add_material(m, &(bbm_material){ E, nu, 0.01 / t, t }, NULL);
@@ -97,7 +82,7 @@ static bbm_model *solve_plate(const char *variant, int k, double alpha)
     for (int j = 0; j < g.ny; j++) {
         const int a = g.first + j * row + g.nx, b = a + row;
         if (exact)
-            bbm_add_varying_line_load(m, a, b, j < g.ny / 2 ? traction_right : traction_top, NULL);
+            bbm_add_varying_line_load(m, a, b, traction, j < g.ny / 2 ? right : top);
         else if (j < g.ny / 2)
             bbm_add_line_load(m, a, b, t * S, 0);
     }
@@ -116,24 +101,6 @@ static double computed(const bbm_model *m, const char *quantity, double x, doubl
 }
 
 /* --------------------------------------------------------------------------------------- tables */
-
-/* Every reference value of a variant against the computed one: the rows of results.csv. */
-static void compare_all(case_results *r, const bbm_model *m, const char *variant,
-                        const case_reference *ref)
-{
-    for (int i = 0; i < ref->values; i++) {
-        const struct case_value *f = &ref->value[i];
-        const double xy[2] = { f->x, f->y };
-        char name[40];
-        if (isnan(f->x))
-            continue;
-        const double value = computed(m, f->quantity, f->x, f->y);
-        snprintf(name, sizeof name, "%s.%s", variant, f->quantity);
-        case_row(r, name, xy, value, theory(f->quantity, f->x, f->y), "theory");
-        case_row(r, name, xy, value, f->converged, "fem");
-        case_row(r, name, xy, value, f->six_node, "fem_coarse");
-    }
-}
 
 typedef struct { const char *quantity; double x, y; } place_of;
 
@@ -247,11 +214,11 @@ static void draw_line(case_results *r, const bbm_model *const m[2], const case_r
     snprintf(csv, sizeof csv, "%s.csv", l->file);
     snprintf(svg, sizeof svg, "%s.svg", l->file);
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
-    case_draw_chart(r, svg, &(plot_chart){
-                        .title = l->title, .count = 4, .series = s,
-                        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
-                        .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
-                               l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } });
+    case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
+        .title = l->title, .count = 4, .series = s,
+        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
+        .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
+               l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } }));
     case_write_curves(r, csv, header, l->count, 4, &table[0][0]);
 }
 
@@ -284,7 +251,7 @@ static void draw_maps(case_results *r, const bbm_model *m)
     };
 
     for (int k = 0; k < 6; k++)
-        case_draw_map(r, map[k].file, m, &map[k].map);
+        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
 }
 
 /* ---------------------------------------------------------------------------------- convergence */
@@ -326,7 +293,7 @@ int main(int argc, char **argv)
         case_progress(k == 0 ? "plate b5, uniform stress" : "plate k5, exact tractions");
         m[k] = solve_plate(variant[k], 2, 1000);
         case_read_reference("exp2", variant[k], &ref[k]);
-        compare_all(&r, m[k], variant[k], &ref[k]);
+        case_compare_all(&r, &(case_problem){ computed, theory }, m[k], variant[k], &ref[k]);
     }
     case_print_parameters(m[0]);
     for (int k = 0; k < 2; k++)

@@ -36,7 +36,7 @@ static const double F = 1e4, MASS = 2500 * 4, DT = 0.01;
 typedef struct {
     bbm_model *m;
     int first, mark;                        /* first element of the block; the node P           */
-    case_effort effort;
+    int passes;                             /* most of a step                                   */
     double start[4], at[STEPS + 1][4];      /* m        u, v of the centre of mass, then of P   */
 } slide;
 
@@ -96,15 +96,17 @@ static void run(slide *s, const exp3_variant *v, scene *film)
 {
     s->m = make_model(v, &s->first);
     s->mark = s->m->vertex[s->m->element[s->first + 3].first + 1].node;
-    s->effort = (case_effort){ 0, 0 };
+    s->passes = 0;
     case_settle(s->m, SETTLE);
     measure(s, s->start);
     s->m->info.t = 0;
     if (film)
         scene_record(film, s->m);
     for (int i = 0; i <= STEPS; i++) {
-        if (i > 0)
-            case_step(s->m, &s->effort, film);
+        if (i > 0) {
+            case_step(s->m, film);
+            s->passes = s->passes > s->m->info.passes ? s->passes : s->m->info.passes;
+        }
         measure(s, s->at[i]);
         for (int c = 0; c < 4; c++)
             s->at[i][c] -= s->start[c];
@@ -133,7 +135,7 @@ static void print_run(case_results *r, const slide *s, const exp3_variant *v)
     snprintf(name, sizeof name, "%s.penetration", v->name);
     case_row(r, name, nowhere, s->m->info.penetration, static_depth, "theory");
     printf("| %s | %+.1e | %+.1e | %.1e | %.3e | %.3e | %d | %d |\n", v->label, e0, e1, high,
-           static_depth, s->m->info.penetration, s->m->info.contacts, s->effort.passes);
+           static_depth, s->m->info.penetration, s->m->info.contacts, s->passes);
 }
 
 static void print_tables(case_results *r, const slide s[], const exp3_variant v[], int runs)
@@ -210,14 +212,15 @@ static void draw_figure(case_results *r, const slide s[], const exp3_variant v[]
     plot_series lift[3];
     for (int k = 0; k < 3; k++)
         lift[k] = (plot_series){ .name = v[k].label, .n = N, .x = t, .y = v_of[k], .look = k + 2 };
-    case_open_page(r, "fig25.svg", &p, 1240, 480);
-    plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
-                        .title = "Fig. 25: displacement of P", .x = { "t", "s", 0, 0, 0 },
-                        .y = { "displacement", "m", 0, 0, 0 }, .count = 4, .series = both });
-    plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
-                        .title = "Error of v of P, which is 0 in theory", .x = { "t", "s", 0, 0, 0 },
-                        .y = { "v", "m", 0, 0, 0 }, .count = 3, .series = lift });
-    case_close_page(r, &p);
+    if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
+        plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
+            .title = "Fig. 25: displacement of P", .x = { "t", "s", 0, 0, 0 },
+            .y = { "displacement", "m", 0, 0, 0 }, .count = 4, .series = both });
+        plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
+            .title = "Error of v of P, which is 0 in theory", .x = { "t", "s", 0, 0, 0 },
+            .y = { "v", "m", 0, 0, 0 }, .count = 3, .series = lift });
+        case_draw(r, plot_close(&p));
+    }
     case_write_curves(r, "fig25.csv",
                       "t,u_theory,u_without,v_without,u_gravity,v_gravity,u_rigid,v_rigid", N, 8,
                       &table[0][0]);
@@ -250,8 +253,9 @@ int main(void)
     draw_figure(&r, s, v);
     film.mark = s[1].m->element[s[1].first + 3].first + 1;
     film.mark_name = "P";
-    case_draw_movie(&r, "slide.svg", s[1].m, &film);
-    case_draw_panels(&r, "states.svg", s[1].m, &film, 3, (double[]){ 0, 1, 2 });
+    case_draw(&r, scene_write_movie(&film, s[1].m, case_path(&r, "slide.svg")));
+    case_draw(&r, scene_write_panels(&film, s[1].m, case_path(&r, "states.svg"), 3,
+                                     (double[]){ 0, 1, 2 }));
     printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg, slide.svg (it moves), "
            "states.svg\n", r.folder);
     scene_free(&film);

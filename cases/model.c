@@ -26,7 +26,7 @@ enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000 };
 /* -------------------------------------------------------------------------- numbers with a name */
 
 /* What the command line says of a name, the last time, or NULL. */
-static const char *given(const model_reader *r, const char *name)
+static char *given(const model_reader *r, const char *name)
 {
     const size_t n = strlen(name);
 
@@ -87,20 +87,15 @@ static int expand_statement(model_reader *r)
 static int read_let(model_reader *r)
 {
     const char *word = expand_statement(r) ? model_name(r) : NULL;
-    const char *other = word ? given(r, word) : NULL;
+    char *other = word ? given(r, word) : NULL;
+    const int at = r->s->first + r->next;
     double x;
 
-    if (!word || !model_is_new(r, &r->let_of, "let", word) || !model_look(r))
-        return word && !r->p->status ? model_word(r) != NULL : 0;
-    const int at = r->s->first + r->next;
-    if (!model_numbers(r, 1, &x))
+    if (!word || !model_is_new(r, &r->let_of, "let", word) || !model_numbers(r, 1, &x))
         return 0;
     if (other) {
-        r->word[at] = model_text(r, strlen(other));
+        r->word[at] = other;
         r->next--;
-        if (!r->word[at])
-            return 0;
-        strcpy(r->word[at], other);
         if (!model_number(r, &x))
             return 0;
     }
@@ -139,11 +134,8 @@ int model_add_node(model_reader *r, const model_node *n)
 {
     if (model_find(&r->node_of, n->id) >= 0)
         return model_fail(r, n->at, "node '%s' for the second time, expected a new one", n->id);
-    if (!model_grow(r, &r->node, r->nodes, sizeof *n)
-        || !model_enter(r, &r->node_of, n->id, r->nodes))
-        return 0;
-    r->node[r->nodes++] = *n;
-    return 1;
+    return model_enter(r, &r->node_of, n->id, r->nodes)
+           && model_add(r, &r->node, &r->nodes, sizeof *n, n);
 }
 
 static int read_node(model_reader *r)
@@ -181,12 +173,10 @@ static int read_material(model_reader *r)
     };
 
     o[0].needed = o[1].needed = o[2].needed = 1;
-    if (!word || !model_is_new(r, &r->material_of, "material", word)
-        || !model_options(r, LENGTH(o), o) || !model_grow(r, &r->material, r->materials, sizeof m)
-        || !model_enter(r, &r->material_of, word, r->materials))
-        return 0;
-    r->material[r->materials++] = m;
-    return 1;
+    return word && model_is_new(r, &r->material_of, "material", word)
+           && model_options(r, LENGTH(o), o)
+           && model_enter(r, &r->material_of, word, r->materials)
+           && model_add(r, &r->material, &r->materials, sizeof m, &m);
 }
 
 static int read_gravity(model_reader *r) { return model_numbers(r, 2, r->p->m->par.gravity); }
@@ -303,32 +293,27 @@ static int read_output(model_reader *r)
 
 int model_find_block(model_reader *r, const char *word, model_place at)
 {
+    const model_block block = { .name = word, .at = at, .material = -1 };
     const int found = model_find(&r->block_of, word);
 
     if (found >= 0)
         return found;
-    if (!model_grow(r, &r->block, r->blocks, sizeof *r->block)
-        || !model_enter(r, &r->block_of, word, r->blocks))
-        return -1;
-    r->block[r->blocks] = (model_block){ .name = word, .at = at, .material = -1 };
-    return r->blocks++;
+    return model_enter(r, &r->block_of, word, r->blocks)
+           && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
 }
 
 int model_add_element(model_reader *r, const model_element *e, const int corner[])
 {
+    model_element own = *e;
+
+    own.first = r->corners;
     if (model_find(&r->element_of, e->id) >= 0)
         return model_fail(r, e->at, "element '%s' for the second time, expected a new one", e->id);
-    if (!model_grow(r, &r->element, r->elements, sizeof *e)
-        || !model_enter(r, &r->element_of, e->id, r->elements))
-        return 0;
-    r->element[r->elements] = *e;
-    r->element[r->elements++].first = r->corners;
-    for (int k = 0; k < e->n; k++) {
-        if (!model_grow(r, &r->corner, r->corners, sizeof *corner))
+    for (int k = 0; k < e->n; k++)
+        if (!model_add(r, &r->corner, &r->corners, sizeof *corner, &corner[k]))
             return 0;
-        r->corner[r->corners++] = corner[k];
-    }
-    return 1;
+    return model_enter(r, &r->element_of, e->id, r->elements)
+           && model_add(r, &r->element, &r->elements, sizeof own, &own);
 }
 
 static int read_element(model_reader *r)
@@ -352,25 +337,18 @@ static int read_element(model_reader *r)
 
 int model_find_set(model_reader *r, const char *word)
 {
+    const model_set set = { 0, NULL, 0 };
     const int found = model_find(&r->set_of, word);
 
     if (found >= 0)
         return found;
-    if (!model_grow(r, &r->set, r->sets, sizeof *r->set)
-        || !model_enter(r, &r->set_of, word, r->sets))
-        return -1;
-    r->set[r->sets] = (model_set){ 0, NULL, 0 };
-    return r->sets++;
+    return model_enter(r, &r->set_of, word, r->sets)
+           && model_add(r, &r->set, &r->sets, sizeof set, &set) ? r->sets - 1 : -1;
 }
 
 int model_add_to_set(model_reader *r, int set, int node)
 {
-    model_set *s = &r->set[set];
-
-    if (!model_grow(r, &s->node, s->n, sizeof *s->node))
-        return 0;
-    s->node[s->n++] = node;
-    return 1;
+    return model_add(r, &r->set[set].node, &r->set[set].n, sizeof node, &node);
 }
 
 /* ----------------------------------------------------- blocks and grids with nodes of their own */
@@ -583,10 +561,7 @@ static int read_expect(model_reader *r)
         return model_blame(r, "a tolerance of %g, expected more than 0", e.within);
     if (value && (percent || model_skip(r, "%")) && (e.within *= fabs(e.value) / 100) <= 0)
         return model_blame(r, "a tolerance in %% of 0, expected one in metre");
-    if (!model_at_end(r) || !model_grow(r, &p->expected, p->expectations, sizeof e))
-        return 0;
-    p->expected[p->expectations++] = e;
-    return 1;
+    return model_at_end(r) && model_add(r, &p->expected, &p->expectations, sizeof e, &e);
 }
 
 /* ------------------------------------------------------------------------------------ the table */
@@ -642,14 +617,6 @@ static const struct kind {
 
 const char *model_form(const model_statement *s) { return kinds[s->kind].form; }
 
-static int add_word(model_reader *r, char *word)
-{
-    if (!model_grow(r, &r->word, r->words, sizeof *r->word))
-        return 0;
-    r->word[r->words++] = word;
-    return 1;
-}
-
 /* Finds the statement that begins with the word; whether it may stand here. */
 static int begin_statement(model_reader *r, const char *word, model_place at)
 {
@@ -666,10 +633,8 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
         return model_fail(r, at, "%s for the second time, after line %d, expected it once", word,
                           r->seen[k].line);
     r->seen[k] = at;
-    if (!model_grow(r, &r->statement, r->statements, sizeof *r->statement))
-        return 0;
-    r->statement[r->statements++] = (model_statement){ at, r->words, 0, k };
-    return 1;
+    const model_statement s = { at, r->words, 0, k };
+    return model_add(r, &r->statement, &r->statements, sizeof s, &s);
 }
 
 /* One line without its end: the statement and its words. The text of a title is one word. */
@@ -686,7 +651,8 @@ static int cut_line(model_reader *r, char *line, model_place at)
                 end--;
         const int more = *end != '\0';
         *end = '\0';
-        if (k == 0 ? !begin_statement(r, line, at) : !add_word(r, line))
+        if (k == 0 ? !begin_statement(r, line, at)
+                   : !model_add(r, &r->word, &r->words, sizeof line, &line))
             return 0;
         r->statement[r->statements - 1].n = k;
         line = end + more;

@@ -135,10 +135,7 @@ static const entry *find(const list *l, int dimension, int number_of)
 
 static int add(mesh *m, list *l, const entry *e)
 {
-    if (!model_grow(m->r, &l->entry, l->count, sizeof *e))
-        return 0;
-    l->entry[l->count++] = *e;
-    return 1;
+    return model_add(m->r, &l->entry, &l->count, sizeof *e, e);
 }
 
 static void sort(list *l)
@@ -179,9 +176,11 @@ static int read_tags(mesh *m, int n)
     const char *word;
 
     while (n-- > 0) {
-        if (!model_grow(m->r, &m->tag, m->tags, sizeof *m->tag) || !(word = next_word(m)))
+        if (!(word = next_word(m)))
             return 0;
-        m->tag[m->tags++] = word + (word[0] == '-');       /* a reversed curve has a negative tag */
+        word += word[0] == '-';                     /* a reversed curve has a negative tag */
+        if (!model_add(m->r, &m->tag, &m->tags, sizeof word, &word))
+            return 0;
     }
     return 1;
 }

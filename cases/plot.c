@@ -131,10 +131,10 @@ int plot_close(plot *p)
 
 /* ------------------------------------------------------------------------------------- numbers */
 
-static void widen(double *lo, double *hi, double value)
+void plot_widen(double range[2], double value)
 {
-    *lo = fmin(*lo, value);
-    *hi = fmax(*hi, value);
+    range[0] = fmin(range[0], value);
+    range[1] = fmax(range[1], value);
 }
 
 /* 1, 2, 5 (and 2.5 if `quarters`) times a power of ten next to x. */
@@ -210,23 +210,24 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
         snprintf(a->label, sizeof a->label, "%s", name);
 }
 
-/* Values from lo to hi, with about `count` ticks; no value at all is lo > hi, and all of them equal
+/* Values in a range, with about `count` ticks; no value at all is from > to, and all of them equal
  * widens the axis. */
-static plot_axis make_axis(const plot_quantity *q, double lo, double hi, double count)
+static plot_axis make_axis(const plot_quantity *q, const double range[2], double count)
 {
     plot_axis a = { .log = q->log };
+    double end[2] = { range[0], range[1] };
 
     if (q->low < q->high && !(q->log && q->low <= 0)) {
-        widen(&lo, &hi, q->low);
-        widen(&lo, &hi, q->high);
+        plot_widen(end, q->low);
+        plot_widen(end, q->high);
     }
-    if (lo > hi) {
-        lo = q->log ? 0.1 : 0;
-        hi = 1;
+    if (end[0] > end[1]) {
+        end[0] = q->log ? 0.1 : 0;
+        end[1] = 1;
     }
-    scale_axis(&a, q, fmax(fabs(lo), fabs(hi)));
-    a.lo = a.log ? log10(lo) : lo * a.scale;
-    a.hi = a.log ? log10(hi) : hi * a.scale;
+    scale_axis(&a, q, fmax(fabs(end[0]), fabs(end[1])));
+    a.lo = a.log ? log10(end[0]) : end[0] * a.scale;
+    a.hi = a.log ? log10(end[1]) : end[1] * a.scale;
     const double largest = fmax(fabs(a.lo), fabs(a.hi));
     double margin = a.log ? 0.04 * (a.hi - a.lo) : 0;
     if (a.hi - a.lo <= 1e-9 * largest || largest < 1e-300)
@@ -381,19 +382,19 @@ static int is_shown(const plot_chart *c, const plot_series *s, int i)
 
 static void chart_axes(plot *p, plot_box box, const plot_chart *c)
 {
-    double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
+    double x[2] = { INFINITY, -INFINITY }, y[2] = { INFINITY, -INFINITY };
 
     for (int k = 0; k < c->count; k++) {
         const plot_series *s = &c->series[k];
         for (int i = 0; i < s->n; i++) {
             if (!is_shown(c, s, i))
                 continue;
-            widen(&x0, &x1, s->x[i]);
-            widen(&y0, &y1, s->y[i]);
+            plot_widen(x, s->x[i]);
+            plot_widen(y, s->y[i]);
         }
     }
-    p->x = make_axis(&c->x, x0, x1, fmax(2, box.w / 90));
-    p->y = make_axis(&c->y, y0, y1, fmax(2, box.h / 70));
+    p->x = make_axis(&c->x, x, fmax(2, box.w / 90));
+    p->y = make_axis(&c->y, y, fmax(2, box.h / 70));
     round_axis(&p->y);
 }
 
@@ -542,9 +543,9 @@ int plot_write_chart(const char *path, const plot_chart *c)
 
 /* ---------------------------------------------------------------------------------- colour bars */
 
-plot_axis plot_bar_axis(const plot_quantity *q, double low, double high)
+plot_axis plot_bar_axis(const plot_quantity *q, const double range[2])
 {
-    plot_axis bar = make_axis(q, low, high, LEVELS);
+    plot_axis bar = make_axis(q, range, LEVELS);
 
     bar.step = nice_step((bar.hi - bar.lo) / LEVELS, 1);
     round_axis(&bar);

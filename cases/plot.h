@@ -80,6 +80,7 @@ void   plot_text(plot *p, double x, double y, const char *attributes, const char
 double plot_text_width(const char *text);           /* pixels, generous                           */
 void   plot_title(plot *p, double x, double y, const char *text);           /* x: its middle      */
 double plot_pixel(const plot_axis *a, double value);        /* p->x, p->y: value to pixel         */
+void   plot_widen(double range[2], double value);   /* so that it holds the value                 */
 double plot_nice(double x);                         /* 1, 2 or 5 times a power of ten, near x     */
 void   plot_draw_chart(plot *p, plot_box box, const plot_chart *c);
 /* Axes in metres, from x[0] to x[1] over the width of the frame b, likewise y. */
@@ -87,7 +88,7 @@ void   plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2]
 
 /* A colour bar: the axis of its bands, which are `step` wide; what a value gets; the bar itself. */
 typedef struct { char text[8]; } plot_colour;
-plot_axis   plot_bar_axis(const plot_quantity *q, double low, double high);
+plot_axis   plot_bar_axis(const plot_quantity *q, const double range[2]);
 int         plot_bands(const plot_axis *bar);
 plot_colour plot_band_colour(double s);             /* 0 <= s <= 1                                */
 void        plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2]);

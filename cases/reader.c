@@ -72,16 +72,19 @@ int model_refused(model_reader *r, bbm_status status)
 }
 
 /* The room is a power of two, 16 at least: when the count has reached it, it is doubled. */
-int model_grow(model_reader *r, void *array, int count, size_t size)
+int model_add(model_reader *r, void *array, int *count, size_t size, const void *item)
 {
-    void **a = array, *more;
+    void **a = array;
+    const size_t n = (size_t)*count;
 
-    if (count != 0 && (count < 16 || (count & (count - 1)) != 0))
-        return 1;
-    more = count > INT_MAX / 4 ? NULL : realloc(*a, (count == 0 ? 16 : 2 * (size_t)count) * size);
-    if (!more)
-        return model_out_of_memory(r);
-    *a = more;
+    if (n == 0 || (n >= 16 && (n & (n - 1)) == 0)) {
+        void *more = *count > INT_MAX / 4 ? NULL : realloc(*a, (n == 0 ? 16 : 2 * n) * size);
+        if (!more)
+            return model_out_of_memory(r);
+        *a = more;
+    }
+    memcpy((char *)*a + n * size, item, size);
+    *count += 1;
     return 1;
 }
 
@@ -94,17 +97,23 @@ void *model_room(model_reader *r, int count, size_t size)
     return p;
 }
 
+static char *keep_text(model_reader *r, char *text)
+{
+    if (model_add(r, &r->p->text, &r->p->texts, sizeof text, &text))
+        return text;
+    free(text);
+    return NULL;
+}
+
 /* Room for a text that is kept until model_free; NULL: no memory. */
 char *model_text(model_reader *r, size_t size)
 {
-    model *p = r->p;
-    char *text = model_grow(r, &p->text, p->texts, sizeof *p->text) ? calloc(size + 1, 1) : NULL;
+    char *text = calloc(size + 1, 1);
 
     if (text)
-        p->text[p->texts++] = text;
-    else
-        model_out_of_memory(r);
-    return text;
+        return keep_text(r, text);
+    model_out_of_memory(r);
+    return NULL;
 }
 
 /* The place of a key in the table, or the empty one where it belongs; FNV-1a. */
@@ -156,7 +165,6 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
 /* The whole file as a text with a 0 behind it, kept until model_free; NULL after an error. */
 char *model_load(model_reader *r, const char *path, model_place at, size_t *size)
 {
-    model *p = r->p;
     FILE *f = path == r->path && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     size_t room = 65536, got = 1;
     char *text = f ? malloc(room) : NULL;
@@ -177,16 +185,16 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
         model_fail(r, at, "%.200s cannot be read: %s", path, strerror(why));
     else if (*size == LARGEST - 1)
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
-    else if (!text || !model_grow(r, &p->text, p->texts, sizeof *p->text))
+    else if (!text)
         model_out_of_memory(r);
     if (f && f != stdin)
         fclose(f);
-    if (p->status) {
+    if (r->p->status) {
         free(text);
         return NULL;
     }
     text[*size] = '\0';
-    return p->text[p->texts++] = text;
+    return keep_text(r, text);
 }
 
 /* How many letters, large or small, are to be changed, added or taken away (Levenshtein 1966). */

@@ -71,7 +71,7 @@ typedef struct {
     int plane_strain, no_shear;             /* no_shear: ks is 0 */
     int chosen, places, *chosen_node;     /* what the last WHERE names: library nodes, of so many */
                                             /* nodes of the file */
-    double low[2], high[2], margin;    /* m    the model's box; lengths below the margin are none */
+    double margin;                          /* m            lengths below it are none */
     const model_statement *s;               /* in hand, and its next word */
     int next;
     model_place seen[40];                   /* where a statement that makes sense once stands */
@@ -83,8 +83,8 @@ int   model_fail(model_reader *r, model_place at, const char *format, ...);
 int   model_blame(model_reader *r, const char *format, ...);
 int   model_out_of_memory(model_reader *r);
 int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
-/* Room for one more; 0: no memory. */
-int   model_grow(model_reader *r, void *array, int count, size_t size);
+/* One more item at the end of an array of `count`; 0: no memory. */
+int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
 void *model_room(model_reader *r, int count, size_t size);      /* zeros, and one more; or NULL */
 char *model_text(model_reader *r, size_t size);                 /* kept until model_free */
 /* With a 0 behind it; or NULL. */

@@ -153,12 +153,6 @@ int scene_record(scene *s, const bbm_model *m)
 
 /* -------------------------------------------------------------------------------------- blocks */
 
-static void widen(double range[2], double value)
-{
-    range[0] = fmin(range[0], value);
-    range[1] = fmax(range[1], value);
-}
-
 /* m, in a frame */
 static point place(const film *f, int frame, int v)
 {
@@ -175,12 +169,9 @@ static point pixel(const film *f, point a)
 
 static point at(const film *f, int frame, int v) { return pixel(f, place(f, frame, v)); }
 
-/* The next vertex round its element. */
 static int next_vertex(const bbm_model *m, int v)
 {
-    const bbm_element *e = &m->element[m->vertex[v].element];
-
-    return v + 1 < e->first + e->n ? v + 1 : e->first;
+    return bbm_next_vertex(&m->element[m->vertex[v].element], v);
 }
 
 /* Distance of two boxes, and a little of that of their centres. */
@@ -219,8 +210,8 @@ static void add_vertex(film *f, body *b, int v)
 
     b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0;
     b->n++;
-    widen(b->box[0], x.x);
-    widen(b->box[1], x.y);
+    plot_widen(b->box[0], x.x);
+    plot_widen(b->box[1], x.y);
 }
 
 static void find_bodies(film *f, int (*element)[2])
@@ -600,10 +591,10 @@ static int draw_legend(film *f, double x, double y, double width)
 static void widen_window(film *f, int kind, point from, point size)
 {
     (void)kind;
-    widen(f->window[0], from.x);
-    widen(f->window[1], from.y);
-    widen(f->window[0], from.x + size.x / f->scale);
-    widen(f->window[1], from.y + size.y / f->scale);
+    plot_widen(f->window[0], from.x);
+    plot_widen(f->window[1], from.y);
+    plot_widen(f->window[0], from.x + size.x / f->scale);
+    plot_widen(f->window[1], from.y + size.y / f->scale);
 }
 
 /* The number of columns that makes n panels largest, on a page of about 1100 x 760 pixels (one
@@ -893,8 +884,8 @@ static double find_scale(const bbm_model *m, const nodal *n)
     double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } }, moved = 0;
 
     for (int i = 0; i < m->nodes; i++) {
-        widen(range[0], m->node[i].x);
-        widen(range[1], m->node[i].y);
+        plot_widen(range[0], m->node[i].x);
+        plot_widen(range[1], m->node[i].y);
         moved = fmax(moved, hypot(n[i].u, n[i].v));
     }
     const double size = fmax(range[0][1] - range[0][0], range[1][1] - range[1][0]);
@@ -1015,12 +1006,12 @@ static int write_field(film *f, const char *path, const nodal *n, const char *fi
         return 0;
     for (int b = 0; b < f->bodies; b++)
         for (int i = 0; i < f->body[b].n && !f->body[b].held; i++)
-            widen(range, n[f->m->vertex[f->vertex[f->body[b].first + i]].node].value);
+            plot_widen(range, n[f->m->vertex[f->vertex[f->body[b].first + i]].node].value);
     if (range[0] > range[1])
         range[0] = range[1] = 0;
     if (!open_page(f, path, 1, BAR))
         return 0;
-    const plot_axis bar = plot_bar_axis(&q, range[0], range[1]);
+    const plot_axis bar = plot_bar_axis(&q, range);
     const plot_box b = begin_panel(f, 0);
     draw_field(f, n, &bar);
     end_panel(f, b);

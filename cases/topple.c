@@ -53,12 +53,17 @@ static int theory(double k, double a, double phi)
 static void run(trial *t)
 {
     const double rad = t->a * PI / 180;
-    bbm_model *m = case_block_on_slope(&(case_slope){ t->a, t->k, 1, t->phi, 1e11, 0.0025, 1 });
+    bbm_model *m = case_moving_model(&(case_blocks){ 1e10, 0.25, 0.0025, 1e11, t->phi, 1e-14 });
 
+    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -12, .y = -1, .w = 18, .h = 1,
+                                 .turn = rad });
+    case_fix_block(m, 0);
+    case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 1, .ny = 1, .w = t->k, .h = 1,
+                                 .turn = rad });
     case_must(m, bbm_prepare(m));
     t->turned = 0;
     for (int i = 0; i < 20; i++) {
-        case_step(m, NULL, NULL);
+        case_step(m, NULL);
         t->turned += m->element[m->elements - 1].D[2];
     }
     const bbm_vertex *corner = &m->vertex[m->element[m->elements - 1].first];
@@ -201,10 +206,11 @@ static void draw_charts(case_results *r, const chart c[SHAPES])
 {
     plot p;
 
-    case_open_page(r, "chart.svg", &p, 1160, 1080);
+    if (!case_draw(r, plot_open(&p, case_path(r, "chart.svg"), 1160, 1080)))
+        return;
     for (int s = 0; s < SHAPES; s++)
         draw_chart(&p, (plot_box){ s % 2 * 580, s / 2 * 540, 580, 540 }, &c[s]);
-    case_close_page(r, &p);
+    case_draw(r, plot_close(&p));
 }
 
 /* The four regimes side by side, at the same friction of 30 degrees. */
@@ -212,10 +218,8 @@ static void draw_film(case_results *r)
 {
     static const struct { double a, k, x; } at[4] = { { 20, 0.5, 0 }, { 40, 1, 5 }, { 32, 0.5, 10 }, { 60, 0.5, 14 } };
     scene film = { .title = "Friction 30 degrees: stands, slides, topples, slides and topples" };
-    bbm_model *m = case_model();
+    bbm_model *m = case_moving_model(&(case_blocks){ 1e10, 0.25, 0.005, 1e10, 30, 1e-13 });
 
-    bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
-    bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
     for (int i = 0; i < 4; i++) {
         const double turn = at[i].a * PI / 180, x = cos(turn) * at[i].x, y = -sin(turn) * at[i].x;
         case_add_box(m, &(case_box){ .block = 2 * i, .nx = 1, .ny = 1, .x = x - 2, .y = y - 0.4, .w = 4, .h = 0.4,
@@ -224,19 +228,13 @@ static void draw_film(case_results *r)
         case_add_box(m, &(case_box){ .block = 2 * i + 1, .material = 1, .nx = 1, .ny = 1, .x = x, .y = y,
                                      .w = 1.6 * at[i].k, .h = 1.6, .turn = turn });
     }
-    m->par.dt = 0.005;
-    m->par.velocity_factor = 1;
-    m->par.gravity[1] = -9.81;
-    m->par.p_n = 1e10;
-    m->par.p_s = 4e9;
-    m->par.friction = 30;
-    m->par.pcg.tolerance = 1e-13;
     case_must(m, bbm_prepare(m));
     scene_record(&film, m);
     for (int i = 0; i < 120; i++)
-        case_step(m, NULL, &film);
-    case_draw_movie(r, "regimes.svg", m, &film);
-    case_draw_panels(r, "states.svg", m, &film, 2, (double[]){ 0.3, 0.6 });
+        case_step(m, &film);
+    case_draw(r, scene_write_movie(&film, m, case_path(r, "regimes.svg")));
+    case_draw(r, scene_write_panels(&film, m, case_path(r, "states.svg"), 2,
+                                    (double[]){ 0.3, 0.6 }));
     scene_free(&film);
     bbm_model_free(m);
 }

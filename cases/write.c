@@ -43,6 +43,17 @@ static int close_file(write_results *w, output *f)
     return output_close(f) ? 1 : fail(w, f->path, strerror(errno));
 }
 
+static int write_file(write_results *w, const char *path,
+                      void (*put)(FILE *f, const write_results *w))
+{
+    output f;
+
+    if (!open_file(w, &f, path))
+        return 0;
+    put(f.file, w);
+    return close_file(w, &f);
+}
+
 /* --------------------------------------------------------------------------------------- tables */
 
 static void put_numbers(FILE *f, int n, const double x[])
@@ -51,8 +62,10 @@ static void put_numbers(FILE *f, int n, const double x[])
         fprintf(f, ",%.15g", x[k]);
 }
 
-static void put_nodes(FILE *f, const model *p)
+static void put_nodes(FILE *f, const write_results *w)
 {
+    const model *p = w->p;
+
     fprintf(f, "node,block,x,y,u,v,sxx,syy,sxy,mises\n");
     for (int n = 0; n < p->m->nodes; n++) {
         bbm_result r;
@@ -67,8 +80,10 @@ static void put_nodes(FILE *f, const model *p)
 }
 
 /* In dynamics with the velocity of the barycentre that the last step hands on. */
-static void put_elements(FILE *f, const model *p)
+static void put_elements(FILE *f, const write_results *w)
 {
+    const model *p = w->p;
+
     fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises%s\n",
             p->dynamic ? ",vx,vy,spin" : "");
     for (int e = 0; e < p->m->elements; e++) {
@@ -87,8 +102,9 @@ static void put_elements(FILE *f, const model *p)
 static const char *const state_name[] = { "OPEN", "LOCK", "SLIDE" };
 
 /* The closed ones: where the corner is, what presses and shears, how far it is outside. */
-static void put_contacts(FILE *f, const model *p)
+static void put_contacts(FILE *f, const write_results *w)
 {
+    const model *p = w->p;
     const bbm_model *m = p->m;
 
     fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
@@ -106,8 +122,10 @@ static void put_contacts(FILE *f, const model *p)
 }
 
 /* The force of the support on each fixed node. */
-static void put_reactions(FILE *f, const model *p)
+static void put_reactions(FILE *f, const write_results *w)
 {
+    const model *p = w->p;
+
     fprintf(f, "node,x,y,fx,fy\n");
     for (int n = 0; n < p->m->nodes; n++) {
         const bbm_node *a = &p->m->node[n];
@@ -121,13 +139,16 @@ static void put_reactions(FILE *f, const model *p)
 }
 
 /* Static steps take no time: t stays 0. */
-static double time_of(const model *p, int step) { return p->dynamic ? step * p->m->par.dt : 0; }
+static double time_of(const write_results *w)
+{
+    return w->p->dynamic ? w->step * w->p->m->par.dt : 0;
+}
 
-static void put_history(const write_results *w, int step)
+static void put_history(const write_results *w)
 {
     const model *p = w->p;
 
-    fprintf(w->history.file, "%d,%.15g", step, time_of(p, step));
+    fprintf(w->history.file, "%d,%.15g", w->step, time_of(w));
     for (int k = 0; k < p->monitors; k++) {
         double u[2];
         model_place_of(p, &p->monitor[k], u);
@@ -136,14 +157,14 @@ static void put_history(const write_results *w, int step)
     fputc('\n', w->history.file);
 }
 
-static void put_summary(const write_results *w, int step)
+static void put_summary(const write_results *w)
 {
     const bbm_info *i = &w->p->m->info;
     const bbm_beyond *b = w->p->m->beyond;
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
-    fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", step, time_of(w->p, step), i->passes,
+    fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", w->step, time_of(w), i->passes,
             i->iterations, i->pcg.residual, i->contacts);
     put_numbers(w->summary.file, 5,
                 (double[]){ e.kinetic, e.elastic, e.springs, b->work, b->gained });
@@ -174,6 +195,14 @@ static double stress_of(const bbm_model *m, int element, const char *field)
     return scene_field(&r, field);
 }
 
+/* Legacy VTK, ASCII. */
+static void put_head(FILE *f, const write_results *w, const char *kind, int points)
+{
+    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET %s\n",
+            w->p->title ? w->p->title : "bbm", kind);
+    fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", time_of(w), points);
+}
+
 static void put_cells(FILE *f, const bbm_model *m)
 {
     fprintf(f, "CELLS %d %d\n", m->elements, m->elements + m->vertices);
@@ -188,16 +217,13 @@ static void put_cells(FILE *f, const bbm_model *m)
         fprintf(f, "%d\n", m->element[e].n == 3 ? 5 : m->element[e].n == 4 ? 9 : 7);
 }
 
-/* Legacy VTK, ASCII: points where they started, with the displacement as a vector to warp by;
- * cells with stress. */
-static void put_vtk(FILE *f, const model *p, double t)
+/* Points where they started, with the displacement as a vector to warp by; cells with stress. */
+static void put_vtk(FILE *f, const write_results *w)
 {
-    const bbm_model *m = p->m;
+    const bbm_model *m = w->p->m;
     static const char *const name[] = { "sxx", "syy", "sxy", "mises", "s1", "s2" };
 
-    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET UNSTRUCTURED_GRID\n",
-            p->title ? p->title : "bbm");
-    fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, m->nodes);
+    put_head(f, w, "UNSTRUCTURED_GRID", m->nodes);
     for (int n = 0; n < m->nodes; n++)
         fprintf(f, "%.15g %.15g 0\n", m->node[n].x, m->node[n].y);
     put_cells(f, m);
@@ -231,14 +257,12 @@ static void put_force(FILE *f, const bbm_model *m, const bbm_contact *c, int she
 }
 
 /* The closed contacts as points, with the forces on the corner's block. */
-static void put_vtk_contacts(FILE *f, const model *p, double t)
+static void put_vtk_contacts(FILE *f, const write_results *w)
 {
-    const bbm_model *m = p->m;
+    const bbm_model *m = w->p->m;
     const int n = m->info.contacts;
 
-    fprintf(f, "# vtk DataFile Version 3.0\n%.200s\nASCII\nDATASET POLYDATA\n",
-            p->title ? p->title : "bbm");
-    fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", t, n);
+    put_head(f, w, "POLYDATA", n);
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)
             fprintf(f, "%.15g %.15g 0\n", m->vertex[m->edge[m->contact[k].corner].a].x,
@@ -258,46 +282,41 @@ static void put_vtk_contacts(FILE *f, const model *p, double t)
     }
 }
 
-static int write_vtk(write_results *w, int step)
+static void write_vtk(write_results *w)
 {
-    static const struct {
-        const char *form;
-        void (*put)(FILE *f, const model *p, double t);
-    } part[] = {
-        { "step_%06d.vtk", put_vtk },
-        { "contacts_%06d.vtk", put_vtk_contacts },
-    };
-    int good = 1;
+    char name[32], path[LONGEST];
 
-    for (int k = 0; k < 2 && good; k++) {
-        output f;
-        char name[32], path[LONGEST];
-        snprintf(name, sizeof name, part[k].form, step);
-        good = open_file(w, &f, path_of(w, name, path));
-        if (good) {
-            part[k].put(f.file, w->p, time_of(w->p, step));
-            good = close_file(w, &f);
-        }
-    }
-    return good;
+    snprintf(name, sizeof name, "step_%06d.vtk", w->step);
+    if (!write_file(w, path_of(w, name, path), put_vtk))
+        return;
+    snprintf(name, sizeof name, "contacts_%06d.vtk", w->step);
+    write_file(w, path_of(w, name, path), put_vtk_contacts);
 }
 
 /* ------------------------------------------------------------------------------------- pictures */
+
+/* The present state. */
+static void draw_now(write_results *w, const char *name)
+{
+    const bbm_model *m = w->p->m;
+    scene now = { .title = w->p->title };
+    char path[LONGEST];
+
+    scene_record(&now, m);
+    if (!scene_write_panels(&now, m, path_of(w, name, path), 1, &m->info.t))
+        fail(w, path, strerror(errno));
+    scene_free(&now);
+}
 
 /* A picture that cannot be made costs no results. */
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    const double now = m->info.t;
-    scene end = { .title = w->p->title };
     const char *field = w->p->field;
     scene_map map = { w->p->title, field, w->p->scale };
     char path[LONGEST], name[20];
 
-    scene_record(&end, m);
-    if (!scene_write_panels(&end, m, path_of(w, "contacts.svg", path), 1, &now))
-        fail(w, path, strerror(errno));
-    scene_free(&end);
+    draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
         if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
             fail(w, path, strerror(errno));
@@ -351,6 +370,15 @@ static void put_matrix(FILE *f, const bbm_model *m, int blocks, int (*pair)[2])
     }
 }
 
+static void put_right_side(FILE *f, const write_results *w)
+{
+    const bbm_model *m = w->p->m;
+
+    fprintf(f, "%%%%MatrixMarket matrix array real general\n%d 1\n", 6 * m->elements);
+    for (int k = 0; k < 6 * m->elements; k++)
+        fprintf(f, "%.17g\n", m->F[k]);
+}
+
 void write_matrix(write_results *w)
 {
     const bbm_model *m = w->p->m;
@@ -370,42 +398,26 @@ void write_matrix(write_results *w)
     }
     free(pair);
     snprintf(name, sizeof name, "%s.rhs", w->matrix);
-    if (!w->status && open_file(w, &f, name)) {
-        fprintf(f.file, "%%%%MatrixMarket matrix array real general\n%d 1\n", 6 * m->elements);
-        for (int k = 0; k < 6 * m->elements; k++)
-            fprintf(f.file, "%.17g\n", m->F[k]);
-        close_file(w, &f);
-    }
+    if (!w->status)
+        write_file(w, name, put_right_side);
     w->writing += clock() - start;
 }
 
 /* -------------------------------------------------------------------------------------- the run */
 
-/* Whether a name of n letters is that of a field's picture. */
-static int is_map(const char *name, size_t n)
-{
-    static const char *const field[] = SCENE_FIELDS;
-
-    for (int k = 0; field[k]; k++)
-        if (n == strlen(field[k]) + 4 && strncmp(name, field[k], n - 4) == 0
-            && strncmp(name + n - 4, ".svg", 4) == 0)
-            return 1;
-    return 0;
-}
-
 /* The length of a name that a run writes, without the ending of a temporary file; 0: it is
  * another one. */
 static size_t is_ours(const char *name, long *process)
 {
-    static const char *const all[] = { "nodes.csv",     "elements.csv", "history.csv",
-                                       "summary.csv",   "timing.csv",   "contacts.svg",
-                                       "movie.svg",     "mises.svg",    "contacts.csv",
-                                       "reactions.csv", "model.svg" };
+    static const char *const all[] = {
+        "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
+        "reactions.csv", "contacts.svg", "movie.svg", "model.svg", "mises.svg", "sxx.svg",
+        "syy.svg", "sxy.svg", "s1.svg", "s2.svg", "u.svg", "v.svg",
+    };
     const size_t temporary = output_is_temporary(name, process),
                  n = temporary ? temporary : strlen(name);
-    const size_t start = strncmp(name, "step_", 5) == 0       ? 5
-                         : strncmp(name, "contacts_", 9) == 0 ? 9
-                                                              : 0;
+    const size_t start = strncmp(name, "step_", 5) == 0 ? 5
+                       : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
     const size_t digits = start ? strspn(name + start, "0123456789") : 0;
 
     if (!temporary)
@@ -415,7 +427,7 @@ static size_t is_ours(const char *name, long *process)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
             return n;
-    return is_map(name, n) ? n : 0;
+    return 0;
 }
 
 /* Looks through the folder: whether another run writes there (some systems do not let its files
@@ -463,15 +475,9 @@ static int open_folder(write_results *w)
 
 int write_check(write_results *w)
 {
-    scene start = { .title = w->p->title };
-    char path[LONGEST];
-
     if (!open_folder(w))
         return 0;
-    scene_record(&start, w->p->m);
-    if (!scene_write_panels(&start, w->p->m, path_of(w, "model.svg", path), 1, (double[]){ 0 }))
-        fail(w, path, strerror(errno));
-    scene_free(&start);
+    draw_now(w, "model.svg");
     return !w->status;
 }
 
@@ -502,13 +508,13 @@ int write_step(write_results *w, int step)
     const model *p = w->p;
 
     w->step = step;
-    put_history(w, step);
+    put_history(w);
     if (step > 0)
-        put_summary(w, step);
+        put_summary(w);
     if (p->svg && p->dynamic && (p->every == 0 || step % p->every == 0))
         scene_record(&w->film, p->m);
     if (p->vtk && p->every && step % p->every == 0)
-        write_vtk(w, step);
+        write_vtk(w);
     if (ferror(w->history.file) || ferror(w->summary.file))
         fail(w, w->folder, strerror(errno));
     w->writing += clock() - start;
@@ -519,32 +525,24 @@ int write_close(write_results *w)
 {
     const clock_t start = clock();
     const model *p = w->p;
-    const struct { const char *name; void (*put)(FILE *f, const model *p);
-    } table[] = {
+    const struct { const char *name; void (*put)(FILE *f, const write_results *w); } table[] = {
         { "nodes.csv", put_nodes },
         { "elements.csv", put_elements },
         { "contacts.csv", put_contacts },
         { "reactions.csv", put_reactions },
     };
-    output f;
     char path[LONGEST];
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
     for (int k = 0; k < 4; k++)
-        if (open_file(w, &f, path_of(w, table[k].name, path))) {
-            table[k].put(f.file, p);
-            close_file(w, &f);
-        }
+        write_file(w, path_of(w, table[k].name, path), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
-        write_vtk(w, w->step);
+        write_vtk(w);
     if (p->svg)
         draw_pictures(w);
     scene_free(&w->film);
     w->writing += clock() - start;
-    if (open_file(w, &f, path_of(w, "timing.csv", path))) {
-        put_timing(f.file, w);
-        close_file(w, &f);
-    }
+    write_file(w, path_of(w, "timing.csv", path), put_timing);
     return !w->status;
 }

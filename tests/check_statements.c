@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../cases/theory.h"
 #include "programs.h"
 
 #define ROCK "material rock E 1e10 nu 0.25 density 2500\n"
@@ -329,6 +330,56 @@ START_TEST(the_first_domino_falls_where_its_energy_is_enough)
 }
 END_TEST
 
+/* The mean stress of the 24 equal triangles of a row of cells is the weight above its middle; one
+ * alone is within 2 % of rho g h of the weight above its own. */
+START_TEST(each_row_of_a_resting_block_carries_those_above)
+{
+    ck_assert_int_eq(run_with("resting", ""), 0);
+    for (int row = 0; row < 8; row++) {
+        double mean = 0;
+        for (int k = 1; k <= 24; k++) {
+            char id[20];
+            snprintf(id, sizeof id, "%d,", 24 * row + k);
+            const double syy = cell("resting", "elements.csv", id, "syy");
+            const double y = cell("resting", "elements.csv", id, "y");
+            ck_near(syy, -2500 * 9.81 * (2 - y), 2500 * 9.81 * 2, 0.02);
+            mean += syy / 24;
+        }
+        ck_relative(mean, -2500 * 9.81 * (2 - (row + 0.5) / 4), 1e-6);
+    }
+}
+END_TEST
+
+/* ((1 + e)/2)^4 by e of the average impact, nearer for the shorter step; momentum is exact. */
+START_TEST(the_last_of_a_row_flies_off_as_restitution_says)
+{
+    for (int k = 0; k < 2; k++) {
+        const double dt = k ? 1e-5 : 1e-4, e = theory_rebound(dt * dt * 2 * 1e9 / 2500);
+        double sum_of = 0;
+        ck_assert_int_eq(run_with("cradle", k ? "-d dt=0.00001 -d steps=100000" : ""), k ? 3 : 0);
+        for (int b = 1; b <= 5; b++) {
+            char row[20];
+            snprintf(row, sizeof row, "%d,b%d,", b, b);
+            sum_of += cell("cradle", "elements.csv", row, "vx");
+        }
+        ck_relative(sum_of, 1, 1e-9);
+        ck_relative(cell("cradle", "elements.csv", "5,b5,", "vx"), pow((1 + e) / 2, 4),
+                    k ? 1e-4 : 1e-3);
+    }
+}
+END_TEST
+
+/* `rotation exact` alone leads the corner to its place, whatever the step. */
+START_TEST(a_turning_block_is_where_it_belongs)
+{
+    ck_assert_int_eq(run_with("turning", ""), 0);
+    ck_assert_int_eq(run_with("turning", "-d dt=0.001 -d steps=2000"), 0);
+    ck_assert_int_eq(shell("sed 's/rotation exact/rotation linear/' cases/models/turning.model > "
+                           "out/model/turned.model; %s/bbm -q out/model/turned.model -o "
+                           "out/model/turned > out/model/said", BUILD), 3);
+}
+END_TEST
+
 START_TEST(each_block_of_a_column_carries_those_above)
 {
     const double W = 2500 * 9.81;
@@ -519,6 +570,9 @@ Suite *statements_suite(void)
     tcase_add_test(t, an_arch_on_spreading_supports_falls_at_the_spread_of_limit_analysis);
     tcase_add_test(t, the_first_domino_falls_where_its_energy_is_enough);
     tcase_add_test(t, each_block_of_a_column_carries_those_above);
+    tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
+    tcase_add_test(t, a_turning_block_is_where_it_belongs);
+    tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
     tcase_add_loop_test(t, a_block_is_the_set_of_its_nodes, 0, 4);
     tcase_add_test(t, of_block_takes_the_nodes_of_one_block);
