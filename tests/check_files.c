@@ -211,8 +211,8 @@ START_TEST(help_and_version_that_cannot_be_written_are_status_1)
     static const char *const call[] = { "bbm -h", "bbm --version", "drop" };
 
     for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
-        ck_assert_int_eq(shell("cd out/model && ../../%s/%s > /dev/full 2> bad.err", BUILD,
-                               call[k]), 1);
+        ck_assert_int_eq(shell("mkdir -p out/model/full && cd out/model/full && "
+                               "../../../%s/%s > /dev/full 2> ../bad.err", BUILD, call[k]), 1);
         ck_assert_int_eq(shell("grep -q '^[a-z: ]*stdout.*be written$' out/model/bad.err"), 0);
     }
 }
