@@ -47,9 +47,8 @@ int run_text(const char *name, const char *text)
 
     snprintf(path, sizeof path, "out/model/%s.model", name);
     write_text(path, text);
-    return shell("rm -rf out/model/%s; %s/bbm -q out/model/%s.model -o out/model/%s 2> "
-                 "out/model/%s.err", name, BUILD,
-                 name, name, name);
+    return shell("rm -rf out/model/%s; %s/bbm -q out/model/%s.model -o out/model/%s > "
+                 "out/model/%s.out 2> out/model/%s.err", name, BUILD, name, name, name, name);
 }
 
 double cell(const char *name, const char *file, const char *row, const char *column)
