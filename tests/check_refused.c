@@ -830,6 +830,7 @@ Suite *refused_suite(void)
     tcase_add_loop_test(holds, an_edge_holds_a_body_if_it_has_a_moment, 0, 3);
     suite_add_tcase(s, holds);
     TCase *failing = tcase_create("failing");
+    tcase_set_timeout(failing, 10);         /* s: the disc takes half a second, 5 with sanitizers */
     tcase_add_loop_test(failing, what_is_loose_in_a_static_step_that_failed_is_named, 0, 3);
     tcase_add_loop_test(failing, of_blocks_that_go_together_the_one_that_parts_is_named, 0, 4);
     tcase_add_loop_test(failing, a_block_that_slides_in_statics_is_named_with_what_it_slides_on,
