@@ -116,8 +116,7 @@ static void choose_signs(const bbm_model *m, int up[], int sign[])
 
 /* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
  * them. An element without bonds is not in it, for there would be as many coarse unknowns as it has
- * of its own; nor is one held at every corner, which hardly moves. SSOR alone is faster for both.
- * */
+ * of its own; nor is one held at every corner, which hardly moves. SSOR is faster for both. */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices;

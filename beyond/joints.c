@@ -75,7 +75,7 @@ bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, doub
                         tension);
     bbm_joint *more = realloc(b->joint, ((size_t)b->joints + 1) * sizeof *more);
     if (!more)
-        return BBM_NO_MEMORY;
+        return bbm_fail(m, BBM_NO_MEMORY, "%d joints", b->joints);
     b->joint = more;
     b->joint[b->joints++] = (bbm_joint){
         { block[0], block[1] },

@@ -138,6 +138,31 @@ START_TEST(a_cycle_is_broken_one_by_one_for_as_many_passes_again)
 }
 END_TEST
 
+/* Where one contact changes in a pass it is the deeper one, whichever comes first in the list: the
+ * block comes down turned to one side or the other. */
+START_TEST(the_contact_that_fits_worst_changes_first)
+{
+    bbm_model *m = block_on_table();
+    int n, closed = 0;
+
+    m->trial = BBM_ONE_BY_ONE;
+    bbm_guess_step(m);
+    ck_ok(bbm_detect_contacts(m, NULL), m);
+    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+    m->D[7] = -1e-2;
+    m->D[8] = _i ? 1e-3 : -1e-3;
+    (void)bbm_open_close(m);
+    const bbm_contact *c = bbm_list_contacts(m, &n);
+    for (int k = 0; k < n; k++) {
+        closed += c[k].state != BBM_OPEN;
+        for (int q = 0; q < n && c[k].state != BBM_OPEN; q++)
+            ck_assert(c[k].d_n <= c[q].d_n);
+    }
+    ck_assert_int_eq(closed, 1);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* The block comes 0.1 mm into the table and along it. Its springs would be on the cone of friction
  * at p_s u = tan(30) p_n v: below that the contacts start as locked, above as sliding. */
 START_TEST(a_contact_that_closes_outside_the_cone_of_friction_slides)
@@ -588,6 +613,7 @@ Suite *open_close_suite(void)
         { a_set_of_states_that_comes_back_is_a_cycle, 1 },
         { a_base_needs_no_multipliers_in_dynamics, 3 },
         { a_cycle_is_broken_one_by_one_for_as_many_passes_again, 1 },
+        { the_contact_that_fits_worst_changes_first, 2 },
         { a_contact_that_closes_outside_the_cone_of_friction_slides, 4 },
         { a_contact_that_its_shear_spring_pulls_open_slides_first, 2 },
         { piles_settle_in_few_passes, 1 },
