@@ -71,7 +71,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "bbm.h"
+#include "base/base.h"
 
 /* Against the largest entry of F. */
 #define NEGLIGIBLE 1e-100
@@ -283,8 +283,12 @@ void bbm_matrix_free(bbm_matrix *K)
     free(K);
 }
 
+void bbm_matrix_keep(bbm_matrix *K, int keep) { K->is_kept = keep; }
+
 void bbm_matrix_clear(bbm_matrix *K)
 {
+    if (K->is_kept)
+        return;
     memset(K->D, 0, (size_t)K->n * sizeof *K->D);
     memset(K->L, 0, (size_t)K->first[K->n] * sizeof *K->L);
     K->ready = K->terms = K->lacks = 0;
@@ -309,6 +313,8 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 {
     double (*to)[6] = find_block(K, i, j);
 
+    if (K->is_kept)
+        return BBM_OK;
     K->lacks |= !to;
     if (!to)
         return BBM_BAD_INDEX;

@@ -13,6 +13,7 @@ static void release(bbm_model *m)
     free(m->beyond->edge_load);
     free(m->beyond->joint);
     free(m->beyond->support);
+    free(m->beyond->middle);
     free(m->beyond);
 }
 
@@ -20,7 +21,9 @@ static void release(bbm_model *m)
 static bbm_status check(bbm_model *m)
 {
     m->beyond->springs = bbm_spring_energy(m);
-    const bbm_status status = bbm_lay_out_supports(m);
+    bbm_status status = bbm_lay_out_motion(m);
+    if (!status)
+        status = bbm_lay_out_supports(m);
     return status ? status : bbm_check_overlap(m);
 }
 
@@ -106,7 +109,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         return BBM_NO_MEMORY;
     }
     m->par.pcg.method = &bbm_two_level;
-    m->hook = (bbm_hooks){
+    *m->hook = (bbm_hooks){
         .release = release,
         .check_polygon = bbm_check_polygon,
         .check = check,
@@ -120,13 +123,12 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
-        .is_exact = bbm_moves_exactly,
+        .add_gap = bbm_weighted_submatrices,
+        .motion = bbm_find_motion,
         .lay_out = lay_out,
         .before_solution = bbm_interpolate_elements,
         .renew = bbm_renew_middle,
         .settled = bbm_take_over,
-        .move = bbm_move_exactly,
-        .turn = bbm_turn_element,
         .accept = accept,
         .explain = bbm_explain,
     };

@@ -9,7 +9,7 @@
 
 #include <stddef.h>
 
-#include "../bbm.h"
+#include "../base/base.h"
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */
 
@@ -59,6 +59,7 @@ struct bbm_beyond {
     int joints;
     bbm_joint *joint;           /* [joints]                                                     */
     bbm_support *support;       /* [nodes]                                                      */
+    bbm_middle *middle;         /* [elements], rotation.c                                       */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
@@ -95,20 +96,20 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, d
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
 /* rotation.c */
-int        bbm_moves_exactly(const bbm_model *m);
+const bbm_motion *bbm_find_motion(const bbm_model *m);
 void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
-                             double at[2]);             /* a bbm_mode                       */
+                             double at[2]);
+void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+bbm_status bbm_lay_out_motion(bbm_model *m);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
-void       bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y,
-                            double u[2]);
-void       bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
 
 /* bending.c */
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
+void       bbm_weighted_submatrices(const bbm_gap *g, bbm_submatrices *s);
 void       bbm_list_edge_gaps(bbm_model *m);
 
 /* pressure.c. After bbm_prepare: a load on a boundary edge, N/m. */
@@ -117,6 +118,7 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
 void       bbm_gather_edge_loads(bbm_model *m);
 
 /* multipliers.c */
+void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
 void       bbm_start_multipliers(bbm_model *m);
 int        bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);

@@ -96,7 +96,8 @@ double bbm_spring_energy(const bbm_model *m)
     for (int k = 0; k < m->gaps; k++) {
         const bbm_gap *g = &m->gap[k];
         for (int r = 0; r < 2; r++)
-            energy += g->d0[r] * (g->f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]) / 2;
+            energy += g->d0[r] / 2
+                    * (g->own.f[r] + g->own.W[r][0] * g->d0[0] + g->own.W[r][1] * g->d0[1]);
     }
     for (int k = 0; k < contacts; k++)
         energy += contact_energy(m, &c[k]);
@@ -136,7 +137,7 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, d
     *gain -= work;
     if (bbm_is_static(m) || m->par.velocity_factor < 1)
         *gain = *there = 0;
-    if (bbm_is_exact(m) && *gain > GAIN * *there)
+    if (bbm_motion_of(m) && *gain > GAIN * *there)
         return BBM_ENERGY;
     b->work += work;
     b->springs = springs;

@@ -66,7 +66,7 @@ static void add_gap(const bbm_model *m, const window *w, const bbm_gap *g)
             T[s] /= s % 3 == 2 ? sqrt(m->element[e].A0) : 1;
             at[s] = 3 * w->place[e] + s % 3;
         }
-        if (g->W[r][r] == 0)
+        if (g->own.W[r][r] == 0)
             weight = g->j < 0 ? 0 : -(w->held[g->i] + w->held[g->j]) / 2;
         for (int s = 0; s < n * n; s++)
             if (at[s / n] <= at[s % n])

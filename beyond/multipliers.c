@@ -12,11 +12,24 @@
  */
 #include "beyond.h"
 
+/* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
+void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
+{
+    for (int r = 0; r < 2; r++) {
+        double ui = 0, uj = 0;
+        for (int a = 0; a < 6; a++) {
+            ui += g->Ti[r][a] * m->D[6 * g->i + a];
+            uj += g->j < 0 ? 0 : g->Tj[r][a] * m->D[6 * g->j + a];
+        }
+        d[r] = g->d0[r] + ui - uj;
+    }
+}
+
 void bbm_start_multipliers(bbm_model *m)
 {
     for (int k = 0; k < m->gaps; k++)
         for (int r = 0; r < 2; r++)
-            m->gap[k].f[r] = bbm_is_static(m) ? m->gap[k].f_before[r] : 0;
+            m->gap[k].own.f[r] = bbm_is_static(m) ? m->gap[k].own.f_before[r] : 0;
     m->beyond->rounds_done = 0;
 }
 
@@ -45,8 +58,8 @@ int bbm_take_over(bbm_model *m)
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         bbm_gap_length(m, g, d);
-        for (int r = 0; r < 2 && g->penalty; r++)
-            g->f[r] += g->W[r][0] * d[0] + g->W[r][1] * d[1];
+        for (int r = 0; r < 2 && g->own.penalty; r++)
+            g->own.f[r] += g->own.W[r][0] * d[0] + g->own.W[r][1] * d[1];
     }
     return 1;
 }
@@ -56,5 +69,5 @@ void bbm_store_multipliers(bbm_model *m)
 {
     for (int k = 0; k < m->gaps; k++)
         for (int r = 0; r < 2; r++)
-            m->gap[k].f_before[r] = m->gap[k].f[r];
+            m->gap[k].own.f_before[r] = m->gap[k].own.f[r];
 }

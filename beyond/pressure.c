@@ -59,8 +59,8 @@ static void find_load(const bbm_model *m, bbm_edge_load *load)
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
     double T[2][6], am[2], bm[2], c[2] = { 0, 0 };
 
-    bbm_step_matrix(e, a->x, a->y, T, am);
-    bbm_step_matrix(e, b->x, b->y, T, bm);
+    bbm_step_point(e, a->x, a->y, T, am);
+    bbm_step_point(e, b->x, b->y, T, bm);
     if (load->weight > 0)
         press(load->level - am[1], load->level - bm[1], c);
     for (int g = 0; g < BBM_GAUSS; g++) {

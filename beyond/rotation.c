@@ -25,6 +25,7 @@
  * keep T.
  */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "beyond.h"
@@ -41,21 +42,12 @@
 #define SHARE 3e-6
 #define DIRECTION 1e-4
 
-/* Whether points move by the exact rotation. */
-int bbm_moves_exactly(const bbm_model *m)
-{
-    return m->beyond->rotation == BBM_EXACT && !bbm_is_static(m);
-}
-
 /* How a point at (X, Y) from the barycentre moves: translation, strain, then the exact rotation,
- * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X; where rotations
- * are linear, its first order in r0, u = T D. */
-void bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y, double u[2])
+ * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X. */
+static void move(const double D[6], double X, double Y, double u[2])
 {
     const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
-    const int exact = bbm_moves_exactly(m);
-    const double s = exact ? sin(D[2]) : D[2], c1 = exact ? -2 * pow(sin(D[2] / 2), 2) : 0;
-    const double x = exact ? X + ux : X, y = exact ? Y + uy : Y;
+    const double s = sin(D[2]), c1 = -2 * pow(sin(D[2] / 2), 2), x = X + ux, y = Y + uy;
 
     u[0] = D[0] + ux + c1 * x - s * y;
     u[1] = D[1] + uy + c1 * y + s * x;
@@ -65,7 +57,7 @@ void bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y,
  * `at`. */
 void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6], double at[2])
 {
-    const double X = x - e->x, Y = y - e->y, *D = e->mode_D, r = D[2];
+    const double X = x - e->x, Y = y - e->y, *D = e->middle->D, r = D[2];
     const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
     const double t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
     const double s = 2 * t / (1 + t * t), c1 = -t * s;                  /* sin(r), cos(r) - 1   */
@@ -82,22 +74,138 @@ void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
     at[1] = e->y + D[1] / 2 + Ym;
 }
 
+static void step_matrix(const bbm_element *e, double x, double y, double T[2][6])
+{
+    double at[2];
+
+    bbm_middle_matrix(e, x, y, T, at);
+}
+
+/* T of the step at the point that starts it in (x, y), and where that is then. */
+void bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2])
+{
+    at[0] = x;
+    at[1] = y;
+    if (e->middle)
+        bbm_middle_matrix(e, x, y, T, at);
+    else
+        bbm_mode_matrix(e, x, y, T);
+}
+
+/* (59) with points and T of the middle of the step; only the change of l is dropped. */
+static void normal_vectors(const bbm_touch *c, double l, bbm_spring *n)
+{
+    double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2];
+
+    bbm_middle_matrix(c->i, c->P1->x, c->P1->y, T1, p1);
+    bbm_middle_matrix(c->j, c->P2->x, c->P2->y, T2, p2);
+    bbm_middle_matrix(c->j, c->P3->x, c->P3->y, T3, p3);
+    for (int a = 0; a < 6; a++) {
+        n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
+        n->g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
+                   + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
+    }
+}
+
+/* (64) at the middle of the step, and with what (60) drops, the turning of m: (T3 - T2)^T (P1 - P0)/l
+ * in g. Without it friction does not keep angular momentum. */
+static void shear_vectors(const bbm_touch *c, double l, double anchor, bbm_spring *s)
+{
+    const bbm_vertex *P1 = c->P1, *P2 = c->P2, *P3 = c->P3;
+    const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
+    double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
+
+    bbm_middle_matrix(c->i, P1->x, P1->y, T1, p1);
+    bbm_middle_matrix(c->j, x0, y0, T0, p0);
+    bbm_middle_matrix(c->j, P2->x, P2->y, T2, p2);
+    bbm_middle_matrix(c->j, P3->x, P3->y, T3, p3);
+    const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
+    const double ax = (p1[0] - p0[0]) / l, ay = (p1[1] - p0[1]) / l;
+    for (int a = 0; a < 6; a++) {
+        s->e[a] = T1[0][a] * mx + T1[1][a] * my;
+        s->g[a] = -T0[0][a] * mx - T0[1][a] * my
+                + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
+    }
+}
+
+static void find_vectors(const bbm_touch *c, double anchor, bbm_spring *n, bbm_spring *s)
+{
+    const double l = hypot(c->P3->x - c->P2->x, c->P3->y - c->P2->y);
+
+    if (n)
+        normal_vectors(c, l, n);
+    if (s)
+        shear_vectors(c, l, anchor, s);
+}
+
+/* A tensor (xx, yy, xy) turns with the element: R s R^T. */
+static void turn_tensor(double s[3], double r)
+{
+    const double c = cos(2 * r), n = sin(2 * r), t = s[2];
+    const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
+
+    s[0] = mean + half * c - t * n;
+    s[1] = mean - half * c + t * n;
+    s[2] = half * n + t * c;
+}
+
+/* Stress and strain rates turn with an element that has moved, and the change of its moments by
+ * strain, which no force of the step knows of, changes no energy: turning and straining slow down
+ * or speed up together. */
+static void turn(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
+{
+    double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
+    double turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
+    bbm_element end = *e;
+
+    const double before = bbm_inertia_form(start, turning);
+    turn_tensor(e->stress, e->D[2]);
+    turn_tensor(rate, e->D[2]);
+    turning[3] = rate[0], turning[4] = rate[1], turning[5] = 2 * rate[2];
+    bbm_element_geometry(&end, vertex);
+    const double after = bbm_inertia_form(&end, turning);
+    const double factor = after > 0 ? sqrt(before / after) : 1;
+    for (int a = 2; a < 6; a++)
+        e->V[a] = factor * turning[a];
+}
+
+static const bbm_motion exact_motion = { step_matrix, find_vectors, move, turn };
+
+/* How points move in the step in hand: by the exact rotation, or by the paper's T D. */
+const bbm_motion *bbm_find_motion(const bbm_model *m)
+{
+    const int exact = m->beyond->rotation == BBM_EXACT && !bbm_is_static(m);
+
+    return exact ? &exact_motion : NULL;
+}
+
+/* Room for all elements of a prepared model. */
+bbm_status bbm_lay_out_motion(bbm_model *m)
+{
+    free(m->beyond->middle);
+    m->beyond->middle = calloc((size_t)m->elements, sizeof *m->beyond->middle);
+    for (int i = 0; i < m->elements; i++)
+        m->element[i].middle = NULL;
+    return m->beyond->middle ? BBM_OK : BBM_NO_MEMORY;
+}
+
 /* Takes the vectors of the step in the middle of D; not exact: at its start. */
 void bbm_set_middle(bbm_model *m)
 {
-    const int exact = bbm_moves_exactly(m);
+    const bbm_motion *motion = bbm_motion_of(m);
 
     for (int i = 0; i < m->elements; i++) {
-        m->element[i].mode = exact ? bbm_middle_matrix : NULL;
-        for (int a = 0; a < 6; a++)
-            m->element[i].mode_D[a] = exact ? m->D[6 * i + a] : 0;
+        bbm_middle *middle = &m->beyond->middle[i];
+        middle->motion = motion;
+        memcpy(middle->D, &m->D[6 * i], sizeof middle->D);
+        m->element[i].middle = motion ? middle : NULL;
     }
 }
 
 /* Whether the turn of element i is another one than that of its T_m, by more than can be left. */
 static int is_off(const bbm_model *m, int i)
 {
-    const double r = m->D[6 * i + 2], off = fabs(r - m->element[i].mode_D[2]);
+    const double r = m->D[6 * i + 2], off = fabs(r - m->beyond->middle[i].D[2]);
 
     return off * (fabs(r) + off) > TURN;
 }
@@ -128,8 +236,8 @@ static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2
 /* Whether the force of a contact on element i, closed as it is, has another direction. */
 static int turns_otherwise(const bbm_model *m, const bbm_contact *c, int i)
 {
-    return c->state != BBM_OPEN && bbm_is_exact(m)
-        && fabs(m->D[6 * i + 2] - m->element[i].mode_D[2]) > DIRECTION;
+    return c->state != BBM_OPEN && bbm_motion_of(m)
+        && fabs(m->D[6 * i + 2] - m->beyond->middle[i].D[2]) > DIRECTION;
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
@@ -162,7 +270,7 @@ int bbm_middle_is_off(const bbm_model *m)
 {
     int off = 0;
 
-    if (!bbm_moves_exactly(m))
+    if (!bbm_motion_of(m))
         return 0;
     for (int k = 0; k < m->gaps && !off; k++)
         off = is_off(m, m->gap[k].i) || (m->gap[k].j >= 0 && is_off(m, m->gap[k].j));
@@ -179,35 +287,4 @@ int bbm_renew_middle(bbm_model *m)
     bbm_set_middle(m);
     bbm_list_gaps(m);
     return 1;
-}
-
-/* A tensor (xx, yy, xy) turns with the element: R s R^T. */
-static void turn_tensor(double s[3], double r)
-{
-    const double c = cos(2 * r), n = sin(2 * r), t = s[2];
-    const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
-
-    s[0] = mean + half * c - t * n;
-    s[1] = mean - half * c + t * n;
-    s[2] = half * n + t * c;
-}
-
-/* Stress and strain rates turn with an element that has moved, and the change of its moments by
- * strain, which no force of the step knows of, changes no energy: turning and straining slow down
- * or speed up together. */
-void bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
-{
-    double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
-    double turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
-    bbm_element end = *e;
-
-    const double before = bbm_inertia_form(start, turning);
-    turn_tensor(e->stress, e->D[2]);
-    turn_tensor(rate, e->D[2]);
-    turning[3] = rate[0], turning[4] = rate[1], turning[5] = 2 * rate[2];
-    bbm_element_geometry(&end, vertex);
-    const double after = bbm_inertia_form(&end, turning);
-    const double factor = after > 0 ? sqrt(before / after) : 1;
-    for (int a = 2; a < 6; a++)
-        e->V[a] = factor * turning[a];
 }

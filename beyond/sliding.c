@@ -58,7 +58,7 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
     bbm_shear_vectors(t, c->anchor, &s);
     bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
                              + c->sign * joint->cohesion * c->area, f);
-    if (m->K_is_kept)
+    if (m->K->is_kept)
         return 1;
     k->row[0] = m->K->place[m->edge[c->corner].element];
     k->row[1] = m->K->place[m->edge[c->edge].element];
@@ -305,7 +305,7 @@ void bbm_free_sliding(bbm_sliding *s)
 /* Room for the friction of all contacts of a new K. */
 bbm_status bbm_lay_out_sliding(bbm_model *m)
 {
-    const size_t n = 6 * (size_t)m->K->n, pairs = (size_t)m->pairs + 1;
+    const size_t n = 6 * (size_t)m->K->n, pairs = (size_t)m->links + 1;
     bbm_sliding *s = &m->beyond->sliding;
 
     bbm_free_sliding(s);

@@ -25,5 +25,5 @@ void bbm_set_plane_strain(bbm_model *m)
         a->E /= 1 - a->nu * a->nu;
         a->nu /= 1 - a->nu;
     }
-    m->hook.out_of_plane = stress_out_of_plane;
+    m->hook->out_of_plane = stress_out_of_plane;
 }

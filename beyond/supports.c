@@ -45,9 +45,9 @@ void bbm_find_reactions(bbm_model *m)
             continue;
         bbm_gap_length(m, g, d);
         for (int a = 0; a < 2; a++) {
-            const double half = (g->f[a] + g->W[a][0] * d[0] + g->W[a][1] * d[1]) / 2;
+            const double half = (g->own.f[a] + g->own.W[a][0] * d[0] + g->own.W[a][1] * d[1]) / 2;
             m->beyond->support[g->node[0]].force[a] -= half;
-            m->beyond->support[g->node[1]].force[a] -= g->penalty ? half : -half;
+            m->beyond->support[g->node[1]].force[a] -= g->own.penalty ? half : -half;
         }
     }
 }

@@ -432,7 +432,7 @@ static int count_contacts(bbm_model *m)
     int contacts, touching = 0;
 
     m->h = INFINITY;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     if (bbm_detect_contacts(m, NULL))
         return -1;
     const bbm_contact *c = bbm_list_contacts(m, &contacts);

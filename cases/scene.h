@@ -20,7 +20,7 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include "../bbm.h"
+#include "../base/base.h"
 
 typedef struct {                /* of a closed contact                                            */
     double x, y;                /* m                                                              */

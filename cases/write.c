@@ -344,13 +344,13 @@ static int list_blocks(const bbm_model *m, int (*pair)[2])
 
     for (int i = 0; i < m->elements; i++)
         pair[i][0] = pair[i][1] = i;
-    for (int k = 0; k < m->pairs; k++) {
-        const int i = m->pair[k][0], j = m->pair[k][1];
+    for (int k = 0; k < m->links; k++) {
+        const int i = m->link[k][0], j = m->link[k][1];
         pair[m->elements + k][0] = i > j ? i : j;
         pair[m->elements + k][1] = i > j ? j : i;
     }
-    qsort(pair, (size_t)(m->elements + m->pairs), sizeof *pair, compare_pairs);
-    for (int k = 0; k < m->elements + m->pairs; k++)
+    qsort(pair, (size_t)(m->elements + m->links), sizeof *pair, compare_pairs);
+    for (int k = 0; k < m->elements + m->links; k++)
         if (n == 0 || compare_pairs(pair[n - 1], pair[k]) != 0)
             memmove(pair[n++], pair[k], sizeof *pair);
     return n;
@@ -389,7 +389,7 @@ void write_matrix(write_results *w)
 
     if (w->matrix_done++)
         return;
-    pair = calloc((size_t)m->elements + (size_t)m->pairs, sizeof *pair);
+    pair = calloc((size_t)m->elements + (size_t)m->links, sizeof *pair);
     if (!pair) {
         fail(w, w->matrix, "out of memory");
     } else if (open_file(w, &f, w->matrix)) {

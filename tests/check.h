@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../bbm.h"
+#include "../base/base.h"
 
 #define COUNT(array) ((int)(sizeof (array) / sizeof (array)[0]))
 

@@ -104,8 +104,8 @@ START_TEST(the_multiplier_of_a_bond_is_the_force_that_it_carries)
     for (int b = 0; b < 2 * m->bonds; b++) {
         /* i pulls j with what pulls the bar; which of the two is i says the sign. 1e-9: twenty
          * solutions. */
-        ck_near(fabs(m->gap[b].f[0]), 500, 500, 1e-9);
-        ck_near(m->gap[b].f[1], 0, 500, 1e-9);
+        ck_near(fabs(m->gap[b].own.f[0]), 500, 500, 1e-9);
+        ck_near(m->gap[b].own.f[1], 0, 500, 1e-9);
     }
     ck_relative(result_at(m, right(&g, 0)).u, 1000 * 5 / E, 1e-9); /* F L/(E A), no springs in it */
     bbm_model_free(m);
@@ -245,7 +245,7 @@ START_TEST(the_edge_submatrices_are_derivatives_of_the_edge_energy)
     for (int k = 0; k < 2; k++) {
         bbm_gap gap = { .i = b->i, .j = b->j };
         bbm_edge_gap(end, k == 0 ? 1 : -1, W[k], &gap);
-        bbm_bonding_submatrices(&gap, &s);
+        bbm_weighted_submatrices(&gap, &s);
     }
     for (int a = 0; a < 6; a++)
         for (int c = 0; c < 6; c++) {

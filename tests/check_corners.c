@@ -282,7 +282,7 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
     for (int again = 0; again < 2; again++) {
         int n;
         m->h = m->par.dt;
-        bbm_guess_step(m);
+        bbm_foresee_step(m);
         ck_ok(bbm_detect_contacts(m, NULL), m);
         bbm_contact *list = bbm_list_contacts(m, &n);
         for (int k = 0; k < n; k++)
@@ -292,7 +292,7 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
                 list[k].d_n = y;
                 found++;
             }
-        ck_ok(bbm_store_contacts(m), m);
+        bbm_store_contacts(m);
     }
     ck_assert_int_eq(found, 2);
     bbm_model_free(m);
@@ -413,7 +413,7 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
     set_velocity(m, e, -10, -10);
     m->element[e].V[2] = turn / m->par.dt;
     m->h = m->par.dt;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     m->D[6 * e + 2] = turn;
@@ -421,7 +421,7 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
     m->D[6 * e] = 4.98 - start[0] - u[0];
     m->D[6 * e + 1] = 3 - deep - start[1] - u[1];
     (void)bbm_open_close(m);
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     for (int k = 0; k < m->contacts; k++) {
         const bbm_vertex *a = start_of(m, m->contact[k].edge), *b = end_of(m, m->contact[k].edge);
         if (m->contact[k].state == BBM_OPEN)

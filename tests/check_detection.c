@@ -162,7 +162,7 @@ START_TEST(the_sweep_finds_the_pairs_that_comparing_all_with_all_finds)
     check_list(m, o, way);
     place *swept = list_places(m);
     const int n = m->contacts;
-    m->hook.find_pairs = NULL;
+    m->hook->find_pairs = NULL;
     detect(m);
     place *all = list_places(m);
     ck_assert_int_eq(n, m->contacts);
@@ -721,7 +721,7 @@ START_TEST(a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step)
         ck_assert_int_eq(list[k].state, same ? BBM_LOCK : BBM_OPEN);
     ck_ok(bbm_detect_contacts(m, &same), m);
     ck_assert_int_eq(same, 1);
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &same), m);
     ck_assert_int_eq(same, 0);
     bbm_model_free(m);

@@ -232,7 +232,7 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
     set_velocity(m, e, 0, -25);
     set_velocity(m, e + 1, 0, -25);
     m->h = m->par.dt;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     for (int i = e; i < e + 2; i++) {
@@ -240,7 +240,7 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
         m->D[6 * i + 1] = -0.25;
     }
     (void)bbm_open_close(m);
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     for (int k = 0; k < m->contacts; k++)
         closed += m->contact[k].state != BBM_OPEN &&
                   fabs(corner_vertex(m, &m->contact[k])->x) == 5.25;
@@ -270,7 +270,7 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -10);
     m->h = m->par.dt;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     m->D[6 * e + 2] = turned;
@@ -279,7 +279,7 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
         m->D[6 * e + a] = -1e-3 * up[a] - tip[a] - u[a];
     bbm_set_middle(m);
     (void)bbm_open_close(m);
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     int hit = 0;
     for (int k = 0; k < m->contacts; k++)
         hit += m->contact[k].state != BBM_OPEN &&
@@ -314,7 +314,7 @@ static bbm_model *slab_at(const double depth[2], double y, int rotation)
         c->d_n = -fabs(depth[k]);
         c->N = fmax(0, depth[k]) * m->par.p_n;
     }
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     for (int k = 0; k < 2; k++) {
         shift_element(m, 1 + k, 0, y - 1e-3);
         set_velocity(m, 1 + k, 0, 0);
@@ -364,7 +364,7 @@ START_TEST(a_point_may_start_as_deep_as_the_contacts_of_both_blocks)
         c->state = closed[k] ? BBM_LOCK : BBM_OPEN;
         c->d_n = -1e-3;
     }
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     shift_element(m, 1, 9.25, -1e-3);
     shift_element(m, 3, -9, 5);
     start_step(m, &n);
@@ -391,7 +391,7 @@ START_TEST(a_millionth_of_an_edge_is_allowed_for_to_the_last_bit)
     bbm_contact *c = find_listed(m, 1, 0, 0, 2);
     c->state = _i / 2 ? BBM_OPEN : BBM_LOCK;
     c->d_n = -1e-3;
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     for (int k = 0; k < m->contacts; k++)
         m->contact[k].state = BBM_OPEN;                 /* and has opened since */
     if (_i / 2 == 0) {
@@ -425,7 +425,7 @@ START_TEST(what_contacts_are_deep_is_that_of_the_last_step)
     ck_assert_int_eq(n, 3);
     for (int k = 0; k < n; k++)
         list[k].state = BBM_OPEN;
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     for (int k = 0; k < 2; k++)
         shift_element(m, 1 + k, 0, -2.5e-3);
     start_step(m, &n);
@@ -461,7 +461,7 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
     c->state = BBM_LOCK;
     c->d_n = -5e-3;
     ck_assert_ptr_nonnull(find_listed(m, f, 0, 0, 2));
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     bbm_vertex *end = &m->vertex[m->element[f].first + (mirrored ? 2 : 1)];
     end->x = flat[0] + way * sqrt(1 - sine * sine);
     end->y = -sine;
@@ -588,7 +588,7 @@ START_TEST(a_contact_that_closes_inside_starts_without_force)
             found++;
         }
         ck_assert_int_eq(found, 1);
-        ck_ok(bbm_store_contacts(m), m);
+        bbm_store_contacts(m);
         start_step(m, &n);
     }
     bbm_model_free(m);
@@ -623,7 +623,7 @@ START_TEST(a_corner_that_opens_inside_may_close_again)
         c->state = BBM_OPEN;
         c->N = 0;
         c->d_n = _i == 2 ? 0 : -3e-3;
-        ck_ok(bbm_store_contacts(m), m);
+        bbm_store_contacts(m);
         ck_assert_int_eq(m->contact[0].inside, inside);
         for (int k = 1; k < 3; k++)
             set_velocity(m, k, 0, -1);
@@ -651,7 +651,7 @@ START_TEST(a_corner_that_left_after_it_opened_inside_comes_in_anew)
 
     c[was]->state = BBM_OPEN;
     c[was]->d_n = -1e-3;
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     shift_element(m, 1, (was == TOP ? out : deep) + 1e-3, (was == TOP ? deep : out) + 1e-3);
     set_velocity(m, 1, -0.5, -0.5);
     start_step(m, &n);
@@ -719,7 +719,7 @@ START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 3, 0);
     m->h = m->par.dt;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     ck_assert_int_lt(m->beyond->passed[0], 0);
     ck_assert(deepest_passed(m) == 0);

@@ -699,7 +699,7 @@ static source make_encounter(body *i, body *j, int which)
     make_body(j, &SHAPES[which % 2], -1.5, 0.25, &seed);
     return (source){            /* P3 comes before P2 */
         .i = i, .j = j, .k = 3, .anchor = 0.375,
-        .touch = { &i->e, &j->e, &i->v[which % 3], &j->v[1], &j->v[0], 0, 0.125 },
+        .touch = { &i->e, &j->e, &i->v[which % 3], &j->v[1], &j->v[0], 0.125 },
     };
 }
 
@@ -800,7 +800,7 @@ static bbm_touch place_on_plate(body *i, body *j, double x, double y)
 
     make_polygon(i, 3, wedge);
     make_polygon(j, 4, plate);
-    return (bbm_touch){ &i->e, &j->e, &i->v[0], &j->v[1], &j->v[0], 0, 0 };
+    return (bbm_touch){ &i->e, &j->e, &i->v[0], &j->v[1], &j->v[0], 0 };
 }
 
 START_TEST(the_normal_distance_is_negative_inside_and_the_slip_positive_towards_P3)

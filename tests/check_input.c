@@ -464,8 +464,8 @@ START_TEST(parameters_outside_their_range_are_refused_without_the_hook)
     const int in_K = name[0] == 'g' || (infinite && name[0] == 'a');
     bbm_model *m = held_square();
 
-    m->hook.check_step = NULL;
-    m->hook.joint_area = NULL;
+    m->hook->check_step = NULL;
+    m->hook->joint_area = NULL;
     memcpy((char *)&m->par + PARAMETERS[_i].offset, &PARAMETERS[_i].value, sizeof(double));
     if (infinite && (strcmp(name, "tolerance") == 0 || name[1] == '_'))
         ck_ok(bbm_step(m), m);                              /* p_n, p_s: nothing touches */
@@ -482,7 +482,7 @@ START_TEST(a_strength_that_would_have_no_effect_is_refused)
         bbm_model *m = held_square();
         *(k ? &m->par.cohesion : &m->par.tension) = 1e3;
         ck_ok(bbm_step(m), m);
-        m->hook.joint_area = NULL;
+        m->hook->joint_area = NULL;
         check_error(m, bbm_step(m), BBM_BAD_PARAMETER,
                     k ? "cohesion = 1000, tension = 0" : "cohesion = 0, tension = 1000");
         bbm_model_free(m);

@@ -18,7 +18,7 @@ static bbm_model *block_on_table(void)
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
     m->h = m->par.dt;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     return m;
 }
@@ -65,7 +65,7 @@ START_TEST(a_solution_that_agrees_ends_the_iteration)
 
     ck_assert_int_eq(feed(m, u, -1e-4, -1e-4, &pass), _i ? 3 : 2);
     ck_assert_int_eq(pass, BBM_PASS_DONE);
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_near(m->info.penetration, 1e-4, 1e-4, ROUNDING);
     for (int k = 0; k < m->contacts; k++)
@@ -93,7 +93,7 @@ START_TEST(a_pass_that_renews_the_vectors_is_no_cycle)
         pass = bbm_open_close(m);
         ck_assert_int_eq(pass, BBM_PASS_AGAIN);
     }
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     ck_assert_int_eq(m->info.contacts, 0);
     bbm_model_free(m);
 }
@@ -109,7 +109,7 @@ START_TEST(a_set_of_states_that_comes_back_is_a_cycle)
         m->D[7] = k % 2 ? 0.01 : -0.01;
         (void)bbm_open_close(m);
     }
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     ck_assert_int_eq(m->info.contacts, 1);
     ck_assert(m->contact[0].state == BBM_SLIDE || m->contact[1].state == BBM_SLIDE);
     bbm_model_free(m);
@@ -146,7 +146,7 @@ START_TEST(the_contact_that_fits_worst_changes_first)
     int n, closed = 0;
 
     m->trial = BBM_ONE_BY_ONE;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     m->D[7] = -1e-2;
@@ -246,7 +246,7 @@ START_TEST(friction_in_the_matrix_takes_no_passes)
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, pieces ? 3 : 1, pieces ? 1 : 2, slope,
                                                          .nx = pieces ? 6 : 1 });
     if (loads)
-        m->hook.friction = NULL;
+        m->hook->friction = NULL;
     ck_ok(bbm_prepare(m), m);
     for (int i = 0; i < 30; i++) {
         run_steps(m, 1);
@@ -356,7 +356,7 @@ START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
     set_velocity(m, 1, _i < 2 ? 1 : 10, 0);
     m->element[1].V[2] = _i < 2 ? 0 : 1;
     m->acceleration[1] = 0;
-    bbm_guess_step(m);
+    bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, NULL), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     ck_assert(!bbm_moved_too_far(m));
@@ -440,7 +440,7 @@ START_TEST(a_step_that_starts_again_begins_from_the_last_one)
     for (int slid = 0; slid < 2; slid++) {
         ck_assert_int_eq(look_at(m, 1, 0, -1e-3), 1 + _i);
         m->trial = BBM_ONE_BY_ONE;
-        bbm_guess_step(m);
+        bbm_foresee_step(m);
         ck_ok(bbm_detect_contacts(m, NULL), m);
         m->trial = BBM_AS_EVER;
         bbm_contact *list = bbm_list_contacts(m, &n);
@@ -453,7 +453,7 @@ START_TEST(a_step_that_starts_again_begins_from_the_last_one)
         ck_assert_int_eq(look_at(m, 1, 0, -1e-3), 1 + _i);
         for (int k = 0; k < n; k++)
             list[k].state = BBM_SLIDE;
-        ck_ok(bbm_store_contacts(m), m);
+        bbm_store_contacts(m);
         start_step(m, &n);
     }
     bbm_model_free(m);
@@ -479,7 +479,7 @@ START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
     if (_i >= 2)
         ck_ok(bbm_add_load(m, m->vertex[m->element[1].first].node, 1, 0), m);
     for (int k = 0; k < 3; k++) {
-        m->K_is_kept = k == 2 && _i == 3;
+        bbm_matrix_keep(m->K, k == 2 && _i == 3);
         m->D[6] = k < 2 ? 0 : -turn / 2;
         m->D[7] = -0.01;
         m->D[8] = k < 2 ? 0 : turn;

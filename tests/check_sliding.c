@@ -32,7 +32,7 @@ START_TEST(the_plain_way_to_agree_finds_the_same_friction)
 {
     bbm_model *m = incline(20, 1e9, 1), *n = incline(20, 1e9, 1);
 
-    n->hook.friction = NULL;
+    n->hook->friction = NULL;
     run_steps(m, 100);
     run_steps(n, 100);
     ck_relative(slid(n, 1), slid(m, 1), 1e-7);
@@ -428,7 +428,7 @@ START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
     c->state = BBM_LOCK;
     c->d_n = -1e-4;
     c->N = 1e-4 * m->par.p_n;
-    ck_ok(bbm_store_contacts(m), m);
+    bbm_store_contacts(m);
     shift_element(m, 2, 1.5, -5e-4);
     start_step(m, &n);
     c = find_listed(m, 2, 0, 1, 2);

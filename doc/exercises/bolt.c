@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bbm.h"
+#include "base/base.h"
 
 enum { BOLTS = 3 };
 

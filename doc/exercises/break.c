@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bbm.h"
+#include "base/base.h"
 
 /* Takes the bonds out of the list of which a spring carries more than `strength` [N] after the last
  * step. The springs of bond b are the gaps 2b and 2b + 1; they carry the length of W d + f. Returns

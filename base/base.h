@@ -1,0 +1,354 @@
+/* base.h - the data of 3.3 and 3.7, and what the files of the library share.
+ *
+ * A reader of the paper finds here what its formulas take: the gap of a bond or fixed point (3.3,
+ * 3.4), a boundary edge, a contact and its three points (3.7). Then come the hooks, through which
+ * beyond/ adds what the paper does not have, the functions that the files of the library share, from
+ * the bottom up, and the matrix. A program that looks at bonds, edges, contacts or K includes this
+ * file in place of bbm.h.
+ */
+#ifndef BBM_BASE_H
+#define BBM_BASE_H
+
+#include <math.h>
+#include <stdint.h>
+#include <time.h>
+
+#include "../bbm.h"
+
+/* --------------------------------------------------------------------- the data of 3.3 and 3.4 */
+
+struct bbm_bond {               /* an internal edge: two bonding springs, elements i and j      */
+    int i, j;
+    int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j      */
+};
+
+/* What two elements add to K and F; K_ji = K_ij^T. */
+typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
+
+/* Of a hook: the energy 1/2 d.W d + f.d in place of k/2 d.d. */
+typedef struct {
+    int    penalty;             /* 1: W stands for a rigid joint; 0: it is a stiffness          */
+    double W[2][2];             /* N/m                                                          */
+    double f[2];                /* N        multiplier: what it carries besides W d             */
+    double f_before[2];         /* N        the same at the end of the last step                */
+} bbm_weight;
+
+struct bbm_gap {                /* of a spring: d = d0 + T_i D_i - T_j D_j, Eq. (18)            */
+    int    i, j;                /* elements; j = -1: the wall, which does not move: T_j = 0     */
+    int    node[2];             /* j = -1: the grid points that are held, half each             */
+    double k[2];                /* N/m      in x and y; 0: not held there                       */
+    double d0[2];               /* m        at the start of the step                            */
+    double Ti[2][6], Tj[2][6];
+    bbm_weight own;             /* of a hook, which keeps it from list to list                  */
+};
+
+struct bbm_line_load {          /* a load along a boundary edge                                 */
+    int    node[2];             /* its ends                                                     */
+    int    constant;            /* then f[0] is all of it, Eq. (43)                             */
+    double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to [1], Eq. (42)   */
+    int    a, b;                /* the vertices at its ends, by bbm_prepare                     */
+};
+
+/* --------------------------------------------------------------------- the data of 3.7 and 3.8 */
+
+typedef struct { double x, y, length; } bbm_direction;          /* unit vector; m               */
+
+struct bbm_edge {               /* a boundary edge from vertex a to b, its element on the left  */
+    int element, a, b, block;
+    /* --- detect.c --- */
+    int    first;               /* one of the elements of its block, for all of them            */
+    int    before, after;       /* its neighbours along the boundary                            */
+    int    side;                /* the first edge of the straight side that it belongs to       */
+    double span;                /* m        length of that side at the start, of its first edge */
+    bbm_direction along;        /* of the present positions                                     */
+    int    contact, pair;       /* the first ones of the corner a in model.contact and in the   */
+                                /* pairs that may touch                                         */
+};
+
+struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
+    /* --- identity: boundary edges; P1 starts `corner`, P2 ends `edge`, P3 starts it --- */
+    int    corner, edge;
+    /* --- state, carried from step to step --- */
+    bbm_contact_state state;
+    double sign;                /* of the slip while it slides: 1 towards P3                    */
+    double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                          */
+    double rest;                /* m        d_n at which the normal spring carries nothing: 0,  */
+                                /*          or where it was when it closed inside, so that no   */
+                                /*          spring starts loaded                                */
+    double N, T;                /* N        normal force; what the shear spring carries or      */
+                                /*          would carry                                         */
+    double area;                /* m^2      that P1 stands for of an unbroken joint, or 0       */
+    int    inside;              /* opened with P1 still inside, where it had closed, see rest   */
+    /* --- of the step, by detect.c --- */
+    int    carried;             /* it was in the list of the last step, with this edge          */
+    int    touches;             /* new, and P1 lies on the edge                                 */
+    int    has_left;            /* P1 was on the edge and has gone past its end                 */
+    int    was_closed;          /* at the start                                                 */
+    int    beyond_end;          /* the projection of P1 is not on the edge at the start         */
+    int    entrance[4];         /* the other entrance lines, contacts in the list or -1: two    */
+                                /*          at P3, two at P2                                    */
+    double d_n0;                /* m        d_n at the start                                    */
+    /* --- of the step, by the open-close iteration --- */
+    double time_left;           /* -        of the step when P1 hit, on which the shear spring  */
+                                /*          acts                                                */
+    double d_n, d_s;            /* m        normal distance and slip at the end                 */
+    int    is_on_edge;          /* the projection of P1, at the start or at the end             */
+    double N_of_friction;       /* N        the N that friction is taken for                    */
+    int    friction_in_K;       /* that is the N of the solution itself                         */
+    double force_tolerance;     /* N        forces that differ by less agree                    */
+    bbm_contact_state next_state;
+    int    closings;
+};
+
+typedef struct {                /* what the formulas of 3.7 take                                */
+    const bbm_element *i, *j;
+    const bbm_vertex *P1, *P2, *P3;
+    double rest;                /* m        see bbm_contact; 0: the paper                       */
+} bbm_touch;
+
+typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.D_i + g.D_j     */
+
+/* Trials of a static step: as ever; friction as a load in any case; one change of state a pass. */
+enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
+
+/* Passes that change states or renew the vectors of the step. */
+enum { BBM_MAX_PASSES = 40 };
+
+typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
+
+struct bbm_contact_scratch {
+    /* --- the contacts of the step --- */
+    int is_listed;
+    int contacts;
+    bbm_contact *contact;       /* [contacts] of the pairs                                      */
+    /* --- contact.c: the iteration --- */
+    int passes, friction_passes;
+    int one_until;              /* the pass until which one contact changes its state in each   */
+    uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass                      */
+    double *force;              /* [elements] the largest one in each component of K, N         */
+    /* --- detect.c --- */
+    int pairs, pair_room;
+    struct bbm_pair *pair;      /* [pairs]    that may touch, by corner and edge                */
+    struct bbm_reach *reach;    /* [elements] of blocks                                         */
+};
+
+/* ----------------------------------------------------------------------------------- the hooks */
+
+/* How points move in a step, in place of u = T D. */
+struct bbm_motion {
+    void (*matrix)(const bbm_element *e, double x, double y, double T[2][6]);
+                                                            /* T at the point (x, y)            */
+    void (*vectors)(const bbm_touch *c, double anchor, bbm_spring *n, bbm_spring *s);
+                                                            /* e and g; n or s may be NULL      */
+    void (*move)(const double D[6], double X, double Y, double u[2]);
+    void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
+                                                            /* an element that has moved        */
+};
+
+struct bbm_middle {             /* of an element: T of the step belongs to the middle of D      */
+    const bbm_motion *motion;
+    double D[6];
+};
+
+/* Where what the paper does not have comes in; NULL: the paper's way. */
+struct bbm_hooks {
+    /* --- building --- */
+    void (*release)(bbm_model *m);                          /* frees m->beyond                  */
+    bbm_status (*check_polygon)(bbm_model *m, int n, const int node[]);     /* of a new element */
+    bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
+    /* --- a step begins --- */
+    bbm_status (*check_step)(bbm_model *m);                 /* parameters in their ranges       */
+    const bbm_motion *(*motion)(const bbm_model *m);        /* of the step; NULL: u = T D       */
+    void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
+    void (*begin)(bbm_model *m);                            /* the contacts are listed          */
+    bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
+    bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
+    double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
+    const bbm_parameters *(*strength)(const bbm_model *m, int corner, int edge); /* of a contact */
+    /* --- K D = F --- */
+    void (*load)(bbm_model *m);                             /* adds to m->load                  */
+    void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
+    void (*add_gap)(const bbm_gap *g, bbm_submatrices *s);  /* in place of (27), (28)           */
+    bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
+    void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
+    /* --- open-close --- */
+    int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
+                                                            /* 1: added for the N of the solution */
+    int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
+    int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
+    /* --- the end of the step --- */
+    double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
+    bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
+    bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
+};
+
+/* --------------------------------------------- what the files of the library share, bottom up */
+
+static inline int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
+
+/* How points move in the step in hand; NULL: the paper's way. */
+static inline const bbm_motion *bbm_motion_of(const bbm_model *m)
+{
+    return m->hook->motion ? m->hook->motion(m) : NULL;
+}
+
+static inline int bbm_next_vertex(const bbm_element *e, int v)
+{
+    return v + 1 < e->first + e->n ? v + 1 : e->first;
+}
+
+static inline const bbm_vertex *bbm_start_of(const bbm_model *m, int edge)
+{
+    return &m->vertex[m->edge[edge].a];
+}
+
+static inline const bbm_vertex *bbm_end_of(const bbm_model *m, int edge)
+{
+    return &m->vertex[m->edge[edge].b];
+}
+
+static inline int bbm_element_of(const bbm_model *m, int edge) { return m->edge[edge].element; }
+
+/* Displacement of the point (x, y) by D: u = T D, or a hook's. */
+static inline void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x,
+                            double y, double u[2])
+{
+    if (bbm_motion_of(m))
+        bbm_motion_of(m)->move(D, x - e->x, y - e->y, u);
+    else
+        bbm_displacement(e, D, x, y, u);
+}
+
+/* step.c: around a step */
+typedef struct { int left, part; } bbm_parts;                   /* of dt, in 1/1024             */
+
+bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...);
+bbm_status bbm_out_of_memory(bbm_model *m);
+bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's     */
+bbm_parts  bbm_whole_step(bbm_model *m);
+int        bbm_next_part(bbm_model *m, const bbm_parts *p);     /* 0: the step is done          */
+bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status);
+bbm_status bbm_end_step(bbm_model *m, bbm_status status);
+int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
+int        bbm_has_detected_enough(bbm_model *m);
+bbm_status bbm_unsettled(bbm_model *m);
+bbm_status bbm_note_solution(bbm_model *m, bbm_status status);
+void       bbm_count_time(bbm_model *m, int phase, clock_t since);
+bbm_status bbm_lay_out_matrix(bbm_model *m);                    /* for the gaps and contacts    */
+
+/* detect.c: which corner may touch which edge */
+bbm_status bbm_detect_new(bbm_model *m);
+void       bbm_detect_free(bbm_contact_scratch *w);             /* takes NULL                   */
+void       bbm_foresee_step(bbm_model *m);                      /* D by the velocities          */
+int        bbm_moved_too_far(const bbm_model *m);
+bbm_status bbm_list_pairs(bbm_model *m, int *same);             /* and what carries over        */
+bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
+int        bbm_carries(const bbm_model *m, int corner, int edge);
+double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
+double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
+double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
+int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
+void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
+void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
+bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
+
+/* contact.c: 3.7 and 3.8 */
+void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               /* (52)-(57)    */
+void       bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s);  /* (58) */
+void       bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (60)-(62)    */
+void       bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s,
+                                 bbm_submatrices *s);                           /* (63), (64)   */
+void       bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr,
+                                    bbm_submatrices *s);                        /* (65)-(69)    */
+const bbm_parameters *bbm_strength_of(const bbm_model *m, const bbm_contact *c);
+double     bbm_shear_strength(const bbm_parameters *p, double N, double area);
+bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c,
+                                 double tolerance);                             /* the table    */
+bbm_status bbm_detect_contacts(bbm_model *m, int *same);
+void       bbm_assemble_contacts(bbm_model *m);
+bbm_pass   bbm_open_close(bbm_model *m);
+void       bbm_store_contacts(bbm_model *m);
+
+/* bbm.c: 3.3, 3.4, assembly, the step */
+void       bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6]);
+double     bbm_mass_per_area(const bbm_element *e);                             /* M of (11)    */
+void       bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
+                           const bbm_vertex *Q, double k, bbm_gap *g);          /* (18)-(23)    */
+void       bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s);       /* (27), (28)   */
+void       bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k,
+                         bbm_gap *g);                                           /* (30)-(36)    */
+bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);
+void       bbm_list_gaps(bbm_model *m);
+void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
+void       bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W);
+void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
+void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
+void       bbm_begin_step(bbm_model *m);
+bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
+
+/* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is
+ * not zero, in any order, either way round, repeats allowed. Vectors have 6 n entries in the
+ * caller's order. Rows that no pairs connect, however indirectly, are solved apart: neither changes
+ * a bit of the other's D. */
+bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
+void       bbm_matrix_free(bbm_matrix *K);                                      /* takes NULL   */
+void       bbm_matrix_clear(bbm_matrix *K);                                     /* K = 0        */
+void       bbm_matrix_keep(bbm_matrix *K, int keep);    /* 1: clear and add leave K as it is    */
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
+                                   what the pattern does not have fails here and in bbm_solve   */
+void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   /* B = K_ij     */
+void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y); /* y = K x     */
+bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
+                     bbm_pcg_info *info);
+
+/* ------------------------------------------------------- inside the linear solver, see solver.c
+ * Block rows are numbered in two ways: by the caller, and by their place in the reverse
+ * Cuthill-McKee order. Vectors here have 6 n entries in the order of the places. */
+
+/* What is not symmetric in K: K += u v^T. */
+typedef struct {
+    int    row[2];              /* two block rows, all others of u and v are 0                  */
+    double u[2][6], v[2][6];
+} bbm_term;
+
+struct bbm_matrix {
+    int n;                      /* block rows                                                   */
+    int *place, *caller;        /* [n]       place[caller's row], and back                      */
+    int *first;                 /* [n+1]     row i of L: the blocks first[i] .. first[i+1]-1    */
+    int *back;                  /* [blocks]  its row less its column                            */
+    int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
+    int *component;             /* [n]       of a caller's row                                  */
+    double (*D)[6][6], (*L)[6][6];              /* [n], [blocks]                                */
+    /* --- scratch of bbm_solve --- */
+    int from, to;               /* the rows of the component in hand: from .. to-1              */
+    double (*G)[6][6], (*S)[6][6];              /* [n], [blocks]  C_i^-1, w C_i^-1 L_ij C_j^-T  */
+    double *x, *r, *p, *q;      /* solution, residual, direction, product                       */
+    double *y, *u;              /* results of a sweep forward and of one backward               */
+    const bbm_method *method;
+    double omega;
+    int lacks;                  /* what was added to a block that the pattern does not have     */
+    int is_kept;                /* see bbm_matrix_keep                                          */
+    int ready;                  /* G, S and what the method made belong to D, L and these two   */
+    void *extra;                /* what a method keeps with K                                   */
+    void (*free_extra)(void *extra);
+    /* --- beside D and L; given by a hook --- */
+    int terms;
+    bbm_term *term;             /* [terms]                                                      */
+    bbm_status (*solve_terms)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
+    bbm_beyond *beyond;         /* of that, which solves components with terms for the method   */
+};
+
+/* A method other than the paper's; what is NULL is done the paper's way. */
+struct bbm_method {
+    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);      /* changes method or omega          */
+    void (*make_ready)(bbm_matrix *K);                      /* G and S are new                  */
+    void (*correct)(const bbm_matrix *K, double *y);        /* between the two sweeps           */
+    bbm_status (*iterate)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
+};                              /* from x = 0 and r = F, scaled, to x for the rows in hand      */
+
+void       bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y);
+void       bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y);
+void       bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z);
+bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
+
+#endif

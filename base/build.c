@@ -1,0 +1,388 @@
+/* build.c - how a model is built: what is added is checked where it is added; bbm_prepare finds the
+ * edges that elements share (2.2) and makes the arrays that the steps need.
+ */
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base.h"
+
+/* An element whose area is below FLAT times the square of its longest reach is a line: round-off
+ * has its sign. */
+#define FLAT 1e-12
+
+/* ----------------------------------------------------------------------------- building a model */
+
+/* Makes room for one more entry in an array of `count`: its room is the next power of two. */
+static int make_room(void **array, int count, size_t size)
+{
+    if (count != 0 && (count < 16 || (count & (count - 1)) != 0))
+        return 1;
+    void *room = realloc(*array, (count == 0 ? 16 : 2 * (size_t)count) * size);
+    if (room)
+        *array = room;
+    return room != NULL;
+}
+
+/* A model with the defaults of statics in one step. */
+bbm_status bbm_model_new(bbm_model **out)
+{
+    bbm_model *m = calloc(1, sizeof *m);
+
+    *out = NULL;
+    if (m)
+        m->hook = calloc(1, sizeof *m->hook);
+    if (!m || !m->hook) {
+        free(m);
+        return BBM_NO_MEMORY;
+    }
+    *out = m;
+    m->par = (bbm_parameters){
+        .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
+        .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 },
+    };
+    return BBM_OK;
+}
+
+/* What bbm_prepare made, the members from `bonds` up to `h`. */
+static void free_prepared(bbm_model *m)
+{
+    free(m->bond);
+    free(m->edge);
+    free(m->adjacent_first);
+    free(m->F);
+    free(m->end_element);
+    free(m->end_vertex);
+    free(m->gap);
+    free(m->link);
+    free(m->contact);
+    bbm_matrix_free(m->K);
+    bbm_detect_free(m->scratch);
+    memset((char *)m + offsetof(bbm_model, bonds), 0,
+           offsetof(bbm_model, h) - offsetof(bbm_model, bonds));
+}
+
+void bbm_model_free(bbm_model *m)
+{
+    if (!m)
+        return;
+    free_prepared(m);
+    if (m->hook->release)
+        m->hook->release(m);
+    free(m->hook);
+    free(m->node);
+    free(m->element);
+    free(m->vertex);
+    free(m->line_load);
+    free(m->material);
+    free(m);
+}
+
+/* Remembers the first error of building, and says what it is. */
+#define REFUSE(m, ...) ((m)->status = bbm_fail(m, __VA_ARGS__))
+
+bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
+{
+    const struct { const char *name; double value; } positive[3] = {
+        { "E", a->E }, { "density", a->density }, { "thickness", a->thickness } };
+    const int n = m->materials;
+
+    if (m->status)
+        return m->status;
+    if (!isfinite(a->E) || !isfinite(a->nu) || !isfinite(a->density) || !isfinite(a->thickness))
+        return REFUSE(m, BBM_NOT_FINITE, "material %d", n);
+    for (int k = 0; k < 3; k++)
+        if (positive[k].value <= 0)
+            return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0", n,
+                          positive[k].name, positive[k].value);
+    if (a->nu <= -1 || a->nu >= 0.5)
+        return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
+    if (!make_room((void **)&m->material, n, sizeof *a))
+        return m->status = bbm_out_of_memory(m);
+    m->material[m->materials++] = *a;
+    if (index)
+        *index = n;
+    return BBM_OK;
+}
+
+bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
+{
+    if (m->status)
+        return m->status;
+    if (!isfinite(x) || !isfinite(y))
+        return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
+    if (!make_room((void **)&m->node, m->nodes, sizeof *m->node))
+        return m->status = bbm_out_of_memory(m);
+    m->node[m->nodes] = (bbm_node){ .x = x, .y = y };
+    if (index)
+        *index = m->nodes;
+    m->nodes++;
+    return BBM_OK;
+}
+
+static int is_node(const bbm_model *m, int node) { return node >= 0 && node < m->nodes; }
+
+/* The signed area of a polygon, and whether it is that of a line: by its unsigned sum over the fan
+ * of vertex 0 against the square of its longest reach. */
+static double polygon_area(const bbm_model *m, int n, const int node[], int *flat)
+{
+    const bbm_node *o = &m->node[node[0]];
+    double area = 0, fan = 0, reach2 = 0;
+
+    for (int i = 1; i < n; i++) {
+        const bbm_node *a = &m->node[node[i]], *b = &m->node[node[(i + 1) % n]];
+        const double ax = a->x - o->x, ay = a->y - o->y;
+        const double c = (ax * (b->y - o->y) - (b->x - o->x) * ay) / 2;
+        area += c;
+        fan += fabs(c);
+        reach2 = fmax(reach2, ax * ax + ay * ay);
+    }
+    *flat = fan <= FLAT * reach2;
+    return area;
+}
+
+/* Adds the polygon through the nodes, either way round, as an element of a block. */
+bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const int node[],
+                           int *index)
+{
+    const int e = m->elements, first = m->vertices;
+    int flat;
+
+    if (m->status)
+        return m->status;
+    if (material < 0 || material >= m->materials)
+        return REFUSE(m, BBM_BAD_INDEX, "element %d has material %d of %d", e, material,
+                      m->materials);
+    if (n < 3)
+        return REFUSE(m, BBM_BAD_ELEMENT, "element %d has %d vertices, expected 3 or more", e, n);
+    for (int i = 0; i < n; i++)
+        if (!is_node(m, node[i]))
+            return REFUSE(m, BBM_BAD_INDEX, "element %d has node %d of %d", e, node[i], m->nodes);
+    const double area = polygon_area(m, n, node, &flat);
+    if (flat)
+        return REFUSE(m, BBM_BAD_ELEMENT, "element %d has no area, %g m^2", e, area);
+    if (m->hook->check_polygon && m->hook->check_polygon(m, n, node))
+        return m->status = BBM_SELF_CROSSING;
+    if (!make_room((void **)&m->element, e, sizeof *m->element))
+        return m->status = bbm_out_of_memory(m);
+    for (int i = 0; i < n; i++) {
+        const int at = node[area > 0 ? i : n - 1 - i];
+        if (!make_room((void **)&m->vertex, m->vertices, sizeof *m->vertex))
+            return m->status = bbm_out_of_memory(m);
+        m->vertex[m->vertices++] = (bbm_vertex){ .node = at, .element = e, .x = m->node[at].x,
+                                                 .y = m->node[at].y };
+    }
+    m->element[e] = (bbm_element){ .block = block, .material = m->material[material],
+                                   .first = first, .n = n };
+    bbm_element_geometry(&m->element[e], &m->vertex[first]);
+    m->element[e].A0 = m->element[e].A;
+    m->elements++;
+    if (index)
+        *index = e;
+    return BBM_OK;
+}
+
+/* Holds a node in the given directions to a wall point displaced by (u, v). */
+bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v)
+{
+    if (m->status)
+        return m->status;
+    if (!is_node(m, node))
+        return REFUSE(m, BBM_BAD_INDEX, "fixed node %d of %d", node, m->nodes);
+    if (directions < BBM_X || directions > BBM_XY)
+        return REFUSE(m, BBM_BAD_PARAMETER, "directions %d of fixed node %d", directions, node);
+    if (!isfinite(u) || !isfinite(v))
+        return REFUSE(m, BBM_NOT_FINITE, "the wall point of fixed node %d", node);
+    m->node[node].held |= directions;
+    if (directions & BBM_X)
+        m->node[node].wall[0] = u;
+    if (directions & BBM_Y)
+        m->node[node].wall[1] = v;
+    return BBM_OK;
+}
+
+bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
+{
+    if (m->status)
+        return m->status;
+    if (!is_node(m, node))
+        return REFUSE(m, BBM_BAD_INDEX, "loaded node %d of %d", node, m->nodes);
+    if (!isfinite(fx) || !isfinite(fy))
+        return REFUSE(m, BBM_NOT_FINITE, "the load of node %d", node);
+    m->node[node].load[0] += fx;
+    m->node[node].load[1] += fy;
+    return BBM_OK;
+}
+
+/* Adds a line load with everything but its vertices, which bbm_prepare finds. */
+static bbm_status add_line_load(bbm_model *m, const bbm_line_load *load)
+{
+    for (int g = 0; g < BBM_GAUSS; g++)
+        if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
+            return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0],
+                          load->node[1]);
+    if (!make_room((void **)&m->line_load, m->line_loads, sizeof *load))
+        return m->status = bbm_out_of_memory(m);
+    m->line_load[m->line_loads++] = *load;
+    return BBM_OK;
+}
+
+static bbm_status check_line(bbm_model *m, int node1, int node2)
+{
+    if (!m->status && (!is_node(m, node1) || !is_node(m, node2)))
+        return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", node1, node2, m->nodes);
+    return m->status;
+}
+
+bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy)
+{
+    bbm_line_load load = { .node = { node1, node2 }, .constant = 1, .f = { { fx, fy } } };
+
+    return check_line(m, node1, node2) ? m->status : add_line_load(m, &load);
+}
+
+/* The load f(x, y) [N/m] on the edge between two nodes, taken at the Gauss points of the starting
+ * geometry. */
+bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
+                                     const void *context)
+{
+    bbm_line_load load = { .node = { node1, node2 } };
+
+    if (check_line(m, node1, node2))
+        return m->status;
+    const bbm_node *a = &m->node[node1], *b = &m->node[node2];
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, weight;
+        bbm_gauss_point(g, &s, &weight);
+        f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
+    }
+    return add_line_load(m, &load);
+}
+
+/* ------------------------------------------------------ preparing: 2.2, the edges, and K */
+
+/* Lists the vertices at each node: adjacent[adjacent_first[n]] and on are those of node n. */
+static bbm_status list_adjacent_vertices(bbm_model *m)
+{
+    int *first = calloc((size_t)m->nodes + 1 + (size_t)m->vertices, sizeof *first);
+
+    if (!first)
+        return BBM_NO_MEMORY;
+    m->adjacent_first = first;
+    m->adjacent = first + m->nodes + 1;
+    for (int v = 0; v < m->vertices; v++)
+        first[m->vertex[v].node]++;
+    for (int n = 0, sum = 0; n <= m->nodes; n++) {
+        if (n < m->nodes && first[n] == 0)
+            return bbm_fail(m, BBM_UNUSED_NODE, "node %d at (%g, %g)", n, m->node[n].x,
+                            m->node[n].y);
+        sum += first[n];
+        first[n] = sum;
+    }
+    for (int v = m->vertices - 1; v >= 0; v--)
+        m->adjacent[--first[m->vertex[v].node]] = v;
+    return BBM_OK;
+}
+
+/* Finds the sides from node p to node q of a block, all but v: the number of them, and the vertex
+ * where the first one starts. */
+static int find_partners(const bbm_model *m, int block, int p, int q, int v, int *start)
+{
+    int sides = 0;
+
+    for (int a = m->adjacent_first[p]; a < m->adjacent_first[p + 1]; a++) {
+        const int w = m->adjacent[a];
+        const bbm_element *e = &m->element[m->vertex[w].element];
+        if (w == v || e->block != block || m->vertex[bbm_next_vertex(e, w)].node != q)
+            continue;
+        *start = sides++ == 0 ? w : *start;
+    }
+    return sides;
+}
+
+/* Section 2.2: a side that two elements of a block share is an internal edge and gets a bond, one
+ * that has no partner is a boundary edge. Elements run counter-clockwise, so partners run opposite
+ * ways; who runs the same way lies on the same side. */
+static bbm_status connect_elements(bbm_model *m)
+{
+    m->edge = calloc((size_t)m->vertices, sizeof *m->edge);
+    m->bond = calloc((size_t)m->vertices / 2, sizeof *m->bond);
+    if (!m->edge || !m->bond)
+        return BBM_NO_MEMORY;
+    for (int v = 0; v < m->vertices; v++) {
+        const int i = m->vertex[v].element, next = bbm_next_vertex(&m->element[i], v);
+        const int p = m->vertex[v].node, q = m->vertex[next].node, block = m->element[i].block;
+        int w = -1;
+        const int same = find_partners(m, block, p, q, v, &w);
+        const int partners = same ? 0 : find_partners(m, block, q, p, -1, &w);
+        if (same || partners > 1) {
+            m->blamed[0] = i > m->vertex[w].element ? i : m->vertex[w].element;
+            m->blamed[1] = i + m->vertex[w].element - m->blamed[0];
+            return bbm_fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d",
+                            m->blamed[1], m->blamed[0], p, q);
+        }
+        const int across = partners == 0 ? 0
+                         : bbm_next_vertex(&m->element[m->vertex[w].element], w);
+        m->vertex[v].edge = partners == 0 ? m->edges : -1 - across;
+        if (partners == 0)
+            m->edge[m->edges++] = (bbm_edge){ .element = i, .a = v, .b = next,
+                                              .block = block };
+        else if (v < w)
+            m->bond[m->bonds++] = (bbm_bond){ i, m->vertex[w].element, { v, next },
+                                              { across, w } };
+    }
+    return BBM_OK;
+}
+
+/* Finds the vertices of each line load: those of the first boundary edge between its nodes. */
+static bbm_status place_line_loads(bbm_model *m)
+{
+    for (int l = 0; l < m->line_loads; l++) {
+        bbm_line_load *load = &m->line_load[l];
+        int found = 0;
+        for (int e = 0; e < m->edges && !found; e++) {
+            const int a = m->edge[e].a, b = m->edge[e].b;
+            const int back = m->vertex[b].node == load->node[0];
+            load->a = back ? b : a;
+            load->b = back ? a : b;
+            found = m->vertex[load->a].node == load->node[0]
+                 && m->vertex[load->b].node == load->node[1];
+        }
+        if (!found)
+            return bbm_fail(m, BBM_NOT_BOUNDARY, "nodes %d and %d", load->node[0], load->node[1]);
+    }
+    return BBM_OK;
+}
+
+/* The arrays that the steps need. A bond has two gaps; a vertex that is held has one, and may have
+ * two of the edge from it on. */
+static bbm_status allocate(bbm_model *m)
+{
+    m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
+    m->end_element = calloc((size_t)m->elements, sizeof *m->element);
+    m->end_vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
+    m->gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *m->gap);
+    if (!m->F || !m->end_element || !m->end_vertex || !m->gap)
+        return BBM_NO_MEMORY;
+    m->D = m->F + 6 * (size_t)m->elements;
+    m->load = m->D + 6 * (size_t)m->elements;
+    bbm_list_gaps(m);
+    return bbm_lay_out_matrix(m) || bbm_detect_new(m) ? BBM_NO_MEMORY : BBM_OK;
+}
+
+/* Checks the model and makes all that the steps need. */
+bbm_status bbm_prepare(bbm_model *m)
+{
+    bbm_status (*const part[])(bbm_model *) = { list_adjacent_vertices, connect_elements,
+                                                place_line_loads, allocate, m->hook->check };
+    bbm_status status = m->status;
+
+    if (status)
+        return status;
+    free_prepared(m);
+    if (m->elements == 0)
+        return bbm_fail(m, BBM_NO_ELEMENT, "%d nodes", m->nodes);
+    for (size_t k = 0; k < sizeof part / sizeof *part && !status; k++)
+        status = part[k] ? part[k](m) : BBM_OK;
+    return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
+}

@@ -1,0 +1,695 @@
+/* detect.c - detection: which corner may touch which edge, what a contact keeps from the last step,
+ * and where a corner comes in. It knows positions, edges and what was closed; what contacts carry
+ * is in contact.c.
+ *
+ * Each corner is compared with each boundary edge, or a hook knows which are near it. `corner` c is
+ * the vertex that starts boundary edge c, so that (corner, edge) are two indices of edges: the
+ * identity of a contact. A corner may touch an edge if neither of its two sides points into it, and
+ * if it does not lie behind it from the start: blocks do not overlap then, but for the depth of
+ * closed contacts.
+ *
+ * Where two corners P and Q meet, several of these pairs describe one contact. The entrance lines,
+ * along which P can come in, are
+ *
+ *          \  P  /              |   A            the two edges of Q (left), or one edge of each
+ *           \   /               P______          block (right). The blocks overlap when both are
+ *            \ /                 Q_____          crossed, and the spring goes on the one that is
+ *      _______Q                  |               crossed last, where P comes in. Two lines that
+ *             |                  |   B           coincide are one contact: of P on Q's edge and Q
+ *        B    |                  |               on P's edge that one stays whose projection is
+ *
+ * on its edge; at a tie, the one that it was before, or else the edge that faces up. Both lines at
+ * the same time: the one that was closed or else the flatter one counts, the same in any order of
+ * the blocks.
+ */
+#include <stdlib.h>
+
+#include "base.h"
+
+/* ------------------------------------------------------------------------------------ the data
+ *
+ * Tolerances; none depends on the size of the domain.
+ * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and
+ *                 sides that differ less in length, relatively, are as long: rounding of a file
+ * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less
+ *                 lies on it: what penetration and elastic bending turn
+ * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches:
+ *                 soft blocks bend more
+ * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
+ *                 projection closer to the end of an edge is at the end: rounding of a model file,
+ *                 elastic strain
+ * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
+#define STRAIGHT 1e-4
+#define PARALLEL 1e-2
+#define BENT 0.1
+#define TOUCH 1e-6
+#define TIE 1e-9
+
+typedef struct bbm_pair { int corner, edge, dropped; } pair;    /* what may touch               */
+
+typedef struct bbm_reach {      /* of a block, with the index of its first element              */
+    double depth;               /* m        |d_n| of its closed contacts, before the step       */
+    double depth_now;           /* m        the same of the solution, or before it if deeper    */
+    double travel;              /* m        how far its vertices may move in this step          */
+    double girth;               /* m        its boundary at the start                           */
+    int    edges;               /* of it                                                        */
+    double turn;                /* rad      of an element: how far it may turn in this step     */
+} reach;
+
+/* ------------------------------------------------------------------- the boundary of the blocks */
+
+static double cross(bbm_direction p, bbm_direction q) { return p.x * q.y - p.y * q.x; }
+
+static reach *reach_of(const bbm_model *m, int e)
+{
+    return &m->scratch->reach[m->edge[e].first];
+}
+
+/* The length of the boundary of the block of edge e. */
+double bbm_girth(const bbm_model *m, int e) { return reach_of(m, e)->girth; }
+
+/* Distances up to this are rounding: TOUCH times the mean boundary edge of the block of edge e. */
+static double rounding_of(const bbm_model *m, int e)
+{
+    return reach_of(m, e)->girth * (TOUCH / reach_of(m, e)->edges);
+}
+
+/* A vertex inside a straight side is no corner. */
+static int is_corner(const bbm_model *m, int c) { return m->edge[c].side == c; }
+
+/* Less than 180 degrees inside, or straight. */
+static int is_convex(const bbm_model *m, int c)
+{
+    return cross(m->edge[m->edge[c].before].along, m->edge[c].along) > -PARALLEL;
+}
+
+static int coincide(const bbm_model *m, int e, int f)
+{
+    return fabs(cross(m->edge[e].along, m->edge[f].along)) <= PARALLEL;
+}
+
+/* Directions and lengths of the present edges. */
+static void find_directions(bbm_model *m)
+{
+    for (int e = 0; e < m->edges; e++) {
+        const bbm_vertex *a = bbm_start_of(m, e), *b = bbm_end_of(m, e);
+        const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
+        m->edge[e].along = (bbm_direction){ x / l, y / l, l };
+    }
+}
+
+/* Links each edge with the one that starts where it ends: from element to element round that node,
+ * over the bonds, as far as they go. */
+static void link_edges(bbm_model *m)
+{
+    for (int e = 0; e < m->edges; e++) {
+        int v = m->edge[e].b;
+        while (m->vertex[v].edge < 0)
+            v = -1 - m->vertex[v].edge;
+        m->edge[e].after = m->vertex[v].edge;
+        m->edge[m->edge[e].after].before = e;
+    }
+}
+
+/* Whether edge e goes straight on from the one before it. */
+static int goes_on(const bbm_model *m, int e)
+{
+    const bbm_direction p = m->edge[m->edge[e].before].along, q = m->edge[e].along;
+
+    return hypot(q.x - p.x, q.y - p.y) < STRAIGHT;
+}
+
+/* The straight sides that the edges belong to. */
+static void find_straight_sides(bbm_model *m)
+{
+    for (int first = 0; first < m->edges; first++) {
+        int e = first;
+        if (goes_on(m, first))
+            continue;
+        do {
+            m->edge[e].side = first;
+            e = m->edge[e].after;
+        } while (goes_on(m, e));
+        const bbm_vertex *a = bbm_start_of(m, first), *b = bbm_start_of(m, e);
+        m->edge[first].span = hypot(b->x - a->x, b->y - a->y);
+    }
+}
+
+/* By corner and edge, the first two members of pairs and of contacts. */
+static int compare_pairs(const void *p, const void *q)
+{
+    const int *a = p, *b = q, k = a[0] == b[0];
+
+    return (a[k] > b[k]) - (a[k] < b[k]);
+}
+
+/* Finds the first element of each block. */
+static void number_blocks(bbm_model *m)
+{
+    pair *of = m->scratch->pair;                            /* block and edge                   */
+
+    for (int e = 0; e < m->edges; e++)
+        of[e] = (pair){ m->edge[e].block, e, 0 };
+    qsort(of, (size_t)m->edges, sizeof *of, compare_pairs);
+    for (int k = 0, first = 0; k < m->edges; k++) {
+        first = of[k].corner == of[first].corner ? first : k;
+        m->edge[of[k].edge].first = m->edge[of[first].edge].element;
+    }
+}
+
+void bbm_detect_free(bbm_contact_scratch *w)
+{
+    if (!w)
+        return;
+    free(w->reach);
+    free(w->force);
+    free(w->pair);
+    free(w->contact);
+    free(w);
+}
+
+bbm_status bbm_detect_new(bbm_model *m)
+{
+    bbm_contact_scratch *w = m->scratch = calloc(1, sizeof *w);
+
+    if (!w)
+        return BBM_NO_MEMORY;
+    w->reach = calloc((size_t)m->elements, sizeof *w->reach);
+    w->force = calloc((size_t)m->elements, sizeof *w->force);
+    w->pair = calloc((size_t)m->edges, sizeof *w->pair);
+    if (!w->reach || !w->force || !w->pair)
+        return BBM_NO_MEMORY;
+    w->pair_room = m->edges;
+    number_blocks(m);
+    link_edges(m);
+    find_directions(m);
+    find_straight_sides(m);
+    for (int e = 0; e < m->edges; e++) {
+        reach *b = reach_of(m, e);
+        b->depth = m->info.penetration;         /* in a run contacts may be as deep */
+        b->girth += m->edge[e].along.length;
+        b->edges++;
+    }
+    return BBM_OK;
+}
+
+/* ----------------------------------------------------------- detection: how far blocks may move */
+
+/* Takes for D what the velocities and gravity foretell of the step; in statics a step is as long as
+ * the last one at most. */
+void bbm_foresee_step(bbm_model *m)
+{
+    const double h = bbm_is_static(m) ? 0 : m->h, *g = m->acceleration;
+    const double fall[6] = { g[0] * h * h / 2, g[1] * h * h / 2 };
+
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        for (int a = 0; a < 6; a++)
+            m->D[6 * i + a] = bbm_is_static(m) ? e->D[a] : e->V[a] * h + fall[a];
+        m->scratch->reach[i].travel = 0;
+    }
+    m->scratch->is_listed = 0;
+}
+
+/* How far the vertex that starts edge e moves by D. */
+static double way_of(const bbm_model *m, int e)
+{
+    const bbm_vertex *p = bbm_start_of(m, e);
+    double u[2];
+
+    bbm_move(m, &m->element[p->element], &m->D[6 * p->element], p->x, p->y, u);
+    return hypot(u[0], u[1]);
+}
+
+/* Whether the solution moves further than the detection has foreseen. */
+int bbm_moved_too_far(const bbm_model *m)
+{
+    int too_far = 0;
+
+    for (int e = 0; e < m->edges && !too_far; e++) {
+        const int i = bbm_element_of(m, e);
+        too_far = way_of(m, e) > reach_of(m, e)->travel
+               || fabs(m->D[6 * i + 2]) > m->scratch->reach[i].turn;
+    }
+    return too_far;
+}
+
+/* How far the blocks may move, by D as far as it is known: a tenth more, or what rounding and a
+ * closed contact give, and no less than what this step has foreseen before; and turn: twice that.
+ * Returns the largest way. */
+static double foresee(bbm_model *m)
+{
+    double most = 0;
+
+    for (int i = 0; i < m->elements; i++) {
+        reach *of = &m->scratch->reach[i];
+        of->depth_now = of->depth;
+        of->turn = 2 * fabs(m->D[6 * i + 2]) + PARALLEL / 2;
+    }
+    for (int e = 0; e < m->edges; e++) {
+        reach *b = reach_of(m, e);
+        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + rounding_of(m, e) / 2);
+        most = fmax(most, b->travel);
+    }
+    return most;
+}
+
+/* Distances of a corner and an edge up to this are rounding. */
+static double touch_between(const bbm_model *m, int c, int e)
+{
+    return (rounding_of(m, c) + rounding_of(m, e)) / 2;
+}
+
+/* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
+ * the two blocks do. Nothing comes in from behind. What moves by T of the start of a step may also
+ * end it inside, by its way; and a corner that slides on along a straight side, which may be bent
+ * by now, keeps its contact. */
+double bbm_allowed_depth(const bbm_model *m, int c, int e)
+{
+    const reach *i = reach_of(m, c), *j = reach_of(m, e);
+    const double way = bbm_motion_of(m) ? 0 : i->travel + j->travel;
+
+    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e) + way;
+}
+
+/* ---------------------------------------------------------------- detection: who may touch whom */
+
+typedef struct {                /* of P1 on an edge, m                                          */
+    double d, s, beyond;        /* distance; way along the edge from P3; how far beyond an end  */
+} projection;
+
+static projection project(const bbm_model *m, int corner, int e)
+{
+    const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, e);
+    const bbm_direction t = m->edge[e].along;
+    const double x = P->x - a->x, y = P->y - a->y, s = x * t.x + y * t.y;
+
+    return (projection){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
+}
+
+double bbm_way_along(const bbm_model *m, int corner, int edge)
+{
+    return project(m, corner, edge).s;
+}
+
+/* Neither side of the corner points into the edge, by more than an angle, after its block has
+ * turned by r against the edge's, and the block is convex there: it lies on the outside. Either
+ * end of a side may be as deep as closed contacts are. A grid point inside a straight side may
+ * come to lie in a hollow where that bends. */
+static int can_enter(const bbm_model *m, int corner, int e, double r, double angle)
+{
+    const bbm_direction t = m->edge[e].along, q = m->edge[corner].along;
+    const bbm_direction p = m->edge[m->edge[corner].before].along;
+    const bbm_direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
+    const double dip = 2 * fmin(reach_of(m, corner)->depth_now, reach_of(m, e)->depth_now);
+
+    if (!is_corner(m, corner))
+        return fmin(cross(q, s), cross(s, p)) >= -BENT;
+    return cross(q, s) >= -angle - dip / fmin(q.length, t.length)
+        && cross(s, p) >= -angle - dip / fmin(p.length, t.length) && is_convex(m, corner);
+}
+
+/* Of two edges along p and q that face each other, whether the outward normal of the first,
+ * (p.y, -p.x), is the one that points up, or if both are upright, to the right. */
+static int faces_up(bbm_direction p, bbm_direction q)
+{
+    return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
+}
+
+/* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those
+ * of the shorter side do, of equal sides those of the upper one. They carry all of it; none comes
+ * or goes while it slides on the longer. Deviation: with `faces` = 0 corners alone touch, and a
+ * block of many elements sags between them. */
+int bbm_carries(const bbm_model *m, int c, int e)
+{
+    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
+    const double mine = m->edge[m->edge[c].side].span, other = m->edge[m->edge[e].side].span;
+
+    if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
+        return 0;
+    return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
+}
+
+/* The contact of the last step, closed or open inside, between `corner` and the edge - or, if
+ * `all`, another one of its straight side - or NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
+{
+    const bbm_contact *found = NULL;
+
+    for (int k = m->edge[corner].contact; k < m->contacts && m->contact[k].corner == corner; k++) {
+        const bbm_contact *c = &m->contact[k];
+        if (c->state == BBM_OPEN && !c->inside)
+            continue;
+        if (c->edge == edge)
+            return c;
+        if (all && m->edge[c->edge].side == m->edge[edge].side)
+            found = c;
+    }
+    return found;
+}
+
+/* Whether the corner may come to touch the edge in this step. If it is still outside it may also
+ * turn there first, as when a side falls flat on an edge. */
+static int may_touch(const bbm_model *m, int corner, int e)
+{
+    const reach *of = m->scratch->reach;
+    const double turns = of[bbm_element_of(m, corner)].turn + of[bbm_element_of(m, e)].turn;
+    const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
+    const double deep = bbm_allowed_depth(m, corner, e);
+    const projection f = project(m, corner, e);
+
+    if (m->edge[e].block == m->edge[corner].block)
+        return 0;
+    if (!is_corner(m, corner) && !bbm_carries(m, corner, e))
+        return 0;
+    if (fmax(fabs(f.d), f.beyond) > approach + deep)
+        return 0;
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, 1))
+        return 0;
+    return find_closed(m, corner, e, 0)
+        || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
+}
+
+/* Adds a corner and an edge to the pairs, if they may touch. */
+bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
+{
+    bbm_contact_scratch *w = m->scratch;
+
+    m->info.candidates++;
+    if (!may_touch(m, corner, edge))
+        return BBM_OK;
+    if (w->pairs == w->pair_room) {
+        pair *larger = realloc(w->pair, 2 * (size_t)w->pairs * sizeof *larger);
+        if (!larger)
+            return BBM_NO_MEMORY;
+        w->pair = larger;
+        w->pair_room *= 2;
+    }
+    w->pair[w->pairs++] = (pair){ corner, edge, 0 };
+    return BBM_OK;
+}
+
+/* All pairs that may touch. The search distance, for the hook: how far two blocks may approach each
+ * other and how deep a vertex may lie are together six times the largest way at most, seen along an
+ * axis from a slanting edge nine times. */
+static bbm_status find_pairs(bbm_model *m)
+{
+    const double search = 9 * foresee(m);
+    bbm_status status = BBM_OK;
+
+    m->scratch->pairs = m->info.candidates = 0;
+    if (m->hook->find_pairs)
+        status = m->hook->find_pairs(m, search);
+    for (int c = 0; c < m->edges && !m->hook->find_pairs; c++)
+        for (int e = 0; e < m->edges && !status; e++)
+            status = bbm_add_pair(m, c, e);
+    qsort(m->scratch->pair, (size_t)m->scratch->pairs, sizeof(pair), compare_pairs);
+    return status;
+}
+
+/* ---------------------------------------------------------------- detection: where corners meet */
+
+/* The index of a pair, or -1. */
+static int find_pair(const bbm_model *m, pair p)
+{
+    const bbm_contact_scratch *w = m->scratch;
+
+    for (int k = m->edge[p.corner].pair; k < w->pairs && w->pair[k].corner == p.corner; k++)
+        if (w->pair[k].edge == p.edge)
+            return k;
+    return -1;
+}
+
+/* Where the pairs of each corner begin. */
+static void index_pairs(bbm_model *m)
+{
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].pair = m->scratch->pairs;
+    for (int k = m->scratch->pairs - 1; k >= 0; k--)
+        m->edge[m->scratch->pair[k].corner].pair = k;
+}
+
+/* What else there can be where the corner P of a pair meets an end Q of its edge: P on the next
+ * edge; Q on that edge of P that lies on this one when the blocks are flush; Q on the other edge
+ * of P. */
+typedef enum { NEXT, FLUSH, OTHER } meeting;
+
+static pair meet(const bbm_model *m, pair p, int end, meeting kind)
+{
+    const int Q = end ? m->edge[p.edge].after : p.edge;
+
+    if (kind == NEXT)
+        return (pair){ p.corner, end ? Q : m->edge[Q].before, 0 };
+    return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
+}
+
+/* Whether of two pairs that are one contact, p and what it meets, the other one stays. On a
+ * straight side: if P comes before the end of that edge. Seen from both sides, when the edges
+ * coincide and P lies at Q: the one that was closed, or else whose edge faces up. Of two corners,
+ * flush, just one has its projection on the other's edge: the one stays. */
+static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
+{
+    const pair q = meet(m, p, end, kind);
+    const int Q = end ? m->edge[p.edge].after : p.edge;
+
+    if ((kind == NEXT ? is_corner(m, Q) : !coincide(m, p.edge, q.edge)) || find_pair(m, q) < 0)
+        return 0;
+    const projection f = project(m, p.corner, p.edge), g = project(m, q.corner, q.edge);
+    const bbm_direction t = m->edge[p.edge].along, u = m->edge[q.edge].along;
+    if (kind == NEXT)
+        return end ? f.s >= t.length : g.s < u.length;
+    const double beside = fabs(f.s - (end ? t.length : 0));
+    const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
+    if (most > touch_between(m, p.corner, p.edge))
+        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
+    const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
+    const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
+    return here != there ? there : !faces_up(t, u);
+}
+
+/* Drops the pairs that another one stands for; all are judged on the full list. */
+static void drop_duplicates(bbm_model *m)
+{
+    bbm_contact_scratch *w = m->scratch;
+    int kept = 0;
+
+    index_pairs(m);
+    for (int k = 0; k < w->pairs; k++)
+        for (int way = 0; way < 6; way++)
+            w->pair[k].dropped |= gives_way(m, w->pair[k], way / 3, (meeting)(way % 3));
+    for (int k = 0; k < w->pairs; k++)
+        if (!w->pair[k].dropped)
+            w->pair[kept++] = w->pair[k];
+    w->pairs = kept;
+    index_pairs(m);
+}
+
+/* Another line on which P and an end Q of its edge can enter each other, if both are convex
+ * corners and it is in the list; else -1. In a notch Q both edges hold P at once. */
+static int find_entrance(const bbm_model *m, pair p, int end, meeting kind)
+{
+    const pair other = meet(m, p, end, kind);
+    const int Q = end ? m->edge[p.edge].after : p.edge;
+
+    return is_convex(m, Q) && !coincide(m, p.edge, other.edge) ? find_pair(m, other) : -1;
+}
+
+/* ----------------------------------------------- detection: what carries over from step to step */
+
+/* The closed contact of the last step that lives on in p: the same; one of the same corner with
+ * the same straight side; or, where two corners have passed each other, that of the other corner
+ * if it is no longer in the list. */
+static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
+{
+    const bbm_contact *old = find_closed(m, p.corner, p.edge, 1);
+
+    for (int k = 0; k < 4 && !old; k++) {
+        const pair q = meet(m, p, k / 2, k == 0 || k == 3 ? FLUSH : OTHER);
+        if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
+            old = find_closed(m, q.corner, q.edge, 0);
+    }
+    return old;
+}
+
+/* A closed contact is free when P has left past a corner Q: an entrance line on which they can
+ * enter each other is open, or there is none and the projection is off the edge. */
+static int has_left(const bbm_model *m, const bbm_contact *c)
+{
+    int lines = 0;
+
+    for (int k = 0; k < 4; k++) {
+        if (c->entrance[k] < 0)
+            continue;
+        const pair r = m->scratch->pair[c->entrance[k]];
+        if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, 0, PARALLEL))
+            return 1;
+        lines++;
+    }
+    return c->beyond_end && lines == 0;
+}
+
+/* Makes a pair a contact that goes on from the one that it continues. A projection beyond the end
+ * of the edge is off it, but not in a notch, where it lies inside the block. */
+static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
+{
+    const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
+    const projection f = project(m, p.corner, p.edge);
+    const double touch = touch_between(m, p.corner, p.edge);
+
+    *c = old ? *old : (bbm_contact){ 0 };
+    c->carried = old && old->corner == p.corner && old->edge == p.edge;
+    c->touches = !old && fmax(fabs(f.d), f.beyond) <= touch;
+    c->corner = p.corner;
+    c->edge = p.edge;
+    c->d_n0 = f.d;
+    c->was_closed = c->state != BBM_OPEN;
+    c->beyond_end = f.beyond > touch
+                 && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
+    for (int k = 0; k < 4; k++)
+        c->entrance[k] = find_entrance(m, p, k / 2, k % 2 ? FLUSH : NEXT);
+    c->has_left = has_left(m, c);
+}
+
+/* Lists the contacts that may be closed in this step, from the present positions and the contacts
+ * of the last step, which stay as they are. `same`: the list of this step had these pairs already,
+ * and is as it was. */
+bbm_status bbm_list_pairs(bbm_model *m, int *same)
+{
+    bbm_contact_scratch *w = m->scratch;
+
+    find_directions(m);
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].contact = m->contacts;
+    for (int k = m->contacts - 1; k >= 0; k--)
+        m->edge[m->contact[k].corner].contact = k;
+    const bbm_status status = find_pairs(m);
+    if (!status)
+        drop_duplicates(m);
+    *same = !status && w->is_listed && w->contacts == w->pairs;
+    for (int k = 0; k < w->pairs && *same; k++)
+        *same = compare_pairs(&w->contact[k], &w->pair[k]) == 0;
+    if (status || *same)
+        return status;
+    bbm_contact *list = realloc(w->contact, ((size_t)w->pairs + 1) * sizeof *list);
+    if (!list)
+        return BBM_NO_MEMORY;
+    w->contact = list;
+    w->contacts = w->pairs;
+    for (int k = 0; k < w->pairs; k++)
+        continue_contact(m, w->pair[k], &list[k]);
+    w->is_listed = 1;
+    return BBM_OK;
+}
+
+/* The contacts of the step in hand. */
+bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
+{
+    *contacts = m->scratch->contacts;
+    return m->scratch->contact;
+}
+
+/* ------------------------------------------------------- where a corner comes in, of the solution */
+
+/* Whether the corner, as it is turned at the end of the step, can enter there. */
+static int enters_at_end(const bbm_model *m, const bbm_contact *c)
+{
+    const double *Di = &m->D[6 * bbm_element_of(m, c->corner)], *Dj = &m->D[6 * bbm_element_of(m, c->edge)];
+
+    return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
+}
+
+/* Whether P may come in over its line, if it is crossed: not from behind; not beyond the end of the
+ * edge from the start of the step to its end, unless it was closed and has not left. */
+static int admits(const bbm_model *m, const bbm_contact *c)
+{
+    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
+        return 0;
+    return (c->was_closed || c->is_on_edge) && enters_at_end(m, c);
+}
+
+/* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
+ * contacts are. */
+static double crossed_at(const bbm_model *m, const bbm_contact *c)
+{
+    const double touch = touch_between(m, c->corner, c->edge);
+
+    return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
+}
+
+/* The sine by which a line is steep; one that rises to the right passes for flatter. */
+static double steepness(bbm_direction p)
+{
+    return fabs(p.y) - ((p.x > 0) == (p.y > 0) ? PARALLEL : 0);
+}
+
+/* Whether of an open contact c and an entrance line r of it the line counts: it is closed, not
+ * crossed, or crossed later, for the line crossed last is where P comes in. At the same time: the
+ * one that was closed at the start of the step, or else the flatter one. */
+static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
+{
+    const double later = crossed_at(m, r) - crossed_at(m, c);
+
+    if (r->state != BBM_OPEN)
+        return 1;
+    if (r->d_n >= 0)
+        return enters_at_end(m, r);
+    if (fabs(later) > TIE)
+        return later > 0 && admits(m, r);
+    if (r->was_closed != c->was_closed)
+        return r->was_closed && admits(m, r);
+    return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
+}
+
+/* Whether an open contact, though crossed, may not close. */
+int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
+{
+    int blocked = !admits(m, c);
+
+    for (int k = 0; k < 4 && !blocked; k++)
+        blocked = c->entrance[k] >= 0 && counts(m, &m->scratch->contact[c->entrance[k]], c);
+    return blocked;
+}
+
+/* ------------------------------------------------------------------------------ end of the step */
+
+/* The depth of a closed contact counts for both its bodies. */
+static void note_depth(const bbm_model *m, const bbm_contact *c)
+{
+    reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
+    const double depth = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
+
+    i->depth_now = fmax(i->depth_now, depth);
+    j->depth_now = fmax(j->depth_now, depth);
+}
+
+/* The depths of the blocks in the solution in hand. */
+void bbm_note_depths(bbm_model *m)
+{
+    const bbm_contact_scratch *w = m->scratch;
+
+    for (int i = 0; i < m->elements; i++)
+        w->reach[i].depth_now = w->reach[i].depth;
+    for (int k = 0; k < w->contacts; k++)
+        note_depth(m, &w->contact[k]);
+}
+
+/* The list of the step becomes that of the model, which has moved. */
+void bbm_keep_contacts(bbm_model *m)
+{
+    bbm_contact_scratch *w = m->scratch;
+    bbm_contact *last = m->contact;
+    const int last_contacts = m->contacts;
+
+    find_directions(m);
+    for (int i = 0; i < m->elements; i++)
+        w->reach[i].depth_now = 0;
+    for (int k = 0; k < w->contacts; k++)
+        note_depth(m, &w->contact[k]);
+    for (int i = 0; i < m->elements; i++)
+        w->reach[i].depth = w->reach[i].depth_now;
+    m->contact = w->contact;
+    m->contacts = w->contacts;
+    w->contact = last;
+    w->contacts = last_contacts;
+    w->is_listed = 0;
+}

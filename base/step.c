@@ -1,0 +1,248 @@
+/* step.c - what stands around the step of Fig. 8: messages, what must hold before it, K for the
+ * contacts that may close in it, how it is cut and tried again, and what it counts.
+ *
+ * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
+ * half of dt, down to dt/1024, as long as that takes no more than some solutions. The nominal step
+ * is completed in parts, which grow again. A static step has three trials instead. In the second one
+ * friction is a load in any case: K stays symmetric. All contacts of a block may begin to slide in
+ * one pass, and nothing holds it then, though not all would have to: the third lets one contact
+ * change in each pass, so that the others can take over.
+ */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base.h"
+
+/* The work of one step, cut or not, after which it has not settled: solutions, some times what the
+ * worst walls needed; iterations in all of them, against those of one; detections of contacts in
+ * one trial. And the smallest part of a step, dt/1024. */
+enum { SOLUTIONS = 5000, ITERATIONS = 10, DETECTIONS = 8, PARTS = 1024 };
+
+/* ------------------------------------------------------------------------------------ messages */
+
+const char *bbm_status_text(bbm_status s)
+{
+    static const char *const text[BBM_STATUS_COUNT] = {
+        [BBM_OK] = "no error",
+        [BBM_NO_MEMORY] = "out of memory",
+        [BBM_NO_ELEMENT] = "the model has no element",
+        [BBM_NOT_FINITE] = "a number is NaN or infinite",
+        [BBM_BAD_INDEX] = "no such node, element or material",
+        [BBM_BAD_MATERIAL] = "a material is impossible",
+        [BBM_BAD_PARAMETER] = "a parameter is outside its range",
+        [BBM_BAD_ELEMENT] = "an element is no polygon",
+        [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
+        [BBM_OVERLAP] = "elements of one block overlap",
+        [BBM_BLOCKS_OVERLAP] = "blocks overlap at the start",
+        [BBM_UNUSED_NODE] = "a node belongs to no element",
+        [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
+        [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
+        [BBM_MECHANISM] = "elements bonded at midpoints alone can turn against each other",
+        [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
+        [BBM_NOT_CONVERGED] = "the equations were not solved",
+        [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
+        [BBM_NO_EQUILIBRIUM] = "statics finds no equilibrium",
+        [BBM_STEP_TOO_LONG] = "the step is too long",
+        [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
+        [BBM_TOO_SOFT] = "the contacts are too soft",
+        [BBM_ENERGY] = "the step makes energy",
+        [BBM_STOPPED] = "stopped from outside",
+    };
+
+    return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
+}
+
+const char *bbm_message(const bbm_model *m) { return m->message; }
+
+/* Puts the sentence "TEXT OF THE STATUS: details" into the model and returns the status. */
+bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...)
+{
+    const int n = snprintf(m->message, sizeof m->message, "%s: ", bbm_status_text(s));
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(m->message + n, sizeof m->message - (size_t)n, format, args);
+    va_end(args);
+    return s;
+}
+
+bbm_status bbm_out_of_memory(bbm_model *m)
+{
+    return bbm_fail(m, BBM_NO_MEMORY, "%d elements, %d nodes", m->elements, m->nodes);
+}
+
+/* ------------------------------------------------------------------------- what a step counts */
+
+/* Counts the CPU time since `since` for a phase. */
+void bbm_count_time(bbm_model *m, int phase, clock_t since)
+{
+    m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
+}
+
+/* Whether the step has had all the work that it may take. */
+int bbm_is_spent(const bbm_model *m)
+{
+    return m->info.passes >= SOLUTIONS || m->info.iterations / ITERATIONS >= m->par.pcg.iterations;
+}
+
+/* Whether the contacts have been listed as often as they may in one trial; counts one more. */
+int bbm_has_detected_enough(bbm_model *m) { return m->detections++ == DETECTIONS; }
+
+/* The contacts have not settled. */
+bbm_status bbm_unsettled(bbm_model *m)
+{
+    return bbm_fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts",
+                    m->info.step + 1, m->info.t, m->h, m->info.passes, m->scratch->contacts);
+}
+
+/* What went wrong in a solution becomes a sentence with the numbers. */
+static bbm_status describe_failure(bbm_model *m, bbm_status status)
+{
+    const bbm_pcg_info *i = &m->info.pcg;
+    const int step = m->info.step + 1;
+
+    if (status == BBM_NOT_FINITE)
+        return bbm_fail(m, status, "step %d, a load, velocity, stress or stiffness is too large",
+                        step);
+    if (i->element >= 0)
+        return bbm_fail(m, status, "step %d, element %d of block %d: it has turned over, or the "
+                        "stiffnesses that meet there are too far apart", step, i->element,
+                        m->element[i->element].block);
+    return bbm_fail(m, status, "step %d, %d iterations, residual %.2g%s", step, i->iterations,
+                    i->residual, status == BBM_NOT_CONVERGED
+                                     ? "; more iterations or a smaller alpha help" : "");
+}
+
+/* Counts the work of a solution; what went wrong in it becomes a sentence. */
+bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
+{
+    const bbm_pcg_info *i = &m->info.pcg;
+
+    m->info.iterations += i->iterations;
+    m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
+    m->info.seconds[BBM_ITERATE] += i->seconds[1];
+    return status ? describe_failure(m, status) : BBM_OK;
+}
+
+/* ------------------------------------------------------------------- K for the contacts in hand */
+
+/* Lays out K: a submatrix for each element, each gap between two of them and each contact, Eq. (5).
+ * Without memory the old one stays. */
+bbm_status bbm_lay_out_matrix(bbm_model *m)
+{
+    int contacts = 0;
+    const bbm_contact *c = m->scratch ? bbm_list_contacts(m, &contacts) : NULL;
+    int (*link)[2] = calloc((size_t)(contacts + m->gaps) + 1, sizeof *link), n = 0;
+    bbm_matrix *K;
+
+    if (!link)
+        return BBM_NO_MEMORY;
+    for (; n < contacts; n++) {
+        link[n][0] = m->edge[c[n].corner].element;
+        link[n][1] = m->edge[c[n].edge].element;
+    }
+    for (int g = 0; g < m->gaps; g++) {
+        const int repeated = g > 0 && m->gap[g].i == m->gap[g - 1].i
+                          && m->gap[g].j == m->gap[g - 1].j;
+        if (m->gap[g].j < 0 || repeated)
+            continue;
+        link[n][0] = m->gap[g].i;
+        link[n++][1] = m->gap[g].j;
+    }
+    if (m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0) {
+        free(link);
+        return BBM_OK;
+    }
+    if (bbm_matrix_new(m->elements, n, link, &K)) {
+        free(link);
+        return BBM_NO_MEMORY;
+    }
+    bbm_matrix_free(m->K);
+    free(m->link);
+    m->K = K;
+    m->link = link;
+    m->links = n;
+    const bbm_status status = m->hook->lay_out ? m->hook->lay_out(m) : BBM_OK;
+    m->links = status ? 0 : n;                      /* what fails is laid out anew the next time */
+    return status;
+}
+
+/* ------------------------------------------------------------------------- the parts of a step */
+
+/* What must hold before a step: a prepared model, and parameters in their ranges; a comparison with
+ * NaN is false. A hook may say which one is not. */
+bbm_status bbm_check_step(bbm_model *m)
+{
+    const bbm_parameters *p = &m->par;
+
+    if (!m->K)
+        return m->status ? m->status
+                         : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
+    const bbm_status status = m->hook->check_step ? m->hook->check_step(m) : BBM_OK;
+    if (status)
+        return status;
+    if (!(p->dt > 0 && p->alpha > 0 && p->p_n > 0 && p->p_s > 0 && p->friction >= 0
+          && p->friction < 90 && p->velocity_factor >= 0 && p->velocity_factor <= 1
+          && p->tolerance >= 0))
+        return bbm_fail(m, BBM_BAD_PARAMETER, "expected dt, alpha, p_n, p_s above 0, tolerance 0 "
+                        "or more, friction 0 to less than 90 degrees, velocity_factor 0 to 1");
+    if ((p->cohesion != 0 || p->tension != 0) && !m->hook->joint_area)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "cohesion = %g, tension = %g, expected 0 where no "
+                        "hook knows the area of a joint", p->cohesion, p->tension);
+    return BBM_OK;
+}
+
+/* All of dt is left, and is tried as a whole. */
+bbm_parts bbm_whole_step(bbm_model *m)
+{
+    m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
+    return (bbm_parts){ PARTS, PARTS };
+}
+
+/* The length of the next part, if there is one. */
+int bbm_next_part(bbm_model *m, const bbm_parts *p)
+{
+    m->h = isinf(m->par.dt) ? INFINITY : m->par.dt * p->part / PARTS;
+    return p->left > 0;
+}
+
+/* Whether the equations, or the states of the contacts, had no end. */
+static int is_lost(bbm_status s)
+{
+    return s == BBM_NOT_POSITIVE_DEFINITE || s == BBM_NOT_CONVERGED || s == BBM_NOT_FINITE
+        || s == BBM_OPEN_CLOSE;
+}
+
+/* What follows from the status of a part: the next one, the same one in another way (BBM_OK), or the
+ * end. */
+bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status)
+{
+    const int lost = is_lost(status);
+    const int again = lost || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG;
+
+    if (bbm_is_static(m) && lost && m->trial < BBM_ONE_BY_ONE) {
+        m->trial++;
+        return BBM_OK;
+    }
+    if (!bbm_is_static(m) && again && p->part > 1 && !bbm_is_spent(m)) {
+        p->part /= 2;
+        m->info.cuts++;
+        m->message[0] = '\0';
+        return BBM_OK;
+    }
+    p->left -= p->part;
+    if (p->left > 0 && (p->left / p->part) % 2 == 0 && p->part < PARTS)
+        p->part *= 2;
+    return status;
+}
+
+/* Counts the step, or says why it failed. */
+bbm_status bbm_end_step(bbm_model *m, bbm_status status)
+{
+    if (status && m->K && m->hook->explain)
+        status = m->hook->explain(m, status);
+    m->info.step += !status;
+    return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
+}
