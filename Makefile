@@ -178,7 +178,7 @@ check-documents: $O/figures $O/bbm experiments
 PARTS = others experiments
 SAY   = $O/check > $O/$*.said 2>&1 || echo "ended with status $$?" >> $O/$*.said
 
-check: $(PARTS:%=check-%) check-exercises check-documents check-smoke
+check: $(PARTS:%=check-%) check-exercises check-documents check-smoke check-arrows
 	@cat $(PARTS:%=$O/%.said)
 	@awk -F '[:,]' '/^[0-9]+%: Checks:/ { run += $$3; failed += $$5 + $$7 } /^ended with status/ { bad = 1 } \
 	END { print run " checks, " failed " failed" (bad ? ": not passed" : ""); exit bad }' $(PARTS:%=$O/%.said)
@@ -214,6 +214,10 @@ without-beyond:
 	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h base cases tests out/paper
 	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
 	> out/paper/paper.log 2>&1
+
+# Which file calls which: from the object files.
+check-arrows: $(LIBRARY:%=$O/%.o)
+	@nm -A $^ | awk -f tests/arrows.awk bbm.h base/base.h -
 
 # Not optimized, since compiling takes most of it.
 check-smoke:
@@ -263,5 +267,5 @@ clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
-.PHONY: check $(PARTS:%=check-%) check-smoke check-exercises check-documents experiments exercise figures $(CALLS)
+.PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents experiments exercise figures $(CALLS)
 .DELETE_ON_ERROR:

@@ -559,18 +559,14 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         bbm_motion_of(m)->turn(&start, e, vertex);
 }
 
-/* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one
- * that shares all but what moves; the first stays as it is. How small the step was against all so
- * far, Eq. (71), goes to info.change. */
-static bbm_model move_model(const bbm_model *m)
+/* The end of the step: each element is moved by its place in D, Eq. (3), in a copy, since nothing
+ * moves before all has gone well. How small the step was against all so far, Eq. (71), goes to
+ * info.change. */
+static bbm_status update(bbm_model *m)
 {
-    bbm_model end = *m;
+    bbm_model end = bbm_copy_what_moves(m);
     double step2 = 0, sum2 = 0;
 
-    end.element = m->end_element;
-    end.vertex = m->end_vertex;
-    memcpy(end.element, m->element, (size_t)m->elements * sizeof *m->element);
-    memcpy(end.vertex, m->vertex, (size_t)m->vertices * sizeof *m->vertex);
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &end.element[i];
         memcpy(e->D, &m->D[6 * i], sizeof e->D);
@@ -580,22 +576,10 @@ static bbm_model move_model(const bbm_model *m)
     }
     end.info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
     end.info.t += bbm_is_static(m) ? 0 : m->h;
-    return end;
-}
-
-/* Makes the end of the step the present, unless a hook finds it wrong. */
-static bbm_status update(bbm_model *m)
-{
-    const bbm_model end = move_model(m);
-    const bbm_status status = m->hook->accept ? m->hook->accept(m, &end) : BBM_OK;
-
-    if (status)
-        return status;
-    memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
-    memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);
-    m->info = end.info;
-    bbm_store_contacts(m);
-    return BBM_OK;
+    const bbm_status status = bbm_accept_end(m, &end);
+    if (!status)
+        bbm_store_contacts(m);
+    return status;
 }
 
 /* --------------------------------------------------------------- the time step, Fig. 8 */

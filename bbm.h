@@ -178,7 +178,7 @@ struct bbm_model {
     bbm_contact_scratch *scratch;
     int *adjacent_first;        /* [nodes+1] the vertices at node n are                         */
     int *adjacent;              /* [vertices]    adjacent[adjacent_first[n] ..]                 */
-    bbm_element *end_element;   /* [elements] the end of the step, see move_model               */
+    bbm_element *end_element;   /* [elements] the end of the step, base/step.c               */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     /* --- K D = F --- */
     bbm_matrix *K;

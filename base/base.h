@@ -228,6 +228,8 @@ bbm_status bbm_check_step(bbm_model *m);                        /* parameters, a
 bbm_parts  bbm_whole_step(bbm_model *m);
 int        bbm_next_part(bbm_model *m, const bbm_parts *p);     /* 0: the step is done          */
 bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status);
+bbm_model  bbm_copy_what_moves(const bbm_model *m);
+bbm_status bbm_accept_end(bbm_model *m, const bbm_model *end);
 bbm_status bbm_end_step(bbm_model *m, bbm_status status);
 int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
 int        bbm_has_detected_enough(bbm_model *m);

@@ -132,16 +132,15 @@ bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
  * Without memory the old one stays. */
 bbm_status bbm_lay_out_matrix(bbm_model *m)
 {
-    int contacts = 0;
-    const bbm_contact *c = m->scratch ? bbm_list_contacts(m, &contacts) : NULL;
+    const int contacts = m->scratch ? m->scratch->contacts : 0;
     int (*link)[2] = calloc((size_t)(contacts + m->gaps) + 1, sizeof *link), n = 0;
     bbm_matrix *K;
 
     if (!link)
         return BBM_NO_MEMORY;
     for (; n < contacts; n++) {
-        link[n][0] = m->edge[c[n].corner].element;
-        link[n][1] = m->edge[c[n].edge].element;
+        link[n][0] = bbm_element_of(m, m->scratch->contact[n].corner);
+        link[n][1] = bbm_element_of(m, m->scratch->contact[n].edge);
     }
     for (int g = 0; g < m->gaps; g++) {
         const int repeated = g > 0 && m->gap[g].i == m->gap[g - 1].i
@@ -236,6 +235,31 @@ bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status)
     if (p->left > 0 && (p->left / p->part) % 2 == 0 && p->part < PARTS)
         p->part *= 2;
     return status;
+}
+
+/* A second model, which shares all with the first but what moves: elements, vertices, info. */
+bbm_model bbm_copy_what_moves(const bbm_model *m)
+{
+    bbm_model end = *m;
+
+    end.element = m->end_element;
+    end.vertex = m->end_vertex;
+    memcpy(end.element, m->element, (size_t)m->elements * sizeof *m->element);
+    memcpy(end.vertex, m->vertex, (size_t)m->vertices * sizeof *m->vertex);
+    return end;
+}
+
+/* Makes the end of the step the present, unless a hook finds it wrong. */
+bbm_status bbm_accept_end(bbm_model *m, const bbm_model *end)
+{
+    const bbm_status status = m->hook->accept ? m->hook->accept(m, end) : BBM_OK;
+
+    if (status)
+        return status;
+    memcpy(m->element, end->element, (size_t)m->elements * sizeof *m->element);
+    memcpy(m->vertex, end->vertex, (size_t)m->vertices * sizeof *m->vertex);
+    m->info = end->info;
+    return BBM_OK;
 }
 
 /* Counts the step, or says why it failed. */

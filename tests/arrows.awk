@@ -1,0 +1,56 @@
+# Calls between the files of the library go down: beyond, build, bbm, contact, detect, step, solver, order. A formula, a
+# function that is given no model, may be called from anywhere; and contact.c puts its submatrices into K by a function of
+# bbm.c, whose step calls contact.c. Reads bbm.h and base/base.h, then what `nm -A` says of the object files.
+BEGIN {
+    files = split("order solver step detect contact bbm build", order)
+    for (k = 1; k <= files; k++)
+        rank[order[k]] = k
+    excused["contact bbm_add_submatrices"] = 1
+}
+
+FILENAME ~ /\.h$/ {
+    line = $0
+    sub(/\/\*.*/, "", line)
+    declaration = declaration line
+    if (line ~ /[;{}]/) {
+        if (declaration ~ /bbm_model/ && match(declaration, /bbm_[a-z_A-Z]+\(/))
+            takes_model[substr(declaration, RSTART, RLENGTH - 1)] = 1
+        declaration = ""
+    }
+    next
+}
+
+{
+    split($0, part, ".o:")
+    n = split(part[1], path, "/")
+    file = path[n]
+    room = path[n - 1]
+    symbol = $NF
+    sub(/^_/, "", symbol)
+    if (symbol !~ /^bbm_/)
+        next
+    above = room == "beyond"
+    if ($(NF - 1) == "T" || $(NF - 1) == "D" || $(NF - 1) == "R")
+        home[symbol] = above ? "beyond/" file : file
+    else if ($(NF - 1) == "U") {
+        calls++
+        from[calls] = above ? "beyond/" file : file
+        to[calls] = symbol
+    }
+}
+
+function rank_of(file) { return file in rank ? rank[file] : files + 1 }
+
+END {
+    for (c = 1; c <= calls; c++) {
+        if (rank_of(home[to[c]]) <= rank_of(from[c]) || !(to[c] in takes_model) || (from[c] " " to[c]) in excused)
+            continue
+        print from[c] ".c calls " to[c] " of " home[to[c]] ".c, which lies above it"
+        bad = 1
+    }
+    if (calls < 100)
+        print "only " calls " calls found", bad = 1
+    if (!bad)
+        print calls " calls between the files of the library: all go down"
+    exit bad
+}
