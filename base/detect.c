@@ -32,9 +32,8 @@
  * STRAIGHT [rad]  sides that differ less in direction at the start are one straight side, and
  *                 sides that differ less in length, relatively, are as long: rounding of a file
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less
- *                 lies on it: what penetration and elastic bending turn
- * BENT     [rad]  the same for a side that was straight, at a grid point inside it that touches:
- *                 soft blocks bend more
+ *                 lies on it: penetration and elastic bending turn sides by this much
+ * BENT     [rad]  the same at a grid point inside a straight side: soft blocks bend more
  * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
  *                 projection closer to the end of an edge is at the end: rounding of a model file,
  *                 elastic strain
@@ -98,8 +97,8 @@ static void find_directions(bbm_model *m)
     }
 }
 
-/* Links each edge with the one that starts where it ends: from element to element round that node,
- * over the bonds, as far as they go. */
+/* Links each edge with the one that starts where it ends. The walk goes round that node from element
+ * to element, over the bonds, as far as they go. */
 static void link_edges(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++) {
@@ -195,8 +194,8 @@ bbm_status bbm_detect_new(bbm_model *m)
 
 /* ----------------------------------------------------------- detection: how far blocks may move */
 
-/* Takes for D what the velocities and gravity foretell of the step; in statics a step is as long as
- * the last one at most. */
+/* Takes for D what the velocities and gravity foretell of the step; in statics the D of the last
+ * step. */
 void bbm_foresee_step(bbm_model *m)
 {
     const double h = bbm_is_static(m) ? 0 : m->h, *g = m->acceleration;
@@ -234,9 +233,9 @@ int bbm_moved_too_far(const bbm_model *m)
     return too_far;
 }
 
-/* How far the blocks may move, by D as far as it is known: a tenth more, or what rounding and a
- * closed contact give, and no less than what this step has foreseen before; and turn: twice that.
- * Returns the largest way. */
+/* How far the blocks may move: a tenth more than by the D in hand, and the depth of their contacts,
+ * and no less than what this step has foreseen before. They may turn twice as far as by D. Returns
+ * the longest way. */
 static double foresee(bbm_model *m)
 {
     double most = 0;
@@ -261,9 +260,8 @@ static double touch_between(const bbm_model *m, int c, int e)
 }
 
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
- * the two blocks do. Nothing comes in from behind. What moves by T of the start of a step may also
- * end it inside, by its way; and a corner that slides on along a straight side, which may be bent
- * by now, keeps its contact. */
+ * the two blocks do. No corner enters from behind an edge. Where points move by T of the start of
+ * the step, a corner may also have ended the last step inside, by as much as it moved. */
 double bbm_allowed_depth(const bbm_model *m, int c, int e)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
@@ -292,10 +290,10 @@ double bbm_way_along(const bbm_model *m, int corner, int edge)
     return project(m, corner, edge).s;
 }
 
-/* Neither side of the corner points into the edge, by more than an angle, after its block has
- * turned by r against the edge's, and the block is convex there: it lies on the outside. Either
- * end of a side may be as deep as closed contacts are. A grid point inside a straight side may
- * come to lie in a hollow where that bends. */
+/* Whether a corner can enter over an edge. Neither of its two sides points into the edge by more than
+ * an angle, after its block has turned by r against that of the edge, and the block is convex there.
+ * Either end of a side may be as deep as closed contacts are. A grid point inside a straight side may
+ * come to lie in a hollow, where that side bends. */
 static int can_enter(const bbm_model *m, int corner, int e, double r, double angle)
 {
     const bbm_direction t = m->edge[e].along, q = m->edge[corner].along;
@@ -309,16 +307,16 @@ static int can_enter(const bbm_model *m, int corner, int e, double r, double ang
         && cross(s, p) >= -angle - dip / fmin(p.length, t.length) && is_convex(m, corner);
 }
 
-/* Of two edges along p and q that face each other, whether the outward normal of the first,
- * (p.y, -p.x), is the one that points up, or if both are upright, to the right. */
+/* Two edges along p and q face each other. Whether the outward normal of the first, (p.y, -p.x),
+ * points up, or to the right if both edges are upright. */
 static int faces_up(bbm_direction p, bbm_direction q)
 {
     return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
 }
 
-/* Whether the grid points inside the straight side of c touch the one of e, too (`faces`): those
- * of the shorter side do, of equal sides those of the upper one. They carry all of it; none comes
- * or goes while it slides on the longer. Deviation: with `faces` = 0 corners alone touch, and a
+/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of the
+ * shorter side do, and of equal sides those of the upper one: then no point comes or goes while the
+ * shorter side slides on the longer one. Deviation: with `faces` = 0 corners alone touch, and a
  * block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
@@ -348,8 +346,8 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
     return found;
 }
 
-/* Whether the corner may come to touch the edge in this step. If it is still outside it may also
- * turn there first, as when a side falls flat on an edge. */
+/* Whether the corner may come to touch the edge in this step. A corner that is still outside may turn
+ * before it does, as when a side falls flat on an edge. */
 static int may_touch(const bbm_model *m, int corner, int e)
 {
     const reach *of = m->scratch->reach;
@@ -389,9 +387,9 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
     return BBM_OK;
 }
 
-/* All pairs that may touch. The search distance, for the hook: how far two blocks may approach each
- * other and how deep a vertex may lie are together six times the largest way at most, seen along an
- * axis from a slanting edge nine times. */
+/* All pairs that may touch. The hook gets a search distance. Two blocks may approach each other, and
+ * a vertex lie inside, by six times the longest way together; seen along an axis from a slanting edge
+ * that is nine times at most. */
 static bbm_status find_pairs(bbm_model *m)
 {
     const double search = 9 * foresee(m);
@@ -443,10 +441,11 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
     return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
 }
 
-/* Whether of two pairs that are one contact, p and what it meets, the other one stays. On a
- * straight side: if P comes before the end of that edge. Seen from both sides, when the edges
- * coincide and P lies at Q: the one that was closed, or else whose edge faces up. Of two corners,
- * flush, just one has its projection on the other's edge: the one stays. */
+/* Whether the pair p gives way to the pair that it meets, where both are one contact. On a straight
+ * side it does if P lies before the end of the other edge. Where both corners see the same joint, P
+ * at Q and the edges in line, the contact that was closed stays; otherwise the one whose edge faces
+ * up. Where two corners lie side by side, the one stays that has its projection on the other's
+ * edge. */
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);
@@ -484,8 +483,8 @@ static void drop_duplicates(bbm_model *m)
     index_pairs(m);
 }
 
-/* Another line on which P and an end Q of its edge can enter each other, if both are convex
- * corners and it is in the list; else -1. In a notch Q both edges hold P at once. */
+/* The index of another line on which P and an end Q of its edge can enter each other, if both are
+ * convex corners and the line is in the list; else -1. In a notch Q both edges hold P at once. */
 static int find_entrance(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair other = meet(m, p, end, kind);
@@ -511,8 +510,8 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     return old;
 }
 
-/* A closed contact is free when P has left past a corner Q: an entrance line on which they can
- * enter each other is open, or there is none and the projection is off the edge. */
+/* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter each
+ * other is open, or there is no such line and the projection is off the edge. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     int lines = 0;
@@ -598,8 +597,9 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
     return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
 }
 
-/* Whether P may come in over its line, if it is crossed: not from behind; not beyond the end of the
- * edge from the start of the step to its end, unless it was closed and has not left. */
+/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where its
+ * projection is beyond the end of the edge both at the start and at the end of the step, unless the
+ * contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
     if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
@@ -622,9 +622,9 @@ static double steepness(bbm_direction p)
     return fabs(p.y) - ((p.x > 0) == (p.y > 0) ? PARALLEL : 0);
 }
 
-/* Whether of an open contact c and an entrance line r of it the line counts: it is closed, not
- * crossed, or crossed later, for the line crossed last is where P comes in. At the same time: the
- * one that was closed at the start of the step, or else the flatter one. */
+/* Whether an entrance line r of an open contact c counts in its place: r is closed, is not crossed,
+ * or is crossed later, for P comes in over the line that it crosses last. Of two lines crossed at the
+ * same time the one counts that was closed at the start of the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
@@ -652,7 +652,7 @@ int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* The depth of a closed contact counts for both its bodies. */
+/* The depth of a closed contact counts for both its blocks. */
 static void note_depth(const bbm_model *m, const bbm_contact *c)
 {
     reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);

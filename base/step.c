@@ -15,9 +15,11 @@
 
 #include "base.h"
 
-/* The work of one step, cut or not, after which it has not settled: solutions, some times what the
- * worst walls needed; iterations in all of them, against those of one; detections of contacts in
- * one trial. And the smallest part of a step, dt/1024. */
+/* A step that has taken more work than this does not settle.
+ * SOLUTIONS   in all its parts: several times what the worst walls needed
+ * ITERATIONS  in all solutions, as a multiple of what one solution may take
+ * DETECTIONS  of contacts, in one part
+ * PARTS       the shortest part is dt/PARTS */
 enum { SOLUTIONS = 5000, ITERATIONS = 10, DETECTIONS = 8, PARTS = 1024 };
 
 /* ------------------------------------------------------------------------------------ messages */
