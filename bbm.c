@@ -188,7 +188,8 @@ void bbm_newmark_velocity(bbm_element *e, double dt, double factor)
 
 /* -------------------------------------------------------------- 3.3 Bonding submatrices */
 
-/* T for the gaps and forces of a step, Eq. (2); or a hook's, which belongs to another moment of it. */
+/* T for the gaps and forces of a step, Eq. (2); or a hook's, which belongs to another moment of it.
+ * */
 void bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6])
 {
     if (e->middle)

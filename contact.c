@@ -191,7 +191,8 @@ static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
     const bbm_element *i = &m->element[bbm_element_of(m, c->corner)];
     const bbm_element *j = &m->element[bbm_element_of(m, c->edge)];
 
-    return (bbm_touch){ i, j, bbm_start_of(m, c->corner), bbm_end_of(m, c->edge), bbm_start_of(m, c->edge), c->rest };
+    return (bbm_touch){ i, j, bbm_start_of(m, c->corner), bbm_end_of(m, c->edge),
+                        bbm_start_of(m, c->edge), c->rest };
 }
 
 /* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s, m from P2 to
@@ -304,7 +305,7 @@ void bbm_assemble_contacts(bbm_model *m)
 /* d = d0 + e.D_i + g.D_j of the solution, Eq. (57), (61). */
 static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
 {
-    const double *Di = &m->D[6 * bbm_element_of(m, c->corner)], *Dj = &m->D[6 * bbm_element_of(m, c->edge)];
+    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
     double d = v->d;
 
     for (int a = 0; a < 6; a++)
@@ -338,30 +339,31 @@ static void measure(const bbm_model *m, bbm_contact *c)
 }
 
 /* The largest force in the component of K that an element belongs to. */
-static double *force_on(const bbm_model *m, int element)
+static double *force_around(const bbm_model *m, int element)
 {
     return &m->scratch->force[m->K->component[element]];
 }
 
-/* The largest force in each component: on an element, inertia included, or in a contact. What the
- * solver leaves as its residual, and so in every N of it, is small against this and nothing else.
- */
+/* The force tolerance of each contact: a share of the largest force in its component of K, on an
+ * element, inertia included, or in a contact. What the solver leaves as its residual, and so in
+ * every N, is small against this and nothing else. */
 static void find_tolerances(const bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
-    for (int i = 0; i < m->elements; i++)
-        w->force[i] = 0;
+    memset(w->force, 0, (size_t)m->elements * sizeof *w->force);
     for (int i = 0; i < m->elements; i++) {
-        double *most = force_on(m, i);
+        double *most = force_around(m, i);
         *most = fmax(*most, hypot(m->F[6 * i], m->F[6 * i + 1]));
     }
     for (int k = 0; k < w->contacts; k++) {
-        double *most = force_on(m, bbm_element_of(m, w->contact[k].corner));
+        double *most = force_around(m, bbm_element_of(m, w->contact[k].corner));
         *most = fmax(*most, fabs(w->contact[k].N));
     }
-    for (int k = 0; k < w->contacts; k++)
-        w->contact[k].force_tolerance = AGREE * *force_on(m, bbm_element_of(m, w->contact[k].corner));
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
+        c->force_tolerance = AGREE * *force_around(m, bbm_element_of(m, c->corner));
+    }
 }
 
 /* Whether every friction force belongs to its N. */

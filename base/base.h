@@ -2,9 +2,9 @@
  *
  * A reader of the paper finds here what its formulas take: the gap of a bond or fixed point (3.3,
  * 3.4), a boundary edge, a contact and its three points (3.7). Then come the hooks, through which
- * beyond/ adds what the paper does not have, the functions that the files of the library share, from
- * the bottom up, and the matrix. A program that looks at bonds, edges, contacts or K includes this
- * file in place of bbm.h.
+ * beyond/ adds what the paper does not have, the functions that the files of the library share,
+ * from the bottom up, and the matrix. A program that looks at bonds, edges, contacts or K includes
+ * this file in place of bbm.h.
  */
 #ifndef BBM_BASE_H
 #define BBM_BASE_H
@@ -208,6 +208,12 @@ static inline const bbm_vertex *bbm_end_of(const bbm_model *m, int edge)
 }
 
 static inline int bbm_element_of(const bbm_model *m, int edge) { return m->edge[edge].element; }
+
+/* D of the element of a boundary edge. */
+static inline const double *bbm_D_of(const bbm_model *m, int edge)
+{
+    return &m->D[6 * m->edge[edge].element];
+}
 
 /* Displacement of the point (x, y) by D: u = T D, or a hook's. */
 static inline void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x,

@@ -122,8 +122,9 @@ bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
 
 static int is_node(const bbm_model *m, int node) { return node >= 0 && node < m->nodes; }
 
-/* The signed area of a polygon, and whether the polygon is degenerate: the areas of the triangles at
- * vertex 0, without their signs, are compared with the square of the longest distance from there. */
+/* The signed area of a polygon, and whether the polygon is degenerate: the areas of the triangles
+ * at vertex 0, without their signs, are compared with the square of the longest distance from
+ * there. */
 static double polygon_area(const bbm_model *m, int n, const int node[], int *flat)
 {
     const bbm_node *o = &m->node[node[0]];
@@ -284,8 +285,8 @@ static bbm_status list_adjacent_vertices(bbm_model *m)
     return BBM_OK;
 }
 
-/* Counts the sides of a block from node p to node q, without the one that starts at v, and finds the
- * vertex where the first of them starts. */
+/* Counts the sides of a block from node p to node q, without the one that starts at v, and finds
+ * the vertex where the first of them starts. */
 static int find_partners(const bbm_model *m, int block, int p, int q, int v, int *start)
 {
     int sides = 0;
@@ -300,9 +301,9 @@ static int find_partners(const bbm_model *m, int block, int p, int q, int v, int
     return sides;
 }
 
-/* Section 2.2: a side that two elements of a block share is an internal edge and gets a bond; a side
- * without a partner is a boundary edge. Elements run counter-clockwise, so that partners run in
- * opposite directions. Two elements that run in the same direction overlap. */
+/* Section 2.2: a side that two elements of a block share is an internal edge and gets a bond; a
+ * side without a partner is a boundary edge. Elements run counter-clockwise, so that partners run
+ * in opposite directions. Two elements that run in the same direction overlap. */
 static bbm_status connect_elements(bbm_model *m)
 {
     m->edge = calloc((size_t)m->vertices, sizeof *m->edge);
@@ -354,8 +355,8 @@ static bbm_status place_line_loads(bbm_model *m)
     return BBM_OK;
 }
 
-/* The arrays that the steps need. A bond has two gaps. A vertex that is held has one gap, and a hook
- * may add two of the edge that starts there. */
+/* The arrays that the steps need. A bond has two gaps. A vertex that is held has one gap, and a
+ * hook may add two of the edge that starts there. */
 static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);

@@ -97,8 +97,8 @@ static void find_directions(bbm_model *m)
     }
 }
 
-/* Links each edge with the one that starts where it ends. The walk goes round that node from element
- * to element, over the bonds, as far as they go. */
+/* Links each edge with the one that starts where it ends. The walk goes round that node from
+ * element to element, over the bonds, as far as they go. */
 static void link_edges(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++) {
@@ -290,10 +290,10 @@ double bbm_way_along(const bbm_model *m, int corner, int edge)
     return project(m, corner, edge).s;
 }
 
-/* Whether a corner can enter over an edge. Neither of its two sides points into the edge by more than
- * an angle, after its block has turned by r against that of the edge, and the block is convex there.
- * Either end of a side may be as deep as closed contacts are. A grid point inside a straight side may
- * come to lie in a hollow, where that side bends. */
+/* Whether a corner can enter over an edge. Neither of its two sides points into the edge by more
+ * than an angle, after its block has turned by r against that of the edge, and the block is convex
+ * there. Either end of a side may be as deep as closed contacts are. A grid point inside a straight
+ * side may come to lie in a hollow, where that side bends. */
 static int can_enter(const bbm_model *m, int corner, int e, double r, double angle)
 {
     const bbm_direction t = m->edge[e].along, q = m->edge[corner].along;
@@ -314,9 +314,9 @@ static int faces_up(bbm_direction p, bbm_direction q)
     return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
 }
 
-/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of the
- * shorter side do, and of equal sides those of the upper one: then no point comes or goes while the
- * shorter side slides on the longer one. Deviation: with `faces` = 0 corners alone touch, and a
+/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
+ * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
+ * the shorter side slides on the longer one. Deviation: with `faces` = 0 corners alone touch, and a
  * block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
@@ -346,8 +346,8 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
     return found;
 }
 
-/* Whether the corner may come to touch the edge in this step. A corner that is still outside may turn
- * before it does, as when a side falls flat on an edge. */
+/* Whether the corner may come to touch the edge in this step. A corner that is still outside may
+ * turn before it does, as when a side falls flat on an edge. */
 static int may_touch(const bbm_model *m, int corner, int e)
 {
     const reach *of = m->scratch->reach;
@@ -387,9 +387,9 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
     return BBM_OK;
 }
 
-/* All pairs that may touch. The hook gets a search distance. Two blocks may approach each other, and
- * a vertex lie inside, by six times the longest way together; seen along an axis from a slanting edge
- * that is nine times at most. */
+/* All pairs that may touch. The hook gets a search distance. Two blocks may approach each other,
+ * and a vertex lie inside, by six times the longest way together; seen along an axis from a
+ * slanting edge that is nine times at most. */
 static bbm_status find_pairs(bbm_model *m)
 {
     const double search = 9 * foresee(m);
@@ -510,8 +510,8 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     return old;
 }
 
-/* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter each
- * other is open, or there is no such line and the projection is off the edge. */
+/* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
+ * each other is open, or there is no such line and the projection is off the edge. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     int lines = 0;
@@ -587,19 +587,19 @@ bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
     return m->scratch->contact;
 }
 
-/* ------------------------------------------------------- where a corner comes in, of the solution */
+/* ----------------------------------------------------- where a corner comes in, of the solution */
 
 /* Whether the corner, as it is turned at the end of the step, can enter there. */
 static int enters_at_end(const bbm_model *m, const bbm_contact *c)
 {
-    const double *Di = &m->D[6 * bbm_element_of(m, c->corner)], *Dj = &m->D[6 * bbm_element_of(m, c->edge)];
+    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
 
     return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
 }
 
-/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where its
- * projection is beyond the end of the edge both at the start and at the end of the step, unless the
- * contact was closed. */
+/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where
+ * its projection is beyond the end of the edge both at the start and at the end of the step, unless
+ * the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
     if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
@@ -623,8 +623,9 @@ static double steepness(bbm_direction p)
 }
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, is not crossed,
- * or is crossed later, for P comes in over the line that it crosses last. Of two lines crossed at the
- * same time the one counts that was closed at the start of the step, or else the flatter one. */
+ * or is crossed later, for P comes in over the line that it crosses last. Of two lines crossed at
+ * the same time the one counts that was closed at the start of the step, or else the flatter one.
+ * */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);

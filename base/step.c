@@ -3,9 +3,9 @@
  *
  * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
  * half of dt, down to dt/1024, as long as that takes no more than some solutions. The nominal step
- * is completed in parts, which grow again. A static step has three trials instead. In the second one
- * friction is a load in any case: K stays symmetric. All contacts of a block may begin to slide in
- * one pass, and nothing holds it then, though not all would have to: the third lets one contact
+ * is completed in parts, which grow again. A static step has three trials instead. In the second
+ * one friction is a load in any case: K stays symmetric. All contacts of a block may begin to slide
+ * in one pass, and nothing holds it then, though not all would have to: the third lets one contact
  * change in each pass, so that the others can take over.
  */
 #include <stdarg.h>
@@ -216,8 +216,8 @@ static int is_lost(bbm_status s)
         || s == BBM_OPEN_CLOSE;
 }
 
-/* What follows from the status of a part: the next one, the same one in another way (BBM_OK), or the
- * end. */
+/* What follows from the status of a part: the next one, the same one in another way (BBM_OK), or
+ * the end. */
 bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status)
 {
     const int lost = is_lost(status);
