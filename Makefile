@@ -27,10 +27,11 @@ GALLERY  = topple drop arch
 CASES    = $(RUN) $(GALLERY)
 # Beyond their limits models do not do what is expected of them (status 3).
 BEYOND_LIMITS = slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 shaken:phi=34 wall:A=8
-COMMON   = case output plot scene theory
-SHARED   = $(COMMON) beyond
-READER   = build model msh reader
-PROGRAM  = bbm write $(READER)
+PICTURES = program/output program/plot program/scene
+COMMON   = cases/case cases/theory $(PICTURES)
+SHARED   = $(COMMON) cases/beyond
+READER   = $(addprefix program/,build model msh reader)
+PROGRAM  = program/main program/write $(READER)
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures programs \
            check_scenes $(TORTURE)
@@ -39,7 +40,7 @@ SUITES   = check_formulas check_elastic check_steps check_mesh check_input check
            check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
            check_theory check_equations
 SHARING  = models shapes systems
-HEADERS  = $(wildcard *.h beyond/*.h cases/*.h tests/*.h)
+HEADERS  = $(wildcard *.h beyond/*.h cases/*.h program/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
@@ -64,7 +65,7 @@ converge: $O/exp1 $O/exp2
 bench: $O/bench
 	@$O/bench
 
-$(CASES:%=$O/%): $O/%: $O/cases/%.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$(CASES:%=$O/%): $O/%: $O/cases/%.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 # What the experiments show beyond the paper.
@@ -78,7 +79,7 @@ paper: paper-run $O/paper/formulas
 paper-run: $(RUN:%=$O/paper/%)
 	@for c in $(RUN); do $O/paper/$$c || exit 1; done
 
-$(RUN:%=$O/paper/%): $O/paper/%: $O/cases/%.o $O/cases/paper.o $(COMMON:%=$O/cases/%.o) $(CORE:%=$O/%.o)
+$(RUN:%=$O/paper/%): $O/paper/%: $O/cases/%.o $O/cases/paper.o $(COMMON:%=$O/%.o) $(CORE:%=$O/%.o)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
@@ -93,13 +94,13 @@ bbm: $O/bbm
 figures: $O/figures
 	$O/figures doc/figures
 
-$O/figures: $O/doc/figures.o $O/cases/plot.o $O/cases/output.o $(CORE:%=$O/%.o)
+$O/figures: $O/doc/figures.o $O/program/plot.o $O/program/output.o $(CORE:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$O/bbm: $(PROGRAM:%=$O/%.o) $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
@@ -118,11 +119,11 @@ $O/failing/%.o: %.c $(HEADERS) Makefile
 	$(CC) $(STRICT) $(FAILING) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # The programs with that allocator take the number of allocations from the environment, TEST_ALLOCATIONS.
-$O/failing/bbm: $(PROGRAM:%=$O/failing/cases/%.o) $(SHARED:%=$O/failing/cases/%.o) $(LIBRARY:%=$O/failing/%.o) \
+$O/failing/bbm: $(PROGRAM:%=$O/failing/%.o) $(SHARED:%=$O/failing/%.o) $(LIBRARY:%=$O/failing/%.o) \
 $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failing/cases/%.o) \
+$(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failing/%.o) \
 $(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
@@ -209,7 +210,7 @@ again: $O/exp1
 
 # `make paper` in the tree without beyond/.
 without-beyond:
-	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h cases tests out/paper
+	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h cases program tests out/paper
 	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
 	> out/paper/paper.log 2>&1
 
@@ -247,13 +248,13 @@ WINDOWS = x86_64-w64-mingw32-gcc
 
 windows:
 	@mkdir -p out/windows
-	$(WINDOWS) $(STRICT) -Wno-float-conversion $(CPPFLAGS) $(CFLAGS) -static -o out/windows/bbm.exe $(PROGRAM:%=cases/%.c) $(SHARED:%=cases/%.c) \
+	$(WINDOWS) $(STRICT) -Wno-float-conversion $(CPPFLAGS) $(CFLAGS) -static -o out/windows/bbm.exe $(PROGRAM:%=%.c) $(SHARED:%=%.c) \
 	$(LIBRARY:%=%.c) -lm
 
 fuzz:
 	@mkdir -p out/corpus
 	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz tests/fuzz_model.c \
-	$(READER:%=cases/%.c) $(SHARED:%=cases/%.c) $(LIBRARY:%=%.c) -lm
+	$(READER:%=%.c) $(SHARED:%=%.c) $(LIBRARY:%=%.c) -lm
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
 # What a student has written in out/exercise stays.

@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 #include "../bbm.h"
-#include "plot.h"
-#include "scene.h"
+#include "../program/plot.h"
+#include "../program/scene.h"
 
 /* How a cell of a grid is cut: not, in 2, in 4 triangles. */
 enum { CASE_QUADS, CASE_ALTERNATING, CASE_CROSSED };

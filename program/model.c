@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "case.h"
+#include "../cases/case.h"
 #include "reader.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };

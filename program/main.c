@@ -1,4 +1,4 @@
-/* bbm.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results
+/* main.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results
  * (write.c).
  *
  * Exit status: 0, all is done, and as expected; 1, the run failed, with what was computed until
