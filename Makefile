@@ -27,11 +27,10 @@ GALLERY  = topple drop arch
 CASES    = $(RUN) $(GALLERY)
 # Beyond their limits models do not do what is expected of them (status 3).
 BEYOND_LIMITS = slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 shaken:phi=34 wall:A=8
-PICTURES = program/output program/plot program/scene
-COMMON   = cases/case cases/theory $(PICTURES)
-SHARED   = $(COMMON) cases/beyond
-READER   = $(addprefix program/,build model msh reader)
-PROGRAM  = program/main program/write $(READER)
+COMMON   = cases/case cases/theory $(addprefix program/,cell output plot scene)
+SHARED   = $(COMMON) cases/beyond program/edge_load
+READER   = $(addprefix program/,statements build msh reader model cell)
+PROGRAM  = $(READER) $(addprefix program/,main write output plot scene edge_load)
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures programs \
            check_scenes $(TORTURE)
@@ -97,7 +96,7 @@ figures: $O/figures
 $O/figures: $O/doc/figures.o $O/program/plot.o $O/program/output.o $(CORE:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bbm: $(PROGRAM:%=$O/%.o) $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
+$O/bbm: $(PROGRAM:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
@@ -119,7 +118,7 @@ $O/failing/%.o: %.c $(HEADERS) Makefile
 	$(CC) $(STRICT) $(FAILING) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # The programs with that allocator take the number of allocations from the environment, TEST_ALLOCATIONS.
-$O/failing/bbm: $(PROGRAM:%=$O/failing/%.o) $(SHARED:%=$O/failing/%.o) $(LIBRARY:%=$O/failing/%.o) \
+$O/failing/bbm: $(PROGRAM:%=$O/failing/%.o) $(LIBRARY:%=$O/failing/%.o) \
 $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
@@ -248,13 +247,13 @@ WINDOWS = x86_64-w64-mingw32-gcc
 
 windows:
 	@mkdir -p out/windows
-	$(WINDOWS) $(STRICT) -Wno-float-conversion $(CPPFLAGS) $(CFLAGS) -static -o out/windows/bbm.exe $(PROGRAM:%=%.c) $(SHARED:%=%.c) \
+	$(WINDOWS) $(STRICT) -Wno-float-conversion $(CPPFLAGS) $(CFLAGS) -static -o out/windows/bbm.exe $(PROGRAM:%=%.c) \
 	$(LIBRARY:%=%.c) -lm
 
 fuzz:
 	@mkdir -p out/corpus
 	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz tests/fuzz_model.c \
-	$(READER:%=%.c) $(SHARED:%=%.c) $(LIBRARY:%=%.c) -lm
+	$(READER:%=%.c) $(LIBRARY:%=%.c) -lm
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
 # What a student has written in out/exercise stays.

@@ -6,11 +6,9 @@
 #include <stdio.h>
 
 #include "../bbm.h"
+#include "../program/cell.h"
 #include "../program/plot.h"
 #include "../program/scene.h"
-
-/* How a cell of a grid is cut: not, in 2, in 4 triangles. */
-enum { CASE_QUADS, CASE_ALTERNATING, CASE_CROSSED };
 
 static const double case_alpha[4] = { 10, 100, 1000, 1e5 };     /* of the tables of convergence */
 
@@ -42,9 +40,6 @@ void   case_must(const bbm_model *m, bbm_status s);
 bbm_model *case_model(void);
 bbm_model *case_paper_model(void);
 
-/* The elements of a cell, of so many corners each; returns their number. node[4] is the one in the
- * middle, where it is crossed; odd: i + j of its place. */
-int    case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners);
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
 /* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h, then turned about the

@@ -85,7 +85,7 @@ void exp1_add_beam(bbm_model *m, char variant, case_grid *g)
 bbm_model *exp1_beam(char variant, int k, double alpha)
 {
     bbm_model *m = case_paper_model();
-    case_grid g = { .nx = 25 * k, .ny = 6 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
+    case_grid g = { .nx = 25 * k, .ny = 6 * k, .cut = CELL_CROSSED, .map = place, .context = &k };
 
     exp1_add_beam(m, variant, &g);
     m->par.alpha = alpha;

@@ -69,7 +69,7 @@ static void place(double i, double j, const void *division, double xy[2])
 static bbm_model *solve_plate(const char *variant, int k, double alpha)
 {
     bbm_model *m = case_paper_model();
-    case_grid g = { .nx = 17 * k, .ny = 12 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
+    case_grid g = { .nx = 17 * k, .ny = 12 * k, .cut = CELL_CROSSED, .map = place, .context = &k };
     static const double right[2] = { 1, 0 }, top[2] = { 0, 1 };
     const int row = g.nx + 1, exact = strcmp(variant, "k5") == 0;
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reader.h"
+#include "build.h"
 
 /* Of the model's size: nodes closer to a given place, or to the rim of a box, are there. */
 #define NEAR 1e-6
@@ -282,7 +282,7 @@ static int read_place(model_reader *r, place *w)
     if (w->kind == 4)
         return !model_look(r) ? model_word(r) != NULL
              : model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME or box "
-                              "XMIN YMIN XMAX YMAX in: %s", model_look(r), model_form(r->s));
+                              "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
     for (int k = 0; k < numbers[w->kind]; k++)
         if (!model_number(r, &w->x[k]))
             return 0;
@@ -341,7 +341,7 @@ int model_fix(model_reader *r)
             return model_wrong(r, "unknown option", model_look(r));
         if (directions & 1 << a)
             return model_blame(r, "%s for the second time, expected: %s", name[a],
-                               model_form(r->s));
+                               r->s->form);
         directions |= 1 << a;
         if (model_skip(r, "by") && !model_number(r, &by[a]))
             return 0;

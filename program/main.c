@@ -1,4 +1,4 @@
-/* main.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results
+/* main.c - ./bbm MODEL runs a model file: reads it (statements.c), steps, writes the results
  * (write.c).
  *
  * Exit status: 0, all is done, and as expected; 1, the run failed, with what was computed until
@@ -13,6 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "statements.h"
 #include "write.h"
 
 /* The signal that came. Signals have no other way to say something: this variable, and it alone,

@@ -1,12 +1,12 @@
 /* model.h - a problem read from a model file: ten lines of text, or a mesh from Gmsh, in place of
  * a program.
  *
- * model_read gives the prepared library model and what the library does not keep: names, pictures
- * wanted, monitors. A node of the file that several blocks share becomes a node of each of them,
+ * It has the prepared library model and what the library does not keep: names, pictures wanted,
+ * monitors. A node of the file that several blocks share becomes a node of each of them,
  * for blocks are never bonded and each has its own results there. These copies are the nodes of
  * the library's model, in the order of the file.
  *
- * reader.h has what the readers of the files share.
+ * statements.h reads it.
  */
 #ifndef MODEL_H
 #define MODEL_H
@@ -46,9 +46,6 @@ typedef struct {
     char   message[600];
 } model;
 
-/* Reads and checks all; returns the status. `path` may be -, which is stdin. let: `NAME=VALUE` in
- * place of what the file says, [lets]. model_free releases a model that failed, too. */
-int  model_read(const char *path, int lets, char *const let[], model *p);
 double model_mises(const bbm_model *m, int element);                       /* Pa */
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p, double t);                  /* to where they are at the time t */

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reader.h"
+#include "msh.h"
 
 /* A physical group with its name, or an entity (point, curve, surface) with its groups tag[first
  * .. first+n-1]. */

@@ -80,7 +80,7 @@ typedef struct {
     double pressure;
 } scene_line;
 
-/* beyond.c: load k of those that are given for an edge; 0: there are no more. */
+/* edge_load.c: load k of those that are given for an edge; 0: there are no more. */
 int scene_edge_load(const bbm_model *m, int k, scene_line *l);
 
 #endif

@@ -9,7 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "../cases/case.h"
 #include "write.h"
 
 enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */

@@ -1,0 +1,723 @@
+/* statements.c - the statements of a model file, in a table near the end: each with its form, the
+ * function that carries it out and the phase in which it does, so that a file may have them in
+ * any order.
+ *
+ *     NUMBERS          let                        before all others: $NAME is replaced in them
+ *     NOTHING_NEEDED   title, node, mesh, material, and all that goes into the parameters
+ *     NODES            element                    needs nodes and materials
+ *     MADE             block, grid                number on from the largest ids
+ *     ALL_NODES        set                        needs nodes
+ *     BLOCKS           use, fixblock              need blocks
+ *     MODEL            the rest, on the library's model, which is built and prepared: build.c
+ *     MONITORS         expect                     needs monitors */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "build.h"
+#include "cell.h"
+#include "msh.h"
+#include "scene.h"
+#include "statements.h"
+
+enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
+
+/* Letters of an id, of a name; cells of a grid. */
+enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000 };
+
+/* -------------------------------------------------------------------------- numbers with a name */
+
+/* What the command line says of a name, the last time, or NULL. */
+static char *given(const model_reader *r, const char *name)
+{
+    const size_t n = strlen(name);
+
+    for (int k = r->lets; k-- > 0; )
+        if (strncmp(r->let[k], name, n) == 0 && r->let[k][n] == '=')
+            return r->let[k] + n + 1;
+    return NULL;
+}
+
+/* The length of the longest name with a value that the text begins with; 0: none. */
+static size_t name_at(model_reader *r, const char *text, char name[NAME_ROOM])
+{
+    size_t n = strspn(text, MODEL_NAME);
+
+    for (n = n < NAME_ROOM ? n : NAME_ROOM - 1; n > 0; n--) {
+        memcpy(name, text, n);
+        name[n] = '\0';
+        if (model_find(&r->let_of, name) >= 0)
+            break;
+    }
+    return n;
+}
+
+/* Puts the value in place of each $NAME of a word. */
+static int expand(model_reader *r, char **word)
+{
+    char name[NAME_ROOM], *dollar;
+
+    while ((dollar = strchr(*word, '$')) != NULL) {
+        const size_t n = name_at(r, dollar + 1, name);
+        if (n == 0) {
+            char text[200];
+            snprintf(name, sizeof name, "%.*s", (int)strspn(dollar + 1, MODEL_NAME), dollar + 1);
+            return model_blame(r, "no `let` says what $%.60s is%s%s", name,
+                               r->let_of.count ? ", expected one such as $" : "",
+                               model_nearest_of(&r->let_of, name, text));
+        }
+        const char *value = r->word[model_find(&r->let_of, name)];
+        char *text = model_text(r, strlen(*word) + strlen(value));
+        if (!text)
+            return 0;
+        sprintf(text, "%.*s%s%s", (int)(dollar - *word), *word, value, dollar + 1 + n);
+        *word = text;
+    }
+    return 1;
+}
+
+static int expand_statement(model_reader *r)
+{
+    int good = 1;
+
+    for (int k = 0; k < r->s->n && good; k++)
+        good = expand(r, &r->word[r->s->first + k]);
+    return good;
+}
+
+/* The number is the word behind the name, or that of the command line in its place. */
+static int read_let(model_reader *r)
+{
+    const char *word = expand_statement(r) ? model_name(r) : NULL;
+    char *other = word ? given(r, word) : NULL;
+    const int at = r->s->first + r->next;
+    double x;
+
+    if (!word || !model_is_new(r, &r->let_of, "let", word) || !model_numbers(r, 1, &x))
+        return 0;
+    if (other) {
+        r->word[at] = other;
+        r->next--;
+        if (!model_number(r, &x))
+            return 0;
+    }
+    return model_enter(r, &r->let_of, word, at);
+}
+
+/* All statements get the numbers; each -d needs its let. */
+static int give_numbers(model_reader *r)
+{
+    for (int k = 0; k < r->statements; k++) {
+        r->s = &r->statement[k];
+        if (!expand_statement(r))
+            return 0;
+    }
+    for (int k = 0; k < r->lets; k++) {
+        char name[NAME_ROOM], text[200];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
+        if (!strchr(r->let[k], '=') || model_find(&r->let_of, name) < 0)
+            return model_fail(r, (model_place){ r->path, 0 },
+                              "-d %.60s: expected NAME=VALUE with a name of a `let`%s%s", r->let[k],
+                              r->let_of.count ? ", such as " : "; the model has none",
+                              model_nearest_of(&r->let_of, name, text));
+    }
+    return 1;
+}
+
+/* ----------------------------------------------------------------- statements that need nothing */
+
+static int read_title(model_reader *r)
+{
+    r->p->title = model_word(r);
+    return r->p->title != NULL;
+}
+
+static int read_node(model_reader *r)
+{
+    model_node n = { .id = model_id(r), .at = r->s->at, .by_hand = 1, .first = -1 };
+
+    return n.id && model_number(r, &n.x) && model_number(r, &n.y) && model_at_end(r)
+           && model_add_node(r, &n);
+}
+
+static int read_mesh(model_reader *r)
+{
+    const char *word = model_word(r), *slash = strrchr(r->path, '/');
+
+    if (!word || !model_at_end(r))
+        return 0;
+    const size_t folder = slash && word[0] != '/' ? (size_t)(slash + 1 - r->path) : 0,
+                 length = strlen(word) + 1;
+    char *path = model_text(r, folder + length);
+    if (!path)
+        return 0;
+    memcpy(path, r->path, folder);
+    memcpy(path + folder, word, length);
+    return model_read_mesh(r, path, r->s->at);
+}
+
+static int read_material(model_reader *r)
+{
+    const char *word = model_name(r);
+    bbm_material m = { .thickness = 1 };
+    model_option o[] = {
+        ABOVE_ZERO("E", &m.E), ABOVE_ZERO("density", &m.density),
+        RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
+        ABOVE_ZERO("thickness", &m.thickness),
+    };
+
+    o[0].needed = o[1].needed = o[2].needed = 1;
+    return word && model_is_new(r, &r->material_of, "material", word)
+           && model_options(r, LENGTH(o), o)
+           && model_enter(r, &r->material_of, word, r->materials)
+           && model_add(r, &r->material, &r->materials, sizeof m, &m);
+}
+
+static int read_gravity(model_reader *r) { return model_numbers(r, 2, r->p->m->par.gravity); }
+
+static int read_shake(model_reader *r)
+{
+    bbm_beyond *b = r->p->m->beyond;
+
+    return model_number(r, &b->shake[0]) && model_number(r, &b->shake[1])
+           && model_numbers(r, 1, &b->shake_omega);
+}
+
+static int read_plane(model_reader *r)
+{
+    return model_choice(r, "stress|strain", &r->plane_strain) && model_at_end(r);
+}
+
+static int read_contact(model_reader *r)
+{
+    bbm_parameters *p = &r->p->m->par;
+    model_option o[] = {
+        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &p->cohesion),
+        FROM_ZERO("tension", &p->tension),
+        ANGLE("friction", &p->friction),
+    };
+
+    return model_options(r, LENGTH(o), o);
+}
+
+static int read_static(model_reader *r)
+{
+    bbm_parameters *p = &r->p->m->par;
+    model_option o[] = { COUNT("steps", &p->steps, 1), ABOVE_ZERO("tolerance", &p->tolerance) };
+
+    p->steps = 1;
+    return model_options(r, LENGTH(o), o);
+}
+
+static int read_dynamic(model_reader *r)
+{
+    bbm_parameters *p = &r->p->m->par;
+    model_option o[] = {
+        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
+        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
+    };
+
+    o[0].needed = o[1].needed = 1;
+    p->velocity_factor = 1;
+    r->p->dynamic = 1;
+    r->p->ramp = -1;
+    if (!model_options(r, LENGTH(o), o))
+        return 0;
+    r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
+    return 1;
+}
+
+static int read_bond(model_reader *r)
+{
+    static const bbm_bonding bonding[] = { BBM_VERTICES, BBM_MIDPOINTS, BBM_MOMENT, BBM_MOMENT };
+    bbm_beyond *b = r->p->m->beyond;
+    int kind = 3;
+    model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
+                         COUNT("augment", &b->multiplier_rounds, 0),
+                         CHOICE("at", &kind, "vertices|midpoints|moment|auto") };
+
+    if (!model_options(r, LENGTH(o), o))
+        return 0;
+    b->bonding = bonding[kind];
+    return 1;
+}
+
+static int read_pcg(model_reader *r)
+{
+    bbm_pcg *p = &r->p->m->par.pcg;
+    int coarse = 0;
+    model_option o[] = {
+        RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
+        RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1"),
+        COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
+    };
+
+    if (!model_options(r, LENGTH(o), o))
+        return 0;
+    p->method = coarse == 0 ? &bbm_two_level : &bbm_eisenstat;
+    return 1;
+}
+
+static int read_rotation(model_reader *r)
+{
+    int kind;
+
+    if (!model_choice(r, "exact|linear", &kind) || !model_at_end(r))
+        return 0;
+    r->p->m->beyond->rotation = kind == 0 ? BBM_EXACT : BBM_LINEAR;
+    return 1;
+}
+
+static int read_output(model_reader *r)
+{
+    static const char *const fields[] = SCENE_FIELDS;
+    int field = 0;
+    model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
+                   { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
+                   CHOICE("field", &field, "mises|sxx|syy|sxy|s1|s2|u|v") };
+
+    if (!model_options(r, LENGTH(o), o))
+        return 0;
+    r->p->field = fields[field];
+    return 1;
+}
+
+/* ------------------------------------------------------------------- statements that need nodes */
+
+static int read_element(model_reader *r)
+{
+    model_element e = { .id = model_id(r), .at = r->s->at };
+    const char *block = e.id ? model_name(r) : NULL;
+
+    if (!block || (e.material = model_known(r, &r->material_of, "material", model_word(r))) < 0)
+        return 0;
+    e.n = r->s->n - r->next;
+    if (e.n < 3)
+        return model_fail(r, e.at, "element %s has %d nodes, expected 3 or more", e.id, e.n);
+    int *corner = model_room(r, e.n, sizeof *corner),
+        good = corner && (e.block = model_find_block(r, block, e.at)) >= 0;
+    for (int k = 0; k < e.n && good; k++)
+        good = (corner[k] = model_known(r, &r->node_of, "node", model_id(r))) >= 0;
+    good = good && model_add_element(r, &e, corner);
+    free(corner);
+    return good;
+}
+
+/* ----------------------------------------------------- blocks and grids with nodes of their own */
+
+/* The largest id of those there are; they are whole numbers. */
+static int find_last(model_reader *r, int of_elements)
+{
+    const int n = of_elements ? r->elements : r->nodes;
+
+    for (int k = 0; k < n; k++) {
+        const char *word = of_elements ? r->element[k].id : r->node[k].id;
+        if (strlen(word) > 17)
+            return model_blame(r, "an id of %d digits, expected at most 17 where blocks are "
+                               "numbered on", (int)strlen(word));
+        const long long value = strtoll(word, NULL, 10);
+        if (value > r->last[of_elements])
+            r->last[of_elements] = value;
+    }
+    return 1;
+}
+
+/* The next id of a node or element, kept as text. */
+static const char *next_id(model_reader *r, int of_elements)
+{
+    if (r->last[of_elements] == 0 && !find_last(r, of_elements))
+        return NULL;
+    char *text = model_text(r, ID_ROOM);
+    if (text)
+        snprintf(text, ID_ROOM, "%lld", ++r->last[of_elements]);
+    return text;
+}
+
+static int add_own_node(model_reader *r, double x, double y)
+{
+    const model_node n = {
+        .id = next_id(r, 0), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
+    };
+
+    return n.id && model_add_node(r, &n);
+}
+
+static int add_own_element(model_reader *r, int block, int material, int n, const int corner[])
+{
+    const model_element e = { next_id(r, 1), r->s->at, block, material, 0, n };
+
+    return e.id && model_add_element(r, &e, corner);
+}
+
+/* NAME MATERIAL of a new block; its number, or -1. */
+static int new_block(model_reader *r, const char **word, int *material)
+{
+    *word = model_name(r);
+    if (!*word || !model_is_new(r, &r->block_of, "block", *word)
+        || (*material = model_known(r, &r->material_of, "material", model_word(r))) < 0)
+        return -1;
+    return model_find_block(r, *word, r->s->at);
+}
+
+static int read_block(model_reader *r)
+{
+    const char *word;
+    int material, good = 1;
+    const int block = new_block(r, &word, &material), words = r->s->n - r->next;
+
+    if (block < 0)
+        return 0;
+    int *corner = model_room(r, words, sizeof *corner);
+    double xy[2] = { 0, 0 };
+    for (int k = 0; k < words && good; k++) {
+        good = corner && model_number(r, &xy[k % 2])
+            && (k % 2 == 0 || add_own_node(r, xy[0], xy[1]));
+        if (good)
+            corner[k / 2] = r->nodes - 1;
+    }
+    if (good && (words < 6 || words % 2))
+        good = model_blame(r, "block '%s' has %d coordinates, expected X Y of 3 corners or more",
+                           word, words);
+    good = good && add_own_element(r, block, material, words / 2, corner);
+    free(corner);
+    return good;
+}
+
+/* The nodes from `first` on, `step` apart, as the set NAME.side. */
+static int add_rim(model_reader *r, const char *block, const char *side, int first, int step, int n)
+{
+    char *word = model_text(r, strlen(block) + strlen(side) + 1);
+
+    if (!word)
+        return 0;
+    sprintf(word, "%s.%s", block, side);
+    int set = model_is_new(r, &r->set_of, "set", word) ? model_find_set(r, word) : -1;
+    for (int k = 0; k < n && set >= 0; k++)
+        if (!model_add_to_set(r, set, first + k * step))
+            set = -1;
+    return set >= 0;
+}
+
+static int read_grid(model_reader *r)
+{
+    double p[4];
+    int material, n[2], kind = CELL_QUADS, good = 1, element[4][4], corners;
+    const char *word;
+    const int block = new_block(r, &word, &material), first = r->nodes;
+
+    for (int k = 0; k < 4 && good; k++)
+        good = block >= 0 && model_number(r, &p[k]);
+    if (!good || !model_whole(r, "NX", 1, &n[0]) || !model_whole(r, "NY", 1, &n[1])
+        || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind))
+        || !model_at_end(r))
+        return 0;
+    if (!(p[0] < p[2] && p[1] < p[3]))
+        return model_blame(r, "a grid from %g %g to %g %g, expected X0 < X1 and Y0 < Y1", p[0],
+                           p[1], p[2], p[3]);
+    if ((double)n[0] * n[1] > MOST_CELLS)
+        return model_blame(r, "a grid of %d x %d cells, expected at most %d", n[0], n[1],
+                           MOST_CELLS);
+    for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && good; k++) {
+        const double s = (double)(k % (n[0] + 1)) / n[0], t = (double)(k / (n[0] + 1)) / n[1];
+        good = add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
+    }
+    for (int k = 0; k < n[0] * n[1] && good; k++) {
+        const int a = first + k / n[0] * (n[0] + 1) + k % n[0], d = a + n[0] + 1;
+        const int corner[5] = { a, a + 1, d + 1, d, r->nodes };
+        if (kind == CELL_CROSSED)
+            good = add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
+                                (r->node[a].y + r->node[d + 1].y) / 2);
+        const int cells = cell_cut(kind, (k / n[0] + k % n[0]) % 2, corner, element, &corners);
+        for (int c = 0; c < cells && good; c++)
+            good = add_own_element(r, block, material, corners, element[c]);
+    }
+    return good && add_rim(r, word, "left", first, n[0] + 1, n[1] + 1)
+        && add_rim(r, word, "right", first + n[0], n[0] + 1, n[1] + 1)
+        && add_rim(r, word, "bottom", first, 1, n[0] + 1)
+        && add_rim(r, word, "top", first + n[1] * (n[0] + 1), 1, n[0] + 1);
+}
+
+/* --------------------------------------------------------------- statements that need all nodes */
+
+static int read_set(model_reader *r)
+{
+    const char *word = model_name(r);
+
+    if (!word || !model_is_new(r, &r->set_of, "set", word) || !model_keyword(r, "nodes"))
+        return 0;
+    const int set = model_find_set(r, word);
+    for (int good = set >= 0, first = 1; first || model_look(r); first = 0) {
+        const int node = good ? model_known(r, &r->node_of, "node", model_id(r)) : -1;
+        if (node < 0 || !model_add_to_set(r, set, node))
+            return 0;
+    }
+    return 1;
+}
+
+/* A block of the mesh gets the material; `*`: every one that has none of its own. */
+static int read_use(model_reader *r)
+{
+    const int material = model_known(r, &r->material_of, "material", model_word(r));
+
+    if (material < 0 || !model_keyword(r, "on"))
+        return 0;
+    const char *word = model_word(r);
+    const int star = word && strcmp(word, "*") == 0;
+    const int block = star ? 0 : model_known(r, &r->block_of, "block", word);
+    if (block < 0 || !model_at_end(r))
+        return 0;
+    if (!star && !r->block[block].meshed)
+        return model_blame(r, "block '%s' has its material in its own statement, expected a "
+                           "block of a mesh", word);
+    int *m = star ? &r->other_material : &r->block[block].material;
+    if (*m >= 0)
+        return model_blame(r, "a material for '%s' for the second time, expected one", word);
+    *m = material;
+    return 1;
+}
+
+static int read_fixblock(model_reader *r)
+{
+    const int block = model_next_block(r);
+
+    if (block < 0 || !model_at_end(r))
+        return 0;
+    if (r->block[block].fixed)
+        return model_blame(r, "block '%s' is fixed for the second time, expected once",
+                           r->block[block].name);
+    return r->block[block].fixed = 1;
+}
+
+/* ------------------------------------------------------------------------- what should come out */
+
+static int read_expect(model_reader *r)
+{
+    model *p = r->p;
+    model_expected e = { 0 };
+    const int monitor = model_known(r, &r->monitor_of, "monitor", model_word(r));
+
+    if (monitor < 0 || !model_choice(r, "u|v|moves|stays", &e.kind))
+        return 0;
+    e.monitor = monitor;
+    const int value = e.kind == MODEL_U || e.kind == MODEL_V;
+    if ((value && !model_number(r, &e.value)) || !model_keyword(r, value ? "within" : "by"))
+        return 0;
+    char *last = model_look(r);
+    const size_t n = last ? strlen(last) : 0;
+    const int percent = value && n > 1 && last[n - 1] == '%';
+    if (percent)
+        last[n - 1] = '\0';
+    if (!model_number(r, &e.within))
+        return 0;
+    if (e.within <= 0)
+        return model_blame(r, "a tolerance of %g, expected more than 0", e.within);
+    if (value && (percent || model_skip(r, "%")) && (e.within *= fabs(e.value) / 100) <= 0)
+        return model_blame(r, "a tolerance in %% of 0, expected one in metre");
+    return model_at_end(r) && model_add(r, &p->expected, &p->expectations, sizeof e, &e);
+}
+
+/* ------------------------------------------------------------------------------------ the table */
+
+static const struct kind {
+    const char *name, *form;
+    int (*read)(model_reader *r);
+    int phase, once;
+} kinds[] = {
+    { "let", "let NAME VALUE", read_let, NUMBERS, 0 },
+    { "title", "title TEXT", read_title, NOTHING_NEEDED, 1 },
+    { "node", "node ID X Y", read_node, NOTHING_NEEDED, 0 },
+    { "mesh", "mesh FILE.msh", read_mesh, NOTHING_NEEDED, 0 },
+    { "material", "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material,
+      NOTHING_NEEDED, 0 },
+    { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, 1 },
+    { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, 1 },
+    { "shake", "shake AX AY OMEGA", read_shake, NOTHING_NEEDED, 1 },
+    { "contact",
+      "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
+      read_contact, NOTHING_NEEDED, 1 },
+    { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
+    { "dynamic", "dynamic dt VALUE steps N [damping VALUE] [settle N] [ramp T]", read_dynamic,
+      NOTHING_NEEDED, 1 },
+    { "bond", "bond [alpha VALUE] [augment N] [at vertices|midpoints|moment|auto]", read_bond,
+      NOTHING_NEEDED, 1 },
+    { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
+      NOTHING_NEEDED, 1 },
+    { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
+    { "output", "output [every N] [vtk] [svg] [field mises|sxx|syy|sxy|s1|s2|u|v] [scale N]",
+      read_output, NOTHING_NEEDED, 1 },
+    { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
+    { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
+    { "grid", "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE,
+      0 },
+    { "set", "set NAME nodes ID ID ...", read_set, ALL_NODES, 0 },
+    { "use", "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
+    { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
+    { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
+      model_joint, MODEL, 0 },
+    { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, 0 },
+    { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, 0 },
+    { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, 0 },
+    { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, 0 },
+    { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
+    { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
+    { "stress", "stress BLOCK SXX SYY SXY", model_stress, MODEL, 0 },
+    { "monitor", "monitor NAME WHERE [of BLOCK]", model_monitors, MODEL, 0 },
+    { "expect",
+      "expect NAME u|v VALUE within TOLERANCE [%], or expect NAME moves|stays by TOLERANCE",
+      read_expect, MONITORS, 0 },
+};
+
+/* Finds the statement that begins with the word; whether it may stand here. */
+static int begin_statement(model_reader *r, const char *word, model_place at)
+{
+    int k = 0;
+
+    while (k < LENGTH(kinds) && strcmp(kinds[k].name, word) != 0)
+        k++;
+    if (k == LENGTH(kinds)) {
+        char text[200];
+        return model_fail(r, at, "unknown statement '%.60s', expected one such as %s", word,
+                          model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text));
+    }
+    if (kinds[k].once && r->seen[k].line > 0)
+        return model_fail(r, at, "%s for the second time, after line %d, expected it once", word,
+                          r->seen[k].line);
+    r->seen[k] = at;
+    const model_statement s = { at, r->words, 0, k, kinds[k].form };
+    return model_add(r, &r->statement, &r->statements, sizeof s, &s);
+}
+
+/* One line without its end: the statement and its words. The text of a title is one word. */
+static int cut_line(model_reader *r, char *line, model_place at)
+{
+    static const char blanks[] = " \t\r\f\v";
+
+    line[strcspn(line, "#")] = '\0';
+    for (int k = 0; *(line += strspn(line, blanks)) != '\0'; k++) {
+        char *end = line + strcspn(line, blanks);
+        const int title = k == 1 && kinds[r->statement[r->statements - 1].kind].read == read_title;
+        if (title)
+            for (end = line + strlen(line); strchr(blanks, end[-1]); )
+                end--;
+        const int more = *end != '\0';
+        *end = '\0';
+        if (k == 0 ? !begin_statement(r, line, at)
+                   : !model_add(r, &r->word, &r->words, sizeof line, &line))
+            return 0;
+        r->statement[r->statements - 1].n = k;
+        line = end + more;
+    }
+    return 1;
+}
+
+static int cut_file(model_reader *r, char *text, size_t size)
+{
+    char *end = text + size;
+    model_place at = { r->path, 1 };
+
+    if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)     /* UTF-8's mark of some editors */
+        text += 3;
+    for (char *next; text < end; text = next, at.line++) {
+        char *stop = memchr(text, '\n', (size_t)(end - text));
+        next = stop ? stop + 1 : end;
+        if (stop)
+            *stop = '\0';
+        if (text + strlen(text) < (stop ? stop : end))
+            return model_fail(r, at, "a zero byte: the file is binary, expected text");
+        if (!cut_line(r, text, at))
+            return 0;
+    }
+    return 1;
+}
+
+static int read_phase(model_reader *r, int phase)
+{
+    for (int k = 0; k < r->statements && !r->p->status; k++) {
+        r->s = &r->statement[k];
+        r->next = 0;
+        if (kinds[r->s->kind].phase == phase)
+            kinds[r->s->kind].read(r);
+    }
+    return !r->p->status;
+}
+
+/* Where the statement stands that is read so; line 0: nowhere. */
+static const model_place *place_of(const model_reader *r, int (*read)(model_reader *r))
+{
+    int k = 0;
+
+    while (kinds[k].read != read)
+        k++;
+    return &r->seen[k];
+}
+
+static int check_kind(model_reader *r)
+{
+    const model_place *s = place_of(r, read_static), *d = place_of(r, read_dynamic),
+                      *v = place_of(r, model_velocities), *a = place_of(r, read_shake);
+
+    if (s->line && d->line)
+        return model_fail(r, s->line > d->line ? *s : *d,
+                          "static and dynamic, expected one of them");
+    if (!s->line && !d->line)
+        return model_fail(r, (model_place){ r->path, 0 },
+                          "neither static nor dynamic, expected one of them");
+    if (s->line && (v->line || a->line))
+        return model_fail(r, v->line ? *v : *a, "%s in statics, expected dynamic",
+                          v->line ? "velocity" : "shake");
+    return 1;
+}
+
+static void free_reader(model_reader *r)
+{
+    model_table *table[] = { &r->node_of, &r->element_of, &r->block_of, &r->material_of,
+                             &r->set_of,  &r->monitor_of, &r->let_of };
+
+    for (int k = 0; k < LENGTH(table); k++) {
+        free(table[k]->value);
+        free((void *)table[k]->key);
+    }
+    for (int k = 0; k < r->sets; k++)
+        free(r->set[k].node);
+    free(r->word), free(r->statement), free(r->node), free(r->element), free(r->corner),
+        free(r->block);
+    free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
+}
+
+static int read_all(model_reader *r)
+{
+    size_t size;
+    char *text = model_load(r, r->path, (model_place){ r->path, 0 }, &size);
+
+    if (!text || !cut_file(r, text, size) || !check_kind(r))
+        return 0;
+    for (int phase = 0; phase < PHASES; phase++)
+        if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase)
+            || (phase == NUMBERS && !give_numbers(r)))
+            return 0;
+    return model_finish(r);
+}
+
+int model_read(const char *path, int lets, char *const let[], model *p)
+{
+    model_place seen[LENGTH(kinds)] = { { 0 } };
+    model_reader r = { .p = p, .path = path, .lets = lets, .let = let, .other_material = -1,
+                       .seen = seen };
+
+    *p = (model){ .field = "mises" };
+    if (bbm_beyond_new(&p->m)) {
+        model_out_of_memory(&r);
+    } else {
+        p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
+        p->m->beyond->multiplier_rounds = 2;
+        p->m->beyond->bonding = BBM_MOMENT;
+        p->m->par.faces = 1;
+        p->m->par.pcg.method = &bbm_two_level;
+        read_all(&r);
+    }
+    free_reader(&r);
+    return p->status;
+}
+
