@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../program/field.h"
 #include "case.h"
 
 static void stop(const char *what, const char *why)
@@ -136,7 +137,7 @@ double case_percent(double computed, double reference)
 
 double case_quantity(const bbm_result *r, const char *quantity)
 {
-    return scene_field(r, strcmp(quantity, "svm") ? quantity : "mises");
+    return field_find(strcmp(quantity, "svm") ? quantity : "mises")->of_result(r);
 }
 
 /* ---------------------------------------------------------------------------- blocks that touch */

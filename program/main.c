@@ -13,6 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "field.h"
 #include "statements.h"
 #include "write.h"
 
@@ -191,6 +192,7 @@ static void warn(const model *p, const char *path, int checking)
 static void summarise(const model *p, const char *folder)
 {
     const bbm_model *m = p->m;
+    const field *mises = field_find("mises");
     double far = 0, most = 0;
     int v_far = 0, e_most = 0;
 
@@ -198,8 +200,8 @@ static void summarise(const model *p, const char *folder)
         if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int e = 0; e < m->elements; e++)
-        if (model_mises(m, e) > most)
-            most = model_mises(m, e), e_most = e;
+        if (field_of_element(mises, m, e) > most)
+            most = field_of_element(mises, m, e), e_most = e;
     printf("%d step%s, ", m->info.step, plural(m->info.step));
     if (p->dynamic)
         printf("t = %g s, ", m->info.t);

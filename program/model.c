@@ -26,13 +26,6 @@ void model_place_of(const model *p, const model_monitor *m, double u[2])
     }
 }
 
-double model_mises(const bbm_model *m, int element)
-{
-    const bbm_element *e = &m->element[element];
-
-    return bbm_mises(e->stress, bbm_stress_out_of_plane(m, e));
-}
-
 /* Each block as a rigid body: v + spin x (X - barycentre of the block). */
 int model_start(model *p)
 {

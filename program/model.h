@@ -24,7 +24,7 @@ typedef struct {
     char  *title;               /* or NULL */
     int    dynamic, settle;     /* quasi-static steps before t = 0 */
     int    every, vtk, svg;     /* every: 0, the end only */
-    const char *field;          /* of the picture: mises, sxx, syy, sxy, s1, s2, u or v */
+    const char *field;          /* of the picture, a name of field.h */
     double scale;               /* by which it enlarges displacements; 0: as the picture chooses */
     int    slippery;            /* several blocks, which may touch, and no friction given */
     int    blocks, monitors;
@@ -46,7 +46,6 @@ typedef struct {
     char   message[600];
 } model;
 
-double model_mises(const bbm_model *m, int element);                       /* Pa */
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p, double t);                  /* to where they are at the time t */
 void model_place_of(const model *p, const model_monitor *m, double u[2]);   /* m, displaced */

@@ -24,6 +24,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "field.h"
 #include "plot.h"
 
 enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
@@ -843,18 +844,6 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } corner;          /* pixels */
 
-double scene_field(const bbm_result *r, const char *field)
-{
-    static const char *const name[] = SCENE_FIELDS;
-    const double *s = r->stress, mean = (s[0] + s[1]) / 2, radius = hypot((s[0] - s[1]) / 2, s[2]);
-    const double value[] = { r->mises, s[0], s[1], s[2], mean + radius, mean - radius, r->u, r->v };
-
-    for (int k = 0; name[k]; k++)
-        if (strcmp(name[k], field) == 0)
-            return value[k];
-    return NAN;
-}
-
 /* Whether no edge changes by more than FAIR of its length, the other end's turn included, and no
  * element loses half of its area. */
 static int is_fair(const bbm_model *m, const nodal *n, double scale)
@@ -995,11 +984,9 @@ static void draw_field(film *f, const nodal *n, const plot_axis *bar)
     draw_outlines(f, 1, "#000000");
 }
 
-static int write_field(film *f, const char *path, const nodal *n, const char *field)
+static int write_field(film *f, const char *path, const nodal *n, const field *shown)
 {
-    const int stress = strcmp(field, "u") && strcmp(field, "v");
-    const plot_quantity q = { .name = strcmp(field, "mises") ? field : "von Mises stress",
-                              .unit = stress ? "Pa" : "m" };
+    const plot_quantity q = { .name = shown->label, .unit = shown->unit };
     double range[2] = { INFINITY, -INFINITY };
 
     if (!begin_film(f))
@@ -1022,7 +1009,7 @@ static int write_field(film *f, const char *path, const nodal *n, const char *fi
 
 int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
 {
-    const char *field = map->field ? map->field : "mises";
+    const field *shown = field_find(map->field ? map->field : "mises");
     const size_t all = (size_t)m->vertices;
     double (*place)[2] = malloc(2 * all * sizeof *place);       /* as at the start, and magnified */
     nodal *n = malloc((size_t)m->nodes * sizeof *n);
@@ -1038,7 +1025,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
         for (int i = 0; i < m->nodes; i++) {
             bbm_result r;
             bbm_nodal_result(m, i, -1, &r);
-            n[i] = (nodal){ r.u, r.v, scene_field(&r, field) };
+            n[i] = (nodal){ r.u, r.v, field_of_node(shown, m, i) };
             finite &= isfinite(r.u + r.v + n[i].value);
         }
         const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
@@ -1052,7 +1039,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
                  map->title ? ", " : "", scale);
         s.title = scale == 0 || scale == 1 ? map->title : title;
         errno = EDOM;
-        done = finite && write_field(&f, path, n, field);
+        done = finite && write_field(&f, path, n, shown);
     }
     end_film(&f);
     free(place);

@@ -59,18 +59,14 @@ int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
 int  scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n,
                         const double time[]);
 
-/* Von Mises stress; stresses; principal stresses, the larger first; displacements. */
-#define SCENE_FIELDS { "mises", "sxx", "syy", "sxy", "s1", "s2", "u", "v", NULL }
-
 typedef struct {                /* contours of a field over the present state                     */
     const char *title;
-    const char *field;          /* one of SCENE_FIELDS; NULL: the first                           */
+    const char *field;          /* a name of field.h; NULL: mises                                 */
     double scale;               /* -        of the displacements; 0: the largest is about a tenth */
                                 /*          of the model, and less where an element or an edge    */
                                 /*          would change too much; < 0: they are not shown        */
 } scene_map;
 
-double scene_field(const bbm_result *r, const char *field);     /* NaN: there is none */
 int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
 
 /* A load along an edge from vertex a to b: the forces [N/m] at equal distances, and a pressure. */

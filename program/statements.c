@@ -17,8 +17,8 @@
 
 #include "build.h"
 #include "cell.h"
+#include "field.h"
 #include "msh.h"
-#include "scene.h"
 #include "statements.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
@@ -272,15 +272,19 @@ static int read_rotation(model_reader *r)
 
 static int read_output(model_reader *r)
 {
-    static const char *const fields[] = SCENE_FIELDS;
-    int field = 0;
+    char names[400] = "";
+    int chosen = -1;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
-                   CHOICE("field", &field, "mises|sxx|syy|sxy|s1|s2|u|v") };
+                   CHOICE("field", &chosen, names) };
 
+    for (const field *f = field_table; f->name; f++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
+                 f->name);
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    r->p->field = fields[field];
+    if (chosen >= 0)
+        r->p->field = field_table[chosen].name;
     return 1;
 }
 
@@ -545,7 +549,7 @@ static const struct kind {
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
       NOTHING_NEEDED, 1 },
     { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
-    { "output", "output [every N] [vtk] [svg] [field mises|sxx|syy|sxy|s1|s2|u|v] [scale N]",
+    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N]",
       read_output, NOTHING_NEEDED, 1 },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "field.h"
 #include "write.h"
 
 enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */
@@ -61,39 +62,45 @@ static void put_numbers(FILE *f, int n, const double x[])
         fprintf(f, ",%.15g", x[k]);
 }
 
+/* The names of the fields of a file. */
+static void put_names(FILE *f, int files)
+{
+    for (const field *q = field_table; q->name; q++)
+        if (q->files & files)
+            fprintf(f, ",%s", q->name);
+    fputc('\n', f);
+}
+
 static void put_nodes(FILE *f, const write_results *w)
 {
     const model *p = w->p;
+    const bbm_model *m = p->m;
 
-    fprintf(f, "node,block,x,y,u,v,sxx,syy,sxy,mises\n");
-    for (int n = 0; n < p->m->nodes; n++) {
-        bbm_result r;
-        bbm_nodal_result(p->m, n, -1, &r);
-        const double x[] = { p->m->node[n].x, p->m->node[n].y, r.u, r.v };
+    fprintf(f, "node,block,x,y");
+    put_names(f, FIELD_NODES);
+    for (int n = 0; n < m->nodes; n++) {
         fprintf(f, "%s,%s", p->node[n], p->block[p->node_block[n]]);
-        put_numbers(f, 4, x);
-        put_numbers(f, 3, r.stress);
-        put_numbers(f, 1, &r.mises);
+        put_numbers(f, 2, (double[]){ m->node[n].x, m->node[n].y });
+        for (const field *q = field_table; q->name; q++)
+            if (q->files & FIELD_NODES)
+                fprintf(f, ",%.15g", field_of_node(q, m, n));
         fputc('\n', f);
     }
 }
 
-/* In dynamics with the velocity of the barycentre that the last step hands on. */
 static void put_elements(FILE *f, const write_results *w)
 {
     const model *p = w->p;
+    const int files = p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS;
 
-    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises%s\n",
-            p->dynamic ? ",vx,vy,spin" : "");
+    fprintf(f, "element,block,x,y");
+    put_names(f, files);
     for (int e = 0; e < p->m->elements; e++) {
-        const bbm_element *i = &p->m->element[e];
-        const double mises = model_mises(p->m, e);
-        fprintf(f, "%s,%s", p->element[e], p->block[i->block]);
+        fprintf(f, "%s,%s", p->element[e], p->block[p->m->element[e].block]);
         put_numbers(f, 2, p->centre[e]);
-        put_numbers(f, 3, i->sum);
-        put_numbers(f, 3, i->stress);
-        put_numbers(f, 1, &mises);
-        put_numbers(f, p->dynamic ? 3 : 0, i->V);
+        for (const field *q = field_table; q->name; q++)
+            if (q->files & files)
+                fprintf(f, ",%.15g", field_of_element(q, p->m, e));
         fputc('\n', f);
     }
 }
@@ -186,14 +193,6 @@ static void put_timing(FILE *f, const write_results *w)
 
 /* ------------------------------------------------------------------------------------------ VTK */
 
-static double stress_of(const bbm_model *m, int element, const char *field)
-{
-    bbm_result r = { .mises = model_mises(m, element) };
-
-    memcpy(r.stress, m->element[element].stress, sizeof r.stress);
-    return scene_field(&r, field);
-}
-
 /* Legacy VTK, ASCII. */
 static void put_head(FILE *f, const write_results *w, const char *kind, int points)
 {
@@ -220,7 +219,6 @@ static void put_cells(FILE *f, const bbm_model *m)
 static void put_vtk(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
-    static const char *const name[] = { "sxx", "syy", "sxy", "mises", "s1", "s2" };
 
     put_head(f, w, "UNSTRUCTURED_GRID", m->nodes);
     for (int n = 0; n < m->nodes; n++)
@@ -229,10 +227,12 @@ static void put_vtk(FILE *f, const write_results *w)
     fprintf(f, "CELL_DATA %d\nSCALARS block int 1\nLOOKUP_TABLE default\n", m->elements);
     for (int e = 0; e < m->elements; e++)
         fprintf(f, "%d\n", m->element[e].block);
-    for (int k = 0; k < 6; k++) {
-        fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name[k]);
+    for (const field *q = field_table; q->name; q++) {
+        if (!(q->files & FIELD_CELLS))
+            continue;
+        fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", q->name);
         for (int e = 0; e < m->elements; e++)
-            fprintf(f, "%.15g\n", stress_of(m, e, name[k]));
+            fprintf(f, "%.15g\n", field_of_element(q, m, e));
     }
     fprintf(f, "POINT_DATA %d\nVECTORS u double\n", m->nodes);
     for (int n = 0; n < m->nodes; n++) {
@@ -311,9 +311,8 @@ static void draw_now(write_results *w, const char *name)
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    const char *field = w->p->field;
-    scene_map map = { w->p->title, field, w->p->scale };
-    char path[LONGEST], name[20];
+    scene_map map = { w->p->title, w->p->field, w->p->scale };
+    char path[LONGEST], name[100];
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
@@ -321,7 +320,7 @@ static void draw_pictures(write_results *w)
             fail(w, path, strerror(errno));
     if (w->p->dynamic && map.scale == 0)
         map.scale = 1;                          /* a static one is magnified */
-    snprintf(name, sizeof name, "%s.svg", field);
+    snprintf(name, sizeof name, "%.90s.svg", map.field);
     if (!scene_write_map(m, path_of(w, name, path), &map))
         fail(w, path, strerror(errno));
 }
@@ -410,8 +409,7 @@ static size_t is_ours(const char *name, long *process)
 {
     static const char *const all[] = {
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
-        "reactions.csv", "contacts.svg", "movie.svg", "model.svg", "mises.svg", "sxx.svg",
-        "syy.svg", "sxy.svg", "s1.svg", "s2.svg", "u.svg", "v.svg",
+        "reactions.csv", "contacts.svg", "movie.svg", "model.svg",
     };
     const size_t temporary = output_is_temporary(name, process),
                  n = temporary ? temporary : strlen(name);
@@ -425,6 +423,10 @@ static size_t is_ours(const char *name, long *process)
         return n;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
+            return n;
+    for (const field *q = field_table; q->name; q++)
+        if (n == strlen(q->name) + 4 && strncmp(name, q->name, n - 4) == 0
+            && strncmp(name + n - 4, ".svg", 4) == 0)
             return n;
     return 0;
 }
@@ -534,7 +536,7 @@ int write_close(write_results *w)
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
-    for (int k = 0; k < 4; k++)
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++)
         write_file(w, path_of(w, table[k].name, path), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);

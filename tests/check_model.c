@@ -203,7 +203,7 @@ static const wrong wrongs[] = {
     { "of-missing", ".model:7: a word is missing, expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
     { "of-other-block", ".model:7: no node there of block b, expected a place that names one" },
     { "of-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
-    { "output-field", ".model:7: 'szz', expected one of mises|sxx|syy|sxy|s1|s2|u|v" },
+    { "output-field", ".model:7: 'szz', expected one of u|v|rotation|sxx|syy|sxy|mises|s1|s2|vx|vy|spin" },
     { "output-scale", ".model:7: scale is 0, expected more than 0" },
     { "plane-kind", ".model:7: 'stain', expected one of stress|strain" },
     { "plane-twice", ".model:8: plane for the second time, after line 7, expected it once" },
