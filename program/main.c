@@ -223,7 +223,7 @@ static void warn_of_turns(const model *p, const char *path)
         most = fmax(most, fabs(p->m->element[e].sum[2]));
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         put_warning(path, "elements turn by more than 0.1 rad, which statics takes as small: "
-                          "lengths are wrong; dynamic with damping 0 has them right");
+                          "lengths are wrong; dynamic with velocity_factor 0 has them right");
 }
 
 /* What came out beside what was expected of it; the number of those not met. */

@@ -215,7 +215,8 @@ static int read_dynamic(model_reader *r)
     bbm_parameters *p = &r->p->m->par;
     model_option o[] = {
         ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
-        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),    /* the same */
         COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
     };
 
@@ -225,6 +226,8 @@ static int read_dynamic(model_reader *r)
     r->p->ramp = -1;
     if (!model_options(r, LENGTH(o), o))
         return 0;
+    if (o[2].seen && o[3].seen)
+        return model_blame(r, "velocity_factor and damping, which are the same, expected one");
     r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
     return 1;
 }
@@ -542,8 +545,8 @@ static const struct kind {
       "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
       read_contact, NOTHING_NEEDED, 1 },
     { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
-    { "dynamic", "dynamic dt VALUE steps N [damping VALUE] [settle N] [ramp T]", read_dynamic,
-      NOTHING_NEEDED, 1 },
+    { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",
+      read_dynamic, NOTHING_NEEDED, 1 },
     { "bond", "bond [alpha VALUE] [augment N] [at vertices|midpoints|moment|auto]", read_bond,
       NOTHING_NEEDED, 1 },
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
