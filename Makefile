@@ -1,5 +1,5 @@
 # make           builds the experiments        make check     every test (needs libcheck)
-# make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
+# make run       runs them: tables, pictures   make quick     the fast ones, and ./bbm once
 # make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
 # make bench     solver, friction: ratios      make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files, each beside its theory
@@ -32,13 +32,13 @@ SHARED   = $(COMMON) cases/beyond program/edge_load
 READER   = $(addprefix program/,statements build msh reader model cell field)
 PROGRAM  = $(READER) $(addprefix program/,main write output plot scene edge_load)
 TORTURE  = scenes ledger trial
-PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures programs \
+PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures \
            check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
-           check_theory check_equations
-SHARING  = models shapes systems
+           check_theory check_equations check_run
+SHARING  = models shapes systems programs
 HEADERS  = $(wildcard *.h beyond/*.h cases/*.h program/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
@@ -126,7 +126,7 @@ $(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failin
 $(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$(PROGRAMS:%=$O/tests/%.o): override CPPFLAGS += -DBUILD='"$O"'
+$(PROGRAMS:%=$O/tests/%.o) $O/tests/check_run.o $O/tests/programs.o: override CPPFLAGS += -DBUILD='"$O"'
 
 $O/tests/check_all.o: DEFINE = -DCASES
 $O/tests/check_paper.o: DEFINE = -DPAPER
@@ -136,7 +136,7 @@ $O/tests/check_all.o $O/tests/check_paper.o: tests/check_main.c $(HEADERS) Makef
 
 TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/rock.o $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
-$O/quick: $O/tests/check_main.o $(TESTED)
+$O/quick: $O/tests/check_main.o $(TESTED) | $O/bbm
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
 $O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(TESTED)
@@ -172,11 +172,17 @@ check-documents: $O/figures $O/bbm experiments
 	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
 
+# How large the project is, and may be.
+CODE = $(wildcard *.[ch] $(foreach f,base beyond cases program tests doc,$f/*.[ch] $f/*.awk $f/*.sh))
+
+check-budget:
+	@awk -f tests/budget.awk README.md $(CODE)
+
 # The tests in two parts side by side, each to a file: those of what the experiments print, and all others.
 PARTS = others experiments
 SAY   = $O/check > $O/$*.said 2>&1 || echo "ended with status $$?" >> $O/$*.said
 
-check: $(PARTS:%=check-%) check-exercises check-documents check-smoke
+check: $(PARTS:%=check-%) check-exercises check-documents check-budget check-smoke
 	@cat $(PARTS:%=$O/%.said)
 	@awk -F '[:,]' '/^[0-9]+%: Checks:/ { run += $$3; failed += $$5 + $$7 } /^ended with status/ { bad = 1 } \
 	END { print run " checks, " failed " failed" (bad ? ": not passed" : ""); exit bad }' $(PARTS:%=$O/%.said)
@@ -261,5 +267,5 @@ clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
-.PHONY: check $(PARTS:%=check-%) check-smoke check-exercises check-documents experiments exercise figures $(CALLS)
+.PHONY: check $(PARTS:%=check-%) check-smoke check-exercises check-documents check-budget experiments exercise figures $(CALLS)
 .DELETE_ON_ERROR:
