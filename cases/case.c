@@ -337,3 +337,9 @@ int case_draw(case_results *r, int done)
     }
     return done;
 }
+
+void case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[])
+{
+    for (int k = 0; k < n; k++)
+        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+}

@@ -90,6 +90,8 @@ const char *case_path(case_results *r, const char *file);       /* in the folder
 /* table [rows][columns] as CSV */
 void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
                          int columns, const double *table);
+typedef struct { const char *file; scene_map map; } case_map;
+void   case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[]);
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);

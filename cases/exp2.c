@@ -151,7 +151,7 @@ static void print_summary(const bbm_model *m)
 
     printf("\n| Experiment II, plate k5 [1e-6 m, MPa], alpha = 1000 | computed | exact | error |\n"
            "|---|---|---|---|\n");
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < LENGTH(at); i++) {
         const double value = computed(m, at[i].quantity, at[i].x, at[i].y);
         const double exact = theory(at[i].quantity, at[i].x, at[i].y);
         const double unit = at[i].quantity[0] == 's' ? 1e-6 : 1e6;
@@ -234,14 +234,14 @@ static void draw_lines(case_results *r, const bbm_model *const m[2], const case_
         { "fig19", "Fig. 19: hoop stress on the hole", "stt", "angle", 0, ROW, NY + 1 },
     };
 
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < LENGTH(line); i++)
         draw_line(r, m, b5, &line[i]);
 }
 
 /* Fig. 20-23. */
 static void draw_maps(case_results *r, const bbm_model *m)
 {
-    static const struct { const char *file; scene_map map; } map[] = {
+    static const case_map map[] = {
         { "fig20.svg", { "Fig. 20: stress sxx, plate b5", "sxx", -1 } },
         { "fig21a.svg", { "Fig. 21: stress syy, plate b5", "syy", -1 } },
         { "fig21b.svg", { "Fig. 21: stress sxy, plate b5", "sxy", -1 } },
@@ -250,8 +250,7 @@ static void draw_maps(case_results *r, const bbm_model *m)
         { "deformed.svg", { "Deformed plate b5, von Mises stress", "mises", 0 } },
     };
 
-    for (int k = 0; k < 6; k++)
-        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+    case_draw_maps(r, m, LENGTH(map), map);
 }
 
 /* ---------------------------------------------------------------------------------- convergence */

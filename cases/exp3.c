@@ -169,7 +169,7 @@ static void print_summary(const slide s[], int runs)
 
     printf("\n| Experiment III, displacement [m] at t = %g s | computed | exact | error |\n"
            "|---|---|---|---|\n", STEPS * DT);
-    for (int i = 0; i < 9 && row[i].k < runs; i++) {
+    for (int i = 0; i < LENGTH(row) && row[i].k < runs; i++) {
         const double value = s[row[i].k].at[STEPS][row[i].c];
         const double exact = row[i].c == 3 ? 0 : theory(STEPS * DT);
         if (exact > 0)

@@ -1,4 +1,4 @@
-/* edge_load.c - the loads of edges in pictures, of beyond/. `make paper` has paper.c in its place. */
+/* edge_load.c - the loads of edges that pictures show. `make paper` has paper.c in its place. */
 #include "../beyond/beyond.h"
 #include "scene.h"
 

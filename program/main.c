@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "field.h"
+#include "length.h"
 #include "statements.h"
 #include "write.h"
 
@@ -227,7 +228,7 @@ static void warn_of_turns(const model *p, const char *path)
 }
 
 /* What came out beside what was expected of it; the number of those not met. */
-static int compare(const model *p, int quiet)
+static int report_expectations(const model *p, int quiet)
 {
     static const char *const kind[] = { "u", "v", "moves", "stays" };
     int missed = 0;
@@ -236,7 +237,7 @@ static int compare(const model *p, int quiet)
         const model_expected *e = &p->expected[k];
         const int value = e->kind == MODEL_U || e->kind == MODEL_V;
         double u[2];
-        model_place_of(p, &p->monitor[e->monitor], u);
+        model_displacement(p, &p->monitor[e->monitor], u);
         const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
         const int met = value ? fabs(got - e->value) <= e->within
                       : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
@@ -424,7 +425,7 @@ static void catch_signals(void)
 #endif
     };
 
-    for (size_t k = 0; k < sizeof caught / sizeof *caught; k++)
+    for (int k = 0; k < LENGTH(caught); k++)
         if (signal(caught[k], stop) == SIG_IGN)
             signal(caught[k], SIG_IGN);
 }
@@ -503,7 +504,7 @@ static int run(model *p, const arguments *a, clock_t start)
     if (!a->quiet)
         summarise(p, a->folder);
     warn_of_turns(p, a->model);
-    return compare(p, a->quiet) > 0 ? 3 : 0;
+    return report_expectations(p, a->quiet) > 0 ? 3 : 0;
 }
 
 static int read_and_run(const arguments *a, clock_t start)

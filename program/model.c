@@ -12,10 +12,10 @@ void model_move_supports(model *p, double t)
 
     for (int n = 0; n < p->m->nodes && p->moving; n++)
         if (p->m->node[n].held)
-            bbm_move_support(p->m, n, share * p->wall[n][0], share * p->wall[n][1]);
+            bbm_move_support(p->m, n, share * p->moved_to[n][0], share * p->moved_to[n][1]);
 }
 
-void model_place_of(const model *p, const model_monitor *m, double u[2])
+void model_displacement(const model *p, const model_monitor *m, double u[2])
 {
     u[0] = u[1] = 0;
     for (int n = 0; n < m->nodes; n++) {
@@ -60,6 +60,6 @@ void model_free(model *p)
         free(p->monitor[k].node);
     free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
         free((void *)p->element);
-    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->wall);
+    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to);
     *p = (model){ 0 };
 }

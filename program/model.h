@@ -38,7 +38,7 @@ typedef struct {
     int    expectations;
     model_expected *expected;   /* [expectations] value and within: m */
     int    moving;              /* supports: whether any moves */
-    double (*wall)[2];          /* [m->nodes]   m, where it moves to */
+    double (*moved_to)[2];      /* [m->nodes]   m, from the start */
     double ramp;                /* s            in which; 0: at once */
     int    texts;
     char **text;                /* [texts]      the files read: names and ids are words of them */
@@ -48,7 +48,7 @@ typedef struct {
 
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p, double t);                  /* to where they are at the time t */
-void model_place_of(const model *p, const model_monitor *m, double u[2]);   /* m, displaced */
+void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
 void model_free(model *p);
 
 #endif

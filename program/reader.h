@@ -13,6 +13,7 @@
 
 #include <stddef.h>
 
+#include "length.h"
 #include "model.h"
 
 typedef struct { const char *file; int line; } model_place;     /* line 0: none is to blame */
@@ -70,8 +71,8 @@ typedef struct {
     long long last[2];                   /* the largest id of a node, of an element; 0: not known */
     int other_material;                     /* of `use MATERIAL on *`, or -1 */
     int plane_strain, no_shear;             /* no_shear: ks is 0 */
-    int chosen, places, *chosen_node;     /* what the last WHERE names: library nodes, of so many */
-                                            /* nodes of the file */
+    int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
+                                            /* many nodes of the file */
     double margin;                          /* m            lengths below it are none */
     const model_statement *s;               /* in hand, and its next word */
     int next;
@@ -139,7 +140,6 @@ int   model_options(model_reader *r, int n, model_option o[]);
 #define CHOICE(text, where, list) { .name = text, .n = where, .choices = list }
 /* The letters of a name. */
 #define MODEL_NAME "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-."
-#define LENGTH(array) ((int)(sizeof array / sizeof *array))
 
 /* --- nodes, elements, blocks and sets --- */
 int   model_add_node(model_reader *r, const model_node *n);

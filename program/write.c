@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "field.h"
+#include "length.h"
 #include "write.h"
 
 enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */
@@ -157,7 +158,7 @@ static void put_history(const write_results *w)
     fprintf(w->history.file, "%d,%.15g", w->step, time_of(w));
     for (int k = 0; k < p->monitors; k++) {
         double u[2];
-        model_place_of(p, &p->monitor[k], u);
+        model_displacement(p, &p->monitor[k], u);
         put_numbers(w->history.file, 2, u);
     }
     fputc('\n', w->history.file);
@@ -242,19 +243,6 @@ static void put_vtk(FILE *f, const write_results *w)
     }
 }
 
-/* The force on the block of P1, N out of the edge's block, or T along its edge. */
-static void put_force(FILE *f, const bbm_model *m, const bbm_contact *c, int shear)
-{
-    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l,
-                 y = (P3->y - P2->y) / l;
-
-    if (shear)
-        fprintf(f, "%.15g %.15g 0\n", -c->T * x, -c->T * y);
-    else
-        fprintf(f, "%.15g %.15g 0\n", -c->N * y, c->N * x);
-}
-
 /* The closed contacts as points, with the forces on the corner's block. */
 static void put_vtk_contacts(FILE *f, const write_results *w)
 {
@@ -275,9 +263,14 @@ static void put_vtk_contacts(FILE *f, const write_results *w)
             fprintf(f, "%d\n", (int)m->contact[k].state);
     for (int shear = 0; shear < 2; shear++) {
         fprintf(f, "VECTORS %s double\n", shear ? "shear" : "normal");
-        for (int k = 0; k < m->contacts; k++)
-            if (m->contact[k].state != BBM_OPEN)
-                put_force(f, m, &m->contact[k], shear);
+        for (int k = 0; k < m->contacts; k++) {
+            const bbm_contact *c = &m->contact[k];
+            double force[2];
+            if (c->state == BBM_OPEN)
+                continue;
+            scene_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
+            fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
+        }
     }
 }
 
@@ -336,7 +329,7 @@ static int compare_pairs(const void *p, const void *q)
 
 /* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and
  * contacts. Returns their number. */
-static int list_blocks(const bbm_model *m, int (*pair)[2])
+static int list_submatrices(const bbm_model *m, int (*pair)[2])
 {
     int n = 0;
 
@@ -354,11 +347,11 @@ static int list_blocks(const bbm_model *m, int (*pair)[2])
     return n;
 }
 
-static void put_matrix(FILE *f, const bbm_model *m, int blocks, int (*pair)[2])
+static void put_matrix(FILE *f, const bbm_model *m, int count, int (*pair)[2])
 {
     fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * m->elements,
-            6 * m->elements, 36LL * (blocks - m->elements) + 21LL * m->elements);
-    for (int k = 0; k < blocks; k++) {
+            6 * m->elements, 36LL * (count - m->elements) + 21LL * m->elements);
+    for (int k = 0; k < count; k++) {
         const int i = pair[k][0], j = pair[k][1];
         double B[6][6];
         bbm_matrix_get(m->K, i, j, B);
@@ -391,7 +384,7 @@ void write_matrix(write_results *w)
     if (!pair) {
         fail(w, w->matrix, "out of memory");
     } else if (open_file(w, &f, w->matrix)) {
-        put_matrix(f.file, m, list_blocks(m, pair), pair);
+        put_matrix(f.file, m, list_submatrices(m, pair), pair);
         close_file(w, &f);
     }
     free(pair);
@@ -421,7 +414,7 @@ static size_t is_ours(const char *name, long *process)
         *process = 0;
     if (digits > 0 && n == start + digits + 4 && strncmp(name + start + digits, ".vtk", 4) == 0)
         return n;
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    for (int k = 0; k < LENGTH(all); k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
             return n;
     for (const field *q = field_table; q->name; q++)
@@ -536,7 +529,7 @@ int write_close(write_results *w)
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
-    for (size_t k = 0; k < sizeof table / sizeof *table; k++)
+    for (int k = 0; k < LENGTH(table); k++)
         write_file(w, path_of(w, table[k].name, path), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);
