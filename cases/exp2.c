@@ -215,7 +215,7 @@ static void draw_line(case_results *r, const bbm_model *const m[2], const case_r
     snprintf(svg, sizeof svg, "%s.svg", l->file);
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
     case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
-        .title = l->title, .count = 4, .series = s,
+        .title = l->title, .count = LENGTH(s), .series = s,
         .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
                l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } }));
