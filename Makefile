@@ -1,5 +1,5 @@
 # make           builds the experiments        make check     every test (needs libcheck)
-# make run       runs them: tables, pictures   make quick     the fast ones: the library's formulas and solver
+# make run       runs them: tables, pictures   make quick     the fast ones, and ./bbm once
 # make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
 # make bench     solver, friction: ratios      make memcheck  the tests under valgrind
 # make gallery   blocks that slide, topple, fall; the model files, each beside its theory
@@ -29,19 +29,19 @@ GALLERY  = topple drop arch
 CASES    = $(RUN) $(GALLERY)
 # Beyond their limits models do not do what is expected of them (status 3).
 BEYOND_LIMITS = slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 shaken:phi=34 wall:A=8
-COMMON   = case output plot scene theory
-SHARED   = $(COMMON) beyond
-READER   = build model msh reader
-PROGRAM  = bbm write $(READER)
+COMMON   = cases/case cases/theory $(addprefix program/,cell field output plot scene)
+SHARED   = $(COMMON) cases/beyond program/edge_load
+READER   = $(addprefix program/,statements build msh reader model cell field)
+PROGRAM  = $(READER) $(addprefix program/,main write output plot scene edge_load)
 TORTURE  = scenes ledger trial
-PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures programs \
+PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures \
            check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
-           check_theory check_equations
-SHARING  = models shapes systems
-HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h tests/*.h)
+           check_theory check_equations check_run
+SHARING  = models shapes systems programs
+HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
@@ -66,7 +66,7 @@ converge: $O/exp1 $O/exp2
 bench: $O/bench
 	@$O/bench
 
-$(CASES:%=$O/%): $O/%: $O/cases/%.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$(CASES:%=$O/%): $O/%: $O/cases/%.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 # What the experiments show beyond the paper.
@@ -80,7 +80,7 @@ paper: paper-run $O/paper/formulas
 paper-run: $(RUN:%=$O/paper/%)
 	@for c in $(RUN); do $O/paper/$$c || exit 1; done
 
-$(RUN:%=$O/paper/%): $O/paper/%: $O/cases/%.o $O/cases/paper.o $(COMMON:%=$O/cases/%.o) $(CORE:%=$O/%.o)
+$(RUN:%=$O/paper/%): $O/paper/%: $O/cases/%.o $O/cases/paper.o $(COMMON:%=$O/%.o) $(CORE:%=$O/%.o)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
@@ -95,13 +95,13 @@ bbm: $O/bbm
 figures: $O/figures
 	$O/figures doc/figures
 
-$O/figures: $O/doc/figures.o $O/cases/plot.o $O/cases/output.o $(CORE:%=$O/%.o)
+$O/figures: $O/doc/figures.o $O/program/plot.o $O/program/output.o $(CORE:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bbm: $(PROGRAM:%=$O/cases/%.o) $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$O/bbm: $(PROGRAM:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/cases/%.o) $(LIBRARY:%=$O/%.o)
+$O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
@@ -120,15 +120,15 @@ $O/failing/%.o: %.c $(HEADERS) Makefile
 	$(CC) $(STRICT) $(FAILING) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # The programs with that allocator take the number of allocations from the environment, TEST_ALLOCATIONS.
-$O/failing/bbm: $(PROGRAM:%=$O/failing/cases/%.o) $(SHARED:%=$O/failing/cases/%.o) $(LIBRARY:%=$O/failing/%.o) \
+$O/failing/bbm: $(PROGRAM:%=$O/failing/%.o) $(LIBRARY:%=$O/failing/%.o) \
 $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failing/cases/%.o) \
+$(CASES:%=$O/failing/%): $O/failing/%: $O/failing/cases/%.o $(SHARED:%=$O/failing/%.o) \
 $(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$(PROGRAMS:%=$O/tests/%.o): override CPPFLAGS += -DBUILD='"$O"'
+$(PROGRAMS:%=$O/tests/%.o) $O/tests/check_run.o $O/tests/programs.o: override CPPFLAGS += -DBUILD='"$O"'
 
 $O/tests/check_all.o: DEFINE = -DCASES
 $O/tests/check_paper.o: DEFINE = -DPAPER
@@ -138,7 +138,7 @@ $O/tests/check_all.o $O/tests/check_paper.o: tests/check_main.c $(HEADERS) Makef
 
 TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/rock.o $O/tests/test_alloc.o $O/cases/theory.o $(LIBRARY:%=$O/failing/%.o)
 
-$O/quick: $O/tests/check_main.o $(TESTED)
+$O/quick: $O/tests/check_main.o $(TESTED) | $O/bbm
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
 $O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(TESTED)
@@ -174,6 +174,13 @@ check-documents: $O/figures $O/bbm experiments
 	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
 
+# How large the project is, and may be.
+CODE = $(wildcard *.[ch] $(foreach f,base beyond cases program tests doc,$f/*.[ch] $f/*.awk $f/*.sh))
+BUDGET = awk -f tests/budget.awk README.md $(CODE)
+
+check-budget:
+	@$(BUDGET)
+
 # The tests in two parts side by side, each to a file: those of what the experiments print, and all others.
 PARTS = others experiments
 SAY   = $O/check > $O/$*.said 2>&1 || echo "ended with status $$?" >> $O/$*.said
@@ -182,6 +189,7 @@ check: $(PARTS:%=check-%) check-exercises check-documents check-smoke check-arro
 	@cat $(PARTS:%=$O/%.said)
 	@awk -F '[:,]' '/^[0-9]+%: Checks:/ { run += $$3; failed += $$5 + $$7 } /^ended with status/ { bad = 1 } \
 	END { print run " checks, " failed " failed" (bad ? ": not passed" : ""); exit bad }' $(PARTS:%=$O/%.said)
+	@$(BUDGET)
 
 check-others: check-%: $O/check $(CASES:%=$O/%) $O/bbm $(CASES:%=$O/failing/%) $O/failing/bbm
 	CK_EXCLUDE_TAGS=experiments $(SAY)
@@ -211,7 +219,7 @@ again: $O/exp1
 
 # `make paper` in the tree without beyond/.
 without-beyond:
-	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h base cases tests out/paper
+	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h base cases program tests out/paper
 	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
 	> out/paper/paper.log 2>&1
 
@@ -253,13 +261,13 @@ WINDOWS = x86_64-w64-mingw32-gcc
 
 windows:
 	@mkdir -p out/windows
-	$(WINDOWS) $(STRICT) -Wno-float-conversion $(CPPFLAGS) $(CFLAGS) -static -o out/windows/bbm.exe $(PROGRAM:%=cases/%.c) $(SHARED:%=cases/%.c) \
+	$(WINDOWS) $(STRICT) -Wno-float-conversion $(CPPFLAGS) $(CFLAGS) -static -o out/windows/bbm.exe $(PROGRAM:%=%.c) \
 	$(LIBRARY:%=%.c) -lm
 
 fuzz:
 	@mkdir -p out/corpus
 	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz tests/fuzz_model.c \
-	$(READER:%=cases/%.c) $(SHARED:%=cases/%.c) $(LIBRARY:%=%.c) -lm
+	$(READER:%=%.c) $(LIBRARY:%=%.c) -lm
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ out/corpus tests/bad tests/mesh cases/models
 
 # What a student has written in out/exercise stays.
@@ -267,5 +275,5 @@ clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
-.PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents experiments exercise figures $(CALLS)
+.PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents check-budget experiments exercise figures $(CALLS)
 .DELETE_ON_ERROR:

@@ -191,16 +191,16 @@ static double thrust_radius(const bbm_model *m, int k)
     for (int i = 0; i < m->contacts; i++) {
         const bbm_contact *c = &m->contact[i];
         const bbm_edge *corner = &m->edge[c->corner], *edge = &m->edge[c->edge];
-        const bbm_vertex *P1 = &m->vertex[corner->a], *P2 = &m->vertex[edge->b], *P3 = &m->vertex[edge->a];
+        const bbm_vertex *P1 = &m->vertex[corner->a];
         const int up = m->element[corner->element].block > k, below = m->element[edge->element].block > k;
         const int far = m->element[corner->element].block - m->element[edge->element].block;
-        const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+        double force[2];
         if (c->state == BBM_OPEN || up == below || far > 1 || far < -1)
             continue;
-        const double fx = (up ? 1 : -1) * (-c->N * y - c->T * x), fy = (up ? 1 : -1) * (c->N * x - c->T * y);
-        f[0] += fx;
-        f[1] += fy;
-        moment += P1->x * fy - P1->y * fx;
+        scene_contact_force(m, c, up ? c->N : -c->N, up ? c->T : -c->T, force);
+        f[0] += force[0];
+        f[1] += force[1];
+        moment += P1->x * force[1] - P1->y * force[0];
     }
     return moment / (cos(a) * f[1] - sin(a) * f[0]);
 }
@@ -271,7 +271,7 @@ static void try_others(case_results *r)
 {
     static const int n[] = { 9, 11, 16, 21 };
 
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < LENGTH(n); i++) {
         const double least = least_ratio(n[i]);
         char name[60];
         snprintf(name, sizeof name, "%d voussoirs, 1.005 of t/R = %.5f stands", n[i], least);
@@ -289,7 +289,7 @@ int main(void)
     printf("\n# Semicircular arch of %d voussoirs\n\n| | computed | theory | error |\n|---|---|---|---|\n", N);
     case_open(&r, "arch");
     case_compare(&r, "least t/R, phi = 30 degrees", find_limit(0.095, 0.12, 0, 30), least_ratio(N));
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < LENGTH(ratio); i++) {
         char name[60];
         snprintf(name, sizeof name, "least phi [degree], t/R = %g", ratio[i]);
         case_compare(&r, name, find_limit(10, 30, ratio[i], 0), least_friction(ratio[i]));

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../program/field.h"
 #include "case.h"
 
 static void stop(const char *what, const char *why)
@@ -62,38 +63,15 @@ static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j
     bbm_add_node(m, xy[0], xy[1], index);
 }
 
-/* The cell (i, j) with corners a b c d counter-clockwise:
- *
- *     d---c    d---c    d---c    d---c
- *     |   |    | / |    | \ |    |\ /|
- *     |   |    |/  |    |  \|    | o |     quads; alternating, by i + j even or odd; crossed
- *     a---b    a---b    a---b    |/ \|
- *                                a---b */
-int case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners)
-{
-    const int *n = node;
-    const int halves[2][6] = { { n[0], n[1], n[2], n[2], n[3], n[0] },
-                               { n[0], n[1], n[3], n[2], n[3], n[1] } };
-
-    *corners = cut == CASE_QUADS ? 4 : 3;
-    if (cut == CASE_QUADS)
-        memcpy(element[0], n, 4 * sizeof *n);
-    for (int k = 0; k < 2 && cut == CASE_ALTERNATING; k++)
-        memcpy(element[k], &halves[odd][3 * k], 3 * sizeof *n);
-    for (int k = 0; k < 4 && cut == CASE_CROSSED; k++)
-        memcpy(element[k], (int[]){ n[k], n[(k + 1) % 4], n[4] }, 3 * sizeof *n);
-    return cut == CASE_QUADS ? 1 : cut == CASE_CROSSED ? 4 : 2;
-}
-
 static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
 {
     int node[5] = { grid_node(g, i, j), grid_node(g, i + 1, j), grid_node(g, i + 1, j + 1),
                     grid_node(g, i, j + 1) };
     int element[4][4], corners;
 
-    if (g->cut == CASE_CROSSED)
+    if (g->cut == CELL_CROSSED)
         add_mapped_node(m, g, i + 0.5, j + 0.5, &node[4]);
-    const int cells = case_cut_cell(g->cut, (i + j) % 2, node, element, &corners);
+    const int cells = cell_cut(g->cut, (i + j) % 2, node, element, &corners);
     for (int k = 0; k < cells; k++)
         bbm_add_element(m, g->block, g->material, corners, element[k], NULL);
 }
@@ -123,7 +101,7 @@ static void place_in_box(double i, double j, const void *box, double xy[2])
 int case_add_box(bbm_model *m, const case_box *b)
 {
     const int first = m->elements;
-    case_grid g = { .nx = b->nx, .ny = b->ny, .cut = CASE_QUADS, .block = b->block,
+    case_grid g = { .nx = b->nx, .ny = b->ny, .cut = CELL_QUADS, .block = b->block,
                     .material = b->material, .map = place_in_box, .context = b };
 
     case_add_grid(m, &g);
@@ -159,7 +137,7 @@ double case_percent(double computed, double reference)
 
 double case_quantity(const bbm_result *r, const char *quantity)
 {
-    return scene_field(r, strcmp(quantity, "svm") ? quantity : "mises");
+    return field_find(strcmp(quantity, "svm") ? quantity : "mises")->of_result(r);
 }
 
 /* ---------------------------------------------------------------------------- blocks that touch */
@@ -358,4 +336,10 @@ int case_draw(case_results *r, int done)
         r->failed = 1;
     }
     return done;
+}
+
+void case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[])
+{
+    for (int k = 0; k < n; k++)
+        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
 }

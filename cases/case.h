@@ -6,11 +6,9 @@
 #include <stdio.h>
 
 #include "../bbm.h"
-#include "plot.h"
-#include "scene.h"
-
-/* How a cell of a grid is cut: not, in 2, in 4 triangles. */
-enum { CASE_QUADS, CASE_ALTERNATING, CASE_CROSSED };
+#include "../program/cell.h"
+#include "../program/plot.h"
+#include "../program/scene.h"
 
 static const double case_alpha[4] = { 10, 100, 1000, 1e5 };     /* of the tables of convergence */
 
@@ -42,9 +40,6 @@ void   case_must(const bbm_model *m, bbm_status s);
 bbm_model *case_model(void);
 bbm_model *case_paper_model(void);
 
-/* The elements of a cell, of so many corners each; returns their number. node[4] is the one in the
- * middle, where it is crossed; odd: i + j of its place. */
-int    case_cut_cell(int cut, int odd, const int node[5], int element[4][4], int *corners);
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
 /* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h, then turned about the
@@ -95,6 +90,8 @@ const char *case_path(case_results *r, const char *file);       /* in the folder
 /* table [rows][columns] as CSV */
 void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
                          int columns, const double *table);
+typedef struct { const char *file; scene_map map; } case_map;
+void   case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[]);
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);

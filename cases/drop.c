@@ -91,7 +91,7 @@ static void draw(case_results *r, const double ratio[2][STEPS])
     };
     case_draw(r, plot_write_chart(case_path(r, "rebound.svg"), &(plot_chart){
         .title = "Drop test: rebound over impact velocity", .x = { "time step dt", "s", 1, 0, 0 },
-        .y = { "rebound / impact", "", 0, 0, 1.05 }, .count = 5, .series = s }));
+        .y = { "rebound / impact", "", 0, 0, 1.05 }, .count = LENGTH(s), .series = s }));
 }
 
 static void draw_movie(case_results *r)

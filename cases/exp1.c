@@ -85,7 +85,7 @@ void exp1_add_beam(bbm_model *m, char variant, case_grid *g)
 bbm_model *exp1_beam(char variant, int k, double alpha)
 {
     bbm_model *m = case_paper_model();
-    case_grid g = { .nx = 25 * k, .ny = 6 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
+    case_grid g = { .nx = 25 * k, .ny = 6 * k, .cut = CELL_CROSSED, .map = place, .context = &k };
 
     exp1_add_beam(m, variant, &g);
     m->par.alpha = alpha;
@@ -176,7 +176,7 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
     };
     case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
         .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0, 0, 0 },
-        .y = { "v", "m", 0, 0, 0 }, .count = 4, .series = s }));
+        .y = { "v", "m", 0, 0, 0 }, .count = LENGTH(s), .series = s }));
     case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5, &table[0][0]);
 }
 
@@ -193,7 +193,7 @@ static void print_table_3(const bbm_model *const m[3], const case_reference ref[
            "| | | BBM | FEM, converged | theory (70) | against FEM | against (70) |\n"
            "|---|---|---|---|---|---|---|\n");
     for (int k = 0; k < 3; k++)
-        for (int i = 0; i < 6; i++) {
+        for (int i = 0; i < LENGTH(at); i++) {
             const double value = computed(m[k], at[i].quantity, at[i].x, at[i].y);
             const double exact = theory(at[i].quantity, at[i].x, at[i].y);
             printf("| %c | %s(%.0f,%.0f) | %.5f | ", "abc"[k], at[i].quantity, at[i].x, at[i].y,
@@ -217,7 +217,7 @@ static void print_summary(const bbm_model *const m[3], const case_reference ref[
 
     printf("\n| Experiment I, deflection [mm], alpha = 1000 | computed | exact | error |\n"
            "|---|---|---|---|\n");
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < LENGTH(at); i++) {
         const double exact = case_find(&ref[at[i].k], "v", at[i].x, 0)->converged;
         const double v = case_at(m[at[i].k], at[i].x, 0).v;
         printf("| v(%.0f,0), load %c | %.4f | %.4f | %+.2f %% |\n", at[i].x, "abc"[at[i].k],
@@ -228,15 +228,14 @@ static void print_summary(const bbm_model *const m[3], const case_reference ref[
 /* Fig. 11-13: contours, and the deformed mesh. */
 static void draw_maps(case_results *r, const bbm_model *m)
 {
-    static const struct { const char *file; scene_map map; } map[] = {
+    static const case_map map[] = {
         { "fig11.svg", { "Fig. 11: displacement u, load a", "u", -1 } },
         { "fig12.svg", { "Fig. 12: displacement v, load a", "v", -1 } },
         { "fig13.svg", { "Fig. 13: von Mises stress, load a", "mises", -1 } },
         { "deformed.svg", { "Deformed beam, von Mises stress", "mises", 0 } },
     };
 
-    for (int k = 0; k < 4; k++)
-        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+    case_draw_maps(r, m, LENGTH(map), map);
 }
 
 /* ---------------------------------------------------------------------------------- convergence */

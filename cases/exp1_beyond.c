@@ -72,8 +72,8 @@ static void print_quadrilaterals(const case_reference *b)
         printf("| %d |", 6 * 24 * 6 * n * n);
         for (int kind = 0; kind < 4; kind++) {
             bbm_model *m = kind < 3
-                ? solve_uniform(24 * n, 6 * n, CASE_QUADS, bonding[kind])
-                : solve_uniform(18 * n, 4 * n, CASE_ALTERNATING, BBM_VERTICES);
+                ? solve_uniform(24 * n, 6 * n, CELL_QUADS, bonding[kind])
+                : solve_uniform(18 * n, 4 * n, CELL_ALTERNATING, BBM_VERTICES);
             printf(" %+.3f %%, %+.3f %% |", deflection_error(m, b, 48), deflection_error(m, b, 24));
             fflush(stdout);
             bbm_model_free(m);

@@ -69,7 +69,7 @@ static void place(double i, double j, const void *division, double xy[2])
 static bbm_model *solve_plate(const char *variant, int k, double alpha)
 {
     bbm_model *m = case_paper_model();
-    case_grid g = { .nx = 17 * k, .ny = 12 * k, .cut = CASE_CROSSED, .map = place, .context = &k };
+    case_grid g = { .nx = 17 * k, .ny = 12 * k, .cut = CELL_CROSSED, .map = place, .context = &k };
     static const double right[2] = { 1, 0 }, top[2] = { 0, 1 };
     const int row = g.nx + 1, exact = strcmp(variant, "k5") == 0;
 
@@ -151,7 +151,7 @@ static void print_summary(const bbm_model *m)
 
     printf("\n| Experiment II, plate k5 [1e-6 m, MPa], alpha = 1000 | computed | exact | error |\n"
            "|---|---|---|---|\n");
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < LENGTH(at); i++) {
         const double value = computed(m, at[i].quantity, at[i].x, at[i].y);
         const double exact = theory(at[i].quantity, at[i].x, at[i].y);
         const double unit = at[i].quantity[0] == 's' ? 1e-6 : 1e6;
@@ -215,7 +215,7 @@ static void draw_line(case_results *r, const bbm_model *const m[2], const case_r
     snprintf(svg, sizeof svg, "%s.svg", l->file);
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
     case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
-        .title = l->title, .count = 4, .series = s,
+        .title = l->title, .count = LENGTH(s), .series = s,
         .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
                l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } }));
@@ -234,14 +234,14 @@ static void draw_lines(case_results *r, const bbm_model *const m[2], const case_
         { "fig19", "Fig. 19: hoop stress on the hole", "stt", "angle", 0, ROW, NY + 1 },
     };
 
-    for (int i = 0; i < 5; i++)
+    for (int i = 0; i < LENGTH(line); i++)
         draw_line(r, m, b5, &line[i]);
 }
 
 /* Fig. 20-23. */
 static void draw_maps(case_results *r, const bbm_model *m)
 {
-    static const struct { const char *file; scene_map map; } map[] = {
+    static const case_map map[] = {
         { "fig20.svg", { "Fig. 20: stress sxx, plate b5", "sxx", -1 } },
         { "fig21a.svg", { "Fig. 21: stress syy, plate b5", "syy", -1 } },
         { "fig21b.svg", { "Fig. 21: stress sxy, plate b5", "sxy", -1 } },
@@ -250,8 +250,7 @@ static void draw_maps(case_results *r, const bbm_model *m)
         { "deformed.svg", { "Deformed plate b5, von Mises stress", "mises", 0 } },
     };
 
-    for (int k = 0; k < 6; k++)
-        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+    case_draw_maps(r, m, LENGTH(map), map);
 }
 
 /* ---------------------------------------------------------------------------------- convergence */

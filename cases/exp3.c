@@ -169,7 +169,7 @@ static void print_summary(const slide s[], int runs)
 
     printf("\n| Experiment III, displacement [m] at t = %g s | computed | exact | error |\n"
            "|---|---|---|---|\n", STEPS * DT);
-    for (int i = 0; i < 9 && row[i].k < runs; i++) {
+    for (int i = 0; i < LENGTH(row) && row[i].k < runs; i++) {
         const double value = s[row[i].k].at[STEPS][row[i].c];
         const double exact = row[i].c == 3 ? 0 : theory(STEPS * DT);
         if (exact > 0)
@@ -215,10 +215,10 @@ static void draw_figure(case_results *r, const slide s[], const exp3_variant v[]
     if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
         plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
             .title = "Fig. 25: displacement of P", .x = { "t", "s", 0, 0, 0 },
-            .y = { "displacement", "m", 0, 0, 0 }, .count = 4, .series = both });
+            .y = { "displacement", "m", 0, 0, 0 }, .count = LENGTH(both), .series = both });
         plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
             .title = "Error of v of P, which is 0 in theory", .x = { "t", "s", 0, 0, 0 },
-            .y = { "v", "m", 0, 0, 0 }, .count = 3, .series = lift });
+            .y = { "v", "m", 0, 0, 0 }, .count = LENGTH(lift), .series = lift });
         case_draw(r, plot_close(&p));
     }
     case_write_curves(r, "fig25.csv",

@@ -216,11 +216,11 @@ static void draw_charts(case_results *r, const chart c[SHAPES])
 /* The four regimes side by side, at the same friction of 30 degrees. */
 static void draw_film(case_results *r)
 {
-    static const struct { double a, k, x; } at[4] = { { 20, 0.5, 0 }, { 40, 1, 5 }, { 32, 0.5, 10 }, { 60, 0.5, 14 } };
+    static const struct { double a, k, x; } at[] = { { 20, 0.5, 0 }, { 40, 1, 5 }, { 32, 0.5, 10 }, { 60, 0.5, 14 } };
     scene film = { .title = "Friction 30 degrees: stands, slides, topples, slides and topples" };
     bbm_model *m = case_moving_model(&(case_blocks){ 1e10, 0.25, 0.005, 1e10, 30, 1e-13 });
 
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < LENGTH(at); i++) {
         const double turn = at[i].a * PI / 180, x = cos(turn) * at[i].x, y = -sin(turn) * at[i].x;
         case_add_box(m, &(case_box){ .block = 2 * i, .nx = 1, .ny = 1, .x = x - 2, .y = y - 0.4, .w = 4, .h = 0.4,
                                      .turn = turn });

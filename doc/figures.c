@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "../base/base.h"
-#include "../cases/plot.h"
+#include "../program/plot.h"
 
 #define THIN "fill=\"none\" stroke=\"#999\" stroke-width=\"1\" stroke-dasharray=\"5 4\""
 #define SOLID "fill=\"none\" stroke=\"#222\" stroke-width=\"1.6\""

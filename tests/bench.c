@@ -106,7 +106,7 @@ static void print_forms(void)
            "|\n"
            "|---|---|---|---|---|---|\n", TURNS);
     for (int n = 1; n <= 4; n *= 2) {
-        bbm_model *m = beam(24 * n, 6 * n, CASE_CROSSED, 100);
+        bbm_model *m = beam(24 * n, 6 * n, CELL_CROSSED, 100);
         double textbook[TURNS], eisenstat[TURNS], ratio[TURNS];
         for (int i = 0; i < TURNS; i++) {
             textbook[i] = 1e6 * iteration_time(m, NULL);
@@ -223,7 +223,7 @@ static void print_levels(void)
     for (double alpha = 10; alpha <= 1000; alpha *= 10) {
         double last[3] = { 0 };
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
-            bbm_model *m = beam(4 * rows[k], rows[k], CASE_ALTERNATING, alpha);
+            bbm_model *m = beam(4 * rows[k], rows[k], CELL_ALTERNATING, alpha);
             const int turns = k < 2 ? TURNS : k < 3 ? 3 : 1, n = 6 * m->elements;
             int one, two;
             const double t1 = whole_time(m, &bbm_eisenstat, turns, &one), t2 = whole_time(m, &bbm_two_level, TURNS, &two);
@@ -251,7 +251,7 @@ static void print_elements(void)
         const double alpha = pow(10, 1 + k % 3);
         printf("| %s | %g |", name[k / 3], alpha);
         for (int rows = 4; rows <= 32; rows *= 2) {
-            bbm_model *m = beam(4 * rows, rows, k < 3 ? CASE_QUADS : CASE_ALTERNATING, alpha);
+            bbm_model *m = beam(4 * rows, rows, k < 3 ? CELL_QUADS : CELL_ALTERNATING, alpha);
             int count;
             const double t = whole_time(m, &bbm_two_level, TURNS, &count);
             printf(" %d, %.2f |", count, t);
@@ -312,7 +312,7 @@ static void write_block(FILE *f, const bbm_matrix *K, int i, int j)
 /* The lower triangle of K. */
 static int write_matrix(const char *file, int rows)
 {
-    bbm_model *m = beam(4 * rows, rows, CASE_ALTERNATING, 100);
+    bbm_model *m = beam(4 * rows, rows, CELL_ALTERNATING, 100);
     FILE *f = fopen(file, "w");
 
     if (!f) {

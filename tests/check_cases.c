@@ -285,42 +285,6 @@ START_TEST(the_pictures_of_the_readme_are_what_the_programs_draw)
 }
 END_TEST
 
-/* Lines of C files that hold something else than comments, in hundreds: about what cloc counts. */
-static int count_code(const char *files)
-{
-    char command[200];
-    int lines = 0, code = 0;
-
-    snprintf(command, sizeof command, "cat %s > out/code", files);
-    ck_assert_int_eq(system(command), 0);
-    char *text = slurp("out/code");
-    for (const char *p = text; *p; p++) {
-        if (strncmp(p, "/*", 2) == 0) {
-            p = strstr(p, "*/") + 1;
-        } else if (*p == '\n') {
-            lines += code;
-            code = 0;
-        } else if (*p != ' ') {
-            code = 1;
-        }
-    }
-    free(text);
-    return (lines + 50) / 100;
-}
-
-START_TEST(the_size_that_the_readme_tells_is_the_size)
-{
-    const int core = count_code("bbm.h bbm.c contact.c solver.c");
-    const int beside = count_code("beyond/*.h beyond/*.c");
-    char *text = slurp("README.md"), expected[200];
-
-    snprintf(expected, sizeof expected, "about %d,%d00 in the core,\nabout %d,%d00 in `beyond/`",
-             core / 10, core % 10, beside / 10, beside % 10);
-    ck_assert_msg(strstr(text, expected) != NULL, "README.md should say %s", expected);
-    free(text);
-}
-END_TEST
-
 /* ------------------------------------------------------------------------------ the paper alone */
 
 START_TEST(without_beyond_the_tables_of_the_paper_are_the_same)
@@ -397,7 +361,6 @@ Suite *cases_suite(void)
     tcase_add_test(t, two_runs_write_the_same_digits);
     tcase_add_test(t, the_numbers_of_the_documents_are_what_the_programs_print);
     tcase_add_test(t, the_pictures_of_the_readme_are_what_the_programs_draw);
-    tcase_add_test(t, the_size_that_the_readme_tells_is_the_size);
     tcase_add_test(t, without_beyond_the_tables_of_the_paper_are_the_same);
     tcase_add_test(t, without_beyond_the_block_slides_as_far);
     tcase_add_test(t, without_beyond_the_formulas_are_tested);

@@ -564,7 +564,7 @@ START_TEST(what_is_hardly_meant_is_a_warning)
     static const char rod[] = STEEL "grid rod steel 0 0 10 0.5 20 1\nfix set rod.left\nstatic\n"
         "load set rod.right 0 %s\n";             /* turns by P L^2/(2 E I): 0.05, 0.19 */
     static const char turns[] = "out/model/warn.model: warning: elements turn by more than 0.1 rad, "
-        "which statics takes as small: lengths are wrong; dynamic with damping 0 has them right\n";
+        "which statics takes as small: lengths are wrong; dynamic with velocity_factor 0 has them right\n";
     const struct { const char *text, *more, *said; } call[] = {
         { rod, "1e6", "" }, { rod, "4e6", turns },
         { fall, "", falls }, { fall, "fix node 1\n", "" }, { fall, "fixblock b\n", "" },

@@ -85,9 +85,11 @@ static const wrong wrongs[] = {
     { "friction-negative", ".model:9: friction is -1, expected 0 to less than 90 degrees" },
     { "cohesion-negative", ".model:9: cohesion is -1, expected 0 or more" },
     { "dt-zero", ".model:8: dt is 0, expected more than 0" },
-    { "dt-missing", ".model:8: dt is missing, expected: dynamic dt VALUE steps N [damping VALUE] [settle N] [ramp "
-      "T]" },
+    { "dt-missing", ".model:8: dt is missing, expected: dynamic dt VALUE steps N [velocity_factor VALUE] "
+      "[settle N] [ramp T]" },
     { "damping", ".model:8: damping is 1.5, expected 0 to 1" },
+    { "velocity-factor", ".model:8: velocity_factor is 1.5, expected 0 to 1" },
+    { "velocity-factor-twice", ".model:8: velocity_factor and damping, which are the same, expected one" },
     { "omega-zero", ".model:9: omega is 0, expected more than 0 and less than 2" },
     { "omega-two", ".model:9: omega is 2, expected more than 0 and less than 2" },
     { "tolerance", ".model:9: tolerance is 1, expected more than 0 and less than 1" },
@@ -203,7 +205,7 @@ static const wrong wrongs[] = {
     { "of-missing", ".model:7: a word is missing, expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
     { "of-other-block", ".model:7: no node there of block b, expected a place that names one" },
     { "of-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
-    { "output-field", ".model:7: 'szz', expected one of mises|sxx|syy|sxy|s1|s2|u|v" },
+    { "output-field", ".model:7: 'szz', expected one of u|v|rotation|sxx|syy|sxy|mises|s1|s2|vx|vy|spin" },
     { "output-scale", ".model:7: scale is 0, expected more than 0" },
     { "plane-kind", ".model:7: 'stain', expected one of stress|strain" },
     { "plane-twice", ".model:8: plane for the second time, after line 7, expected it once" },
@@ -447,10 +449,14 @@ START_TEST(a_shaken_block_follows_the_closed_form)
 }
 END_TEST
 
-START_TEST(a_step_with_damping_0_reports_the_kinetic_energy_that_it_had)
+START_TEST(a_step_with_velocity_factor_0_reports_the_kinetic_energy_that_it_had)
 {
-    ck_assert_int_eq(run_text("damped", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
-                              "gravity 0 -10\ndynamic dt 0.1 steps 3 damping 0\n"), 0);
+    static const char *const word[] = { "velocity_factor", "damping" };         /* they are the same */
+    char text[LONG];
+
+    snprintf(text, sizeof text, STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
+             "gravity 0 -10\ndynamic dt 0.1 steps 3 %s 0\n", word[_i]);
+    ck_assert_int_eq(run_text("damped", text), 0);
     ck_relative(cell("damped", "summary.csv", "3,", "kinetic"), 975.0, 1e-9);           /* v = g dt = 1 in each step */
 }
 END_TEST
@@ -582,7 +588,7 @@ Suite *model_suite(void)
     tcase_add_test(t, free_fall_keeps_its_energy);
     tcase_add_test(t, what_steps_make_beyond_the_work_of_loads_is_told);
     tcase_add_test(t, a_shaken_block_follows_the_closed_form);
-    tcase_add_test(t, a_step_with_damping_0_reports_the_kinetic_energy_that_it_had);
+    tcase_add_loop_test(t, a_step_with_velocity_factor_0_reports_the_kinetic_energy_that_it_had, 0, 2);
     tcase_add_test(t, settling_ends_in_equilibrium_at_time_zero);
     tcase_add_test(t, an_initial_stress_pushes_the_wall);
     tcase_add_test(t, statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps);

@@ -461,6 +461,48 @@ START_TEST(a_field_that_is_one_level_has_one_colour_and_large_forces_are_short)
 }
 END_TEST
 
+/* Each row of the table of program/field.c; what an earlier run drew goes. */
+START_TEST(each_field_is_drawn_under_its_name_with_its_unit)
+{
+    static const struct { const char *name, *label; } shown[] = {
+        { "u", ">u [m], " }, { "v", ">v [m], " }, { "rotation", ">rotation [rad], " },
+        { "sxx", ">sxx [" }, { "syy", ">syy [" }, { "sxy", ">sxy [" },
+        { "mises", ">von Mises stress [" }, { "s1", ">s1 [" }, { "s2", ">s2 [" },
+        { "vx", ">vx [m/s], " }, { "vy", ">vy [m/s], " }, { "spin", ">spin [rad/s], " },
+    };
+    char model[LONG], path[100];
+
+    snprintf(model, sizeof model, STEEL "grid a steel 0 0 2 1 2 1\nvelocity a 3 4 2\n"
+             "dynamic dt 0.1 steps 2\noutput svg field %s\n", shown[_i].name);
+    ck_assert_int_eq(shell("mkdir -p out/model/shown; touch out/model/shown/spin.svg "
+                           "out/model/shown/s1.svg"), 0);
+    write_text("out/model/shown.model", model);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/shown.model -o out/model/shown 2> out/model/said",
+                           BUILD), 0);
+    snprintf(path, sizeof path, "out/model/shown/%s.svg", shown[_i].name);
+    char *text = read_all(path);
+    ck_assert_msg(strstr(text, shown[_i].label), "%s without %s", path, shown[_i].label);
+    ck_assert_int_eq(shell("[ $(ls out/model/shown/*.svg | wc -l) = 3 ]"), 0);
+    free(text);
+}
+END_TEST
+
+/* In a block that turns, a corner that one element has is the fastest, and the slowest, of all. */
+START_TEST(a_field_of_elements_is_their_mean_at_a_node)
+{
+    double from = 0, to = 0;
+
+    ck_assert_int_eq(run_text("turned", STEEL "grid a steel 0 0 2 1 4 2\nvelocity a 3 4 2\n"
+                              "dynamic dt 0.1 steps 2\noutput svg field vx\n"), 0);
+    char *text = read_all("out/model/turned/vx.svg"), *range = strstr(text, "vx [m/s], from ");
+    ck_assert_ptr_nonnull(range);
+    ck_assert_int_eq(sscanf(range, "vx [m/s], from %lf to %lf", &from, &to), 2);
+    ck_relative(from, cell("turned", "elements.csv", "8,", "vx"), 1e-3); /* it has four digits */
+    ck_relative(to, cell("turned", "elements.csv", "1,", "vx"), 1e-3);
+    free(text);
+}
+END_TEST
+
 /* Eight courses of so many bricks, 2 x 1 m, each course half a brick further than the one below. */
 static void write_bricks(const char *path, int bricks)
 {
@@ -530,6 +572,8 @@ Suite *pictures_suite(void)
     tcase_add_test(t, a_picture_says_the_time_that_it_shows);
     tcase_add_test(t, a_title_with_other_letters_is_right);
     tcase_add_test(t, a_field_that_is_one_level_has_one_colour_and_large_forces_are_short);
+    tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit, 0, 12);
+    tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);
     suite_add_tcase(s, t);

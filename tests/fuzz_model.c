@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../cases/model.h"
+#include "../program/statements.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -9,7 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "case.h"
+#include "field.h"
+#include "length.h"
 #include "write.h"
 
 enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */
@@ -62,39 +63,45 @@ static void put_numbers(FILE *f, int n, const double x[])
         fprintf(f, ",%.15g", x[k]);
 }
 
+/* The names of the fields of a file. */
+static void put_names(FILE *f, int files)
+{
+    for (const field *q = field_table; q->name; q++)
+        if (q->files & files)
+            fprintf(f, ",%s", q->name);
+    fputc('\n', f);
+}
+
 static void put_nodes(FILE *f, const write_results *w)
 {
     const model *p = w->p;
+    const bbm_model *m = p->m;
 
-    fprintf(f, "node,block,x,y,u,v,sxx,syy,sxy,mises\n");
-    for (int n = 0; n < p->m->nodes; n++) {
-        bbm_result r;
-        bbm_nodal_result(p->m, n, -1, &r);
-        const double x[] = { p->m->node[n].x, p->m->node[n].y, r.u, r.v };
+    fprintf(f, "node,block,x,y");
+    put_names(f, FIELD_NODES);
+    for (int n = 0; n < m->nodes; n++) {
         fprintf(f, "%s,%s", p->node[n], p->block[p->node_block[n]]);
-        put_numbers(f, 4, x);
-        put_numbers(f, 3, r.stress);
-        put_numbers(f, 1, &r.mises);
+        put_numbers(f, 2, (double[]){ m->node[n].x, m->node[n].y });
+        for (const field *q = field_table; q->name; q++)
+            if (q->files & FIELD_NODES)
+                fprintf(f, ",%.15g", field_of_node(q, m, n));
         fputc('\n', f);
     }
 }
 
-/* In dynamics with the velocity of the barycentre that the last step hands on. */
 static void put_elements(FILE *f, const write_results *w)
 {
     const model *p = w->p;
+    const int files = p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS;
 
-    fprintf(f, "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises%s\n",
-            p->dynamic ? ",vx,vy,spin" : "");
+    fprintf(f, "element,block,x,y");
+    put_names(f, files);
     for (int e = 0; e < p->m->elements; e++) {
-        const bbm_element *i = &p->m->element[e];
-        const double mises = model_mises(p->m, e);
-        fprintf(f, "%s,%s", p->element[e], p->block[i->block]);
+        fprintf(f, "%s,%s", p->element[e], p->block[p->m->element[e].block]);
         put_numbers(f, 2, p->centre[e]);
-        put_numbers(f, 3, i->sum);
-        put_numbers(f, 3, i->stress);
-        put_numbers(f, 1, &mises);
-        put_numbers(f, p->dynamic ? 3 : 0, i->V);
+        for (const field *q = field_table; q->name; q++)
+            if (q->files & files)
+                fprintf(f, ",%.15g", field_of_element(q, p->m, e));
         fputc('\n', f);
     }
 }
@@ -151,7 +158,7 @@ static void put_history(const write_results *w)
     fprintf(w->history.file, "%d,%.15g", w->step, time_of(w));
     for (int k = 0; k < p->monitors; k++) {
         double u[2];
-        model_place_of(p, &p->monitor[k], u);
+        model_displacement(p, &p->monitor[k], u);
         put_numbers(w->history.file, 2, u);
     }
     fputc('\n', w->history.file);
@@ -187,14 +194,6 @@ static void put_timing(FILE *f, const write_results *w)
 
 /* ------------------------------------------------------------------------------------------ VTK */
 
-static double stress_of(const bbm_model *m, int element, const char *field)
-{
-    bbm_result r = { .mises = model_mises(m, element) };
-
-    memcpy(r.stress, m->element[element].stress, sizeof r.stress);
-    return scene_field(&r, field);
-}
-
 /* Legacy VTK, ASCII. */
 static void put_head(FILE *f, const write_results *w, const char *kind, int points)
 {
@@ -221,7 +220,6 @@ static void put_cells(FILE *f, const bbm_model *m)
 static void put_vtk(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
-    static const char *const name[] = { "sxx", "syy", "sxy", "mises", "s1", "s2" };
 
     put_head(f, w, "UNSTRUCTURED_GRID", m->nodes);
     for (int n = 0; n < m->nodes; n++)
@@ -230,10 +228,12 @@ static void put_vtk(FILE *f, const write_results *w)
     fprintf(f, "CELL_DATA %d\nSCALARS block int 1\nLOOKUP_TABLE default\n", m->elements);
     for (int e = 0; e < m->elements; e++)
         fprintf(f, "%d\n", m->element[e].block);
-    for (int k = 0; k < 6; k++) {
-        fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", name[k]);
+    for (const field *q = field_table; q->name; q++) {
+        if (!(q->files & FIELD_CELLS))
+            continue;
+        fprintf(f, "SCALARS %s double 1\nLOOKUP_TABLE default\n", q->name);
         for (int e = 0; e < m->elements; e++)
-            fprintf(f, "%.15g\n", stress_of(m, e, name[k]));
+            fprintf(f, "%.15g\n", field_of_element(q, m, e));
     }
     fprintf(f, "POINT_DATA %d\nVECTORS u double\n", m->nodes);
     for (int n = 0; n < m->nodes; n++) {
@@ -241,19 +241,6 @@ static void put_vtk(FILE *f, const write_results *w)
         bbm_nodal_result(m, n, -1, &r);
         fprintf(f, "%.15g %.15g 0\n", r.u, r.v);
     }
-}
-
-/* The force on the block of P1, N out of the edge's block, or T along its edge. */
-static void put_force(FILE *f, const bbm_model *m, const bbm_contact *c, int shear)
-{
-    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y), x = (P3->x - P2->x) / l,
-                 y = (P3->y - P2->y) / l;
-
-    if (shear)
-        fprintf(f, "%.15g %.15g 0\n", -c->T * x, -c->T * y);
-    else
-        fprintf(f, "%.15g %.15g 0\n", -c->N * y, c->N * x);
 }
 
 /* The closed contacts as points, with the forces on the corner's block. */
@@ -276,9 +263,14 @@ static void put_vtk_contacts(FILE *f, const write_results *w)
             fprintf(f, "%d\n", (int)m->contact[k].state);
     for (int shear = 0; shear < 2; shear++) {
         fprintf(f, "VECTORS %s double\n", shear ? "shear" : "normal");
-        for (int k = 0; k < m->contacts; k++)
-            if (m->contact[k].state != BBM_OPEN)
-                put_force(f, m, &m->contact[k], shear);
+        for (int k = 0; k < m->contacts; k++) {
+            const bbm_contact *c = &m->contact[k];
+            double force[2];
+            if (c->state == BBM_OPEN)
+                continue;
+            scene_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
+            fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
+        }
     }
 }
 
@@ -312,9 +304,8 @@ static void draw_now(write_results *w, const char *name)
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    const char *field = w->p->field;
-    scene_map map = { w->p->title, field, w->p->scale };
-    char path[LONGEST], name[20];
+    scene_map map = { w->p->title, w->p->field, w->p->scale };
+    char path[LONGEST], name[100];
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
@@ -322,7 +313,7 @@ static void draw_pictures(write_results *w)
             fail(w, path, strerror(errno));
     if (w->p->dynamic && map.scale == 0)
         map.scale = 1;                          /* a static one is magnified */
-    snprintf(name, sizeof name, "%s.svg", field);
+    snprintf(name, sizeof name, "%.90s.svg", map.field);
     if (!scene_write_map(m, path_of(w, name, path), &map))
         fail(w, path, strerror(errno));
 }
@@ -338,7 +329,7 @@ static int compare_pairs(const void *p, const void *q)
 
 /* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and
  * contacts. Returns their number. */
-static int list_blocks(const bbm_model *m, int (*pair)[2])
+static int list_submatrices(const bbm_model *m, int (*pair)[2])
 {
     int n = 0;
 
@@ -356,11 +347,11 @@ static int list_blocks(const bbm_model *m, int (*pair)[2])
     return n;
 }
 
-static void put_matrix(FILE *f, const bbm_model *m, int blocks, int (*pair)[2])
+static void put_matrix(FILE *f, const bbm_model *m, int count, int (*pair)[2])
 {
     fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * m->elements,
-            6 * m->elements, 36LL * (blocks - m->elements) + 21LL * m->elements);
-    for (int k = 0; k < blocks; k++) {
+            6 * m->elements, 36LL * (count - m->elements) + 21LL * m->elements);
+    for (int k = 0; k < count; k++) {
         const int i = pair[k][0], j = pair[k][1];
         double B[6][6];
         bbm_matrix_get(m->K, i, j, B);
@@ -393,7 +384,7 @@ void write_matrix(write_results *w)
     if (!pair) {
         fail(w, w->matrix, "out of memory");
     } else if (open_file(w, &f, w->matrix)) {
-        put_matrix(f.file, m, list_blocks(m, pair), pair);
+        put_matrix(f.file, m, list_submatrices(m, pair), pair);
         close_file(w, &f);
     }
     free(pair);
@@ -411,8 +402,7 @@ static size_t is_ours(const char *name, long *process)
 {
     static const char *const all[] = {
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
-        "reactions.csv", "contacts.svg", "movie.svg", "model.svg", "mises.svg", "sxx.svg",
-        "syy.svg", "sxy.svg", "s1.svg", "s2.svg", "u.svg", "v.svg",
+        "reactions.csv", "contacts.svg", "movie.svg", "model.svg",
     };
     const size_t temporary = output_is_temporary(name, process),
                  n = temporary ? temporary : strlen(name);
@@ -424,8 +414,12 @@ static size_t is_ours(const char *name, long *process)
         *process = 0;
     if (digits > 0 && n == start + digits + 4 && strncmp(name + start + digits, ".vtk", 4) == 0)
         return n;
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    for (int k = 0; k < LENGTH(all); k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
+            return n;
+    for (const field *q = field_table; q->name; q++)
+        if (n == strlen(q->name) + 4 && strncmp(name, q->name, n - 4) == 0
+            && strncmp(name + n - 4, ".svg", 4) == 0)
             return n;
     return 0;
 }
@@ -535,7 +529,7 @@ int write_close(write_results *w)
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < LENGTH(table); k++)
         write_file(w, path_of(w, table[k].name, path), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);

@@ -48,6 +48,9 @@ typedef struct {
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */
 } scene;
 
+/* The force on the block of the corner of a contact that carries N and T. */
+void scene_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2]);
+
 /* Records the present positions, contact forces and time. Returns 1, or 0: no memory (then the
  * scene cannot be written), or a position that is not finite (then this frame is left out). */
 int  scene_record(scene *s, const bbm_model *m);
@@ -59,18 +62,14 @@ int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
 int  scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n,
                         const double time[]);
 
-/* Von Mises stress; stresses; principal stresses, the larger first; displacements. */
-#define SCENE_FIELDS { "mises", "sxx", "syy", "sxy", "s1", "s2", "u", "v", NULL }
-
 typedef struct {                /* contours of a field over the present state                     */
     const char *title;
-    const char *field;          /* one of SCENE_FIELDS; NULL: the first                           */
+    const char *field;          /* a name of field.h; NULL: mises                                 */
     double scale;               /* -        of the displacements; 0: the largest is about a tenth */
                                 /*          of the model, and less where an element or an edge    */
                                 /*          would change too much; < 0: they are not shown        */
 } scene_map;
 
-double scene_field(const bbm_result *r, const char *field);     /* NaN: there is none */
 int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
 
 /* A load along an edge from vertex a to b: the forces [N/m] at equal distances, and a pressure. */
@@ -80,7 +79,7 @@ typedef struct {
     double pressure;
 } scene_line;
 
-/* beyond.c: load k of those that are given for an edge; 0: there are no more. */
+/* edge_load.c: load k of those that are given for an edge; 0: there are no more. */
 int scene_edge_load(const bbm_model *m, int k, scene_line *l);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reader.h"
+#include "build.h"
 
 /* Of the model's size: nodes closer to a given place, or to the rim of a box, are there. */
 #define NEAR 1e-6
@@ -134,7 +134,7 @@ static void set_margin(model_reader *r)
 }
 
 /* Names the blocks and the elements that lie in each other. */
-static int overlap(model_reader *r)
+static int report_overlap(model_reader *r)
 {
     const model *p = r->p;
     bbm_overlap o;
@@ -174,14 +174,14 @@ int model_build(model_reader *r)
         return model_fail(r, e->at, "element %s lies on another one of its block, expected "
                           "elements side by side", e->id);
     if (status)
-        return status == BBM_BLOCKS_OVERLAP ? overlap(r) : model_refused(r, status);
+        return status == BBM_BLOCKS_OVERLAP ? report_overlap(r) : model_refused(r, status);
     if (r->plane_strain)
         bbm_set_plane_strain(p->m);
     for (int b = 0; b < r->blocks; b++)         /* a block is a set, too: -2 - b */
         if (model_find(&r->set_of, r->block[b].name) < 0)
             model_enter(r, &r->set_of, r->block[b].name, -2 - b);
     p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
-    p->wall = model_room(r, p->m->nodes, sizeof *p->wall);
+    p->moved_to = model_room(r, p->m->nodes, sizeof *p->moved_to);
     r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
     return !p->status;
 }
@@ -191,7 +191,7 @@ int model_build(model_reader *r)
 enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 
 /* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
-typedef struct { int kind, found, block, whole; double x[4]; } place;
+typedef struct { int kind, found, block, whole; double x[4]; } selection;
 
 /* Whether the block has the node; -1: some block. */
 static int has_node(const model_reader *r, int block, int node)
@@ -204,7 +204,7 @@ static int has_node(const model_reader *r, int block, int node)
 }
 
 /* Takes the library nodes of a node, each once for a statement. */
-static void choose(model_reader *r, const place *w, int node)
+static void choose(model_reader *r, const selection *w, int node)
 {
     model_node *n = &r->node[node];
     const int mark = (int)(r->s - r->statement) + 1;
@@ -212,14 +212,14 @@ static void choose(model_reader *r, const place *w, int node)
     if (n->mark == mark || !has_node(r, w->block, node))
         return;
     n->mark = mark;
-    r->places++;
+    r->file_nodes++;
     for (int c = n->first; c >= 0; c = r->copy[c].next)
         if (w->block < 0 || r->copy[c].block == w->block)
             r->chosen_node[r->chosen++] = r->copy[c].node;
 }
 
 /* The first of the nearest nodes; that others lie there as well is said. */
-static void choose_nearest(model_reader *r, const place *w)
+static void choose_nearest(model_reader *r, const selection *w)
 {
     double best = INFINITY;
     int found = -1, others = 0;
@@ -246,7 +246,7 @@ static void choose_nearest(model_reader *r, const place *w)
                 r->block[r->copy[r->node[found].first].block].name);
 }
 
-static int is_there(const model_reader *r, const place *w, const model_node *n)
+static int is_there(const model_reader *r, const selection *w, const model_node *n)
 {
     const double *x = w->x, d = r->margin;
 
@@ -256,7 +256,7 @@ static int is_there(const model_reader *r, const place *w, const model_node *n)
 }
 
 /* A set, or all nodes of a block. */
-static int choose_set(model_reader *r, place *w, const char *word)
+static int choose_set(model_reader *r, selection *w, const char *word)
 {
     w->found = model_find(&r->set_of, word);
     if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
@@ -270,20 +270,22 @@ static int choose_set(model_reader *r, place *w, const char *word)
 }
 
 /* The words of WHERE. */
-static int read_place(model_reader *r, place *w)
+static int read_selection(model_reader *r, selection *w)
 {
-    static const char *const kind[] = { "node", "at", "set", "box" };
-    static const int numbers[] = { 0, 2, 0, 4 };
+    static const struct { const char *word; int numbers; } kind[] = {
+        [BY_NODE] = { "node", 0 }, [BY_AT] = { "at", 2 }, [BY_SET] = { "set", 0 },
+        [BY_BOX] = { "box", 4 },
+    };
     const char *word = NULL;
 
-    *w = (place){ .block = -1 };
-    while (w->kind < 4 && !model_skip(r, kind[w->kind]))
+    *w = (selection){ .block = -1 };
+    while (w->kind < LENGTH(kind) && !model_skip(r, kind[w->kind].word))
         w->kind++;
-    if (w->kind == 4)
+    if (w->kind == LENGTH(kind))
         return !model_look(r) ? model_word(r) != NULL
              : model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME or box "
-                              "XMIN YMIN XMAX YMAX in: %s", model_look(r), model_form(r->s));
-    for (int k = 0; k < numbers[w->kind]; k++)
+                              "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
+    for (int k = 0; k < kind[w->kind].numbers; k++)
         if (!model_number(r, &w->x[k]))
             return 0;
     if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of, "node", model_id(r))) < 0)
@@ -300,10 +302,10 @@ static int read_place(model_reader *r, place *w)
  * nearest node, however far. */
 static int where(model_reader *r, int nearest)
 {
-    place w;
+    selection w;
 
-    r->chosen = r->places = 0;
-    if (!read_place(r, &w))
+    r->chosen = r->file_nodes = 0;
+    if (!read_selection(r, &w))
         return 0;
     if (w.kind == BY_NODE)
         choose(r, &w, w.found);
@@ -341,7 +343,7 @@ int model_fix(model_reader *r)
             return model_wrong(r, "unknown option", model_look(r));
         if (directions & 1 << a)
             return model_blame(r, "%s for the second time, expected: %s", name[a],
-                               model_form(r->s));
+                               r->s->form);
         directions |= 1 << a;
         if (model_skip(r, "by") && !model_number(r, &by[a]))
             return 0;
@@ -350,11 +352,11 @@ int model_fix(model_reader *r)
     for (int k = 0; k < r->chosen; k++) {
         const int n = r->chosen_node[k];
         for (int a = 0; a < 2; a++) {
-            if (directions & p->m->node[n].held & 1 << a && p->wall[n][a] != by[a])
+            if (directions & p->m->node[n].held & 1 << a && p->moved_to[n][a] != by[a])
                 return model_blame(r, "node %s is displaced by %g in %s here, by %g in another "
                                       "statement, expected one of them", p->node[n], by[a],
-                                   name[a], p->wall[n][a]);
-            p->wall[n][a] = directions & 1 << a ? by[a] : p->wall[n][a];
+                                   name[a], p->moved_to[n][a]);
+            p->moved_to[n][a] = directions & 1 << a ? by[a] : p->moved_to[n][a];
         }
         p->moving |= by[0] != 0 || by[1] != 0;
         bbm_fix_node(p->m, n, directions, 0, 0);
@@ -362,8 +364,8 @@ int model_fix(model_reader *r)
     return 1;
 }
 
-/* What meets at a library node. */
-static int meeting(const bbm_model *m, int node)
+/* The number of vertices at a library node. */
+static int adjacent(const bbm_model *m, int node)
 {
     return m->adjacent_first[node + 1] - m->adjacent_first[node];
 }
@@ -381,9 +383,9 @@ int model_load_nodes(model_reader *r)
         for (end = k;
              end < r->chosen && r->p->node[r->chosen_node[end]] == r->p->node[r->chosen_node[k]];
              end++)
-            all += meeting(m, r->chosen_node[end]);
+            all += adjacent(m, r->chosen_node[end]);
         for (int c = k; c < end; c++) {
-            const double share = (double)meeting(m, r->chosen_node[c]) / all / r->places;
+            const double share = (double)adjacent(m, r->chosen_node[c]) / all / r->file_nodes;
             bbm_add_load(m, r->chosen_node[c], share * f[0], share * f[1]);
         }
     }

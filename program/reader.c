@@ -1,5 +1,5 @@
-/* reader.c - what the readers of files share: errors, memory, tables of names, and the words,
- * numbers and options of a statement. */
+/* reader.c - what the readers of files share: errors, memory, tables of names, the words, numbers
+ * and options of a statement, and the nodes, elements, blocks and sets that they find. */
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
@@ -116,8 +116,8 @@ char *model_text(model_reader *r, size_t size)
     return NULL;
 }
 
-/* The place of a key in the table, or the empty one where it belongs; FNV-1a. */
-static int place_of(const model_table *t, const char *key)
+/* The slot of a key in the table, or the empty one where it belongs; FNV-1a. */
+static int slot_of(const model_table *t, const char *key)
 {
     unsigned hash = 2166136261u;
 
@@ -131,7 +131,7 @@ static int place_of(const model_table *t, const char *key)
 
 int model_find(const model_table *t, const char *key)
 {
-    const int i = t->room ? place_of(t, key) : 0;
+    const int i = t->room ? slot_of(t, key) : 0;
 
     return t->room && t->key[i] ? t->value[i] : -1;
 }
@@ -144,7 +144,7 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
                                model_room(r, room, sizeof(char *)) };
         for (int k = 0; k < t->room && larger.value && larger.key; k++)
             if (t->key[k]) {
-                const int to = place_of(&larger, t->key[k]);
+                const int to = slot_of(&larger, t->key[k]);
                 larger.key[to] = t->key[k];
                 larger.value[to] = t->value[k];
             }
@@ -155,7 +155,7 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
             return 0;
         *t = larger;
     }
-    const int i = place_of(t, key);
+    const int i = slot_of(t, key);
     t->count += t->key[i] == NULL;
     t->key[i] = key;
     t->value[i] = value;
@@ -264,7 +264,7 @@ int model_is_name(const char *word)
 
 int model_wrong(model_reader *r, const char *what, const char *word)
 {
-    return model_blame(r, "%s '%.60s', expected: %s", what, word, model_form(r->s));
+    return model_blame(r, "%s '%.60s', expected: %s", what, word, r->s->form);
 }
 
 /* The word that comes next stays; NULL at the end. */
@@ -280,7 +280,7 @@ char *model_word(model_reader *r)
     if (word)
         r->next++;
     else
-        model_blame(r, "a word is missing, expected: %s", model_form(r->s));
+        model_blame(r, "a word is missing, expected: %s", r->s->form);
     return word;
 }
 
@@ -298,7 +298,7 @@ int model_keyword(model_reader *r, const char *word)
     if (model_skip(r, word))
         return 1;
     return model_look(r) ? model_blame(r, "not the word %s: '%.60s', expected: %s", word,
-                                       model_look(r), model_form(r->s))
+                                       model_look(r), r->s->form)
                          : model_word(r) != NULL;
 }
 
@@ -419,7 +419,7 @@ static int in_range(model_reader *r, const model_option *o)
 static int option_value(model_reader *r, model_option *o)
 {
     if (o->seen)
-        return model_blame(r, "%s for the second time, expected: %s", o->name, model_form(r->s));
+        return model_blame(r, "%s for the second time, expected: %s", o->name, r->s->form);
     o->seen = 1;
     if (o->flag)
         return *o->flag = 1;
@@ -443,6 +443,57 @@ int model_options(model_reader *r, int n, model_option o[])
     }
     for (int k = 0; k < n; k++)
         if (o[k].needed && !o[k].seen)
-            return model_blame(r, "%s is missing, expected: %s", o[k].name, model_form(r->s));
+            return model_blame(r, "%s is missing, expected: %s", o[k].name, r->s->form);
     return 1;
+}
+
+/* ------------------------------------------------------------- nodes, elements, blocks and sets */
+
+int model_add_node(model_reader *r, const model_node *n)
+{
+    if (model_find(&r->node_of, n->id) >= 0)
+        return model_fail(r, n->at, "node '%s' for the second time, expected a new one", n->id);
+    return model_enter(r, &r->node_of, n->id, r->nodes)
+           && model_add(r, &r->node, &r->nodes, sizeof *n, n);
+}
+
+int model_find_block(model_reader *r, const char *word, model_place at)
+{
+    const model_block block = { .name = word, .at = at, .material = -1 };
+    const int found = model_find(&r->block_of, word);
+
+    if (found >= 0)
+        return found;
+    return model_enter(r, &r->block_of, word, r->blocks)
+           && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
+}
+
+int model_add_element(model_reader *r, const model_element *e, const int corner[])
+{
+    model_element own = *e;
+
+    own.first = r->corners;
+    if (model_find(&r->element_of, e->id) >= 0)
+        return model_fail(r, e->at, "element '%s' for the second time, expected a new one", e->id);
+    for (int k = 0; k < e->n; k++)
+        if (!model_add(r, &r->corner, &r->corners, sizeof *corner, &corner[k]))
+            return 0;
+    return model_enter(r, &r->element_of, e->id, r->elements)
+           && model_add(r, &r->element, &r->elements, sizeof own, &own);
+}
+
+int model_find_set(model_reader *r, const char *word)
+{
+    const model_set set = { 0, NULL, 0 };
+    const int found = model_find(&r->set_of, word);
+
+    if (found >= 0)
+        return found;
+    return model_enter(r, &r->set_of, word, r->sets)
+           && model_add(r, &r->set, &r->sets, sizeof set, &set) ? r->sets - 1 : -1;
+}
+
+int model_add_to_set(model_reader *r, int set, int node)
+{
+    return model_add(r, &r->set[set].node, &r->set[set].n, sizeof node, &node);
 }

@@ -144,7 +144,7 @@ static double nice_step(double x, int quarters)
     const double power = pow(10, floor(log10(x)));
     double best = power;
 
-    for (int i = 1; i < 5; i++)
+    for (int i = 1; i < LENGTH(mantissa); i++)
         if ((i != 2 || quarters) && fabs(log(mantissa[i] * power / x)) < fabs(log(best / x)))
             best = mantissa[i] * power;
     return best;
@@ -181,7 +181,7 @@ static int takes_prefix(const char *unit)
 {
     static const char *const symbol[] = { "m", "N", "Pa", "s" };
 
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < LENGTH(symbol); i++) {
         const size_t n = strlen(symbol[i]);
         if (strncmp(unit, symbol[i], n) == 0 && (unit[n] == '\0' || unit[n] == '/'))
             return 1;
@@ -403,7 +403,7 @@ static const char *series_colour(int look)
     static const char *const colour[] = { "#000000", "#D55E00", "#0072B2", "#009E73", "#CC79A7",
                                           "#E69F00", "#56B4E9" };
 
-    return colour[look % 7];
+    return colour[look % LENGTH(colour)];
 }
 
 static int series_look(const plot_chart *c, int k)
@@ -422,7 +422,8 @@ static const char *series_dashes(const plot_chart *c, int k)
         return pattern[0];
     for (int i = 0; i < k; i++)
         before += c->series[i].style == PLOT_LINE || c->series[i].style == PLOT_DASHED;
-    return pattern[before == 0 && c->series[k].style == PLOT_DASHED ? 5 : before % 6];
+    return pattern[before == 0 && c->series[k].style == PLOT_DASHED ? 5
+                   : before % LENGTH(pattern)];
 }
 
 static void draw_mark(plot *p, int look, double x, double y)
@@ -438,7 +439,7 @@ static void draw_mark(plot *p, int look, double x, double y)
     };
 
     plot_point(p, "<path d=\"M", x, y);
-    plot_put(p, "%s\"/>\n", shape[look % 7]);
+    plot_put(p, "%s\"/>\n", shape[look % LENGTH(shape)]);
 }
 
 static void draw_line(plot *p, const plot_chart *c, const plot_series *s)

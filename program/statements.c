@@ -1,4 +1,4 @@
-/* model.c - the statements of a model file, in a table near the end: each with its form, the
+/* statements.c - the statements of a model file, in a table near the end: each with its form, the
  * function that carries it out and the phase in which it does, so that a file may have them in
  * any order.
  *
@@ -15,8 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "case.h"
-#include "reader.h"
+#include "build.h"
+#include "cell.h"
+#include "field.h"
+#include "msh.h"
+#include "statements.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 
@@ -130,14 +133,6 @@ static int read_title(model_reader *r)
     return r->p->title != NULL;
 }
 
-int model_add_node(model_reader *r, const model_node *n)
-{
-    if (model_find(&r->node_of, n->id) >= 0)
-        return model_fail(r, n->at, "node '%s' for the second time, expected a new one", n->id);
-    return model_enter(r, &r->node_of, n->id, r->nodes)
-           && model_add(r, &r->node, &r->nodes, sizeof *n, n);
-}
-
 static int read_node(model_reader *r)
 {
     model_node n = { .id = model_id(r), .at = r->s->at, .by_hand = 1, .first = -1 };
@@ -220,7 +215,8 @@ static int read_dynamic(model_reader *r)
     bbm_parameters *p = &r->p->m->par;
     model_option o[] = {
         ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
-        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),    /* the same */
         COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
     };
 
@@ -230,6 +226,8 @@ static int read_dynamic(model_reader *r)
     r->p->ramp = -1;
     if (!model_options(r, LENGTH(o), o))
         return 0;
+    if (o[2].seen && o[3].seen)
+        return model_blame(r, "velocity_factor and damping, which are the same, expected one");
     r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
     return 1;
 }
@@ -277,44 +275,23 @@ static int read_rotation(model_reader *r)
 
 static int read_output(model_reader *r)
 {
-    static const char *const fields[] = SCENE_FIELDS;
-    int field = 0;
+    char names[400] = "";
+    int chosen = -1;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
-                   CHOICE("field", &field, "mises|sxx|syy|sxy|s1|s2|u|v") };
+                   CHOICE("field", &chosen, names) };
 
+    for (const field *f = field_table; f->name; f++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
+                 f->name);
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    r->p->field = fields[field];
+    if (chosen >= 0)
+        r->p->field = field_table[chosen].name;
     return 1;
 }
 
 /* ------------------------------------------------------------------- statements that need nodes */
-
-int model_find_block(model_reader *r, const char *word, model_place at)
-{
-    const model_block block = { .name = word, .at = at, .material = -1 };
-    const int found = model_find(&r->block_of, word);
-
-    if (found >= 0)
-        return found;
-    return model_enter(r, &r->block_of, word, r->blocks)
-           && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
-}
-
-int model_add_element(model_reader *r, const model_element *e, const int corner[])
-{
-    model_element own = *e;
-
-    own.first = r->corners;
-    if (model_find(&r->element_of, e->id) >= 0)
-        return model_fail(r, e->at, "element '%s' for the second time, expected a new one", e->id);
-    for (int k = 0; k < e->n; k++)
-        if (!model_add(r, &r->corner, &r->corners, sizeof *corner, &corner[k]))
-            return 0;
-    return model_enter(r, &r->element_of, e->id, r->elements)
-           && model_add(r, &r->element, &r->elements, sizeof own, &own);
-}
 
 static int read_element(model_reader *r)
 {
@@ -333,22 +310,6 @@ static int read_element(model_reader *r)
     good = good && model_add_element(r, &e, corner);
     free(corner);
     return good;
-}
-
-int model_find_set(model_reader *r, const char *word)
-{
-    const model_set set = { 0, NULL, 0 };
-    const int found = model_find(&r->set_of, word);
-
-    if (found >= 0)
-        return found;
-    return model_enter(r, &r->set_of, word, r->sets)
-           && model_add(r, &r->set, &r->sets, sizeof set, &set) ? r->sets - 1 : -1;
-}
-
-int model_add_to_set(model_reader *r, int set, int node)
-{
-    return model_add(r, &r->set[set].node, &r->set[set].n, sizeof node, &node);
 }
 
 /* ----------------------------------------------------- blocks and grids with nodes of their own */
@@ -449,7 +410,7 @@ static int add_rim(model_reader *r, const char *block, const char *side, int fir
 static int read_grid(model_reader *r)
 {
     double p[4];
-    int material, n[2], kind = CASE_QUADS, good = 1, element[4][4], corners;
+    int material, n[2], kind = CELL_QUADS, good = 1, element[4][4], corners;
     const char *word;
     const int block = new_block(r, &word, &material), first = r->nodes;
 
@@ -472,10 +433,10 @@ static int read_grid(model_reader *r)
     for (int k = 0; k < n[0] * n[1] && good; k++) {
         const int a = first + k / n[0] * (n[0] + 1) + k % n[0], d = a + n[0] + 1;
         const int corner[5] = { a, a + 1, d + 1, d, r->nodes };
-        if (kind == CASE_CROSSED)
+        if (kind == CELL_CROSSED)
             good = add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
                                 (r->node[a].y + r->node[d + 1].y) / 2);
-        const int cells = case_cut_cell(kind, (k / n[0] + k % n[0]) % 2, corner, element, &corners);
+        const int cells = cell_cut(kind, (k / n[0] + k % n[0]) % 2, corner, element, &corners);
         for (int c = 0; c < cells && good; c++)
             good = add_own_element(r, block, material, corners, element[c]);
     }
@@ -584,14 +545,14 @@ static const struct kind {
       "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
       read_contact, NOTHING_NEEDED, 1 },
     { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
-    { "dynamic", "dynamic dt VALUE steps N [damping VALUE] [settle N] [ramp T]", read_dynamic,
-      NOTHING_NEEDED, 1 },
+    { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",
+      read_dynamic, NOTHING_NEEDED, 1 },
     { "bond", "bond [alpha VALUE] [augment N] [at vertices|midpoints|moment|auto]", read_bond,
       NOTHING_NEEDED, 1 },
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
       NOTHING_NEEDED, 1 },
     { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
-    { "output", "output [every N] [vtk] [svg] [field mises|sxx|syy|sxy|s1|s2|u|v] [scale N]",
+    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N]",
       read_output, NOTHING_NEEDED, 1 },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
@@ -615,8 +576,6 @@ static const struct kind {
       read_expect, MONITORS, 0 },
 };
 
-const char *model_form(const model_statement *s) { return kinds[s->kind].form; }
-
 /* Finds the statement that begins with the word; whether it may stand here. */
 static int begin_statement(model_reader *r, const char *word, model_place at)
 {
@@ -633,7 +592,7 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
         return model_fail(r, at, "%s for the second time, after line %d, expected it once", word,
                           r->seen[k].line);
     r->seen[k] = at;
-    const model_statement s = { at, r->words, 0, k };
+    const model_statement s = { at, r->words, 0, k, kinds[k].form };
     return model_add(r, &r->statement, &r->statements, sizeof s, &s);
 }
 
@@ -750,7 +709,9 @@ static int read_all(model_reader *r)
 
 int model_read(const char *path, int lets, char *const let[], model *p)
 {
-    model_reader r = { .p = p, .path = path, .lets = lets, .let = let, .other_material = -1 };
+    model_place seen[LENGTH(kinds)] = { { 0 } };
+    model_reader r = { .p = p, .path = path, .lets = lets, .let = let, .other_material = -1,
+                       .seen = seen };
 
     *p = (model){ .field = "mises" };
     if (bbm_beyond_new(&p->m)) {
@@ -767,68 +728,3 @@ int model_read(const char *path, int lets, char *const let[], model *p)
     return p->status;
 }
 
-/* A displaced support is where it belongs at the time t, to which its way is even. */
-void model_move_supports(model *p, double t)
-{
-    const double share = p->ramp > 0 ? fmin(1, t / p->ramp) : 1;
-
-    for (int n = 0; n < p->m->nodes && p->moving; n++)
-        if (p->m->node[n].held)
-            bbm_move_support(p->m, n, share * p->wall[n][0], share * p->wall[n][1]);
-}
-
-void model_place_of(const model *p, const model_monitor *m, double u[2])
-{
-    u[0] = u[1] = 0;
-    for (int n = 0; n < m->nodes; n++) {
-        bbm_result r;
-        bbm_nodal_result(p->m, m->node[n], -1, &r);
-        u[0] += r.u / m->nodes;
-        u[1] += r.v / m->nodes;
-    }
-}
-
-double model_mises(const bbm_model *m, int element)
-{
-    const bbm_element *e = &m->element[element];
-
-    return bbm_mises(e->stress, bbm_stress_out_of_plane(m, e));
-}
-
-/* Each block as a rigid body: v + spin x (X - barycentre of the block). */
-int model_start(model *p)
-{
-    bbm_model *m = p->m;
-    double (*sum)[3] = calloc((size_t)p->blocks, sizeof *sum);
-
-    for (int e = 0; e < m->elements && sum; e++) {
-        const bbm_element *i = &m->element[e];
-        const double mass = i->material.density * i->material.thickness * i->A0;
-        sum[i->block][0] += mass * i->x;
-        sum[i->block][1] += mass * i->y;
-        sum[i->block][2] += mass;
-    }
-    for (int e = 0; e < m->elements && sum; e++) {
-        bbm_element *i = &m->element[e];
-        const double *v = p->velocity[i->block].V, *s = sum[i->block];
-        const double V[6] = {
-            v[0] - v[2] * (i->y - s[1] / s[2]), v[1] + v[2] * (i->x - s[0] / s[2]), v[2], 0, 0, 0
-        };
-        memcpy(i->V, V, sizeof V);
-    }
-    free(sum);
-    return sum != NULL;
-}
-
-void model_free(model *p)
-{
-    bbm_model_free(p->m);
-    for (int k = 0; k < p->texts; k++)
-        free(p->text[k]);
-    for (int k = 0; k < p->monitors; k++)
-        free(p->monitor[k].node);
-    free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
-        free((void *)p->element);
-    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->wall);
-    *p = (model){ 0 };
-}

@@ -1,4 +1,4 @@
-/* bbm.c - ./bbm MODEL runs a model file: reads it (model.c, msh.c), steps, writes the results
+/* main.c - ./bbm MODEL runs a model file: reads it (statements.c), steps, writes the results
  * (write.c).
  *
  * Exit status: 0, all is done, and as expected; 1, the run failed, with what was computed until
@@ -13,6 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "field.h"
+#include "length.h"
+#include "statements.h"
 #include "write.h"
 
 /* The signal that came. Signals have no other way to say something: this variable, and it alone,
@@ -190,6 +193,7 @@ static void warn(const model *p, const char *path, int checking)
 static void summarise(const model *p, const char *folder)
 {
     const bbm_model *m = p->m;
+    const field *mises = field_find("mises");
     double far = 0, most = 0;
     int v_far = 0, e_most = 0;
 
@@ -197,8 +201,8 @@ static void summarise(const model *p, const char *folder)
         if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int e = 0; e < m->elements; e++)
-        if (model_mises(m, e) > most)
-            most = model_mises(m, e), e_most = e;
+        if (field_of_element(mises, m, e) > most)
+            most = field_of_element(mises, m, e), e_most = e;
     printf("%d step%s, ", m->info.step, plural(m->info.step));
     if (p->dynamic)
         printf("t = %g s, ", m->info.t);
@@ -220,11 +224,11 @@ static void warn_of_turns(const model *p, const char *path)
         most = fmax(most, fabs(p->m->element[e].sum[2]));
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         put_warning(path, "elements turn by more than 0.1 rad, which statics takes as small: "
-                          "lengths are wrong; dynamic with damping 0 has them right");
+                          "lengths are wrong; dynamic with velocity_factor 0 has them right");
 }
 
 /* What came out beside what was expected of it; the number of those not met. */
-static int compare(const model *p, int quiet)
+static int report_expectations(const model *p, int quiet)
 {
     static const char *const kind[] = { "u", "v", "moves", "stays" };
     int missed = 0;
@@ -233,7 +237,7 @@ static int compare(const model *p, int quiet)
         const model_expected *e = &p->expected[k];
         const int value = e->kind == MODEL_U || e->kind == MODEL_V;
         double u[2];
-        model_place_of(p, &p->monitor[e->monitor], u);
+        model_displacement(p, &p->monitor[e->monitor], u);
         const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
         const int met = value ? fabs(got - e->value) <= e->within
                       : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
@@ -421,7 +425,7 @@ static void catch_signals(void)
 #endif
     };
 
-    for (size_t k = 0; k < sizeof caught / sizeof *caught; k++)
+    for (int k = 0; k < LENGTH(caught); k++)
         if (signal(caught[k], stop) == SIG_IGN)
             signal(caught[k], SIG_IGN);
 }
@@ -500,7 +504,7 @@ static int run(model *p, const arguments *a, clock_t start)
     if (!a->quiet)
         summarise(p, a->folder);
     warn_of_turns(p, a->model);
-    return compare(p, a->quiet) > 0 ? 3 : 0;
+    return report_expectations(p, a->quiet) > 0 ? 3 : 0;
 }
 
 static int read_and_run(const arguments *a, clock_t start)

@@ -24,6 +24,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "field.h"
 #include "plot.h"
 
 enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
@@ -97,16 +98,25 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-/* The force of a contact on the block of P1, N n - T m with m from P2 to P3 and n out of the edge's
- * block; turned round if it points down, so that it points into what is carried. */
-static scene_force force_of(const bbm_model *m, const bbm_contact *c)
+/* N n - T m, m from P2 to P3 and n out of the edge's block. */
+void scene_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2])
 {
-    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a], *P2 = &m->vertex[m->edge[c->edge].b];
-    const bbm_vertex *P3 = &m->vertex[m->edge[c->edge].a];
+    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
     const double l = hypot(P3->x - P2->x, P3->y - P2->y);
     const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
-    const double f[2] = { -c->N * y - c->T * x, c->N * x - c->T * y }, up = f[1] < 0 ? -1 : 1;
 
+    f[0] = -N * y - T * x;
+    f[1] = N * x - T * y;
+}
+
+/* Turned round if it points down, so that it points into what is carried. */
+static scene_force force_of(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
+    double f[2];
+
+    scene_contact_force(m, c, c->N, c->T, f);
+    const double up = f[1] < 0 ? -1 : 1;
     return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], c->state };
 }
 
@@ -154,7 +164,7 @@ int scene_record(scene *s, const bbm_model *m)
 /* -------------------------------------------------------------------------------------- blocks */
 
 /* m, in a frame */
-static point place(const film *f, int frame, int v)
+static point position(const film *f, int frame, int v)
 {
     const double *x = f->s->frame[frame].at[v];
 
@@ -167,7 +177,7 @@ static point pixel(const film *f, point a)
     return (point){ plot_pixel(&f->p.x, a.x), plot_pixel(&f->p.y, a.y) };
 }
 
-static point at(const film *f, int frame, int v) { return pixel(f, place(f, frame, v)); }
+static point at(const film *f, int frame, int v) { return pixel(f, position(f, frame, v)); }
 
 static int next_vertex(const bbm_model *m, int v)
 {
@@ -205,7 +215,7 @@ static int choose_tint(const film *f, int b)
 /* Held: each of its vertices, in both directions, where it was. */
 static void add_vertex(film *f, body *b, int v)
 {
-    const point x = place(f, 0, v);
+    const point x = position(f, 0, v);
     const bbm_node *i = &f->m->node[f->m->vertex[v].node];
 
     b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0;
@@ -402,7 +412,7 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
 /* Arrows along a loaded edge, 10 pixels apart or more. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
-    const point a = place(f, frame, l->a), b = place(f, frame, l->b);
+    const point a = position(f, frame, l->a), b = position(f, frame, l->b);
     const double length = hypot(b.x - a.x, b.y - a.y);
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
     const int n = (int)fmax(1, length * f->scale / 16);
@@ -428,7 +438,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     for (int i = 0; kind == LOAD && i < m->nodes; i++) {
         const double *q = m->node[i].load;
         if (q[0] != 0 || q[1] != 0)
-            visit_force(f, kind, place(f, frame, m->adjacent[m->adjacent_first[i]]),
+            visit_force(f, kind, position(f, frame, m->adjacent[m->adjacent_first[i]]),
                         (point){ q[0], q[1] }, f->normal[i], visit);
     }
     for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++) {
@@ -454,7 +464,7 @@ static void visit_supports(film *f, int frame, visitor *visit)
         for (int k = 0; k < f->body[b].n && !f->body[b].held; k++) {
             const int v = f->vertex[f->body[b].first + k], n = f->m->vertex[v].node;
             const int held = f->m->node[n].held;
-            const point x = place(f, frame, v);
+            const point x = position(f, frame, v);
             point d = f->normal[n];
             if (held == 0 || hypot(x.x - last[held].x, x.y - last[held].y) * f->scale < 8)
                 continue;
@@ -632,7 +642,7 @@ static void find_window(film *f)
     for (int b = 0; b < f->bodies; b++)
         for (int k = 0; k < f->body[b].n && !(chosen && f->body[b].held); k++)
             for (int i = 0; i < f->s->frames; i++)
-                widen_window(f, 0, place(f, i, f->vertex[f->body[b].first + k]), (point){ 0, 0 });
+                widen_window(f, 0, position(f, i, f->vertex[f->body[b].first + k]), (point){ 0, 0 });
     const double more = 0.03 * fmax(f->window[0][1] - f->window[0][0],
                                     f->window[1][1] - f->window[1][0]);
     for (int k = 0; k < 2; k++) {
@@ -841,19 +851,7 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 /* --------------------------------------------------------------------------------------- maps */
 
 typedef struct { double u, v, value; } nodal;
-typedef struct { double x, y, value; } corner;          /* pixels */
-
-double scene_field(const bbm_result *r, const char *field)
-{
-    static const char *const name[] = SCENE_FIELDS;
-    const double *s = r->stress, mean = (s[0] + s[1]) / 2, radius = hypot((s[0] - s[1]) / 2, s[2]);
-    const double value[] = { r->mises, s[0], s[1], s[2], mean + radius, mean - radius, r->u, r->v };
-
-    for (int k = 0; name[k]; k++)
-        if (strcmp(name[k], field) == 0)
-            return value[k];
-    return NAN;
-}
+typedef struct { double x, y, value; } sample;     /* pixels */
 
 /* Whether no edge changes by more than FAIR of its length, the other end's turn included, and no
  * element loses half of its area. */
@@ -896,55 +894,55 @@ static double find_scale(const bbm_model *m, const nodal *n)
 }
 
 /* The part of a convex polygon where sign * (value - level) >= 0; returns its number of corners. */
-static int cut(const corner in[], int n, double level, double sign, corner out[])
+static int clip(const sample in[], int n, double level, double sign, sample out[])
 {
     int count = 0;
 
     for (int i = 0; i < n; i++) {
-        const corner a = in[i], b = in[(i + 1) % n];
+        const sample a = in[i], b = in[(i + 1) % n];
         const int stays = sign * (a.value - level) >= 0;
         if (stays)
             out[count++] = a;
         if (stays == (sign * (b.value - level) >= 0))
             continue;
         const double t = (level - a.value) / (b.value - a.value);
-        out[count++] = (corner){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), level };
+        out[count++] = (sample){ a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), level };
     }
     return count;
 }
 
 /* The share of one triangle in the band from level[0] to level[1]. */
-static void put_share(film *f, const corner triangle[3], const double level[2])
+static void put_share(film *f, const sample triangle[3], const double level[2])
 {
     const double a = triangle[0].value, b = triangle[1].value, c = triangle[2].value;
-    corner above[4], band[5];
+    sample above[4], band[5];
 
     if (fmax(a, fmax(b, c)) < level[0] || fmin(a, fmin(b, c)) >= level[1])
         return;
-    const int n = cut(above, cut(triangle, 3, level[0], 1, above), level[1], -1, band);
+    const int n = clip(above, clip(triangle, 3, level[0], 1, above), level[1], -1, band);
     for (int i = 0; i < n && n >= 3; i++)
         plot_point(&f->p, i ? " " : "M", band[i].x, band[i].y);
     plot_put(&f->p, n >= 3 ? "z\n" : "");
 }
 
-static corner corner_of(const film *f, const nodal *n, int v)
+static sample sample_of(const film *f, const nodal *n, int v)
 {
-    return (corner){ at(f, 1, v).x, at(f, 1, v).y, n[f->m->vertex[v].node].value };
+    return (sample){ at(f, 1, v).x, at(f, 1, v).y, n[f->m->vertex[v].node].value };
 }
 
 static void put_element_share(film *f, const nodal *n, const bbm_element *e, const double level[2])
 {
-    corner t[3] = { { 0, 0, 0 } };
+    sample t[3] = { { 0, 0, 0 } };
 
     for (int v = e->first; v < e->first + e->n && e->n > 3; v++) {
-        const corner a = corner_of(f, n, v);
-        t[2] = (corner){ t[2].x + a.x / e->n, t[2].y + a.y / e->n, t[2].value + a.value / e->n };
+        const sample a = sample_of(f, n, v);
+        t[2] = (sample){ t[2].x + a.x / e->n, t[2].y + a.y / e->n, t[2].value + a.value / e->n };
     }
     if (e->n == 3)
-        t[2] = corner_of(f, n, e->first + 2);
+        t[2] = sample_of(f, n, e->first + 2);
     for (int v = e->first; v < e->first + (e->n == 3 ? 1 : e->n); v++) {
-        t[0] = corner_of(f, n, v);
-        t[1] = corner_of(f, n, next_vertex(f->m, v));
+        t[0] = sample_of(f, n, v);
+        t[1] = sample_of(f, n, next_vertex(f->m, v));
         put_share(f, t, level);
     }
 }
@@ -995,11 +993,9 @@ static void draw_field(film *f, const nodal *n, const plot_axis *bar)
     draw_outlines(f, 1, "#000000");
 }
 
-static int write_field(film *f, const char *path, const nodal *n, const char *field)
+static int write_field(film *f, const char *path, const nodal *n, const field *shown)
 {
-    const int stress = strcmp(field, "u") && strcmp(field, "v");
-    const plot_quantity q = { .name = strcmp(field, "mises") ? field : "von Mises stress",
-                              .unit = stress ? "Pa" : "m" };
+    const plot_quantity q = { .name = shown->label, .unit = shown->unit };
     double range[2] = { INFINITY, -INFINITY };
 
     if (!begin_film(f))
@@ -1022,7 +1018,7 @@ static int write_field(film *f, const char *path, const nodal *n, const char *fi
 
 int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
 {
-    const char *field = map->field ? map->field : "mises";
+    const field *shown = field_find(map->field ? map->field : "mises");
     const size_t all = (size_t)m->vertices;
     double (*place)[2] = malloc(2 * all * sizeof *place);       /* as at the start, and magnified */
     nodal *n = malloc((size_t)m->nodes * sizeof *n);
@@ -1038,7 +1034,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
         for (int i = 0; i < m->nodes; i++) {
             bbm_result r;
             bbm_nodal_result(m, i, -1, &r);
-            n[i] = (nodal){ r.u, r.v, scene_field(&r, field) };
+            n[i] = (nodal){ r.u, r.v, field_of_node(shown, m, i) };
             finite &= isfinite(r.u + r.v + n[i].value);
         }
         const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
@@ -1052,7 +1048,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
                  map->title ? ", " : "", scale);
         s.title = scale == 0 || scale == 1 ? map->title : title;
         errno = EDOM;
-        done = finite && write_field(&f, path, n, field);
+        done = finite && write_field(&f, path, n, shown);
     }
     end_film(&f);
     free(place);

@@ -1,12 +1,12 @@
 /* model.h - a problem read from a model file: ten lines of text, or a mesh from Gmsh, in place of
  * a program.
  *
- * model_read gives the prepared library model and what the library does not keep: names, pictures
- * wanted, monitors. A node of the file that several blocks share becomes a node of each of them,
+ * It has the prepared library model and what the library does not keep: names, pictures wanted,
+ * monitors. A node of the file that several blocks share becomes a node of each of them,
  * for blocks are never bonded and each has its own results there. These copies are the nodes of
  * the library's model, in the order of the file.
  *
- * reader.h has what the readers of the files share.
+ * statements.h reads it.
  */
 #ifndef MODEL_H
 #define MODEL_H
@@ -24,7 +24,7 @@ typedef struct {
     char  *title;               /* or NULL */
     int    dynamic, settle;     /* quasi-static steps before t = 0 */
     int    every, vtk, svg;     /* every: 0, the end only */
-    const char *field;          /* of the picture: mises, sxx, syy, sxy, s1, s2, u or v */
+    const char *field;          /* of the picture, a name of field.h */
     double scale;               /* by which it enlarges displacements; 0: as the picture chooses */
     int    slippery;            /* several blocks, which may touch, and no friction given */
     int    blocks, monitors;
@@ -38,7 +38,7 @@ typedef struct {
     int    expectations;
     model_expected *expected;   /* [expectations] value and within: m */
     int    moving;              /* supports: whether any moves */
-    double (*wall)[2];          /* [m->nodes]   m, where it moves to */
+    double (*moved_to)[2];      /* [m->nodes]   m, from the start */
     double ramp;                /* s            in which; 0: at once */
     int    texts;
     char **text;                /* [texts]      the files read: names and ids are words of them */
@@ -46,13 +46,9 @@ typedef struct {
     char   message[600];
 } model;
 
-/* Reads and checks all; returns the status. `path` may be -, which is stdin. let: `NAME=VALUE` in
- * place of what the file says, [lets]. model_free releases a model that failed, too. */
-int  model_read(const char *path, int lets, char *const let[], model *p);
-double model_mises(const bbm_model *m, int element);                       /* Pa */
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p, double t);                  /* to where they are at the time t */
-void model_place_of(const model *p, const model_monitor *m, double u[2]);   /* m, displaced */
+void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
 void model_free(model *p);
 
 #endif

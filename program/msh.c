@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reader.h"
+#include "msh.h"
 
 /* A physical group with its name, or an entity (point, curve, surface) with its groups tag[first
  * .. first+n-1]. */
@@ -222,7 +222,7 @@ static int read_entities(mesh *m)
 
 /* ------------------------------------------------------------------------------ nodes, elements */
 
-static int read_place(mesh *m, model_node *n)
+static int read_position(mesh *m, model_node *n)
 {
     double z;
 
@@ -239,7 +239,7 @@ static int read_nodes_22(mesh *m)
     while (n-- > 0) {
         model_node node = { .id = id(m), .first = -1 };
         node.at = m->at;
-        if (!node.id || !read_place(m, &node) || !model_add_node(m->r, &node))
+        if (!node.id || !read_position(m, &node) || !model_add_node(m->r, &node))
             return 0;
     }
     return end_section(m);
@@ -268,7 +268,7 @@ static int read_nodes_41(mesh *m)
                 return 0;
         }
         for (int k = 0; k < head[3]; k++) {
-            if (!read_place(m, &r->node[first + k]))
+            if (!read_position(m, &r->node[first + k]))
                 return 0;
             for (int p = 0; head[2] && p < head[0]; p++)
                 if (!number(m, &parameter))
@@ -423,7 +423,7 @@ static int read_section(mesh *m)
         { "Elements", old ? read_elements_22 : read_elements_41, 2 },
     };
 
-    for (size_t k = 0; k < sizeof section / sizeof *section; k++)
+    for (int k = 0; k < LENGTH(section); k++)
         if (strcmp(m->section, section[k].name) == 0) {
             m->done |= section[k].done;
             return section[k].read(m);

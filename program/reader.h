@@ -1,4 +1,4 @@
-/* reader.h - what the readers of model files share: reader.c, model.c, build.c, msh.c.
+/* reader.h - what the readers of model files share: statements.c, build.c, msh.c.
  *
  * Reading has three steps: the file is cut into statements and words; the statements are carried
  * out in an order in which each finds what it needs; the first error ends it all with one
@@ -13,6 +13,7 @@
 
 #include <stddef.h>
 
+#include "length.h"
 #include "model.h"
 
 typedef struct { const char *file; int line; } model_place;     /* line 0: none is to blame */
@@ -23,7 +24,8 @@ typedef struct {                /* from a word to a number                      
 
 typedef struct {                /* words first .. first+n-1                                         */
     model_place at;
-    int first, n, kind;
+    int first, n, kind;         /* kind: its row in the table of statements.c */
+    const char *form;           /* what it looks like, for messages */
 } model_statement;
 
 typedef struct {
@@ -69,15 +71,15 @@ typedef struct {
     long long last[2];                   /* the largest id of a node, of an element; 0: not known */
     int other_material;                     /* of `use MATERIAL on *`, or -1 */
     int plane_strain, no_shear;             /* no_shear: ks is 0 */
-    int chosen, places, *chosen_node;     /* what the last WHERE names: library nodes, of so many */
-                                            /* nodes of the file */
+    int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
+                                            /* many nodes of the file */
     double margin;                          /* m            lengths below it are none */
     const model_statement *s;               /* in hand, and its next word */
     int next;
-    model_place seen[40];                   /* where a statement that makes sense once stands */
+    model_place *seen;                      /* [kinds]      where the last of a kind stands */
 } model_reader;
 
-/* --- errors, memory, tables: reader.c --- */
+/* --- errors, memory, tables --- */
 /* They return 0; the first message stays. model_blame: at the statement in hand. */
 int   model_fail(model_reader *r, model_place at, const char *format, ...);
 int   model_blame(model_reader *r, const char *format, ...);
@@ -98,8 +100,7 @@ const char *model_nearest(const char *word, const void *names, int n, size_t str
 const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
 int   model_unknown(model_reader *r, const model_table *t, const char *what, const char *word);
 
-/* --- words of the statement in hand: reader.c --- */
-const char *model_form(const model_statement *s);               /* model.c */
+/* --- words of the statement in hand --- */
 int   model_wrong(model_reader *r, const char *what, const char *word);
 char *model_look(const model_reader *r);           /* the word that comes next, it stays; or NULL */
 char *model_word(model_reader *r);
@@ -139,28 +140,13 @@ int   model_options(model_reader *r, int n, model_option o[]);
 #define CHOICE(text, where, list) { .name = text, .n = where, .choices = list }
 /* The letters of a name. */
 #define MODEL_NAME "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-."
-#define LENGTH(array) ((int)(sizeof array / sizeof *array))
 
-/* --- nodes, elements, blocks and sets: model.c --- */
+/* --- nodes, elements, blocks and sets --- */
 int   model_add_node(model_reader *r, const model_node *n);
 int   model_add_element(model_reader *r, const model_element *e, const int corner[]);
 /* A new one if need be; -1: no memory. */
 int   model_find_block(model_reader *r, const char *name, model_place at);
 int   model_find_set(model_reader *r, const char *name);
 int   model_add_to_set(model_reader *r, int set, int node);
-int   model_read_mesh(model_reader *r, const char *path, model_place at);   /* in msh.c */
-
-/* --- the library's model, and the statements that need it: build.c --- */
-int   model_build(model_reader *r);
-int   model_finish(model_reader *r);
-int   model_fix(model_reader *r);
-int   model_load_nodes(model_reader *r);
-int   model_traction(model_reader *r);
-int   model_pressure(model_reader *r);
-int   model_water(model_reader *r);
-int   model_velocities(model_reader *r);
-int   model_stress(model_reader *r);
-int   model_joint(model_reader *r);
-int   model_monitors(model_reader *r);
 
 #endif

@@ -18,6 +18,7 @@
 #ifndef PLOT_H
 #define PLOT_H
 
+#include "length.h"
 #include "output.h"
 
 typedef enum {

@@ -1,0 +1,15 @@
+/* edge_load.c - the loads of edges that pictures show. `make paper` has paper.c in its place. */
+#include "../beyond/beyond.h"
+#include "scene.h"
+
+int scene_edge_load(const bbm_model *m, int k, scene_line *l)
+{
+    if (!m->beyond || k >= m->beyond->edge_loads)
+        return 0;
+    const bbm_edge_load *e = &m->beyond->edge_load[k];
+    *l = (scene_line){ .a = e->a, .b = bbm_next_vertex(&m->element[m->vertex[e->a].element], e->a),
+                       .loads = 1, .q = &e->f, .pressure = e->pressure };
+    if (e->weight > 0)
+        l->loads = BBM_GAUSS, l->q = e->q;
+    return 1;
+}

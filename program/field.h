@@ -1,0 +1,30 @@
+/* field.h - the quantities that tables and pictures show, by name: a row each in the table of
+ * field.c. A new row is a column of the files that it names, and what `output field NAME` draws. */
+#ifndef FIELD_H
+#define FIELD_H
+
+#include "../bbm.h"
+
+enum {                          /* where a field is written, as bits                            */
+    FIELD_NODES = 1,            /* nodes.csv                                                    */
+    FIELD_ELEMENTS = 2,         /* elements.csv                                                 */
+    FIELD_MOVING = 4,           /* elements.csv in dynamics                                     */
+    FIELD_CELLS = 8             /* the cells of step_*.vtk                                      */
+};
+
+/* A field follows from displacement and stress, or it belongs to an element. */
+typedef struct {
+    const char *name, *label, *unit;    /* label: in a picture                                  */
+    double (*of_result)(const bbm_result *r);
+    double (*of_element)(const bbm_model *m, int element);      /* where of_result is NULL      */
+    int files;
+} field;
+
+extern const field field_table[];       /* the last row has no name                             */
+
+const field *field_find(const char *name);                      /* NULL: there is none          */
+double field_of_element(const field *f, const bbm_model *m, int element);
+/* What belongs to elements: the mean of those that meet there. */
+double field_of_node(const field *f, const bbm_model *m, int node);
+
+#endif

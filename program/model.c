@@ -1,0 +1,65 @@
+/* model.c - what a run asks of a model that was read from a file. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model.h"
+
+/* A displaced support is where it belongs at the time t, to which its way is even. */
+void model_move_supports(model *p, double t)
+{
+    const double share = p->ramp > 0 ? fmin(1, t / p->ramp) : 1;
+
+    for (int n = 0; n < p->m->nodes && p->moving; n++)
+        if (p->m->node[n].held)
+            bbm_move_support(p->m, n, share * p->moved_to[n][0], share * p->moved_to[n][1]);
+}
+
+void model_displacement(const model *p, const model_monitor *m, double u[2])
+{
+    u[0] = u[1] = 0;
+    for (int n = 0; n < m->nodes; n++) {
+        bbm_result r;
+        bbm_nodal_result(p->m, m->node[n], -1, &r);
+        u[0] += r.u / m->nodes;
+        u[1] += r.v / m->nodes;
+    }
+}
+
+/* Each block as a rigid body: v + spin x (X - barycentre of the block). */
+int model_start(model *p)
+{
+    bbm_model *m = p->m;
+    double (*sum)[3] = calloc((size_t)p->blocks, sizeof *sum);
+
+    for (int e = 0; e < m->elements && sum; e++) {
+        const bbm_element *i = &m->element[e];
+        const double mass = i->material.density * i->material.thickness * i->A0;
+        sum[i->block][0] += mass * i->x;
+        sum[i->block][1] += mass * i->y;
+        sum[i->block][2] += mass;
+    }
+    for (int e = 0; e < m->elements && sum; e++) {
+        bbm_element *i = &m->element[e];
+        const double *v = p->velocity[i->block].V, *s = sum[i->block];
+        const double V[6] = {
+            v[0] - v[2] * (i->y - s[1] / s[2]), v[1] + v[2] * (i->x - s[0] / s[2]), v[2], 0, 0, 0
+        };
+        memcpy(i->V, V, sizeof V);
+    }
+    free(sum);
+    return sum != NULL;
+}
+
+void model_free(model *p)
+{
+    bbm_model_free(p->m);
+    for (int k = 0; k < p->texts; k++)
+        free(p->text[k]);
+    for (int k = 0; k < p->monitors; k++)
+        free(p->monitor[k].node);
+    free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
+        free((void *)p->element);
+    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to);
+    *p = (model){ 0 };
+}
