@@ -190,6 +190,11 @@ typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;
 enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
 
+typedef struct {                /* Mohr and Coulomb: shear <= N tan_phi + shear, -N <= tension  */
+    double tan_phi;             /* -        of the friction angle            */
+    double shear, tension;      /* N        of an unbroken joint; 0: paper   */
+} bbm_strength;
+
 typedef struct {                /* vertex P1 of one block against an edge P2 P3 of another      */
     /* --- identity: boundary edges; P1 starts `corner`, P2 ends `edge`, P3 starts it --- */
     int    corner, edge;
@@ -202,9 +207,12 @@ typedef struct {                /* vertex P1 of one block against an edge P2 P3 
                                 /*          spring starts loaded                                */
     double N, T;                /* N        normal force; what the shear spring carries or      */
                                 /*          would carry                                         */
+    double slip;                /* m        by how much it has slid, in all steps since it      */
+                                /*          closed, see store_contact                           */
     double area;                /* m^2      that P1 stands for of an unbroken joint, or 0       */
     int    inside;              /* opened with P1 still inside, where it had closed, see rest   */
     /* --- of the step --- */
+    bbm_strength strength;
     int    entrance[4];         /* the other entrance lines, contacts in the list or -1: two    */
                                 /*          at P3, two at P2                                    */
     int    was_closed;          /* at the start                                                 */
@@ -239,12 +247,17 @@ typedef struct {
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
     double friction;            /* degree   friction angle                                      */
-    double cohesion, tension;   /* Pa       shear and tensile strength of unbroken joints       */
     int    faces;               /* 1: grid points inside a straight side touch other blocks,    */
                                 /* too: a deformable block rests on its whole side; 0: on its   */
                                 /* two corners, as a bridge                                     */
     bbm_pcg pcg;
 } bbm_parameters;
+
+typedef struct {                /* what a parameter may be                                      */
+    const char *name;
+    double value, low, high;
+    const char *expected;       /* low to high in words                                         */
+} bbm_range;
 
 typedef struct {                /* what the last step did                                       */
     int    step;                /* steps done                                                   */
@@ -272,13 +285,14 @@ typedef struct {
     bbm_status (*check_polygon)(bbm_model *m, int n, const int node[]);     /* of a new element */
     bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
     /* --- a step begins --- */
-    bbm_status (*check_step)(bbm_model *m);                 /* parameters in their ranges       */
+    bbm_status (*check_step)(bbm_model *m);                 /* settings in their ranges         */
     void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
     void (*begin)(bbm_model *m);                            /* the contacts are listed          */
     bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
-    double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
-    const bbm_parameters *(*strength)(const bbm_model *m, int corner, int edge); /* of a contact */
+    void (*strength)(const bbm_model *m, bbm_contact *c, int touches);
+                                                            /* c->strength; `touches`: a joint  */
+                                                            /* of the start, c->area, too       */
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
@@ -426,9 +440,9 @@ void   bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s,
                              bbm_submatrices *s);                               /* (63), (64)   */
 void   bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr,
                                 bbm_submatrices *s);                            /* (65)-(69)    */
-const bbm_parameters *bbm_strength_of(const bbm_model *m, const bbm_contact *c);
-double bbm_shear_strength(const bbm_parameters *p, double N, double area);
-bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c,
+double bbm_tangent(double degrees);
+double bbm_shear_strength(const bbm_strength *s, double N);                     /* (65)         */
+bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c,
                                  double tolerance);                             /* the table    */
 
 /* ------------------------------------------------------ 4. what the files of the library share */
@@ -444,6 +458,7 @@ void       bbm_list_gaps(bbm_model *m);
 void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, int directions);
 void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */
+bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's    */
 void       bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */

@@ -24,11 +24,10 @@ static bbm_status check(bbm_model *m)
     return status ? status : bbm_check_overlap(m);
 }
 
-/* Parameters and settings, and before the first step bonds that hold. */
+/* Settings, and before the first step bonds that hold. */
 static bbm_status check_step(bbm_model *m)
 {
-    bbm_begin_joints(m);
-    if (bbm_check_parameters(m))
+    if (bbm_check_settings(m))
         return BBM_BAD_PARAMETER;
     if (m->info.step > 0 || m->beyond->bonding != BBM_MIDPOINTS)
         return BBM_OK;
@@ -115,7 +114,6 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .begin = begin,
         .check_listed = check_listed,
         .find_pairs = bbm_sweep,
-        .joint_area = bbm_joint_area,
         .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,

@@ -80,8 +80,8 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
  * bbm_store_contacts. */
 static double contact_energy(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_parameters *p = bbm_strength_of(m, c);
-    const double T = c->state == BBM_SLIDE ? bbm_shear_strength(p, c->N, c->area) : c->T;
+    const bbm_parameters *p = &m->par;
+    const double T = c->state == BBM_SLIDE ? bbm_shear_strength(&c->strength, c->N) : c->T;
 
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
 }

@@ -197,9 +197,10 @@ static int read_plane(model_reader *r)
 static int read_contact(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
+    bbm_beyond *b = r->p->m->beyond;
     model_option o[] = {
-        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &p->cohesion),
-        FROM_ZERO("tension", &p->tension),
+        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &b->cohesion),
+        FROM_ZERO("tension", &b->tension),
         ANGLE("friction", &p->friction),
     };
 
