@@ -396,8 +396,14 @@ void bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6])
 
 int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
 
-/* Whether a hook takes T at the middle of the step, where no order is dropped. */
-int bbm_is_exact(const bbm_model *m) { return m->hook.is_exact && m->hook.is_exact(m); }
+/* How elements move in this step, if not by u = T D; else NULL. */
+static const bbm_kinematics *kinematics_of(const bbm_model *m)
+{
+    return m->hook.kinematics ? m->hook.kinematics(m) : NULL;
+}
+
+/* Whether T is that of the middle of the step, where no order is dropped. */
+int bbm_is_exact(const bbm_model *m) { return kinematics_of(m) != NULL; }
 
 /* The next gap of the list, between the elements i and j; it keeps its multiplier from the last
  * list. There is room for two of each bond and three of each vertex (allocate). */
@@ -681,8 +687,10 @@ static bbm_status open_close(bbm_model *m, int *changed)
 void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x, double y,
               double u[2])
 {
-    if (m->hook.move)
-        m->hook.move(m, D, x - e->x, y - e->y, u);
+    const bbm_kinematics *k = kinematics_of(m);
+
+    if (k)
+        k->move(D, x - e->x, y - e->y, u);
     else
         bbm_displacement(e, D, x, y, u);
 }
@@ -711,8 +719,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         memset(e->V, 0, sizeof e->V);
     else
         bbm_newmark_velocity(e, m->h, m->par.velocity_factor);
-    if (bbm_is_exact(m))
-        m->hook.turn(&start, e, vertex);
+    if (kinematics_of(m))
+        kinematics_of(m)->turn(&start, e, vertex);
 }
 
 /* The model at the end of the step, each element moved by its place in D, Eq. (3): a second one

@@ -278,6 +278,13 @@ typedef struct bbm_matrix bbm_matrix;               /* K, in solver.c           
 typedef struct bbm_contact_scratch bbm_contact_scratch;     /* in contact.c             */
 typedef struct bbm_beyond bbm_beyond;               /* of the hooks                             */
 
+/* How the elements move in a step, if not by u = T D: T is then that of its middle. */
+typedef struct {
+    void (*move)(const double D[6], double X, double Y, double u[2]);   /* from the barycentre   */
+    void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
+                                                            /* what has moved                   */
+} bbm_kinematics;
+
 /* Where what the paper does not have comes in; NULL: the paper's way. */
 typedef struct {
     /* --- building --- */
@@ -298,17 +305,13 @@ typedef struct {
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
+    const bbm_kinematics *(*kinematics)(const bbm_model *m);    /* of this step                 */
     /* --- open-close --- */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
-    int (*is_exact)(const bbm_model *m);                    /* T is that of the middle of a step */
     int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
     int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
     /* --- the end of the step --- */
-    void (*move)(const bbm_model *m, const double D[6], double X, double Y, double u[2]);
-                                                            /* in place of u = T D              */
-    void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
-                                                            /* an element that has moved, if so */
     double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
@@ -450,7 +453,7 @@ bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c,
 /* bbm.c */
 bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...);
 int        bbm_is_static(const bbm_model *m);
-int        bbm_is_exact(const bbm_model *m);                    /* see bbm_hooks                */
+int        bbm_is_exact(const bbm_model *m);                    /* see bbm_kinematics           */
 double     bbm_mass_per_area(const bbm_element *e);             /* M of (11)                    */
 int        bbm_next_vertex(const bbm_element *e, int v);
 bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);

@@ -100,16 +100,13 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, d
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
 /* rotation.c */
-int        bbm_moves_exactly(const bbm_model *m);
+const bbm_kinematics *bbm_exact_kinematics(const bbm_model *m);
 void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
                              double at[2]);             /* a bbm_mode                       */
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
-void       bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y,
-                            double u[2]);
-void       bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
 
 /* bending.c */
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);

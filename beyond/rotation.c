@@ -41,21 +41,12 @@
 #define SHARE 3e-6
 #define DIRECTION 1e-4
 
-/* Whether points move by the exact rotation. */
-int bbm_moves_exactly(const bbm_model *m)
-{
-    return m->beyond->rotation == BBM_EXACT && !bbm_is_static(m);
-}
-
 /* How a point at (X, Y) from the barycentre moves: translation, strain, then the exact rotation,
- * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X; where rotations
- * are linear, its first order in r0, u = T D. */
-void bbm_move_exactly(const bbm_model *m, const double D[6], double X, double Y, double u[2])
+ * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X. */
+static void move_exactly(const double D[6], double X, double Y, double u[2])
 {
     const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
-    const int exact = bbm_moves_exactly(m);
-    const double s = exact ? sin(D[2]) : D[2], c1 = exact ? -2 * pow(sin(D[2] / 2), 2) : 0;
-    const double x = exact ? X + ux : X, y = exact ? Y + uy : Y;
+    const double s = sin(D[2]), c1 = -2 * pow(sin(D[2] / 2), 2), x = X + ux, y = Y + uy;
 
     u[0] = D[0] + ux + c1 * x - s * y;
     u[1] = D[1] + uy + c1 * y + s * x;
@@ -85,7 +76,7 @@ void bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
 /* Takes the vectors of the step in the middle of D; not exact: at its start. */
 void bbm_set_middle(bbm_model *m)
 {
-    const int exact = bbm_moves_exactly(m);
+    const int exact = bbm_is_exact(m);
 
     for (int i = 0; i < m->elements; i++) {
         m->element[i].mode = exact ? bbm_middle_matrix : NULL;
@@ -162,7 +153,7 @@ int bbm_middle_is_off(const bbm_model *m)
 {
     int off = 0;
 
-    if (!bbm_moves_exactly(m))
+    if (!bbm_is_exact(m))
         return 0;
     for (int k = 0; k < m->gaps && !off; k++)
         off = is_off(m, m->gap[k].i) || (m->gap[k].j >= 0 && is_off(m, m->gap[k].j));
@@ -195,7 +186,7 @@ static void turn_tensor(double s[3], double r)
 /* Stress and strain rates turn with an element that has moved, and the change of its moments by
  * strain, which no force of the step knows of, changes no energy: turning and straining slow down
  * or speed up together. */
-void bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
+static void turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
 {
     double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
     double turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
@@ -210,4 +201,12 @@ void bbm_turn_element(const bbm_element *start, bbm_element *e, const bbm_vertex
     const double factor = after > 0 ? sqrt(before / after) : 1;
     for (int a = 2; a < 6; a++)
         e->V[a] = factor * turning[a];
+}
+
+/* In statics, and with `rotation` BBM_LINEAR, points move by u = T D. */
+const bbm_kinematics *bbm_exact_kinematics(const bbm_model *m)
+{
+    static const bbm_kinematics exact = { move_exactly, turn_element };
+
+    return m->beyond->rotation == BBM_EXACT && !bbm_is_static(m) ? &exact : NULL;
 }
