@@ -671,15 +671,13 @@ static bbm_status solve(bbm_model *m)
     return status ? describe_failure(m, status) : BBM_OK;
 }
 
-/* One pass of the open-close iteration, 3.8. `changed`: a state or F is new, so solve again. */
+/* One pass of the open-close iteration, 3.8. `changed`: K or F is new, so solve again. */
 static bbm_status open_close(bbm_model *m, int *changed)
 {
     const bbm_pass pass = bbm_open_close(m);
 
-    m->K_is_kept = 0;
-    *changed = pass == BBM_PASS_AGAIN && !is_spent(m);
-    if (pass == BBM_PASS_DONE && m->hook.settled && m->hook.settled(m))
-        *changed = m->K_is_kept = 1;
+    m->K_is_kept = pass == BBM_PASS_SAME_K;
+    *changed = m->K_is_kept || (pass == BBM_PASS_AGAIN && !is_spent(m));
     return pass == BBM_PASS_DONE || *changed ? BBM_OK : unsettled(m);
 }
 

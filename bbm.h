@@ -188,7 +188,8 @@ enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;
 /* Trials of a static step: as ever; friction as a load in any case; one change of state a pass. */
 enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
-typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
+/* What comes after a pass of the open-close iteration; with the same K: F alone is new. */
+typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP } bbm_pass;
 
 typedef struct {                /* Mohr and Coulomb: shear <= N tan_phi + shear, -N <= tension  */
     double tan_phi;             /* -        of the friction angle            */
@@ -309,8 +310,7 @@ typedef struct {
     /* --- open-close --- */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
-    int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
-    int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
+    bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */

@@ -1139,7 +1139,7 @@ static void note_depth(const bbm_model *m, const bbm_contact *c)
 }
 
 /* One look at the solution: whether the friction forces belong to their N, then the states to the
- * forces, and the vectors of the step to the displacements - but not with a K that is kept. */
+ * forces; and a hook may find more to do. */
 bbm_pass bbm_open_close(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
@@ -1158,11 +1158,10 @@ bbm_pass bbm_open_close(bbm_model *m)
     }
     w->friction_passes = 0;
     note_states(w);
-    const int changes = change_states(m);
-    const int renewed = !m->K_is_kept && m->hook.renew && m->hook.renew(m);
-    if (!changes && !renewed)
-        return BBM_PASS_DONE;
-    return ++w->passes <= PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
+    bbm_pass next = change_states(m) ? BBM_PASS_AGAIN : BBM_PASS_DONE;
+    if (m->hook.renew)
+        next = m->hook.renew(m, next);
+    return next == BBM_PASS_AGAIN && ++w->passes > PASSES ? BBM_PASS_GIVE_UP : next;
 }
 
 /* ------------------------------------------------------------------------------ end of the step */

@@ -61,6 +61,15 @@ static void begin(bbm_model *m)
     bbm_start_multipliers(m);
 }
 
+/* After a pass: T of the step is renewed, unless K is kept; when all has settled, multipliers take
+ * over what the springs carry. */
+static bbm_pass renew(bbm_model *m, bbm_pass next)
+{
+    if (!m->K_is_kept && bbm_renew_middle(m))
+        return BBM_PASS_AGAIN;
+    return next == BBM_PASS_DONE && bbm_take_over(m) ? BBM_PASS_SAME_K : next;
+}
+
 /* A step that may begin: no corner has passed into a block, and in statics all bodies are held. */
 static bbm_status check_listed(bbm_model *m)
 {
@@ -121,8 +130,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .kinematics = bbm_exact_kinematics,
         .lay_out = lay_out,
         .before_solution = bbm_interpolate_elements,
-        .renew = bbm_renew_middle,
-        .settled = bbm_take_over,
+        .renew = renew,
         .accept = accept,
         .explain = bbm_explain,
     };
