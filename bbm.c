@@ -648,11 +648,9 @@ bbm_status bbm_detect(bbm_model *m, int *other)
     if (status || same)
         return status;
     *other = 1;
-    if (m->hook.begin)
-        m->hook.begin(m);
     bbm_list_gaps(m);
     status = lay_out_matrix(m);
-    return status || !m->hook.check_listed ? status : m->hook.check_listed(m);
+    return status || !m->hook.listed ? status : m->hook.listed(m);
 }
 
 /* Solves K D = F, Eq. (5), section 4. */
@@ -759,15 +757,18 @@ static bbm_status update(bbm_model *m)
     return bbm_store_contacts(m);
 }
 
-void bbm_begin_step(bbm_model *m)
+bbm_status bbm_begin_step(bbm_model *m)
 {
+    bbm_status status = BBM_OK;
+
     m->detections = m->K_is_kept = 0;
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
-    if (m->hook.accelerate)
-        m->hook.accelerate(m);
+    if (m->hook.begin)
+        status = m->hook.begin(m);
     bbm_guess_step(m);
+    return status;
 }
 
 /* Refuses the first value that is outside its range; a comparison with NaN is false, so NaN is
@@ -781,8 +782,7 @@ bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[])
     return BBM_OK;
 }
 
-/* What must hold before a step: a prepared model, and parameters and a hook's settings in their
- * ranges. */
+/* What must hold before a step: a prepared model, and parameters in their ranges. */
 bbm_status bbm_check_step(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
@@ -806,8 +806,7 @@ bbm_status bbm_check_step(bbm_model *m)
     if (!m->K)
         return m->status ? m->status
                          : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    const bbm_status status = bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
-    return status || !m->hook.check_step ? status : m->hook.check_step(m);
+    return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
 /* --------------------------------------------------------------- the time step, Fig. 8 */
@@ -815,11 +814,11 @@ bbm_status bbm_check_step(bbm_model *m)
 /* Fig. 8 once, with the step m->h. Nothing moves before all has gone well. */
 static bbm_status try_step(bbm_model *m)
 {
-    bbm_status status;
-    int other, changed;
+    bbm_status status = bbm_begin_step(m);
+    int other = 0, changed = 0;
 
-    bbm_begin_step(m);
-    status = bbm_detect(m, &other);                 /* 3.7: which contacts may close            */
+    if (!status)
+        status = bbm_detect(m, &other);             /* 3.7: which contacts may close            */
     do {
         do {
             if (!status)

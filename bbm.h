@@ -293,10 +293,9 @@ typedef struct {
     bbm_status (*check_polygon)(bbm_model *m, int n, const int node[]);     /* of a new element */
     bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
     /* --- a step begins --- */
-    bbm_status (*check_step)(bbm_model *m);                 /* settings in their ranges         */
-    void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
-    void (*begin)(bbm_model *m);                            /* the contacts are listed          */
-    bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
+    bbm_status (*begin)(bbm_model *m);                      /* may change m->acceleration       */
+    bbm_status (*listed)(bbm_model *m);                     /* contacts and gaps are, K is laid */
+                                                            /* out                              */
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
     void (*strength)(const bbm_model *m, bbm_contact *c, int touches);
                                                             /* c->strength; `touches`: a joint  */
@@ -462,8 +461,8 @@ void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, int directions);
 void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
-bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's    */
-void       bbm_begin_step(bbm_model *m);
+bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters        */
+bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
 void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
 void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */

@@ -24,11 +24,17 @@ static bbm_status check(bbm_model *m)
     return status ? status : bbm_check_overlap(m);
 }
 
-/* Settings, and before the first step bonds that hold. */
-static bbm_status check_step(bbm_model *m)
+/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the
+ * step. Before the first step bonds must hold. */
+static bbm_status begin(bbm_model *m)
 {
+    const bbm_beyond *b = m->beyond;
+    const double swing = bbm_is_static(m) ? 0 : sin(b->shake_omega * (m->info.t + m->h));
+
     if (bbm_check_settings(m))
         return BBM_BAD_PARAMETER;
+    for (int a = 0; a < 2; a++)
+        m->acceleration[a] -= b->shake[a] * swing;
     if (m->info.step > 0 || m->beyond->bonding != BBM_MIDPOINTS)
         return BBM_OK;
     if (bbm_find_mechanism(m, &m->blamed[0]))
@@ -38,27 +44,21 @@ static bbm_status check_step(bbm_model *m)
                     m->element[m->blamed[0]].block, m->blamed[0]);
 }
 
-/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the
- * step. */
-static void accelerate(bbm_model *m)
-{
-    const bbm_beyond *b = m->beyond;
-    const double swing = bbm_is_static(m) ? 0 : sin(b->shake_omega * (m->info.t + m->h));
-
-    for (int a = 0; a < 2; a++)
-        m->acceleration[a] -= b->shake[a] * swing;
-}
-
 static bbm_status lay_out(bbm_model *m)
 {
     const bbm_status status = bbm_lay_out_coarse(m);
     return status ? status : bbm_lay_out_sliding(m);
 }
 
-static void begin(bbm_model *m)
+/* A step of these contacts may begin: with T of its middle, if no corner has passed into a block, and
+ * in statics if all bodies are held. */
+static bbm_status listed(bbm_model *m)
 {
     bbm_set_middle(m);
+    bbm_list_gaps(m);
     bbm_start_multipliers(m);
+    const bbm_status status = bbm_check_passed(m);
+    return status ? status : bbm_check_supports(m);
 }
 
 /* After a pass: T of the step is renewed, unless K is kept; when all has settled, multipliers take
@@ -68,14 +68,6 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     if (!m->K_is_kept && bbm_renew_middle(m))
         return BBM_PASS_AGAIN;
     return next == BBM_PASS_DONE && bbm_take_over(m) ? BBM_PASS_SAME_K : next;
-}
-
-/* A step that may begin: no corner has passed into a block, and in statics all bodies are held. */
-static bbm_status check_listed(bbm_model *m)
-{
-    const bbm_status status = bbm_check_passed(m);
-
-    return status ? status : bbm_check_supports(m);
 }
 
 /* A step that went well: right as far as one can tell, and without energy from nowhere. */
@@ -118,10 +110,8 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .release = release,
         .check_polygon = bbm_check_polygon,
         .check = check,
-        .check_step = check_step,
-        .accelerate = accelerate,
         .begin = begin,
-        .check_listed = check_listed,
+        .listed = listed,
         .find_pairs = bbm_sweep,
         .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,

@@ -471,7 +471,7 @@ START_TEST(parameters_outside_their_range_are_refused_without_the_hook)
     bbm_model *m = held_square();
     char named[60];
 
-    m->hook.check_step = NULL;
+    m->hook.begin = NULL;
     snprintf(named, sizeof named, "%s = %g", PARAMETERS[_i].name, PARAMETERS[_i].value);
     memcpy((char *)&m->par + PARAMETERS[_i].offset, &PARAMETERS[_i].value, sizeof(double));
     check_error(m, bbm_step(m), BBM_BAD_PARAMETER, named);
