@@ -55,7 +55,6 @@ enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };  /* directions in which a point is he
     status(BBM_UNUSED_NODE,           "a node belongs to no element")                             \
     status(BBM_NOT_BOUNDARY,          "a line load needs a boundary edge")                        \
     status(BBM_FREE_TO_MOVE,          "statics needs bodies that are held")                       \
-    status(BBM_MECHANISM, "elements bonded at midpoints alone can turn against each other")       \
     /* --- the solution failed: the numbers are in bbm_info --- */                                \
     status(BBM_NOT_POSITIVE_DEFINITE, "the stiffness matrix is not positive definite")            \
     status(BBM_NOT_CONVERGED,         "the equations were not solved")                            \

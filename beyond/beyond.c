@@ -24,8 +24,8 @@ static bbm_status check(bbm_model *m)
     return status ? status : bbm_check_overlap(m);
 }
 
-/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the
- * step. Before the first step bonds must hold. */
+/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the step.
+ */
 static bbm_status begin(bbm_model *m)
 {
     const bbm_beyond *b = m->beyond;
@@ -35,13 +35,7 @@ static bbm_status begin(bbm_model *m)
         return BBM_BAD_PARAMETER;
     for (int a = 0; a < 2; a++)
         m->acceleration[a] -= b->shake[a] * swing;
-    if (m->info.step > 0 || m->beyond->bonding != BBM_MIDPOINTS)
-        return BBM_OK;
-    if (bbm_find_mechanism(m, &m->blamed[0]))
-        return BBM_NO_MEMORY;
-    return m->blamed[0] < 0 ? BBM_OK
-         : bbm_fail(m, BBM_MECHANISM, "block %d, element %d; BBM_MOMENT holds them",
-                    m->element[m->blamed[0]].block, m->blamed[0]);
+    return BBM_OK;
 }
 
 static bbm_status lay_out(bbm_model *m)
@@ -50,8 +44,8 @@ static bbm_status lay_out(bbm_model *m)
     return status ? status : bbm_lay_out_sliding(m);
 }
 
-/* A step of these contacts may begin: with T of its middle, if no corner has passed into a block, and
- * in statics if all bodies are held. */
+/* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
+ * and in statics if all bodies are held. */
 static bbm_status listed(bbm_model *m)
 {
     bbm_set_middle(m);

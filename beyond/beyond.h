@@ -15,7 +15,6 @@ typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; 
 
 typedef enum {                  /* how two quadrilaterals are bonded; others at their vertices  */
     BBM_MOMENT,                 /* in its middle, with the moment that bending needs            */
-    BBM_MIDPOINTS,              /* in its middle alone                                          */
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
@@ -155,7 +154,7 @@ bbm_status bbm_explain(bbm_model *m, bbm_status s);
 double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
 bbm_status bbm_check_passed(bbm_model *m);              /* of all that the sweep has met        */
 
-/* overlap.c, mechanism.c, pieces.c */
+/* overlap.c, pieces.c */
 typedef struct {                /* elements i < j that overlap                                  */
     int    i, j;
     double depth;               /* m        the shortest way that parts them                    */
@@ -164,7 +163,6 @@ typedef struct {                /* elements i < j that overlap                  
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
-bbm_status bbm_find_mechanism(bbm_model *m, int *element);          /* of BBM_MIDPOINTS; or -1  */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
 int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
 

@@ -548,16 +548,8 @@ int model_finish(model_reader *r)
     p->block = model_room(r, r->blocks, sizeof *p->block);
     for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
         p->block[p->blocks] = r->block[p->blocks].name;
-    int loose;
     if (p->status)
         return 0;
-    if (bbm_find_mechanism(p->m, &loose))
-        return model_out_of_memory(r);
-    if (loose >= 0)
-        return model_fail(r, r->element[loose].at,
-                          "the elements of block '%s' are bonded at midpoints and can turn against "
-                          "each other, expected: bond at moment",
-                          p->block[p->m->element[loose].block]);
     const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return model_fail(r, (model_place){ r->path, 0 },

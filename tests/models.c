@@ -295,6 +295,14 @@ void prepare_apart(bbm_model *m)
     }
 }
 
+void list_middles(bbm_model *m)
+{
+    bbm_list_edge_gaps(m);
+    for (int g = 0; g < m->gaps; g++)
+        if (!m->gap[g].penalty)
+            memset(m->gap[g].W, 0, sizeof m->gap[g].W);
+}
+
 void run_steps(bbm_model *m, int steps)
 {
     for (int i = 0; i < steps; i++)

@@ -382,7 +382,7 @@ static void choose_parameters(test_scene *s, uint64_t *r)
     s->par.friction = pick(r, friction, 6);
     s->par.gravity[1] = -9.81;
     s->par.alpha = pick(r, alpha, 3);
-    s->bonding = one_of(r, 2) ? BBM_VERTICES : BBM_MOMENT;      /* in the middle alone: hinges, a mechanism */
+    s->bonding = one_of(r, 2) ? BBM_VERTICES : BBM_MOMENT;
     s->multiplier_rounds = one_of(r, 4) ? 0 : 2;
     s->par.pcg.tolerance = 1e-13;
     s->par.steps = 100 + one_of(r, 200);
