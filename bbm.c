@@ -91,23 +91,17 @@ void bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6])
     memcpy(T, t, sizeof t);
 }
 
-/* u = T D */
-static void multiply_mode(double T[2][6], const double D[6], double u[2])
-{
-    for (int r = 0; r < 2; r++) {
-        u[r] = 0;
-        for (int a = 0; a < 6; a++)
-            u[r] += T[r][a] * D[a];
-    }
-}
-
 /* Displacement u = T D at (x, y), a point given before the step, Eq. (1). */
 void bbm_displacement(const bbm_element *e, const double D[6], double x, double y, double u[2])
 {
     double T[2][6];
 
     bbm_mode_matrix(e, x, y, T);
-    multiply_mode(T, D, u);
+    for (int r = 0; r < 2; r++) {
+        u[r] = 0;
+        for (int a = 0; a < 6; a++)
+            u[r] += T[r][a] * D[a];
+    }
 }
 
 /* ------------------------------------------------------------- 2.2 Element connections */
@@ -450,18 +444,6 @@ void bbm_list_gaps(bbm_model *m)
         bbm_list_bond(m, &m->bond[b]);
     for (int v = 0; v < m->vertices; v++)
         bbm_list_fixed_point(m, v, m->node[m->vertex[v].node].held);
-}
-
-/* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
-void bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2])
-{
-    double ui[2], uj[2] = { 0, 0 };
-
-    multiply_mode(g->Ti, &m->D[6 * g->i], ui);
-    if (g->j >= 0)
-        multiply_mode(g->Tj, &m->D[6 * g->j], uj);
-    d[0] = g->d0[0] + ui[0] - uj[0];
-    d[1] = g->d0[1] + ui[1] - uj[1];
 }
 
 /* The part of F that comes from outside: gravity, 3.5, 3.6. A load at a node is shared by the

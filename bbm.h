@@ -458,7 +458,6 @@ bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);
 void       bbm_list_gaps(bbm_model *m);
 void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, int directions);
-void       bbm_gap_length(const bbm_model *m, bbm_gap *g, double d[2]);         /* of m->D      */
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters        */
 bbm_status bbm_begin_step(bbm_model *m);

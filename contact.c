@@ -268,7 +268,7 @@ double bbm_girth(const bbm_model *m, int e) { return motion_of(m, e)->girth; }
 /* Distances up to this are rounding: TOUCH times the mean boundary edge of the block of edge e. */
 static double rounding_of(const bbm_model *m, int e)
 {
-    return motion_of(m, e)->girth * (TOUCH / motion_of(m, e)->edges);
+    return bbm_girth(m, e) * (TOUCH / motion_of(m, e)->edges);
 }
 
 /* A vertex inside a straight side is no corner. */

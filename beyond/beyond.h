@@ -118,6 +118,7 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
 void       bbm_gather_edge_loads(bbm_model *m);
 
 /* multipliers.c */
+void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
 void       bbm_start_multipliers(bbm_model *m);
 int        bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);

@@ -20,6 +20,19 @@ void bbm_start_multipliers(bbm_model *m)
     m->beyond->rounds_done = 0;
 }
 
+/* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
+void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
+{
+    for (int r = 0; r < 2; r++) {
+        double ui = 0, uj = 0;
+        for (int a = 0; a < 6; a++) {
+            ui += g->Ti[r][a] * m->D[6 * g->i + a];
+            uj += g->j < 0 ? 0 : g->Tj[r][a] * m->D[6 * g->j + a];
+        }
+        d[r] = g->d0[r] + ui - uj;
+    }
+}
+
 /* Whether there is a bond, or a fixed point of an element that is not held at all its vertices. One
  * that is, a base, needs no multipliers: its springs are as stiff as the contacts on it. */
 static int needs_multipliers(const bbm_model *m)

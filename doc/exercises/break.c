@@ -21,11 +21,11 @@ static int break_bonds(bbm_model *m, double strength)
     for (int b = m->bonds - 1; b >= 0; b--) {
         double most = 0;
         for (int end = 0; end < 2; end++) {
-            bbm_gap *g = &m->gap[2 * b + end];
-            double d[2];
-            bbm_gap_length(m, g, d);
-            const double x = g->W[0][0] * d[0] + g->W[0][1] * d[1] + g->f[0];
-            const double y = g->W[1][0] * d[0] + g->W[1][1] * d[1] + g->f[1];
+            const bbm_gap *g = &m->gap[2 * b + end];
+            const bbm_vertex *P = &m->vertex[m->bond[b].p[end]], *Q = &m->vertex[m->bond[b].q[end]];
+            const double dx = P->u - Q->u, dy = P->v - Q->v;
+            const double x = g->W[0][0] * dx + g->W[0][1] * dy + g->f[0];
+            const double y = g->W[1][0] * dx + g->W[1][1] * dy + g->f[1];
             most = fmax(most, hypot(x, y));
         }
         if (most <= strength)
