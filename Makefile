@@ -22,7 +22,7 @@ PAPER    = bbm contact solver
 BASE     = build detect step
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy interpolation joints mechanism multipliers overlap passed pieces pressure \
+BEYOND   = beyond bending coarse eisenstat energy interpolation joints multipliers overlap passed pieces pressure \
            refuse rotation sliding statics strain supports sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch

@@ -474,16 +474,19 @@ void bbm_assemble(bbm_model *m)
 /* ------------------------------------------------------------- the parts of a time step */
 
 /* The elements as they are now, and for D what their velocities foretell of the step. */
-void bbm_begin_step(bbm_model *m)
+bbm_status bbm_begin_step(bbm_model *m)
 {
+    bbm_status status = BBM_OK;
+
     m->detections = 0;
     bbm_matrix_keep(m->K, 0);
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
-    if (m->hook->accelerate)
-        m->hook->accelerate(m);
+    if (m->hook->begin)
+        status = m->hook->begin(m);
     bbm_foresee_step(m);
+    return status;
 }
 
 /* Lists the contacts that may close in the step, and lays out K for them: first by what the
@@ -504,11 +507,9 @@ bbm_status bbm_detect(bbm_model *m, int *other)
     if (status || same)
         return status;
     *other = 1;
-    if (m->hook->begin)
-        m->hook->begin(m);
     bbm_list_gaps(m);
     status = bbm_lay_out_matrix(m);
-    return status || !m->hook->check_listed ? status : m->hook->check_listed(m);
+    return status || !m->hook->listed ? status : m->hook->listed(m);
 }
 
 /* Solves K D = F, Eq. (5), section 4. */
@@ -521,14 +522,13 @@ static bbm_status solve(bbm_model *m)
     return bbm_note_solution(m, bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg));
 }
 
-/* One pass of the open-close iteration, 3.8. `changed`: a state or F is new, so solve again. */
+/* One pass of the open-close iteration, 3.8. `changed`: K or F is new, so solve again. */
 static bbm_status open_close(bbm_model *m, int *changed)
 {
     const bbm_pass pass = bbm_open_close(m);
-    const int more = pass == BBM_PASS_DONE && m->hook->settled && m->hook->settled(m);
 
-    bbm_matrix_keep(m->K, more);
-    *changed = more || (pass == BBM_PASS_AGAIN && !bbm_is_spent(m));
+    bbm_matrix_keep(m->K, pass == BBM_PASS_SAME_K);
+    *changed = pass == BBM_PASS_SAME_K || (pass == BBM_PASS_AGAIN && !bbm_is_spent(m));
     return pass == BBM_PASS_DONE || *changed ? BBM_OK : bbm_unsettled(m);
 }
 
@@ -588,11 +588,11 @@ static bbm_status update(bbm_model *m)
 /* Fig. 8 once, with the step m->h. Nothing moves before all has gone well. */
 static bbm_status try_step(bbm_model *m)
 {
-    bbm_status status;
-    int other, changed;
+    bbm_status status = bbm_begin_step(m);
+    int other = 0, changed = 0;
 
-    bbm_begin_step(m);
-    status = bbm_detect(m, &other);                 /* 3.7: which contacts may close            */
+    if (!status)
+        status = bbm_detect(m, &other);             /* 3.7: which contacts may close            */
     do {
         do {
             if (!status)

@@ -45,7 +45,7 @@ typedef enum {
     /* --- the model is wrong --- */
     BBM_NO_ELEMENT, BBM_NOT_FINITE, BBM_BAD_INDEX, BBM_BAD_MATERIAL, BBM_BAD_PARAMETER,
     BBM_BAD_ELEMENT, BBM_SELF_CROSSING, BBM_OVERLAP, BBM_BLOCKS_OVERLAP, BBM_UNUSED_NODE,
-    BBM_NOT_BOUNDARY, BBM_FREE_TO_MOVE, BBM_MECHANISM,
+    BBM_NOT_BOUNDARY, BBM_FREE_TO_MOVE,
     /* --- the solution failed: the numbers are in bbm_info --- */
     BBM_NOT_POSITIVE_DEFINITE, BBM_NOT_CONVERGED, BBM_STEPS_EXHAUSTED, BBM_NO_EQUILIBRIUM,
     BBM_STEP_TOO_LONG, BBM_OPEN_CLOSE, BBM_TOO_SOFT, BBM_ENERGY, BBM_STOPPED, BBM_STATUS_COUNT
@@ -139,7 +139,6 @@ typedef struct {
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
     double friction;            /* degree   friction angle                                      */
-    double cohesion, tension;   /* Pa       shear and tensile strength of unbroken joints       */
     int    faces;               /* 1: grid points inside a straight side touch other blocks,    */
                                 /* too: a deformable block rests on its whole side; 0: on its   */
                                 /* two corners, as a bridge                                     */

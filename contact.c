@@ -151,33 +151,27 @@ void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_
     }
 }
 
-/* The strengths that a contact has: those of the model, or of its joint. */
-const bbm_parameters *bbm_strength_of(const bbm_model *m, const bbm_contact *c)
-{
-    return m->hook->strength ? m->hook->strength(m, c->corner, c->edge) : &m->par;
-}
+double bbm_tangent(double degrees) { return tan(degrees * acos(-1) / 180); }
 
-static double tan_friction(const bbm_parameters *p) { return tan(p->friction * acos(-1) / 180); }
-
-/* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65), with cohesion on
- * the area of an unbroken joint. Under tension such a joint has what is left of its cohesion. */
-double bbm_shear_strength(const bbm_parameters *p, double N, double area)
+/* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65), with the cohesion
+ * of an unbroken joint. Under tension such a joint has what is left of its cohesion. */
+double bbm_shear_strength(const bbm_strength *s, double N)
 {
-    return fmax(0, N * tan_friction(p) + p->cohesion * area);
+    return fmax(0, N * s->tan_phi + s->shear);
 }
 
 /* The transfer table of the figure above: the state that follows from d_n, N and T. Forces that
  * differ by less than the tolerance agree. An opening contact has none: it would be a hidden
  * tensile strength. */
-bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c, double tolerance)
+bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance)
 {
-    const double strength = bbm_shear_strength(p, c->N, c->area);
+    const double strength = bbm_shear_strength(&c->strength, c->N);
 
     if (c->state == BBM_OPEN)
-        return -p->p_n * (c->d_n - c->rest) > tolerance ? BBM_LOCK : BBM_OPEN;
-    if (c->N < -p->tension * c->area)
+        return -p_n * (c->d_n - c->rest) > tolerance ? BBM_LOCK : BBM_OPEN;
+    if (c->N < -c->strength.tension)
         return BBM_OPEN;
-    if (p->friction == 0 && p->cohesion == 0)
+    if (c->strength.tan_phi == 0 && c->strength.shear == 0)
         return BBM_SLIDE;
     if (c->state == BBM_LOCK)
         return fabs(c->T) > strength + tolerance ? BBM_SLIDE : BBM_LOCK;
@@ -204,10 +198,18 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
     c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
-/* Whether a contact is an unbroken joint that holds by more than friction. */
-static int is_strong(const bbm_parameters *p, const bbm_contact *c)
+/* What a contact can carry in this step: friction by the angle of the model, or what a hook says. */
+static void find_strength(const bbm_model *m, bbm_contact *c)
 {
-    return c->area > 0 && (p->cohesion > 0 || p->tension > 0);
+    c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
+    if (m->hook->strength)
+        m->hook->strength(m, c);
+}
+
+/* Whether a contact is an unbroken joint that holds by more than friction. */
+static int is_strong(const bbm_contact *c)
+{
+    return c->strength.shear > 0 || c->strength.tension > 0;
 }
 
 /* The state with which a contact begins the step. One that is new and touches at the first step is
@@ -219,13 +221,12 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     c->time_left = 1;
     c->N_of_friction = c->N;
     c->closings = 0;
-    if (c->touches && m->info.step == 0 && m->info.t == 0) {
-        c->area = m->hook->joint_area ? m->hook->joint_area(m, c->corner, c->edge) : 0;
-        c->state = is_strong(bbm_strength_of(m, c), c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
-    }
+    find_strength(m, c);
+    if (c->touches)
+        c->state = is_strong(c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
     if (c->has_left) {
         c->state = BBM_OPEN;
-        c->N = c->T = c->was_closed = c->inside = 0;
+        c->N = c->T = c->slip = c->was_closed = c->inside = 0;
     }
     if (!c->carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
@@ -255,30 +256,28 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
 }
 
 /* Whether a strong joint under N has no shear strength left. */
-static int is_strengthless(const bbm_parameters *p, const bbm_contact *c, double N)
+static int is_strengthless(const bbm_contact *c, double N)
 {
-    return is_strong(p, c) && bbm_shear_strength(p, N, c->area) == 0;
+    return is_strong(c) && bbm_shear_strength(&c->strength, N) == 0;
 }
 
 /* The friction of a sliding contact under the N that is taken for it, Eq. (65). It goes on below
  * N = 0, where the strength ends, unless the joint is strong and may be in tension: such a contact
  * opens when it is judged, and until then N depends on N without a kink. */
-static double friction_force(const bbm_parameters *p, const bbm_contact *c)
+static double friction_force(const bbm_contact *c)
 {
     const double N = c->N_of_friction;
 
-    return c->sign * (is_strong(p, c) ? bbm_shear_strength(p, N, c->area) : N * tan_friction(p));
+    return c->sign * (is_strong(c) ? bbm_shear_strength(&c->strength, N) : N * c->strength.tan_phi);
 }
 
 /* Friction as a load under the N of the last solution, Eq. (65), (69), or as a hook has it. */
 static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
 {
-    const bbm_parameters *p = bbm_strength_of(m, c);
-
-    c->friction_in_K = m->hook->friction && !is_strengthless(p, c, c->N_of_friction)
+    c->friction_in_K = m->hook->friction && !is_strengthless(c, c->N_of_friction)
                     && m->hook->friction(m, c, t, s);
     if (!c->friction_in_K)
-        bbm_friction_submatrices(t, c->anchor, friction_force(p, c), s);
+        bbm_friction_submatrices(t, c->anchor, friction_force(c), s);
 }
 
 /* Adds the springs of the closed contacts, Eq. (58) and (63), or spring and friction, Eq. (65),
@@ -329,7 +328,7 @@ static void measure(const bbm_model *m, bbm_contact *c)
     c->d_s = c->time_left * spring_length(m, c, &s);
     c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
     c->T = open ? 0 : m->par.p_s * c->d_s;
-    if (c->friction_in_K && !is_strengthless(bbm_strength_of(m, c), c, c->N))
+    if (c->friction_in_K && !is_strengthless(c, c->N))
         c->N_of_friction = c->N;
     c->is_on_edge = !c->beyond_end;
     if (open && c->beyond_end) {
@@ -373,7 +372,7 @@ static int forces_agree(const bbm_model *m)
 
     for (int k = 0; k < m->scratch->contacts && agree; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
-        agree = c->state != BBM_SLIDE || bbm_strength_of(m, c)->friction == 0
+        agree = c->state != BBM_SLIDE || c->strength.tan_phi == 0
              || fabs(c->N - c->N_of_friction) <= c->force_tolerance;
     }
     return agree;
@@ -403,10 +402,9 @@ static void change_state(const bbm_model *m, bbm_contact *c)
     if (closes) {
         c->time_left = 1 - d0 / (d0 - c->d_n);
         c->anchor = s / m->edge[c->edge].along.length;
-        const bbm_parameters *p = bbm_strength_of(m, c);
         const double T = c->time_left * m->par.p_s * fabs(slip);
         const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
-        const int slides = ++c->closings > 1 || T > bbm_shear_strength(p, N, c->area);
+        const int slides = ++c->closings > 1 || T > bbm_shear_strength(&c->strength, N);
         c->next_state = slides ? BBM_SLIDE : BBM_LOCK;
     }
     if (c->next_state == BBM_SLIDE) {
@@ -422,9 +420,8 @@ static void change_state(const bbm_model *m, bbm_contact *c)
  * friction is a load of a static step: it would push the wrong way. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_parameters *p = bbm_strength_of(m, c);
-    const bbm_contact_state next = bbm_next_state(p, c, c->force_tolerance);
-    const double strength = bbm_shear_strength(p, fabs(c->N), c->area);
+    const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->force_tolerance);
+    const double strength = bbm_shear_strength(&c->strength, fabs(c->N));
 
     if (c->state == BBM_OPEN && next != BBM_OPEN && bbm_is_blocked(m, c))
         return BBM_OPEN;
@@ -441,7 +438,7 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
         return m->par.p_n * (c->rest - c->d_n);
     if (c->next_state == BBM_OPEN)
         return -c->N;
-    return fabs(fabs(c->T) - bbm_shear_strength(bbm_strength_of(m, c), c->N, c->area));
+    return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
 /* Changes the states that do not fit the solution, all or the one that fits worst, which is the
@@ -487,7 +484,7 @@ static void note_states(bbm_contact_scratch *w)
 }
 
 /* One look at the solution: whether the friction forces belong to their N, then the states to the
- * forces, and the vectors of the step to the displacements - but not with a K that is kept. */
+ * forces; and a hook may find more to do. */
 bbm_pass bbm_open_close(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
@@ -503,24 +500,25 @@ bbm_pass bbm_open_close(bbm_model *m)
     }
     w->friction_passes = 0;
     note_states(w);
-    const int changes = change_states(m);
-    const int renewed = !m->K->is_kept && m->hook->renew && m->hook->renew(m);
-    if (!changes && !renewed)
-        return BBM_PASS_DONE;
-    return ++w->passes <= BBM_MAX_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
+    bbm_pass next = change_states(m) ? BBM_PASS_AGAIN : BBM_PASS_DONE;
+    if (m->hook->renew)
+        next = m->hook->renew(m, next);
+    return next == BBM_PASS_AGAIN && ++w->passes > BBM_MAX_PASSES ? BBM_PASS_GIVE_UP : next;
 }
 
 /* ------------------------------------------------------------------------------ end of the step */
 
 /* After the positions have moved: the anchor of a sliding contact follows, so that its spring
- * would carry the friction force; a joint that has opened, or slid against a shear strength, is
- * broken. */
+ * would carry the friction force, and by as much it has slid; a joint that has opened, or slid
+ * against a shear strength, is broken. */
 static void store_contact(bbm_model *m, bbm_contact *c)
 {
-    const double strength = bbm_shear_strength(bbm_strength_of(m, c), c->N, c->area);
+    const double strength = bbm_shear_strength(&c->strength, c->N);
 
-    if (c->state == BBM_SLIDE)
+    if (c->state == BBM_SLIDE) {
         c->T = c->sign * strength;
+        c->slip += fabs(c->d_s - c->T / m->par.p_s);
+    }
     if (c->state == BBM_SLIDE || c->time_left < 1)
         place_anchor(m, c, c->T);
     if (c->state == BBM_OPEN || (c->state == BBM_SLIDE && strength > 0))

@@ -51,6 +51,11 @@ struct bbm_line_load {          /* a load along a boundary edge                 
 
 /* --------------------------------------------------------------------- the data of 3.7 and 3.8 */
 
+typedef struct {                /* Mohr and Coulomb: abs(T) <= N tan_phi + shear, -N <= tension */
+    double tan_phi;             /* -        of the friction angle                               */
+    double shear, tension;      /* N        of an unbroken joint; 0: the paper                  */
+} bbm_strength;
+
 typedef struct { double x, y, length; } bbm_direction;          /* unit vector; m               */
 
 struct bbm_edge {               /* a boundary edge from vertex a to b, its element on the left  */
@@ -77,11 +82,14 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
                                 /*          spring starts loaded                                */
     double N, T;                /* N        normal force; what the shear spring carries or      */
                                 /*          would carry                                         */
+    double slip;                /* m        how far it has slid since it closed, in all steps   */
     double area;                /* m^2      that P1 stands for of an unbroken joint, or 0       */
     int    inside;              /* opened with P1 still inside, where it had closed, see rest   */
+    /* --- of the step --- */
+    bbm_strength strength;
     /* --- of the step, by detect.c --- */
     int    carried;             /* it was in the list of the last step, with this edge          */
-    int    touches;             /* new, and P1 lies on the edge                                 */
+    int    touches;             /* it does at the start of the first step                       */
     int    has_left;            /* P1 was on the edge and has gone past its end                 */
     int    was_closed;          /* at the start                                                 */
     int    beyond_end;          /* the projection of P1 is not on the edge at the start         */
@@ -114,7 +122,8 @@ enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
 /* Passes that change states or renew the vectors of the step. */
 enum { BBM_MAX_PASSES = 40 };
 
-typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_GIVE_UP } bbm_pass;
+/* What comes after a pass of the open-close iteration; with the same K: F alone is new. */
+typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP } bbm_pass;
 
 struct bbm_contact_scratch {
     /* --- the contacts of the step --- */
@@ -157,14 +166,12 @@ struct bbm_hooks {
     bbm_status (*check_polygon)(bbm_model *m, int n, const int node[]);     /* of a new element */
     bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
     /* --- a step begins --- */
-    bbm_status (*check_step)(bbm_model *m);                 /* parameters in their ranges       */
+    bbm_status (*begin)(bbm_model *m);                      /* may change m->acceleration       */
     const bbm_motion *(*motion)(const bbm_model *m);        /* of the step; NULL: u = T D       */
-    void (*accelerate)(bbm_model *m);                       /* changes m->acceleration          */
-    void (*begin)(bbm_model *m);                            /* the contacts are listed          */
-    bbm_status (*check_listed)(bbm_model *m);               /* and the gaps                     */
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
-    double (*joint_area)(const bbm_model *m, int corner, int edge);         /* at the start     */
-    const bbm_parameters *(*strength)(const bbm_model *m, int corner, int edge); /* of a contact */
+    void (*strength)(const bbm_model *m, bbm_contact *c);   /* sets c->strength, and c->area of */
+                                                            /* one that touches at the start    */
+    bbm_status (*listed)(bbm_model *m);                     /* contacts and gaps are listed     */
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
@@ -174,8 +181,7 @@ struct bbm_hooks {
     /* --- open-close --- */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
-    int (*renew)(bbm_model *m);                             /* T of the elements; 1: it changed */
-    int (*settled)(bbm_model *m);                           /* 1: solve once more with this K   */
+    bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
@@ -228,9 +234,16 @@ static inline void bbm_move(const bbm_model *m, const bbm_element *e, const doub
 /* step.c: around a step */
 typedef struct { int left, part; } bbm_parts;                   /* of dt, in 1/1024             */
 
+typedef struct {                /* of a parameter, low and high included                        */
+    const char *name;
+    double value, low, high;
+    const char *expected;       /* low to high in words                                         */
+} bbm_range;
+
 bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...);
 bbm_status bbm_out_of_memory(bbm_model *m);
-bbm_status bbm_check_step(bbm_model *m);                        /* parameters, and a hook's     */
+bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
+bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters         */
 bbm_parts  bbm_whole_step(bbm_model *m);
 int        bbm_next_part(bbm_model *m, const bbm_parts *p);     /* 0: the step is done          */
 bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status);
@@ -268,10 +281,9 @@ void       bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s,
                                  bbm_submatrices *s);                           /* (63), (64)   */
 void       bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr,
                                     bbm_submatrices *s);                        /* (65)-(69)    */
-const bbm_parameters *bbm_strength_of(const bbm_model *m, const bbm_contact *c);
-double     bbm_shear_strength(const bbm_parameters *p, double N, double area);
-bbm_contact_state bbm_next_state(const bbm_parameters *p, const bbm_contact *c,
-                                 double tolerance);                             /* the table    */
+double     bbm_tangent(double degrees);
+double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
+bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
 bbm_pass   bbm_open_close(bbm_model *m);
@@ -291,7 +303,7 @@ void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W);
 void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
 void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
-void       bbm_begin_step(bbm_model *m);
+bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
 
 /* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is

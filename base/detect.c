@@ -537,7 +537,8 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 
     *c = old ? *old : (bbm_contact){ 0 };
     c->carried = old && old->corner == p.corner && old->edge == p.edge;
-    c->touches = !old && fmax(fabs(f.d), f.beyond) <= touch;
+    c->touches = !old && m->info.step == 0 && m->info.t == 0
+              && fmax(fabs(f.d), f.beyond) <= touch;
     c->corner = p.corner;
     c->edge = p.edge;
     c->d_n0 = f.d;

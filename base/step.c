@@ -41,7 +41,6 @@ const char *bbm_status_text(bbm_status s)
         [BBM_UNUSED_NODE] = "a node belongs to no element",
         [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
         [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
-        [BBM_MECHANISM] = "elements bonded at midpoints alone can turn against each other",
         [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
         [BBM_NOT_CONVERGED] = "the equations were not solved",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
@@ -172,27 +171,42 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
 
 /* ------------------------------------------------------------------------- the parts of a step */
 
-/* What must hold before a step: a prepared model, and parameters in their ranges; a comparison with
- * NaN is false. A hook may say which one is not. */
+/* Refuses the first value that is outside its range; a comparison with NaN is false, so NaN is
+ * refused, too. */
+bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[])
+{
+    for (const bbm_range *r = range; r < range + n; r++)
+        if (!(r->value >= r->low && r->value <= r->high))
+            return bbm_fail(m, BBM_BAD_PARAMETER, "%s = %g, expected %s", r->name, r->value,
+                            r->expected);
+    return BBM_OK;
+}
+
+/* What must hold before a step: a prepared model, and parameters in their ranges. */
 bbm_status bbm_check_step(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
+    const double over = nextafter(0, 1), most = nextafter(INFINITY, 0);
+    const bbm_range range[] = {
+        { "dt", p->dt, over, INFINITY, "more than 0" },
+        { "steps", p->steps, 1, most, "1 or more" },
+        { "tolerance", p->tolerance, 0, most, "0 or more" },
+        { "velocity_factor", p->velocity_factor, 0, 1, "0 to 1" },
+        { "alpha", p->alpha, over, most, "more than 0" },
+        { "gravity[0]", p->gravity[0], -most, most, "a finite number" },
+        { "gravity[1]", p->gravity[1], -most, most, "a finite number" },
+        { "p_n", p->p_n, over, most, "more than 0" },
+        { "p_s", p->p_s, over, most, "more than 0" },
+        { "friction", p->friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
+        { "pcg.omega", p->pcg.omega, over, nextafter(2, 0), "more than 0, less than 2" },
+        { "pcg.tolerance", p->pcg.tolerance, over, nextafter(1, 0), "more than 0, less than 1" },
+        { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
+    };
 
     if (!m->K)
         return m->status ? m->status
                          : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
-    const bbm_status status = m->hook->check_step ? m->hook->check_step(m) : BBM_OK;
-    if (status)
-        return status;
-    if (!(p->dt > 0 && p->alpha > 0 && p->p_n > 0 && p->p_s > 0 && p->friction >= 0
-          && p->friction < 90 && p->velocity_factor >= 0 && p->velocity_factor <= 1
-          && p->tolerance >= 0))
-        return bbm_fail(m, BBM_BAD_PARAMETER, "expected dt, alpha, p_n, p_s above 0, tolerance 0 "
-                        "or more, friction 0 to less than 90 degrees, velocity_factor 0 to 1");
-    if ((p->cohesion != 0 || p->tension != 0) && !m->hook->joint_area)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "cohesion = %g, tension = %g, expected 0 where no "
-                        "hook knows the area of a joint", p->cohesion, p->tension);
-    return BBM_OK;
+    return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
 /* All of dt is left, and is tried as a whole. */

@@ -165,9 +165,6 @@ static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M
 {
     double own[2][2][2];
 
-    memset(M, 0, 4 * sizeof M[0][0]);
-    if (m->beyond->bonding != BBM_MOMENT)
-        return;
     bbm_bending_moments(e, &m->vertex[e->first], own);
     memcpy(M, own[(v - e->first) % 2], 4 * sizeof M[0][0]);
 }

@@ -27,30 +27,18 @@ static bbm_status check(bbm_model *m)
     return status ? status : bbm_check_overlap(m);
 }
 
-/* Parameters and settings, and before the first step bonds that hold. */
-static bbm_status check_step(bbm_model *m)
-{
-    bbm_begin_joints(m);
-    if (bbm_check_parameters(m))
-        return BBM_BAD_PARAMETER;
-    if (m->info.step > 0 || m->beyond->bonding != BBM_MIDPOINTS)
-        return BBM_OK;
-    if (bbm_find_mechanism(m, &m->blamed[0]))
-        return BBM_NO_MEMORY;
-    return m->blamed[0] < 0 ? BBM_OK
-         : bbm_fail(m, BBM_MECHANISM, "block %d, element %d; BBM_MOMENT holds them",
-                    m->element[m->blamed[0]].block, m->blamed[0]);
-}
-
-/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the
- * step. */
-static void accelerate(bbm_model *m)
+/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the step.
+ */
+static bbm_status begin(bbm_model *m)
 {
     const bbm_beyond *b = m->beyond;
     const double swing = bbm_is_static(m) ? 0 : sin(b->shake_omega * (m->info.t + m->h));
 
+    if (bbm_check_settings(m))
+        return BBM_BAD_PARAMETER;
     for (int a = 0; a < 2; a++)
         m->acceleration[a] -= b->shake[a] * swing;
+    return BBM_OK;
 }
 
 static bbm_status lay_out(bbm_model *m)
@@ -59,18 +47,24 @@ static bbm_status lay_out(bbm_model *m)
     return status ? status : bbm_lay_out_sliding(m);
 }
 
-static void begin(bbm_model *m)
+/* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
+ * and in statics if all bodies are held. */
+static bbm_status listed(bbm_model *m)
 {
     bbm_set_middle(m);
+    bbm_list_gaps(m);
     bbm_start_multipliers(m);
+    const bbm_status status = bbm_check_passed(m);
+    return status ? status : bbm_check_supports(m);
 }
 
-/* A step that may begin: no corner has passed into a block, and in statics all bodies are held. */
-static bbm_status check_listed(bbm_model *m)
+/* After a pass: T of the step is renewed, unless K is kept; when all has settled, multipliers take
+ * over what the springs carry. */
+static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
-    const bbm_status status = bbm_check_passed(m);
-
-    return status ? status : bbm_check_supports(m);
+    if (!m->K->is_kept && bbm_renew_middle(m))
+        return BBM_PASS_AGAIN;
+    return next == BBM_PASS_DONE && bbm_take_over(m) ? BBM_PASS_SAME_K : next;
 }
 
 /* A step that went well: right as far as one can tell, and without energy from nowhere. */
@@ -113,12 +107,9 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .release = release,
         .check_polygon = bbm_check_polygon,
         .check = check,
-        .check_step = check_step,
-        .accelerate = accelerate,
         .begin = begin,
-        .check_listed = check_listed,
+        .listed = listed,
         .find_pairs = bbm_sweep,
-        .joint_area = bbm_joint_area,
         .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,
@@ -127,8 +118,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .motion = bbm_find_motion,
         .lay_out = lay_out,
         .before_solution = bbm_interpolate_elements,
-        .renew = bbm_renew_middle,
-        .settled = bbm_take_over,
+        .renew = renew,
         .accept = accept,
         .explain = bbm_explain,
     };

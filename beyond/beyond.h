@@ -15,7 +15,6 @@ typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; 
 
 typedef enum {                  /* how two quadrilaterals are bonded; others at their vertices  */
     BBM_MOMENT,                 /* in its middle, with the moment that bending needs            */
-    BBM_MIDPOINTS,              /* in its middle alone                                          */
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
@@ -35,7 +34,11 @@ typedef struct {                /* supports.c, of a node                        
     double moved[2];            /* m        its wall point, since that step                     */
 } bbm_support;
 
-typedef struct { int block[2]; bbm_parameters par; } bbm_joint;     /* joints.c; -1: any block  */
+typedef struct {                /* joints.c: a joint of its own strength                        */
+    int    block[2];            /* -1: any                                                      */
+    double friction;            /* degree   friction angle                                      */
+    double cohesion, tension;   /* Pa       as long as it is unbroken                           */
+} bbm_joint;
 
 typedef struct {                /* pressure.c: on the edge that starts at the vertex a          */
     int    a;
@@ -48,6 +51,7 @@ struct bbm_beyond {
     /* --- settings --- */
     bbm_bonding  bonding;       /* bending.c                                                    */
     bbm_rotation rotation;      /* rotation.c                                                   */
+    double cohesion, tension;   /* Pa       joints.c: of unbroken joints                        */
     int multiplier_rounds;      /* multipliers.c: further solutions of a step; 0: the paper     */
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
@@ -131,11 +135,9 @@ void       bbm_free_sliding(bbm_sliding *s);
 
 /* sweep.c, joints.c */
 bbm_status bbm_sweep(bbm_model *m, double search);
-double     bbm_joint_area(const bbm_model *m, int corner, int edge);
 bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
                          double tension);
-void       bbm_begin_joints(bbm_model *m);
-const bbm_parameters *bbm_joint_strength(const bbm_model *m, int corner, int edge);
+void       bbm_joint_strength(const bbm_model *m, bbm_contact *c);
 
 /* strain.c, supports.c */
 void       bbm_set_plane_strain(bbm_model *m);          /* of a prepared model              */
@@ -145,7 +147,7 @@ void       bbm_find_reactions(bbm_model *m);
 void       bbm_stop_supports(bbm_model *m);
 
 /* refuse.c, statics.c */
-bbm_status bbm_check_parameters(bbm_model *m);
+bbm_status bbm_check_settings(bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
@@ -157,7 +159,7 @@ bbm_status bbm_explain(bbm_model *m, bbm_status s);
 double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
 bbm_status bbm_check_passed(bbm_model *m);              /* of all that the sweep has met        */
 
-/* overlap.c, mechanism.c, pieces.c */
+/* overlap.c, pieces.c */
 typedef struct {                /* elements i < j that overlap                                  */
     int    i, j;
     double depth;               /* m        the shortest way that parts them                    */
@@ -166,7 +168,6 @@ typedef struct {                /* elements i < j that overlap                  
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
-bbm_status bbm_find_mechanism(bbm_model *m, int *element);          /* of BBM_MIDPOINTS; or -1  */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
 int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
 

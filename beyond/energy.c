@@ -53,13 +53,21 @@ static double kinetic_energy(const bbm_model *m, const bbm_element *e)
     return bbm_inertia_form(&now, V) / 2;
 }
 
-/* 1/2 int stress.strain dA, with Hooke's law (7) the other way round. */
+/* 1/2 int stress.strain dA = 1/2 t A s.E^-1 s with Hooke's law (7), by elimination: what is left of
+ * s, squared, over each pivot. */
 static double elastic_energy(const bbm_element *e)
 {
-    const double *s = e->stress, E = e->material.E, nu = e->material.nu;
-    const double stress_strain = (s[0] * s[0] + s[1] * s[1] - 2 * nu * s[0] * s[1]
-                                  + 2 * (1 + nu) * s[2] * s[2]) / E;
+    double s[3] = { e->stress[0], e->stress[1], e->stress[2] }, E[3][3], stress_strain = 0;
 
+    bbm_elastic_matrix(&e->material, E);
+    for (int p = 0; p < 3; p++) {
+        stress_strain += s[p] * s[p] / E[p][p];
+        for (int a = p + 1; a < 3; a++) {
+            s[a] -= E[a][p] / E[p][p] * s[p];
+            for (int b = p + 1; b < 3; b++)
+                E[a][b] -= E[a][p] / E[p][p] * E[p][b];
+        }
+    }
     return e->material.thickness * e->A0 * stress_strain / 2;
 }
 
@@ -80,8 +88,8 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
  * bbm_store_contacts. */
 static double contact_energy(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_parameters *p = bbm_strength_of(m, c);
-    const double T = c->state == BBM_SLIDE ? bbm_shear_strength(p, c->N, c->area) : c->T;
+    const bbm_parameters *p = &m->par;
+    const double T = c->state == BBM_SLIDE ? bbm_shear_strength(&c->strength, c->N) : c->T;
 
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
 }

@@ -41,7 +41,7 @@ static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
 
 /* The share of a contact that touches at the start, as far as its own sides lie on the edge. The
  * next point is the next grid point of the side of which they touch, or the end of either side. */
-double bbm_joint_area(const bbm_model *m, int corner, int edge)
+static double joint_area(const bbm_model *m, int corner, int edge)
 {
     const bbm_edge *e = &m->edge[edge];
     const double s = way_along(m, edge, corner), same = SAME * e->along.length;
@@ -77,20 +77,8 @@ bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, doub
     if (!more)
         return bbm_fail(m, BBM_NO_MEMORY, "%d joints", b->joints);
     b->joint = more;
-    b->joint[b->joints++] = (bbm_joint){
-        { block[0], block[1] },
-        { .friction = friction, .cohesion = cohesion, .tension = tension }
-    };
+    b->joint[b->joints++] = (bbm_joint){ { block[0], block[1] }, friction, cohesion, tension };
     return BBM_OK;
-}
-
-/* A step begins: the stiffness of contacts is the same everywhere. */
-void bbm_begin_joints(bbm_model *m)
-{
-    for (int k = 0; k < m->beyond->joints; k++) {
-        m->beyond->joint[k].par.p_n = m->par.p_n;
-        m->beyond->joint[k].par.p_s = m->par.p_s;
-    }
 }
 
 static int fits(const int block[2], int i, int j)
@@ -98,13 +86,19 @@ static int fits(const int block[2], int i, int j)
     return (block[0] < 0 || block[0] == i) && (block[1] < 0 || block[1] == j);
 }
 
-/* The strengths between the blocks of two boundary edges. */
-const bbm_parameters *bbm_joint_strength(const bbm_model *m, int corner, int edge)
+/* The strength of a contact, by the first joint that fits its blocks, or that of the model. One
+ * that touches at the start gets its share of the joint. */
+void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
 {
-    const int i = m->edge[corner].block, j = m->edge[edge].block;
+    const int i = m->edge[c->corner].block, j = m->edge[c->edge].block;
+    const bbm_beyond *b = m->beyond;
+    bbm_joint joint = { { -1, -1 }, m->par.friction, b->cohesion, b->tension };
 
-    for (int k = 0; k < m->beyond->joints; k++)
-        if (fits(m->beyond->joint[k].block, i, j) || fits(m->beyond->joint[k].block, j, i))
-            return &m->beyond->joint[k].par;
-    return &m->par;
+    for (int k = b->joints - 1; k >= 0; k--)
+        if (fits(b->joint[k].block, i, j) || fits(b->joint[k].block, j, i))
+            joint = b->joint[k];
+    if (c->touches)
+        c->area = joint_area(m, c->corner, c->edge);
+    c->strength = (bbm_strength){ bbm_tangent(joint.friction), joint.cohesion * c->area,
+                                  joint.tension * c->area };
 }

@@ -36,10 +36,12 @@ static void take_edge(const bbm_model *m, int e, const bbm_vertex *P, place *at)
     }
 }
 
-/* How deep P lies in the block of an edge, the distance from its boundary, and from which edge; 0
- * outside. The outer boundary goes round what is inside once, and so does that of a hole, the other
- * way. Outside the one that the edge belongs to, the others need not be asked. */
-static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int edge, int *nearest)
+/* How deep P lies in the block of an edge, the distance from its boundary, and from which edge, if
+ * that is more than `allowed`; else 0. The outer boundary goes round what is inside once, and so
+ * does that of a hole, the other way. Outside the one that the edge belongs to, or near it, the
+ * others need not be asked. */
+static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int edge, double allowed,
+                             int *nearest)
 {
     place own = { .distance = INFINITY }, all = own;
     int e = edge;
@@ -48,13 +50,13 @@ static double depth_in_block(const bbm_model *m, const bbm_vertex *P, int edge, 
         take_edge(m, e, P, &own);
         e = m->edge[e].after;
     } while (e != edge);
-    if (own.area > 0 && own.winding <= 0)
+    if (own.distance <= allowed || (own.area > 0 && own.winding <= 0))
         return 0;
     for (e = 0; e < m->edges; e++)
         if (m->edge[e].block == m->edge[edge].block)
             take_edge(m, e, P, &all);
     *nearest = all.nearest;
-    return all.winding > 0 ? all.distance : 0;
+    return all.winding > 0 && all.distance > allowed ? all.distance : 0;
 }
 
 /* Whether the blocks i and j have a contact that is closed or has opened inside. */
@@ -100,10 +102,9 @@ double bbm_depth_passed(const bbm_model *m, int corner, int edge)
     if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length)
         return 0;
     int nearest = edge;
-    const double depth = depth_in_block(m, P, edge, &nearest);
-    if (depth <= bbm_allowed_depth(m, corner, edge) || moves_out(m, corner, nearest))
-        return 0;
-    return are_in_contact(m, own, other) ? 0 : depth;
+    const double allowed = bbm_allowed_depth(m, corner, edge);
+    const double depth = depth_in_block(m, P, edge, allowed, &nearest);
+    return depth == 0 || moves_out(m, corner, nearest) || are_in_contact(m, own, other) ? 0 : depth;
 }
 
 /* Refuses a step that starts so. */

@@ -1,4 +1,4 @@
-/* refuse.c - parameters that mean nothing, and solutions that are none.
+/* refuse.c - settings that mean nothing, and solutions that are none.
  *
  * A step of which the equations were not solved, whose elements go too far for what is linear in
  * it, or whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and
@@ -21,40 +21,21 @@
 #define FAR_TURN 1.0
 #define DEEP 0.1
 
-/* Refuses parameters and settings that mean nothing; a comparison with NaN is false, so NaN is
- * refused too. */
-bbm_status bbm_check_parameters(bbm_model *m)
+/* Refuses settings that mean nothing. */
+bbm_status bbm_check_settings(bbm_model *m)
 {
-    const bbm_parameters *p = &m->par;
     const bbm_beyond *b = m->beyond;
-    const double over = nextafter(0, 1), most = nextafter(INFINITY, 0);
-    const struct { const char *name; double value, low, high; const char *expected; } check[] = {
-        { "dt", p->dt, over, INFINITY, "more than 0" },
-        { "steps", p->steps, 1, most, "1 or more" },
-        { "tolerance", p->tolerance, 0, most, "0 or more" },
-        { "velocity_factor", p->velocity_factor, 0, 1, "0 to 1" },
-        { "alpha", p->alpha, over, most, "more than 0" },
-        { "gravity[0]", p->gravity[0], -most, most, "a finite number" },
-        { "gravity[1]", p->gravity[1], -most, most, "a finite number" },
-        { "p_n", p->p_n, over, most, "more than 0" },
-        { "p_s", p->p_s, over, most, "more than 0" },
-        { "friction", p->friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
-        { "cohesion", p->cohesion, 0, most, "0 or more" },
-        { "tension", p->tension, 0, most, "0 or more" },
-        { "pcg.omega", p->pcg.omega, over, nextafter(2, 0), "more than 0, less than 2" },
-        { "pcg.tolerance", p->pcg.tolerance, over, nextafter(1, 0), "more than 0, less than 1" },
-        { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
+    const double most = nextafter(INFINITY, 0);
+    const bbm_range range[] = {
+        { "cohesion", b->cohesion, 0, most, "0 or more" },
+        { "tension", b->tension, 0, most, "0 or more" },
         { "multiplier_rounds", b->multiplier_rounds, 0, most, "0 or more" },
         { "shake[0]", b->shake[0], -most, most, "a finite number" },
         { "shake[1]", b->shake[1], -most, most, "a finite number" },
         { "shake_omega", b->shake_omega, -most, most, "a finite number" },
     };
 
-    for (size_t i = 0; i < sizeof check / sizeof *check; i++)
-        if (!(check[i].value >= check[i].low && check[i].value <= check[i].high))
-            return bbm_fail(m, BBM_BAD_PARAMETER, "%s = %g, expected %s", check[i].name,
-                            check[i].value, check[i].expected);
-    return BBM_OK;
+    return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
 /* Whether the solution solves the equations, and turns and strains no element too far; a comparison

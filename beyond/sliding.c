@@ -47,8 +47,7 @@
 int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                           bbm_submatrices *f)
 {
-    const bbm_parameters *joint = bbm_strength_of(m, c);
-    const double p = -c->sign * tan(joint->friction * acos(-1) / 180) * m->par.p_n;
+    const double p = -c->sign * c->strength.tan_phi * m->par.p_n;
     bbm_term *k = &m->K->term[m->K->terms];
     bbm_spring n, s;
 
@@ -57,7 +56,7 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
     bbm_normal_vectors(t, &n);
     bbm_shear_vectors(t, c->anchor, &s);
     bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
-                             + c->sign * joint->cohesion * c->area, f);
+                             + c->sign * c->strength.shear, f);
     if (m->K->is_kept)
         return 1;
     k->row[0] = m->K->place[m->edge[c->corner].element];

@@ -93,14 +93,13 @@ bbm_status bbm_check_supports(bbm_model *m)
 /* Whether every body of a prepared model is held, by itself or through contacts. */
 bbm_status bbm_check_held(bbm_model *m)
 {
-    const bbm_status status = bbm_check_step(m);
+    bbm_status status = bbm_check_step(m);
     int other;
 
-    if (status)
-        return status;
     m->h = INFINITY;
-    bbm_begin_step(m);
-    return bbm_detect(m, &other);
+    if (!status)
+        status = bbm_begin_step(m);
+    return status ? status : bbm_detect(m, &other);
 }
 
 /* --------------------------------------------------------------------- which block goes */

@@ -32,7 +32,7 @@ static void set_defaults(model_reader *r)
     if (p->p_s < 0)
         p->p_s = 0.4 * p->p_n;
     if (p->p_s == 0)                          /* a shear spring that carries nothing: no friction */
-        p->friction = p->cohesion = 0;
+        p->friction = r->p->m->beyond->cohesion = 0;
     if (p->p_n == 0)                            /* no contact: springs that cannot be felt */
         p->p_n = 1e-200;
     if (p->p_s == 0)
@@ -461,9 +461,8 @@ int model_water(model_reader *r)
 /* What is left out is as in `contact`. A joint that can never count is hardly meant. */
 int model_joint(model_reader *r)
 {
-    const bbm_parameters *p = &r->p->m->par;
     const bbm_beyond *b = r->p->m->beyond;
-    double friction = p->friction, cohesion = p->cohesion, tension = p->tension;
+    double friction = r->p->m->par.friction, cohesion = b->cohesion, tension = b->tension;
     model_option o[] = { ANGLE("friction", &friction), FROM_ZERO("cohesion", &cohesion),
                          FROM_ZERO("tension", &tension) };
     int block[2];
@@ -551,16 +550,8 @@ int model_finish(model_reader *r)
     p->block = model_room(r, r->blocks, sizeof *p->block);
     for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
         p->block[p->blocks] = r->block[p->blocks].name;
-    int loose;
     if (p->status)
         return 0;
-    if (bbm_find_mechanism(p->m, &loose))
-        return model_out_of_memory(r);
-    if (loose >= 0)
-        return model_fail(r, r->element[loose].at,
-                          "the elements of block '%s' are bonded at midpoints and can turn against "
-                          "each other, expected: bond at moment",
-                          p->block[p->m->element[loose].block]);
     const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return model_fail(r, (model_place){ r->path, 0 },

@@ -192,9 +192,10 @@ static int read_plane(model_reader *r)
 static int read_contact(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
+    bbm_beyond *b = r->p->m->beyond;
     model_option o[] = {
-        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &p->cohesion),
-        FROM_ZERO("tension", &p->tension),
+        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &b->cohesion),
+        FROM_ZERO("tension", &b->tension),
         ANGLE("friction", &p->friction),
     };
 
@@ -234,13 +235,18 @@ static int read_dynamic(model_reader *r)
 
 static int read_bond(model_reader *r)
 {
-    static const bbm_bonding bonding[] = { BBM_VERTICES, BBM_MIDPOINTS, BBM_MOMENT, BBM_MOMENT };
+    static const bbm_bonding bonding[] = { BBM_VERTICES, BBM_MOMENT, BBM_MOMENT };
     bbm_beyond *b = r->p->m->beyond;
-    int kind = 3;
+    int kind = 2;
     model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
                          COUNT("augment", &b->multiplier_rounds, 0),
-                         CHOICE("at", &kind, "vertices|midpoints|moment|auto") };
+                         CHOICE("at", &kind, "vertices|moment|auto") };
 
+    for (int k = 1; k < r->s->n; k++)
+        if (strcmp(r->word[r->s->first + k], "midpoints") == 0)
+            return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in the "
+                                  "middles of their sides alone elements can turn against each "
+                                  "other");
     if (!model_options(r, LENGTH(o), o))
         return 0;
     b->bonding = bonding[kind];
@@ -547,7 +553,7 @@ static const struct kind {
     { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
     { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",
       read_dynamic, NOTHING_NEEDED, 1 },
-    { "bond", "bond [alpha VALUE] [augment N] [at vertices|midpoints|moment|auto]", read_bond,
+    { "bond", "bond [alpha VALUE] [augment N] [at vertices|moment|auto]", read_bond,
       NOTHING_NEEDED, 1 },
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
       NOTHING_NEEDED, 1 },

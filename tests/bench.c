@@ -148,7 +148,7 @@ static bbm_model *model_in_contact(void add(bbm_model *, int), int n)
 
     bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
     add(m, n);
-    m->par.cohesion = 1e5;
+    m->beyond->cohesion = 1e5;
     case_must(m, bbm_prepare(m));
     m->h = 0.01;
     bbm_foresee_step(m);

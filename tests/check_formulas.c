@@ -858,16 +858,12 @@ END_TEST
 
 enum { ROUGH, SMOOTH, GLUED, COHESIVE };  /* (friction angle, cohesion, tension): see strength_of */
 
-/* With an area of 1/2 where the joint is whole: N tan(phi) = N, cohesion gives 1, tensile strength
- * 1.5. */
-static bbm_parameters strength_of(int kind)
+/* N tan(phi) = N; where the joint is whole cohesion gives 1 N, tensile strength 1.5 N. */
+static bbm_strength strength_of(int kind, int whole)
 {
-    bbm_parameters p = { .p_n = 100, .p_s = 40 };
-
-    p.friction = kind == ROUGH || kind == GLUED ? 45 : 0;
-    p.cohesion = kind == GLUED || kind == COHESIVE ? 2 : 0;
-    p.tension = kind == GLUED ? 3 : 0;
-    return p;
+    return (bbm_strength){ .tan_phi = kind == ROUGH || kind == GLUED,
+                           .shear = whole && (kind == GLUED || kind == COHESIVE) ? 1 : 0,
+                           .tension = whole && kind == GLUED ? 1.5 : 0 };
 }
 
 static const struct {
@@ -939,13 +935,13 @@ static const struct {
 
 START_TEST(each_cell_of_the_table_of_states_is_as_written)
 {
-    const bbm_parameters p = strength_of(CELLS[_i].kind);
-    const bbm_contact c = { .state = CELLS[_i].was, .area = CELLS[_i].whole ? 0.5 : 0,
-                            .sign = CELLS[_i].sign, .d_n = CELLS[_i].d_n,
-                            .d_s = CELLS[_i].T / p.p_s, .T = CELLS[_i].T,
-                            .N = CELLS[_i].was == BBM_OPEN ? 0 : -p.p_n * CELLS[_i].d_n };
+    const double p_n = 100, p_s = 40;
+    const bbm_contact c = { .state = CELLS[_i].was, .sign = CELLS[_i].sign, .d_n = CELLS[_i].d_n,
+                            .d_s = CELLS[_i].T / p_s, .T = CELLS[_i].T,
+                            .N = CELLS[_i].was == BBM_OPEN ? 0 : -p_n * CELLS[_i].d_n,
+                            .strength = strength_of(CELLS[_i].kind, CELLS[_i].whole) };
 
-    ck_assert_int_eq(bbm_next_state(&p, &c, CELLS[_i].slack), CELLS[_i].now);
+    ck_assert_int_eq(bbm_next_state(p_n, &c, CELLS[_i].slack), CELLS[_i].now);
 }
 END_TEST
 
@@ -954,15 +950,14 @@ END_TEST
 START_TEST(the_shear_strength_is_that_of_mohr_and_coulomb)
 {
     const double phi[4] = { 0, 30, 45, 60 }, tangent[4] = { 0, 1 / sqrt(3), 1, sqrt(3) };
-    bbm_parameters p = { 0 };
+    bbm_strength s = { .tan_phi = bbm_tangent(phi[_i]) };
 
-    p.friction = phi[_i];
-    ck_near(bbm_shear_strength(&p, 7, 0.5), 7 * tangent[_i], 7, ROUNDING);
-    p.cohesion = 3;
-    ck_near(bbm_shear_strength(&p, 7, 0.5), 7 * tangent[_i] + 1.5, 7, ROUNDING);
-    ck_near(bbm_shear_strength(&p, -1, 0.5), fmax(0, 1.5 - tangent[_i]), 1, ROUNDING);
+    ck_near(bbm_shear_strength(&s, 7), 7 * tangent[_i], 7, ROUNDING);
+    s.shear = 1.5;
+    ck_near(bbm_shear_strength(&s, 7), 7 * tangent[_i] + 1.5, 7, ROUNDING);
+    ck_near(bbm_shear_strength(&s, -1), fmax(0, 1.5 - tangent[_i]), 1, ROUNDING);
     /* it never drives a slip */
-    ck_near(bbm_shear_strength(&p, -100, 0.5), _i ? 0 : 1.5, 1, ROUNDING);
+    ck_near(bbm_shear_strength(&s, -100), _i ? 0 : 1.5, 1, ROUNDING);
 }
 END_TEST
 

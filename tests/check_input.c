@@ -418,16 +418,26 @@ static const struct { size_t offset; double value; const char *name; } PARAMETER
     PARAMETER(p_s, INFINITY),
     PARAMETER(friction, -1),
     PARAMETER(friction, 90),
-    PARAMETER(cohesion, -1),
-    PARAMETER(cohesion, INFINITY),
-    PARAMETER(tension, -1),
-    PARAMETER(tension, INFINITY),
     PARAMETER(pcg.omega, 0),
     PARAMETER(pcg.omega, 2),
     PARAMETER(pcg.omega, NAN),
     PARAMETER(pcg.tolerance, 0),
     PARAMETER(pcg.tolerance, 1),
     PARAMETER(pcg.tolerance, NAN),
+};
+
+#define SETTING(name, value) { offsetof(bbm_beyond, name), value, #name }
+
+static const struct { size_t offset; double value; const char *name; } SETTINGS[] = {
+    SETTING(cohesion, -1e-9),
+    SETTING(cohesion, INFINITY),
+    SETTING(cohesion, NAN),
+    SETTING(tension, -1e-9),
+    SETTING(tension, INFINITY),
+    SETTING(tension, NAN),
+    SETTING(shake[0], NAN),
+    SETTING(shake[1], INFINITY),
+    SETTING(shake_omega, -INFINITY),
 };
 
 /* The unit square, held, loaded and prepared. */
@@ -455,38 +465,30 @@ START_TEST(parameters_outside_their_range_are_refused_by_name)
 }
 END_TEST
 
-/* Without the hook that names it, nothing is wrong in silence: the core refuses what is outside its
- * range, the solver what is not finite, if the step uses it. */
+/* The core knows its parameters by itself. */
 START_TEST(parameters_outside_their_range_are_refused_without_the_hook)
 {
-    const char *name = PARAMETERS[_i].name;
-    const int infinite = isinf(PARAMETERS[_i].value);
-    const int in_K = name[0] == 'g' || (infinite && name[0] == 'a');
     bbm_model *m = held_square();
+    char named[60];
 
-    m->hook->check_step = NULL;
-    m->hook->joint_area = NULL;
+    m->hook->begin = NULL;
+    snprintf(named, sizeof named, "%s = %g", PARAMETERS[_i].name, PARAMETERS[_i].value);
     memcpy((char *)&m->par + PARAMETERS[_i].offset, &PARAMETERS[_i].value, sizeof(double));
-    if (infinite && (strcmp(name, "tolerance") == 0 || name[1] == '_'))
-        ck_ok(bbm_step(m), m);                              /* p_n, p_s: nothing touches */
-    else
-        check_error(m, bbm_step(m), in_K ? BBM_NOT_FINITE : BBM_BAD_PARAMETER, "");
+    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, named);
     bbm_model_free(m);
 }
 END_TEST
 
-/* Without a hook that knows the area of a joint a strength would be of no effect. */
-START_TEST(a_strength_that_would_have_no_effect_is_refused)
+START_TEST(settings_outside_their_range_are_refused_by_name)
 {
-    for (int k = 0; k < 2; k++) {
-        bbm_model *m = held_square();
-        *(k ? &m->par.cohesion : &m->par.tension) = 1e3;
-        ck_ok(bbm_step(m), m);
-        m->hook->joint_area = NULL;
-        check_error(m, bbm_step(m), BBM_BAD_PARAMETER,
-                    k ? "cohesion = 1000, tension = 0" : "cohesion = 0, tension = 1000");
-        bbm_model_free(m);
-    }
+    bbm_model *m = held_square();
+    char named[60];
+
+    snprintf(named, sizeof named, "%s = %g", SETTINGS[_i].name, SETTINGS[_i].value);
+    memcpy((char *)m->beyond + SETTINGS[_i].offset, &SETTINGS[_i].value, sizeof(double));
+    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, named);
+    ck_assert_int_eq(m->info.step, 0);
+    bbm_model_free(m);
 }
 END_TEST
 
@@ -499,6 +501,9 @@ START_TEST(counts_below_one_are_refused_by_name)
     m->par.steps = 1;
     m->par.pcg.iterations = 0;
     check_error(m, bbm_run(m), BBM_BAD_PARAMETER, "iterations = 0");
+    m->par.pcg.iterations = 1;
+    m->beyond->multiplier_rounds = -1;
+    check_error(m, bbm_run(m), BBM_BAD_PARAMETER, "multiplier_rounds = -1");
     bbm_model_free(m);
 }
 END_TEST
@@ -699,7 +704,7 @@ Suite *input_suite(void)
     const loop_test bad_parameters[] = {
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { parameters_outside_their_range_are_refused_without_the_hook, COUNT(PARAMETERS) },
-        { a_strength_that_would_have_no_effect_is_refused, 1 },
+        { settings_outside_their_range_are_refused_by_name, COUNT(SETTINGS) },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_step_before_bbm_prepare_is_refused, 1 },

@@ -10,7 +10,7 @@ START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
 {
     bbm_model *m = new_blocks();
 
-    m->par.cohesion = 1e4;
+    m->beyond->cohesion = 1e4;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? 0 : 5.125, .y = _i ? 0.125 : 0,
                                            .w = 1, .h = 1 });
@@ -32,7 +32,7 @@ START_TEST(a_joint_may_gape_by_a_millionth_of_an_edge)
     for (int k = 0; k < 2; k++) {
         const double small = _i ? (k ? 1.001e-6 : 0.999e-6) : k ? nextafter(1e-6, 1) : 1e-6;
         bbm_model *m = new_blocks();
-        m->par.tension = 1;
+        m->beyond->tension = 1;
         add_rectangle(m, 0, ROCK, (rectangle){ .x = _i ? -1 : 0, .y = -1, .w = 1, .h = 1 });
         add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? small : 0, .y = _i ? 0 : small,
                                                .w = 1, .h = 1 });
@@ -60,8 +60,8 @@ static bbm_model *joined(double fx, double fy)
 
     m->par.gravity[1] = 0;
     m->par.friction = 30;
-    m->par.cohesion = 5000;
-    m->par.tension = 3000;
+    m->beyond->cohesion = 5000;
+    m->beyond->tension = 3000;
     m->par.velocity_factor = 0;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 2, .h = 1 });
@@ -107,7 +107,7 @@ START_TEST(a_joint_without_shear_strength_has_its_tensile_strength)
 {
     bbm_model *m = joined(0, (_i ? 1.01 : 0.99) * 3000 * 2);
 
-    m->par.friction = m->par.cohesion = 0;
+    m->par.friction = m->beyond->cohesion = 0;
     run_steps(m, 50);
     ck_assert_int_eq(m->info.contacts, _i ? 0 : 2);
     bbm_model_free(m);
@@ -171,7 +171,7 @@ static double joint_area(double size, double x, double w, const int pieces[2])
     int material;
 
     ck_ok(bbm_add_material(m, &thin, &material), m);
-    m->par.tension = 1;
+    m->beyond->tension = 1;
     add_rectangle(m, 0, material, (rectangle){ .x = 0, .y = -size, .w = size, .h = size,
                                                .nx = pieces[0] });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = x, .y = 0, .w = w, .h = size, .nx = pieces[1] });
@@ -208,7 +208,7 @@ START_TEST(blocks_that_come_to_touch_have_no_tensile_strength)
 
     m->par.gravity[1] = 0;
     m->par.friction = 30;
-    m->par.tension = 3000;
+    m->beyond->tension = 3000;
     m->par.velocity_factor = 0;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 1e-3, .w = 2, .h = 1 });
@@ -268,7 +268,7 @@ static double sag(int joints)
     }
     m->par.p_n = m->par.p_s = 1e9;
     m->par.friction = 45;
-    m->par.cohesion = m->par.tension = 1e9;
+    m->beyond->cohesion = m->beyond->tension = 1e9;
     m->par.alpha = 1000;
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);

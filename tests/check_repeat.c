@@ -69,8 +69,6 @@ static const struct { size_t offset; double value; const char *name; } PARAMETER
     PARAMETER(p_s, 0), PARAMETER(p_s, -1), PARAMETER(p_s, NAN), PARAMETER(p_s, INFINITY),
     PARAMETER(friction, -1e-9), PARAMETER(friction, 90), PARAMETER(friction, NAN),
     PARAMETER(friction, INFINITY),
-    PARAMETER(cohesion, -1e-9), PARAMETER(cohesion, NAN), PARAMETER(cohesion, INFINITY),
-    PARAMETER(tension, -1e-9), PARAMETER(tension, NAN), PARAMETER(tension, INFINITY),
 };
 
 START_TEST(contact_parameters_outside_their_range_are_refused_by_name)
@@ -91,7 +89,7 @@ START_TEST(contact_parameters_at_the_ends_of_their_range_are_taken)
 {
     bbm_model *m = pile(1, 0);
 
-    m->par.friction = m->par.cohesion = m->par.tension = 0;
+    m->par.friction = m->beyond->cohesion = m->beyond->tension = 0;
     m->par.p_n = m->par.p_s = 1e-3;
     ck_ok(bbm_step(m), m);
     m->par.friction = 89.9;
@@ -265,8 +263,8 @@ static bbm_model *in_units(const bbm_model *m, double L, double M, double T)
     n->par.gravity[1] *= L / (T * T);
     n->par.p_n *= force / L;
     n->par.p_s *= force / L;
-    n->par.cohesion *= pressure;
-    n->par.tension *= pressure;
+    n->beyond->cohesion = m->beyond->cohesion * pressure;
+    n->beyond->tension = m->beyond->tension * pressure;
     for (int i = 0; i < m->nodes; i++) {
         ck_ok(bbm_add_node(n, m->node[i].x * L, m->node[i].y * L, NULL), n);
         if (m->node[i].held)
@@ -316,7 +314,7 @@ static bbm_model *lively(int bonded)
         add_rectangle(m, 16, BASE, (rectangle){ .x = -1, .y = -1, .w = 7, .h = 1, .nx = 3,
                                                 .fixed = 1 });
     m->par.friction = 25;
-    m->par.cohesion = m->par.tension = bonded ? 2e3 : 0;
+    m->beyond->cohesion = m->beyond->tension = bonded ? 2e3 : 0;
     return m;
 }
 

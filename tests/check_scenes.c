@@ -65,9 +65,9 @@ START_TEST(the_ledger_and_the_library_agree)
     bbm_energy energy;
     scene_ledger l;
 
-    scene_make(100 + (uint64_t)_i, SCENE_BONDED, &s);
+    scene_make(100 + 2 * (uint64_t)_i, SCENE_BONDED, &s);
     s.multiplier_rounds = 0;
-    s.bonding = (bbm_bonding)_i;
+    s.bonding = _i ? BBM_VERTICES : BBM_MOMENT;
     ck_ok(scene_build(&s, &m), m);
     for (int k = 0; k < 20; k++)
         ck_ok(bbm_step(m), m);
@@ -184,7 +184,7 @@ Suite *scenes_suite(void)
 
     tcase_add_test(c, the_generator_of_random_numbers_is_splitmix64);
     tcase_add_test(c, the_ledger_knows_a_plate_that_spins_and_stretches);
-    tcase_add_loop_test(c, the_ledger_and_the_library_agree, 0, 3);
+    tcase_add_loop_test(c, the_ledger_and_the_library_agree, 0, 2);
     tcase_add_loop_test(c, blocks_begin_beside_each_other, 0, SCENE_KINDS);
     suite_add_tcase(s, c);
     c = tcase_create("torture");

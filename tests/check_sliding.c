@@ -97,6 +97,48 @@ START_TEST(a_block_whose_friction_angle_is_above_the_slope_stays)
 }
 END_TEST
 
+/* Friction that drops from its peak to what is left while a contact slides by a length. */
+enum { PEAK = 6, RESIDUAL = 2 };                                /* tenths */
+
+static const double LENGTH_OF_DROP = 0.05;
+
+static void drop_with_slip(const bbm_model *m, bbm_contact *c)
+{
+    (void)m;
+    c->strength.tan_phi = (PEAK - (PEAK - RESIDUAL) * fmin(1, c->slip / LENGTH_OF_DROP)) / 10;
+}
+
+/* A block thrown along a floor stops after x with v0^2/(2 g) = int tan(phi) dx; what its corners
+ * have slid is that way. A step takes the friction of the slip at its start, and so the end is off
+ * by half the slip of a step, v0 dt/2, times the drop: by 0.4 v0 dt/2 over tan(phi) = 0.2. */
+START_TEST(friction_may_drop_with_the_slip)
+{
+    const double v0 = 1, peak = PEAK / 10.0, residual = RESIDUAL / 10.0;
+    const double drop = LENGTH_OF_DROP * (peak - residual) / 2;
+    const double way = (v0 * v0 / (2 * GRAVITY) - drop) / residual;
+    bbm_model *m = new_blocks();
+
+    m->hook->strength = drop_with_slip;
+    m->par.dt = _i ? 5e-4 : 1e-3;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 0, .w = 1, .h = 0.5 });
+    ck_ok(bbm_prepare(m), m);
+    settle(m, 5);
+    set_velocity(m, 1, v0, 0);
+    const double start = m->element[1].sum[0];
+    run_steps(m, (int)(0.5 / m->par.dt));
+    const double slid_by = m->element[1].sum[0] - start;
+    ck_near(slid_by, way, 1, (peak - residual) / residual * v0 * m->par.dt / 2);
+    for (int c = 0; c < 2; c++) {
+        const bbm_contact *k = contact_of(m, 1, c);
+        ck_assert(k && k->state == BBM_LOCK);
+        ck_near(k->slip, slid_by, 1, 2e-5);
+        ck_relative(k->strength.tan_phi, residual, ROUNDING);
+    }
+    bbm_model_free(m);
+}
+END_TEST
+
 /* Blocks of width 1 and height h on a slope: tan(delta) = 1/h; phi_c as in the literature on
  * toppling [degree], 2 degrees to both sides of each border. */
 static const struct { double h, slope, phi; int slides, topples; } CHART[] = {
@@ -494,6 +536,7 @@ Suite *sliding_suite(void)
         { a_block_thrown_uphill_stops_where_it_should_and_stays_there, 1 },
         { a_block_whose_friction_angle_is_above_the_slope_stays, 4 },
         { a_block_on_a_slope_slides_or_topples_as_the_chart_says, COUNT(CHART) },
+        { friction_may_drop_with_the_slip, 2 },
     };
     const loop_test anchors[] = {
         { a_locked_contact_keeps_its_anchor, 1 },

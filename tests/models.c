@@ -295,6 +295,14 @@ void prepare_apart(bbm_model *m)
     }
 }
 
+void list_middles(bbm_model *m)
+{
+    bbm_list_edge_gaps(m);
+    for (int g = 0; g < m->gaps; g++)
+        if (!m->gap[g].own.penalty)
+            memset(m->gap[g].own.W, 0, sizeof m->gap[g].own.W);
+}
+
 void run_steps(bbm_model *m, int steps)
 {
     for (int i = 0; i < steps; i++)
@@ -367,7 +375,7 @@ size_t state_of(const bbm_model *m, double state[STATE])
 {
     size_t n = 0;
 
-    ck_assert(4 * m->vertices + 18 * m->elements + 8 * m->contacts + 1 <= STATE);
+    ck_assert(4 * m->vertices + 18 * m->elements + 9 * m->contacts + 1 <= STATE);
     for (int v = 0; v < m->vertices; v++) {
         const bbm_vertex *p = &m->vertex[v];
         const double here[4] = { p->x, p->y, p->u, p->v };
@@ -385,10 +393,10 @@ size_t state_of(const bbm_model *m, double state[STATE])
     }
     for (int k = 0; k < m->contacts; k++) {
         const bbm_contact *c = &m->contact[k];
-        const double here[8] = { c->corner, c->edge, c->state, c->sign, c->anchor, c->N,
-                                 c->T, c->area };
+        const double here[9] = { c->corner, c->edge, c->state, c->sign, c->anchor, c->N,
+                                 c->T, c->slip, c->area };
         memcpy(&state[n], here, sizeof here);
-        n += 8;
+        n += 9;
     }
     state[n++] = m->info.t;
     return n;

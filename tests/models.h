@@ -104,6 +104,10 @@ void add_table(bbm_model *m, int block);
  * place of its own. */
 void prepare_apart(bbm_model *m);
 
+/* A hook that lists the gaps of edge bonds without their moments: sides are held in their middles
+ * alone. */
+void list_middles(bbm_model *m);
+
 void run_steps(bbm_model *m, int steps);
 
 /* Steps without memory of velocity, which end at rest. */

@@ -266,8 +266,8 @@ static void make_wall(test_scene *s, uint64_t *r)
     for (int j = 0; j < rows; j++)
         for (int i = 0; i < columns; i++)
             add_rectangle(s, rock, w * (i + j % 2 / 2.0), h * j, w, h);
-    s->par.cohesion = pick(r, strength, 5);
-    s->par.tension = s->par.cohesion * between(r, 0, 1);
+    s->cohesion = pick(r, strength, 5);
+    s->tension = s->cohesion * between(r, 0, 1);
     if (one_of(r, 4) > 0)
         shoot(s, r, h * rows);
 }
@@ -382,7 +382,7 @@ static void choose_parameters(test_scene *s, uint64_t *r)
     s->par.friction = pick(r, friction, 6);
     s->par.gravity[1] = -9.81;
     s->par.alpha = pick(r, alpha, 3);
-    s->bonding = one_of(r, 2) ? BBM_VERTICES : BBM_MOMENT;      /* in the middle alone: hinges, a mechanism */
+    s->bonding = one_of(r, 2) ? BBM_VERTICES : BBM_MOMENT;
     s->multiplier_rounds = one_of(r, 4) ? 0 : 2;
     s->par.pcg.tolerance = 1e-13;
     s->par.steps = 100 + one_of(r, 200);
@@ -417,8 +417,8 @@ void scene_in_units(test_scene *s, double L, double M, double T)
     s->par.dt *= T;
     s->par.p_n *= force / L;
     s->par.p_s *= force / L;
-    s->par.cohesion *= pressure;
-    s->par.tension *= pressure;
+    s->cohesion *= pressure;
+    s->tension *= pressure;
     for (int k = 0; k < 2; k++)
         s->par.gravity[k] *= L / (T * T);
     for (int i = 0; i < s->blocks; i++) {
@@ -530,6 +530,8 @@ bbm_status scene_build(const test_scene *s, bbm_model **m)
         return BBM_NO_MEMORY;
     (*m)->par = s->par;
     (*m)->beyond->bonding = s->bonding;
+    (*m)->beyond->cohesion = s->cohesion;
+    (*m)->beyond->tension = s->tension;
     (*m)->beyond->multiplier_rounds = s->multiplier_rounds;
     for (int k = 0; k < s->blocks; k++)
         add_block(*m, k, &s->block[k]);

@@ -33,6 +33,7 @@ typedef struct {
     scene_kind kind;
     bbm_parameters par;         /* with par.steps: how many are of interest                                     */
     bbm_bonding bonding;
+    double cohesion, tension;   /* Pa       of unbroken joints                                                  */
     int multiplier_rounds;
     int blocks;
     scene_block block[SCENE_BLOCKS];

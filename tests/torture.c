@@ -33,7 +33,7 @@ static void print_scene(const test_scene *s)
     for (int k = 0; k < s->blocks; k++)
         elements += s->block[k].elements;
     printf("%d blocks, %d elements, %d steps, p_s %g, gravity %g, alpha %g, bonding %d, cohesion %g, tension %g\n", s->blocks,
-           elements, p->steps, p->p_s, p->gravity[1], p->alpha, (int)s->bonding, p->cohesion, p->tension);
+           elements, p->steps, p->p_s, p->gravity[1], p->alpha, (int)s->bonding, s->cohesion, s->tension);
 }
 
 static void print_name(const test_scene *s)

@@ -21,9 +21,9 @@ typedef struct { int P, Q; double k; } bolt;            /* vertices; N/m        
 static const bolt BOLT[BOLTS] = { { 11, 0, 2e7 }, { 10, 1, 2e7 }, { 8, 5, 1e7 } };
 
 /* Adds a gap for each bolt to the list of what glues. P and Q are points of two elements, and
- * bbm_bonding_gap gives d = (uP - uQ) + Ti(P) Di - Tj(Q) Dj with a weight k in all directions. A
- * bolt along the unit vector n from P to Q resists along n alone: W = k n n^T. It is no penalty:
- * its stiffness is its own. The list has room for three gaps of each vertex. */
+ * bbm_bonding_gap gives d = (uP - uQ) + Ti(P) Di - Tj(Q) Dj, its rows along x and y, each with the
+ * stiffness k. A bolt along the unit vector n from P to Q resists along n alone: its first row is
+ * n.d, and its second has no stiffness. The list has room for three gaps of each vertex. */
 static void add_bolts(bbm_model *m)
 {
     for (int b = 0; b < BOLTS; b++) {
@@ -32,18 +32,21 @@ static void add_bolts(bbm_model *m)
         const double n[2] = { (Q->x - P->x) / l, (Q->y - P->y) / l };
         bbm_gap *g = bbm_add_gap(m, P->element, Q->element);
         bbm_bonding_gap(&m->element[P->element], P, &m->element[Q->element], Q, BOLT[b].k, g);
-        for (int k = 0; k < 4; k++)
-            g->W[k / 2][k % 2] = BOLT[b].k * n[k / 2] * n[k % 2];
-        g->penalty = 0;
+        g->d0[0] = n[0] * g->d0[0] + n[1] * g->d0[1];
+        for (int a = 0; a < 6; a++) {
+            g->Ti[0][a] = n[0] * g->Ti[0][a] + n[1] * g->Ti[1][a];
+            g->Tj[0][a] = n[0] * g->Tj[0][a] + n[1] * g->Tj[1][a];
+        }
+        g->k[1] = 0;
     }
 }
 
 /* Bonds and fixed points as in the paper, and the bolts. */
 static void list_gaps(bbm_model *m)
 {
-    m->hook.list_gaps = NULL;
+    m->hook->list_gaps = NULL;
     bbm_list_gaps(m);
-    m->hook.list_gaps = list_gaps;
+    m->hook->list_gaps = list_gaps;
     add_bolts(m);
 }
 
@@ -84,7 +87,7 @@ int main(void)
         bbm_fix_node(m, k, BBM_XY, 0, 0);
     bbm_add_load(m, 9, H, 0);
     m->par.gravity[1] = -10;
-    m->hook.list_gaps = list_gaps;
+    m->hook->list_gaps = list_gaps;
     if (bbm_prepare(m) || bbm_run(m)) {
         printf("wrong: %s\n", bbm_message(m));
         wrong = 1;

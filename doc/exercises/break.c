@@ -12,7 +12,7 @@
 #include "base/base.h"
 
 /* Takes the bonds out of the list of which a spring carries more than `strength` [N] after the last
- * step. The springs of bond b are the gaps 2b and 2b + 1; they carry the length of W d + f. Returns
+ * step. The springs of bond b are the gaps 2b and 2b + 1; they carry k times the length of d. Returns
  * how many bonds broke. */
 static int break_bonds(bbm_model *m, double strength)
 {
@@ -21,12 +21,9 @@ static int break_bonds(bbm_model *m, double strength)
     for (int b = m->bonds - 1; b >= 0; b--) {
         double most = 0;
         for (int end = 0; end < 2; end++) {
-            bbm_gap *g = &m->gap[2 * b + end];
-            double d[2];
-            bbm_gap_length(m, g, d);
-            const double x = g->W[0][0] * d[0] + g->W[0][1] * d[1] + g->f[0];
-            const double y = g->W[1][0] * d[0] + g->W[1][1] * d[1] + g->f[1];
-            most = fmax(most, hypot(x, y));
+            const bbm_gap *g = &m->gap[2 * b + end];
+            const bbm_vertex *P = &m->vertex[m->bond[b].p[end]], *Q = &m->vertex[m->bond[b].q[end]];
+            most = fmax(most, hypot(g->k[0] * (P->u - Q->u), g->k[1] * (P->v - Q->v)));
         }
         if (most <= strength)
             continue;
