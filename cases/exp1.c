@@ -12,7 +12,6 @@
  * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
  * say so are by as many quadrilaterals with beyond/. More of that is in exp1_beyond.c. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "exp.h"
@@ -227,15 +226,12 @@ static void print_summary(const bbm_model *const m[RUNS], const case_reference r
 }
 
 /* Fig. 11-13: contours, and the deformed mesh. */
-static void draw_maps(case_results *r, const bbm_model *m)
-{
-    case_draw_maps(r, m, 4, (const case_map[]){
-        { "fig11.svg", { "Fig. 11: displacement u, load a", "u", -1 } },
-        { "fig12.svg", { "Fig. 12: displacement v, load a", "v", -1 } },
-        { "fig13.svg", { "Fig. 13: von Mises stress, load a", "mises", -1 } },
-        { "deformed.svg", { "Deformed beam, von Mises stress", "mises", 0 } },
-    });
-}
+static const case_map map[] = {
+    { "fig11.svg", { "Fig. 11: displacement u, load a", "u", -1 } },
+    { "fig12.svg", { "Fig. 12: displacement v, load a", "v", -1 } },
+    { "fig13.svg", { "Fig. 13: von Mises stress, load a", "mises", -1 } },
+    { "deformed.svg", { "Deformed beam, von Mises stress", "mises", 0 } },
+};
 
 /* The error of v(24,0), load b, the paper's way. */
 static void print_error(int k, double alpha)
@@ -274,7 +270,7 @@ int main(int argc, char **argv)
     print_table_3((const bbm_model *const *)m, ref);
     print_summary((const bbm_model *const *)m, ref);
     exp1_show_beyond(&ref[1]);
-    draw_maps(&r, m[0]);
+    case_draw_maps(&r, m[0], 4, map);
     printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, "
            "deformed.svg\n", r.folder);
     for (int k = 0; k < RUNS; k++) {

@@ -13,7 +13,6 @@
  * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
  * say so are by as many quadrilaterals with beyond/. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "case.h"
@@ -243,17 +242,14 @@ static void draw_lines(case_results *r, const bbm_model *const m[RUNS], const ca
 }
 
 /* Fig. 20-23. */
-static void draw_maps(case_results *r, const bbm_model *m)
-{
-    case_draw_maps(r, m, 6, (const case_map[]){
-        { "fig20.svg", { "Fig. 20: stress sxx, plate b5", "sxx", -1 } },
-        { "fig21a.svg", { "Fig. 21: stress syy, plate b5", "syy", -1 } },
-        { "fig21b.svg", { "Fig. 21: stress sxy, plate b5", "sxy", -1 } },
-        { "fig22.svg", { "Fig. 22: displacement u, plate b5", "u", -1 } },
-        { "fig23.svg", { "Fig. 23: displacement v, plate b5", "v", -1 } },
-        { "deformed.svg", { "Deformed plate b5, von Mises stress", "mises", 0 } },
-    });
-}
+static const case_map map[] = {
+    { "fig20.svg", { "Fig. 20: stress sxx, plate b5", "sxx", -1 } },
+    { "fig21a.svg", { "Fig. 21: stress syy, plate b5", "syy", -1 } },
+    { "fig21b.svg", { "Fig. 21: stress sxy, plate b5", "sxy", -1 } },
+    { "fig22.svg", { "Fig. 22: displacement u, plate b5", "u", -1 } },
+    { "fig23.svg", { "Fig. 23: displacement v, plate b5", "v", -1 } },
+    { "deformed.svg", { "Deformed plate b5, von Mises stress", "mises", 0 } },
+};
 
 /* The errors of u(1,0) and of sxx(0,1), plate k5, the paper's way. */
 static void print_errors(int k, double alpha)
@@ -287,7 +283,7 @@ int main(int argc, char **argv)
         print_tables(m[k], run[k].variant, &ref[k]);
     print_summary((const bbm_model *const *)m);
     draw_lines(&r, (const bbm_model *const *)m, &ref[0]);
-    draw_maps(&r, m[0]);
+    case_draw_maps(&r, m[0], 6, map);
     printf("\nNumbers and pictures: %s/results.csv, fig15 to fig19 as csv and svg, fig20.svg to "
            "fig23.svg, deformed.svg\n", r.folder);
     for (int k = 0; k < RUNS; k++) {
