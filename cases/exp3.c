@@ -154,9 +154,9 @@ static void print_tables(case_results *r, const slide s[], const variant v[], in
         print_run(r, &s[k], &v[k]);
     printf("\nP stays within W/(4 p_n) of its height: each of the three grid points inside the "
            "foot of the block\ncarries a quarter of the weight, its ends an eighth. On the plate "
-           "of 10 GPa it sinks where they press\ngrid points of the plate down, whose springs "
-           "give, and rises where two of these share the weight:\na slope that drives it. The "
-           "line load acts on a side that the weight has shortened.\n");
+           "of 10 GPa they first press grid points of\nthe plate down, whose springs give; where "
+           "two of these share the weight the block stands higher. So it climbs\nfirst, and stays "
+           "behind. The line load acts on a side that the weight has shortened.\n");
     case_print_augmented(s[PAPER_RUNS].m);
 }
 
