@@ -10,12 +10,10 @@ bbm_model *case_model(void)
     return m;
 }
 
-/* Eisenstat's form has the iterates of the paper's SSOR-PCG in about 0.7 of the time. */
-bbm_model *case_paper_model(void)
+bbm_model *case_augmented_model(void)
 {
     bbm_model *m = case_model();
 
-    m->beyond->bonding = BBM_VERTICES;
-    m->par.pcg.method = &bbm_eisenstat;
+    m->beyond->multiplier_rounds = 2;
     return m;
 }

@@ -21,6 +21,20 @@ void case_must(const bbm_model *m, bbm_status s)
         stop("bbm", m ? bbm_message(m) : bbm_status_text(s));
 }
 
+bbm_model *case_paper_model(void)
+{
+    bbm_model *m;
+
+    case_must(NULL, bbm_model_new(&m));
+    return m;
+}
+
+void case_solve(bbm_model *m)
+{
+    case_must(m, bbm_prepare(m));
+    case_must(m, bbm_run(m));
+}
+
 void case_progress(const char *what)
 {
     printf("... %s\n", what);
@@ -46,6 +60,32 @@ void case_print_parameters(const bbm_model *m)
         printf(", of which %d to come to rest before", m->info.step - p->steps);
     printf("; the last with %d SSOR-PCG iterations to a residual of %.1e\n",
            m->info.pcg.iterations, m->info.pcg.residual);
+}
+
+void case_print_augmented(const bbm_model *m)
+{
+    if (m)
+        printf("\nwith beyond/: %d quadrilaterals, edge bonds with a moment, two rounds of "
+               "multipliers, two levels (%d iterations)%s\n", m->elements,
+               m->info.pcg.iterations, isinf(m->par.dt) ? "" : ", T of the middle of the step, "
+               "exact rotation");
+}
+
+void case_converge(const char *title, int triangles, void (*print_errors)(int k, double alpha))
+{
+    static const double alpha[4] = { 10, 100, 1000, 1e5 };
+
+    printf("\n%s\n\n"
+           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
+           "|---|---|---|---|---|\n", title);
+    for (int k = 1; k <= 3; k++) {
+        printf("| %d |", triangles * k * k);
+        for (int a = 0; a < 4; a++) {
+            print_errors(k, alpha[a]);
+            fflush(stdout);
+        }
+        printf("\n");
+    }
 }
 
 /* --------------------------------------------------------------------------------------- meshes */
@@ -281,8 +321,8 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
     return error;
 }
 
-void case_compare_all(case_results *r, const case_problem *p, const bbm_model *m,
-                      const char *variant, const case_reference *ref)
+static void compare_all(case_results *r, const case_problem *p, const bbm_model *m,
+                        const case_run *run, const case_reference *ref)
 {
     for (int i = 0; i < ref->values; i++) {
         const struct case_value *f = &ref->value[i];
@@ -292,13 +332,28 @@ void case_compare_all(case_results *r, const case_problem *p, const bbm_model *m
             continue;
         const double value = p->computed(m, f->quantity, f->x, f->y);
         const double exact = p->theory(f->quantity, f->x, f->y);
-        snprintf(name, sizeof name, "%s.%s", variant, f->quantity);
+        snprintf(name, sizeof name, "%s%s.%s", run->beyond ? "beyond." : "", run->variant,
+                 f->quantity);
         if (!isnan(exact))
             case_row(r, name, xy, value, exact, "theory");
         if (!isnan(f->converged))
             case_row(r, name, xy, value, f->converged, "fem");
         case_row(r, name, xy, value, f->six_node, "fem_coarse");
     }
+}
+
+bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run *run,
+                          case_reference *ref)
+{
+    bbm_model *m = run->beyond ? case_augmented_model() : case_paper_model();
+
+    case_read_reference(p->name, run->variant, ref);
+    if (!m)
+        return NULL;
+    case_progress(run->label);
+    p->solve(m, run->variant, run->beyond ? CELL_QUADS : CELL_CROSSED, run->beyond ? 4 : 2, 1000);
+    compare_all(r, p, m, run, ref);
+    return m;
 }
 
 double case_compare(case_results *r, const char *name, double computed, double reference)

@@ -10,8 +10,6 @@
 #include "../program/plot.h"
 #include "../program/scene.h"
 
-static const double case_alpha[4] = { 10, 100, 1000, 1e5 };     /* of the tables of convergence */
-
 typedef struct {                    /* a grid of nx x ny cells, mapped by a function            */
     int nx, ny, cut, block, material;
     void (*map)(double i, double j, const void *context, double xy[2]); /* grid line -> point */
@@ -36,9 +34,13 @@ typedef struct {                    /* out/NAME/results.csv                     
  * stays. */
 void   case_must(const bbm_model *m, bbm_status s);
 
-/* beyond.c, or paper.c for `make paper`. A new model; one with the paper's bonds and solver. */
-bbm_model *case_model(void);
+/* A new model of the core alone: the paper's way. What the experiments print or draw is computed by
+ * it, but for what has `beyond/` in its row or heading. */
 bbm_model *case_paper_model(void);
+/* beyond.c: a new model with all of beyond/; the same with two rounds of multipliers. NULL from
+ * paper.c, which `make paper` has in its place. */
+bbm_model *case_model(void);
+bbm_model *case_augmented_model(void);
 
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
@@ -54,6 +56,7 @@ bbm_model *case_moving_model(const case_blocks *b);
 bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */
 /* u, v, sxx, syy, sxy, svm */
 double case_quantity(const bbm_result *r, const char *quantity);
+void   case_solve(bbm_model *m);                                /* prepared and run             */
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
 double case_percent(double computed, double reference);
 
@@ -66,11 +69,19 @@ void   case_read_reference(const char *problem, const char *variant, case_refere
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
                                    double y);
 void   case_free_reference(case_reference *r);
-/* Of u, v, sxx, .. at a grid point: the computed value, and theory's, NaN where there is none. */
+/* What solves a variant on a grid of k times its cells; and of u, v, sxx, .. at a grid point the
+ * computed value, and theory's, NaN where there is none. */
 typedef struct {
+    const char *name;
+    void (*solve)(bbm_model *m, const char *variant, int cut, int k, double alpha);
     double (*computed)(const bbm_model *m, const char *quantity, double x, double y);
     double (*theory)(const char *quantity, double x, double y);
 } case_problem;
+
+typedef struct {                    /* a solution of an experiment, alpha = 1000                */
+    const char *variant, *label;
+    int beyond;                     /* with beyond/: quadrilaterals, as many as the triangles   */
+} case_run;                         /* of the others, which are the paper's way                 */
 
 /* Makes out/NAME and opens its results.csv. */
 void   case_open(case_results *r, const char *name);
@@ -81,21 +92,26 @@ int    case_close(case_results *r);
  * Returns the error. */
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
                 double reference, const char *kind);
-/* Every reference value of a variant against the computed one: the rows of results.csv. */
-void   case_compare_all(case_results *r, const case_problem *p, const bbm_model *m,
-                        const char *variant, const case_reference *ref);
+/* Reads its reference values and solves it; each of these against the computed one is a row of
+ * results.csv. NULL where there is no beyond/. */
+bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run *run,
+                          case_reference *ref);
 /* The row `| name | computed | theory | error |` on stdout and in results.csv (without a place). */
 double case_compare(case_results *r, const char *name, double computed, double reference);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
 /* table [rows][columns] as CSV */
 void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
                          int columns, const double *table);
-typedef struct { const char *file; scene_map map; } case_map;
-void   case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[]);
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);
+typedef struct { const char *file; scene_map map; } case_map;
+void   case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[]);
 void   case_print_parameters(const bbm_model *m);       /* Table 1, and what the solution took  */
+void   case_print_augmented(const bbm_model *m);        /* what a row with beyond/ is; or NULL  */
 void   case_progress(const char *what);                 /* one line on stdout, at once          */
+/* The table of convergence: meshes k = 1 to 3 of so many triangles times k k, four values of alpha.
+ * print_errors prints what a cell holds. */
+void   case_converge(const char *title, int triangles, void (*print_errors)(int k, double alpha));
 
 #endif
