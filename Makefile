@@ -20,8 +20,8 @@ CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 CORE     = bbm contact solver
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy interpolation joints multipliers overlap passed pieces pressure \
-           refuse rotation sliding statics strain supports sweep
+BEYOND   = beyond bending coarse eisenstat energy interpolation joints mesh multipliers passed refuse rotation \
+           sliding statics surroundings sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch
 CASES    = $(RUN) $(GALLERY)

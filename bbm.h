@@ -110,6 +110,7 @@ struct bbm_element {            /* triangle, quadrilateral, simple polygon, or a
     double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre         */
     /* --- state --- */
     double A0;                  /* m^2      starting area: mass = density * thickness * A0      */
+    double out_of_plane;        /* -        szz/(sx + sy); 0: plane stress                      */
     double V[6];                /* D/s      velocity of D                    */
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step              */
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
@@ -310,7 +311,6 @@ typedef struct {
                                                             /* 1: added for the N of the solution */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
-    double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
 } bbm_hooks;
@@ -377,7 +377,7 @@ bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8 
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
 void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
                              double u[2]);                  /* (1)                              */
-double      bbm_stress_out_of_plane(const bbm_model *m, const bbm_element *e);  /* Pa           */
+double      bbm_stress_out_of_plane(const bbm_element *e);                  /* Pa           */
 double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */

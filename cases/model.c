@@ -798,7 +798,7 @@ double model_mises(const bbm_model *m, int element)
 {
     const bbm_element *e = &m->element[element];
 
-    return bbm_mises(e->stress, bbm_stress_out_of_plane(m, e));
+    return bbm_mises(e->stress, bbm_stress_out_of_plane(e));
 }
 
 /* Each block as a rigid body: v + spin x (X - barycentre of the block). */
