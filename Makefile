@@ -22,8 +22,8 @@ PAPER    = bbm contact solver
 BASE     = build detect step
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy interpolation joints multipliers overlap passed pieces pressure \
-           refuse rotation sliding statics strain supports sweep
+BEYOND   = beyond bending coarse eisenstat energy interpolation joints mesh multipliers passed refuse rotation \
+           sliding statics surroundings sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch
 CASES    = $(RUN) $(GALLERY)

@@ -642,9 +642,9 @@ bbm_status bbm_run(bbm_model *m)
 /* ------------------------------------------------------------------ results, section 4 */
 
 /* szz: none in plane stress. */
-double bbm_stress_out_of_plane(const bbm_model *m, const bbm_element *e)
+double bbm_stress_out_of_plane(const bbm_element *e)
 {
-    return m->hook->out_of_plane ? m->hook->out_of_plane(e) : 0;
+    return e->out_of_plane * (e->stress[0] + e->stress[1]);
 }
 
 /* von Mises stress. */
@@ -672,7 +672,7 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
         r->v += v->v;
         for (int k = 0; k < 3; k++)
             r->stress[k] += e->stress[k];
-        r->szz += bbm_stress_out_of_plane(m, e);
+        r->szz += bbm_stress_out_of_plane(e);
         count++;
     }
     if (count == 0)

@@ -100,6 +100,7 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step              */
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
     double D[6];                /* of the last step: u0, v0 [m], r0 [rad], ex, ey, gxy [-]      */
+    double out_of_plane;        /* -        szz/(sx + sy); 0: plane stress                      */
     const bbm_middle *middle;   /* T of the step, of a hook; NULL: (2)                          */
 } bbm_element;
 
@@ -215,7 +216,7 @@ bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8 
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
 void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
                              double u[2]);                  /* (1)                              */
-double      bbm_stress_out_of_plane(const bbm_model *m, const bbm_element *e);  /* Pa           */
+double      bbm_stress_out_of_plane(const bbm_element *e);  /* Pa                               */
 double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */

@@ -183,7 +183,6 @@ struct bbm_hooks {
                                                             /* 1: added for the N of the solution */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
-    double (*out_of_plane)(const bbm_element *e);           /* its szz; NULL: plane stress      */
     bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
 };

@@ -29,7 +29,7 @@ typedef struct {                /* sliding.c: friction in K                     
     double *L, *U;              /* [room]    U by columns                                       */
 } bbm_sliding;
 
-typedef struct {                /* supports.c, of a node                                        */
+typedef struct {                /* surroundings.c, of a node                                    */
     double force[2];            /* N        on it, at the end of the last step; 0: it is free   */
     double moved[2];            /* m        its wall point, since that step                     */
 } bbm_support;
@@ -40,7 +40,7 @@ typedef struct {                /* joints.c: a joint of its own strength        
     double cohesion, tension;   /* Pa       as long as it is unbroken                           */
 } bbm_joint;
 
-typedef struct {                /* pressure.c: on the edge that starts at the vertex a          */
+typedef struct {                /* surroundings.c: on the edge that starts at the vertex a      */
     int    a;
     double f[2], pressure;      /* N/m      pressure: against the outward normal, turns with it */
     double level, weight;       /* m, N/m^2 of water, which presses besides; 0: there is none   */
@@ -116,11 +116,6 @@ void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_g
 void       bbm_weighted_submatrices(const bbm_gap *g, bbm_submatrices *s);
 void       bbm_list_edge_gaps(bbm_model *m);
 
-/* pressure.c. After bbm_prepare: a load on a boundary edge, N/m. */
-bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
-bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
-void       bbm_gather_edge_loads(bbm_model *m);
-
 /* multipliers.c */
 void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
 void       bbm_start_multipliers(bbm_model *m);
@@ -139,12 +134,15 @@ bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, doub
                          double tension);
 void       bbm_joint_strength(const bbm_model *m, bbm_contact *c);
 
-/* strain.c, supports.c */
-void       bbm_set_plane_strain(bbm_model *m);          /* of a prepared model              */
+/* surroundings.c; of a prepared model, the loads on a boundary edge in N/m */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
+void       bbm_gather_edge_loads(bbm_model *m);
 bbm_status bbm_lay_out_supports(bbm_model *m);
 void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
 void       bbm_find_reactions(bbm_model *m);
 void       bbm_stop_supports(bbm_model *m);
+void       bbm_set_plane_strain(bbm_model *m);
 
 /* refuse.c, statics.c */
 bbm_status bbm_check_settings(bbm_model *m);
@@ -159,7 +157,7 @@ bbm_status bbm_explain(bbm_model *m, bbm_status s);
 double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
 bbm_status bbm_check_passed(bbm_model *m);              /* of all that the sweep has met        */
 
-/* overlap.c, pieces.c */
+/* mesh.c */
 typedef struct {                /* elements i < j that overlap                                  */
     int    i, j;
     double depth;               /* m        the shortest way that parts them                    */

@@ -60,7 +60,7 @@ const field *field_find(const char *name)
 double field_of_element(const field *f, const bbm_model *m, int element)
 {
     const bbm_element *e = &m->element[element];
-    bbm_result r = { .u = e->sum[0], .v = e->sum[1], .szz = bbm_stress_out_of_plane(m, e) };
+    bbm_result r = { .u = e->sum[0], .v = e->sum[1], .szz = bbm_stress_out_of_plane(e) };
 
     if (!f->of_result)
         return f->of_element(m, element);

@@ -1,4 +1,4 @@
-/* pressure.c - loads on one boundary edge: a traction, a pressure that turns with the edge, water.
+/* surroundings.c - what the surroundings do to a body: loads on its edges, supports, plane strain.
  *
  * Beyond the paper, whose loads along a line, Eq. (38)-(43), lie between two grid points and keep
  * their direction. Where blocks share grid points, or an edge is known by its number alone, the
@@ -6,11 +6,28 @@
  * and a pressure p pushes that way, p (-(b - a)_y, (b - a)_x)/|b - a|, with the edge in the middle
  * of the step: its work is then p times the area that the edge sweeps. Still water up to the level
  * y = Y presses with its weight times Y - y, above the level with nothing.
+ *
+ * A fixed point is held to a wall point by a stiff spring and its multiplier: what these carry at
+ * the end of the step is the force of the support, the reaction. In equilibrium the reactions
+ * balance the loads. A wall point may be displaced between the steps. The support then does work:
+ * its force at the end of the step times its way, as for the loads. (Newmark with beta = 1/2,
+ * gamma = 1 takes the forces at the end, see energy.c.)
+ *
+ * The paper's plates are free to strain along the axis, out of the plane: plane stress. A slice of
+ * a long dam or tunnel is not. With ezz = 0 Hooke's law (7) is the same in the plane with
+ *
+ *     E/(1 - nu^2) in place of E,      nu/(1 - nu) in place of nu
+ *
+ * (Timoshenko and Goodier, Theory of Elasticity, chapter 2), G stays, and out of the plane there is
+ * szz = nu (sx + sy), with n = nu/(1 - nu): nu = n/(1 + n).
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "beyond.h"
+
+/* ----------------------------------------------------------------------------- loads on an edge */
 
 /* Adds a load [N/m] on a boundary edge of the prepared model. */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure)
@@ -99,5 +116,66 @@ void bbm_gather_edge_loads(bbm_model *m)
         const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
         find_load(m, &m->beyond->edge_load[l]);
         bbm_varying_load_submatrix(e, a, b, load->q, &m->load[6 * a->element]);
+    }
+}
+
+/* ------------------------------------------------------------------------------------- supports */
+
+/* Room for all nodes of a prepared model. */
+bbm_status bbm_lay_out_supports(bbm_model *m)
+{
+    free(m->beyond->support);
+    m->beyond->support = calloc((size_t)m->nodes, sizeof *m->beyond->support);
+    return m->beyond->support ? BBM_OK : BBM_NO_MEMORY;
+}
+
+/* Displaces the wall point of a node that is held. */
+void bbm_move_support(bbm_model *m, int node, double u, double v)
+{
+    const double to[2] = { u, v };
+
+    for (int a = 0; a < 2; a++) {
+        m->beyond->support[node].moved[a] += to[a] - m->node[node].wall[a];
+        m->node[node].wall[a] = to[a];
+    }
+}
+
+/* The forces of the supports on their nodes, of the solution. The gap of an edge is the mean of
+ * those of its ends, (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
+void bbm_find_reactions(bbm_model *m)
+{
+    for (int n = 0; n < m->nodes; n++)
+        memset(m->beyond->support[n].force, 0, sizeof m->beyond->support[n].force);
+    for (int k = 0; k < m->gaps; k++) {
+        bbm_gap *g = &m->gap[k];
+        double d[2];
+        if (g->j >= 0)
+            continue;
+        bbm_gap_length(m, g, d);
+        for (int a = 0; a < 2; a++) {
+            const double half = (g->own.f[a] + g->own.W[a][0] * d[0] + g->own.W[a][1] * d[1]) / 2;
+            m->beyond->support[g->node[0]].force[a] -= half;
+            m->beyond->support[g->node[1]].force[a] -= g->own.penalty ? half : -half;
+        }
+    }
+}
+
+/* The step is done: the supports stand. */
+void bbm_stop_supports(bbm_model *m)
+{
+    for (int n = 0; n < m->nodes; n++)
+        memset(m->beyond->support[n].moved, 0, sizeof m->beyond->support[n].moved);
+}
+
+/* --------------------------------------------------------------------------------- plane strain */
+
+/* All elements of a prepared model, once. */
+void bbm_set_plane_strain(bbm_model *m)
+{
+    for (int i = 0; i < m->elements; i++) {
+        bbm_material *a = &m->element[i].material;
+        a->E /= 1 - a->nu * a->nu;
+        a->nu /= 1 - a->nu;
+        m->element[i].out_of_plane = a->nu / (1 + a->nu);
     }
 }

@@ -1,4 +1,4 @@
-/* overlap.c - elements that lie in each other at the start.
+/* mesh.c - meshes that cannot be meant: elements that lie in each other, blocks in pieces.
  *
  * A contact keeps a corner out of an edge that it comes to from outside. Blocks that overlap from
  * the start have no such history: the corner is behind the edge, no spring pushes it out, and the
@@ -6,10 +6,17 @@
  * of one block may not overlap, either, and no element may meet itself.
  *
  * From an element that is not convex triangles are cut, ear by ear, until the rest is. Two convex
- * pieces overlap when no edge of either has the other piece wholly outside, and by the least way
+ * parts overlap when no edge of either has the other part wholly outside, and by the least way
  * that parts them: the edge with the shortest one tells it (separating axes). Bars that cross, or
- * a block within another, are found like a corner in a side. Candidates are pieces whose
+ * a block within another, are found like a corner in a side. Candidates are parts whose
  * projections on an axis overlap; the axis slants, x + y/4, as in sweep.c.
+ *
+ * Bonds join elements that share a side, both its nodes. A mesh that is meant to be one block can
+ * fall into pieces without a sign of it: two parts with nodes of their own at the same places, a
+ * node in the middle of a neighbour's side (a hanging node), two elements that share a corner
+ * alone. Since elements of one block do not touch each other either, the pieces then move through
+ * each other. It may be meant - several stones under one name - so it is no error; but whoever
+ * runs a model should hear of it.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +32,7 @@ typedef struct {                /* a convex part of an element                  
     int element, n;
     const bbm_node **p;         /* [n]                                                          */
     double low, high;           /* m        on the axis                                         */
-} piece;
+} part;
 
 /* Twice the signed area of the triangle a b c: positive if it runs counter-clockwise. */
 static double orient(const bbm_node *a, const bbm_node *b, const bbm_node *c)
@@ -61,7 +68,7 @@ bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[])
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------------------------- convex pieces */
+/* ------------------------------------------------------------------------------- convex parts */
 
 /* The corner to cut off next, -1: the polygon is convex. An ear is convex and has no other corner
  * in its triangle. Should rounding hide all of them, the smallest corner: what it does wrong is as
@@ -89,10 +96,10 @@ static int find_ear(int n, const bbm_node **p)
     return convex ? -1 : ear;
 }
 
-/* A piece of element e, with its projection. */
-static piece make_piece(int e, int n, const bbm_node **p)
+/* A part of element e, with its projection. */
+static part make_part(int e, int n, const bbm_node **p)
 {
-    piece s = { e, n, p, INFINITY, -INFINITY };
+    part s = { e, n, p, INFINITY, -INFINITY };
 
     for (int k = 0; k < n; k++) {
         const double at = p[k]->x + p[k]->y / 4;
@@ -102,11 +109,11 @@ static piece make_piece(int e, int n, const bbm_node **p)
     return s;
 }
 
-/* The pieces of element e at its starting position. Returns their number. In p is room for 4 times
+/* The parts of element e at its starting position. Returns their number. In p is room for 4 times
  * its corners: those that are left, and three of each ear. */
-static int cut_element(const bbm_model *m, int e, piece *to, const bbm_node **p)
+static int cut_element(const bbm_model *m, int e, part *to, const bbm_node **p)
 {
-    int n = m->element[e].n, pieces = 0;
+    int n = m->element[e].n, parts = 0;
     const bbm_node **ear = p + n;
 
     for (int k = 0; k < n; k++)
@@ -114,19 +121,19 @@ static int cut_element(const bbm_model *m, int e, piece *to, const bbm_node **p)
     for (int k = find_ear(n, p); n > 3 && k >= 0; k = find_ear(n, p), ear += 3) {
         for (int c = 0; c < 3; c++)
             ear[c] = p[(k + n - 1 + c) % n];
-        to[pieces++] = make_piece(e, 3, ear);
+        to[parts++] = make_part(e, 3, ear);
         n--;
         memmove(p + k, p + k + 1, (size_t)(n - k) * sizeof *p);
     }
-    to[pieces++] = make_piece(e, n, p);
-    return pieces;
+    to[parts++] = make_part(e, n, p);
+    return parts;
 }
 
 /* -------------------------------------------------------------------------------------- depth */
 
 /* The shortest way, up to `least`, on which b leaves a over one of the edges of a; 0 or less, not
  * the shortest: b is outside of one already. */
-static double way_out(const piece *a, const piece *b, double least)
+static double way_out(const part *a, const part *b, double least)
 {
     for (int k = 0; k < a->n && least > 0; k++) {
         const bbm_node *p = a->p[k], *q = a->p[(k + 1) % a->n];
@@ -140,7 +147,7 @@ static double way_out(const piece *a, const piece *b, double least)
 
 /* Sums up, and counts, the points where the edges of a begin to lie in b: corners of a, and points
  * where they enter b. `from` and `to` are shares of the edge from p to q. */
-static void add_corners(const piece *a, const piece *b, double sum[3])
+static void add_corners(const part *a, const part *b, double sum[3])
 {
     for (int k = 0; k < a->n; k++) {
         const bbm_node *p = a->p[k], *q = a->p[(k + 1) % a->n];
@@ -161,9 +168,9 @@ static void add_corners(const piece *a, const piece *b, double sum[3])
     }
 }
 
-/* Two pieces that overlap, and the middle of what they share: where an edge of it ends, one of the
- * other piece begins, so that both together list its corners. */
-static bbm_overlap describe(const piece *a, const piece *b, double depth)
+/* Two parts that overlap, and the middle of what they share: where an edge of it ends, one of the
+ * other part begins, so that both together list its corners. */
+static bbm_overlap describe(const part *a, const part *b, double depth)
 {
     const int first = a->element < b->element;
     double sum[3] = { 0, 0, 0 };
@@ -176,16 +183,16 @@ static bbm_overlap describe(const piece *a, const piece *b, double depth)
 
 /* --------------------------------------------------------------------------------- the check */
 
-static int compare_pieces(const void *p, const void *q)
+static int compare_parts(const void *p, const void *q)
 {
-    const piece *a = p, *b = q;
+    const part *a = p, *b = q;
 
     return a->low != b->low ? (a->low > b->low ? 1 : -1) : a->p > b->p ? 1 : -1;
 }
 
-/* Of n sorted pieces the pair that is deepest in each other and deeper than o->depth, if there is
+/* Of n sorted parts the pair that is deepest in each other and deeper than o->depth, if there is
  * one. */
-static void find_deepest(int n, const piece s[], bbm_overlap *o)
+static void find_deepest(int n, const part s[], bbm_overlap *o)
 {
     for (int a = 0; a < n; a++)
         for (int b = a + 1; b < n && s[b].low < s[a].high; b++) {
@@ -203,7 +210,7 @@ bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
 {
     const size_t v = (size_t)m->vertices;
     const bbm_node **p = calloc(4 * v, sizeof *p);
-    piece *s = calloc(v, sizeof *s);
+    part *s = calloc(v, sizeof *s);
     double length = 0;
     int n = 0;
 
@@ -214,7 +221,7 @@ bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
     if (!status) {
         for (int e = 0; e < m->elements; e++)
             n += cut_element(m, e, s + n, p + 4 * m->element[e].first);
-        qsort(s, (size_t)n, sizeof *s, compare_pieces);
+        qsort(s, (size_t)n, sizeof *s, compare_parts);
         find_deepest(n, s, o);
     }
     free(p);
@@ -236,4 +243,32 @@ bbm_status bbm_check_overlap(bbm_model *m)
     m->blamed[1] = o.i;
     return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d "
                     "with element %d, block %d with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
+}
+
+/* ----------------------------------------------------------------------------- blocks in pieces */
+
+/* The root of e in the forest up[], with the path halved on the way. */
+int bbm_root_of(int up[], int e)
+{
+    while (up[e] != e)
+        e = up[e] = up[up[e]];
+    return e;
+}
+
+/* For each element the first one of its piece, the elements that bonds join to it; piece[elements]
+ * of the caller. Returns the number of pieces: as many as blocks, if each holds together. */
+int bbm_find_pieces(const bbm_model *m, int piece[])
+{
+    int pieces = m->elements;
+
+    for (int e = 0; e < m->elements; e++)
+        piece[e] = e;
+    for (int b = 0; b < m->bonds; b++) {
+        const int i = bbm_root_of(piece, m->bond[b].i), j = bbm_root_of(piece, m->bond[b].j);
+        pieces -= i != j;
+        piece[i > j ? i : j] = i > j ? j : i;           /* the root is the first element */
+    }
+    for (int e = 0; e < m->elements; e++)
+        piece[e] = piece[piece[e]];                     /* of an element before e, done already */
+    return pieces;
 }
