@@ -56,7 +56,7 @@ struct bbm_beyond {
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     int rounds_done;            /* in this step                                                 */
-    int passed[2];              /* passed.c: a corner and an edge whose block it passed into;   */
+    int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
     bbm_sliding sliding;
     int *sign;                  /* [elements] or NULL, interpolation.c: of the second set       */
@@ -153,19 +153,19 @@ bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that 
 bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */
 bbm_status bbm_explain(bbm_model *m, bbm_status s);
 
-/* passed.c */
+/* overlap.c */
+typedef struct {                /* elements i < j that overlap                                  */
+    int    i, j;
+    double depth;               /* m        of the deepest point of the one in the other        */
+    double x, y;                /* m        that point                                          */
+} bbm_overlap;
+bbm_status bbm_check_overlap(bbm_model *m);
+bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
 double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
 bbm_status bbm_check_passed(bbm_model *m);              /* of all that the sweep has met        */
 
 /* mesh.c */
-typedef struct {                /* elements i < j that overlap                                  */
-    int    i, j;
-    double depth;               /* m        the shortest way that parts them                    */
-    double x, y;                /* m        the middle of what they share                       */
-} bbm_overlap;
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);
-bbm_status bbm_check_overlap(bbm_model *m);
-bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
 int        bbm_find_pieces(const bbm_model *m, int piece[]);        /* what bonds join          */
 int        bbm_root_of(int up[], int e);        /* of a forest: up[e] leads to the root of e    */
 

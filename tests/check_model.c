@@ -17,7 +17,7 @@ typedef struct { const char *name, *message; } wrong;
 static const wrong wrongs[] = {
     { "unknown-statement", ".model:9: unknown statement 'elephant', expected one such as element, expect, let" },
     { "blocks-overlap", ".model:11: element 9 of block 'stone' lies 0.005 m deep in element 1 of block 'base' at 0.5 "
-      "0.9975, expected blocks that touch at most" },
+      "0.995, expected blocks that touch at most" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
     { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
@@ -152,7 +152,7 @@ static const wrong wrongs[] = {
       "Y4 ...]" },
     { "block-odd", ".model:7: block 'c' has 5 coordinates, expected X Y of 3 corners or more" },
     { "block-of-elements", ".model:6: block 'a' for the second time, expected a new one" },
-    { "block-overlap", ".model:7: element 3 of block 'c' lies 0.1 m deep in element 2 of block 'b' at 1.225 1.95, "
+    { "block-overlap", ".model:7: element 3 of block 'c' lies 0.1 m deep in element 2 of block 'b' at 1.5 2, "
       "expected blocks that touch at most" },
     { "block-twice", ".model:7: block 'b' for the second time, expected a new one" },
     { "block-two-corners", ".model:7: block 'c' has 4 coordinates, expected X Y of 3 corners or more" },

@@ -1,0 +1,284 @@
+/* overlap.c - blocks that lie in each other: at the start, or because a step let a corner pass.
+ *
+ * A contact keeps a corner out of an edge that it comes to from outside. Blocks that overlap have
+ * no such history: the corner is behind the edge, no spring pushes it out, and the blocks go
+ * through each other. Both checks ask how deep a point lies in what a boundary encloses: its distance from
+ * the boundary, if that goes round it.
+ *
+ * At the start, elements of different blocks or of one block overlap if one of these points lies in
+ * the other element: a corner; the middle of a part of a side between two sides of the other
+ * element, as of bars that cross; a point within, if both elements are the same. The deepest of
+ * them is told. Candidates are elements whose circumscribed circles overlap.
+ *
+ * In a step the rules by which contacts are listed and closed keep corners outside. Should a step
+ * let one pass all the same - two soft corners that glance off each other and turn - it starts the
+ * next step deeper in the block than contacts are and moves in, and no contact of the two blocks is
+ * closed or has opened inside. That step is refused. The sweep asks for each corner near an edge.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "beyond.h"
+
+/* TOUCH [-]  overlaps up to this, in mean boundary edges of all blocks, are rounding of a model
+ *            file
+ * ENDS [-]   a side that ends on another one, up to this share of either, cuts it: rounding */
+#define TOUCH 1e-6
+#define ENDS 1e-9
+
+typedef struct { double x, y; } point;
+
+typedef struct {                /* where a point lies against a boundary                        */
+    double distance;            /* m                                                            */
+    int    nearest;             /* side                                                         */
+    int    winding;             /* of the boundary round the point                              */
+    double area;                /* m^2      twice what it encloses; of a hole < 0               */
+} place;
+
+/* Takes one more side of the boundary, from a to b. It counts as winding if it crosses the
+ * horizontal line through P on its right: up or down. */
+static void take_side(point a, point b, int side, point P, place *at)
+{
+    const double x = b.x - a.x, y = b.y - a.y, l = hypot(x, y);
+    const double px = P.x - a.x, py = P.y - a.y, d = px * y - py * x, s = px * x + py * y;
+    const double distance = hypot(d, fmax(0, fmax(-s, s - l * l))) / l;
+    const int up = (py >= 0) - (P.y >= b.y);
+
+    at->winding += up * d < 0 ? up : 0;
+    at->area -= d;
+    if (distance < at->distance) {
+        at->distance = distance;
+        at->nearest = side;
+    }
+}
+
+/* --------------------------------------------------------------------------------- at the start */
+
+/* Corner k of element e at the start. */
+static point corner_of(const bbm_model *m, int e, int k)
+{
+    const bbm_element *of = &m->element[e];
+    const bbm_node *n = &m->node[m->vertex[of->first + (k + of->n) % of->n].node];
+
+    return (point){ n->x, n->y };
+}
+
+/* How deep P lies in element e; 0 outside. */
+static double depth_in(const bbm_model *m, int e, point P)
+{
+    place at = { .distance = INFINITY };
+
+    for (int k = 0; k < m->element[e].n; k++)
+        take_side(corner_of(m, e, k), corner_of(m, e, k + 1), k, P, &at);
+    return at.winding > 0 ? at.distance : 0;
+}
+
+/* Where the side c d cuts the side p q, as a share of that; -1: nowhere, or both are parallel. */
+static double cut_at(point p, point q, point c, point d)
+{
+    const double x = q.x - p.x, y = q.y - p.y, u = d.x - c.x, v = d.y - c.y;
+    const double cross = x * v - y * u;
+    const double s = ((c.x - p.x) * v - (c.y - p.y) * u) / cross;
+    const double t = ((c.x - p.x) * y - (c.y - p.y) * x) / cross;
+
+    return s >= -ENDS && s <= 1 + ENDS && t >= -ENDS && t <= 1 + ENDS ? s : -1;
+}
+
+/* Takes a point of elements i and j as their overlap if it is deeper than what is known. */
+static void note_depth(int i, int j, point P, double depth, bbm_overlap *o)
+{
+    if (depth > o->depth)
+        *o = (bbm_overlap){ i < j ? i : j, i < j ? j : i, depth, P.x, P.y };
+}
+
+/* Side k of element i in element j: its start, and the middles between any two of its ends and the
+ * cuts of j's sides. */
+static void probe_side(const bbm_model *m, int i, int k, int j, bbm_overlap *o)
+{
+    const point p = corner_of(m, i, k), q = corner_of(m, i, k + 1);
+    const int n = m->element[j].n;
+
+    note_depth(i, j, p, depth_in(m, j, p), o);
+    for (int a = -1; a < n; a++) {
+        const double s = a < 0 ? 0 : cut_at(p, q, corner_of(m, j, a), corner_of(m, j, a + 1));
+        for (int b = a + 1; b <= n && s >= -ENDS; b++) {
+            const double t = b == n ? 1 : cut_at(p, q, corner_of(m, j, b), corner_of(m, j, b + 1));
+            const double mid = (s + t) / 2;
+            const point P = { p.x + mid * (q.x - p.x), p.y + mid * (q.y - p.y) };
+            if (t >= -ENDS)
+                note_depth(i, j, P, depth_in(m, j, P), o);
+        }
+    }
+}
+
+/* The overlap of element i with element j, as far as it is seen from i. The middles of the
+ * triangles at its corners, one of which lies in it, show that j is the same. */
+static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
+{
+    for (int k = 0; k < m->element[i].n; k++) {
+        const point a = corner_of(m, i, k - 1), b = corner_of(m, i, k), c = corner_of(m, i, k + 1);
+        const point P = { (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 };
+        probe_side(m, i, k, j, o);
+        note_depth(i, j, P, fmin(depth_in(m, i, P), depth_in(m, j, P)), o);
+    }
+}
+
+typedef struct { int element; double x, y, r; } circle;         /* around an element            */
+
+static int compare_circles(const void *p, const void *q)
+{
+    const circle *a = p, *b = q;
+    const double d = (a->x - a->r) - (b->x - b->r);
+
+    return d != 0 ? (d > 0 ? 1 : -1) : a->element - b->element;
+}
+
+static circle circle_of(const bbm_model *m, int e)
+{
+    const int n = m->element[e].n;
+    circle c = { .element = e };
+
+    for (int k = 0; k < n; k++) {
+        c.x += corner_of(m, e, k).x / n;
+        c.y += corner_of(m, e, k).y / n;
+    }
+    for (int k = 0; k < n; k++)
+        c.r = fmax(c.r, hypot(corner_of(m, e, k).x - c.x, corner_of(m, e, k).y - c.y));
+    return c;
+}
+
+/* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
+ * none do. */
+bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
+{
+    circle *s = malloc((size_t)m->elements * sizeof *s);
+    double length = 0;
+
+    if (!s)
+        return BBM_NO_MEMORY;
+    for (int e = 0; e < m->edges; e++)
+        length += m->edge[e].along.length;
+    *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
+    for (int e = 0; e < m->elements; e++)
+        s[e] = circle_of(m, e);
+    qsort(s, (size_t)m->elements, sizeof *s, compare_circles);
+    for (int a = 0; a < m->elements; a++)
+        for (int b = a + 1; b < m->elements && s[b].x - s[b].r < s[a].x + s[a].r; b++)
+            if (hypot(s[b].x - s[a].x, s[b].y - s[a].y) < s[a].r + s[b].r) {
+                probe_element(m, s[a].element, s[b].element, o);
+                probe_element(m, s[b].element, s[a].element, o);
+            }
+    free(s);
+    return BBM_OK;
+}
+
+/* Refuses elements that lie in each other. */
+bbm_status bbm_check_overlap(bbm_model *m)
+{
+    bbm_overlap o;
+
+    if (bbm_find_overlap(m, &o))
+        return BBM_NO_MEMORY;
+    if (o.i < 0)
+        return BBM_OK;
+    const int p = m->element[o.i].block, q = m->element[o.j].block;
+    m->blamed[0] = o.j;
+    m->blamed[1] = o.i;
+    return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d "
+                    "with element %d, block %d with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
+}
+
+/* ------------------------------------------------------------------------------------ in a step */
+
+/* Takes a boundary edge. It ends where the next one starts, for bonds may have opened there. */
+static void take_edge(const bbm_model *m, int e, point P, place *at)
+{
+    const bbm_vertex *a = bbm_start_of(m, e), *b = bbm_start_of(m, m->edge[e].after);
+
+    take_side((point){ a->x, a->y }, (point){ b->x, b->y }, e, P, at);
+}
+
+/* How deep P lies in the block of an edge, the distance from its boundary, and from which edge, if
+ * that is more than `allowed`; else 0. The outer boundary goes round what is inside once, and so
+ * does that of a hole, the other way. Outside the one that the edge belongs to, or near it, the
+ * others need not be asked. */
+static double depth_in_block(const bbm_model *m, point P, int edge, double allowed,
+                             int *nearest)
+{
+    place own = { .distance = INFINITY }, all = own;
+    int e = edge;
+
+    do {
+        take_edge(m, e, P, &own);
+        e = m->edge[e].after;
+    } while (e != edge);
+    if (own.distance <= allowed || (own.area > 0 && own.winding <= 0))
+        return 0;
+    for (e = 0; e < m->edges; e++)
+        if (m->edge[e].block == m->edge[edge].block)
+            take_edge(m, e, P, &all);
+    *nearest = all.nearest;
+    return all.winding > 0 && all.distance > allowed ? all.distance : 0;
+}
+
+/* Whether the blocks i and j have a contact that is closed or has opened inside. */
+static int are_in_contact(const bbm_model *m, int i, int j)
+{
+    int found = 0;
+
+    for (int k = 0; k < m->contacts && !found; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
+        found = ((p == i && q == j) || (p == j && q == i))
+             && (c->state != BBM_OPEN || c->inside);
+    }
+    return found;
+}
+
+/* Whether the corner moves out of the edge. */
+static int moves_out(const bbm_model *m, int corner, int edge)
+{
+    const bbm_vertex *P = &m->vertex[m->edge[corner].a];
+    const bbm_element *i = &m->element[m->edge[corner].element];
+    const bbm_element *j = &m->element[m->edge[edge].element];
+    const bbm_direction t = m->edge[edge].along;
+    double vi[2], vj[2];
+
+    bbm_displacement(i, i->V, P->x, P->y, vi);
+    bbm_displacement(j, j->V, P->x, P->y, vj);
+    return (vi[0] - vj[0]) * t.y - (vi[1] - vj[1]) * t.x > 0;
+}
+
+/* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are,
+ * where no contact of the two blocks accounts for it: the last step let it pass. Else 0, and where
+ * it is on its way out. */
+double bbm_depth_passed(const bbm_model *m, int corner, int edge)
+{
+    const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, edge);
+    const bbm_direction t = m->edge[edge].along;
+    const double x = P->x - a->x, y = P->y - a->y, s = x * t.x + y * t.y;
+    const int own = m->edge[corner].block, other = m->edge[edge].block;
+
+    if (own == other || m->edge[corner].side != corner)
+        return 0;
+    if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length)
+        return 0;
+    int nearest = edge;
+    const double allowed = bbm_allowed_depth(m, corner, edge);
+    const double depth = depth_in_block(m, (point){ P->x, P->y }, edge, allowed, &nearest);
+    return depth == 0 || moves_out(m, corner, nearest) || are_in_contact(m, own, other) ? 0 : depth;
+}
+
+/* Refuses a step that starts so. */
+bbm_status bbm_check_passed(bbm_model *m)
+{
+    const int corner = m->beyond->passed[0], edge = m->beyond->passed[1];
+
+    if (corner < 0)
+        return BBM_OK;
+    const bbm_vertex *P = &m->vertex[m->edge[corner].a];
+    return bbm_fail(m, BBM_BLOCKS_OVERLAP, "step %d: a corner of block %d passed into block %d at "
+                    "(%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
+                    m->edge[corner].block, m->edge[edge].block, P->x, P->y,
+                    bbm_depth_passed(m, corner, edge));
+}
