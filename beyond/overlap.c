@@ -29,7 +29,7 @@
 typedef struct { double x, y; } point;
 
 typedef struct {                /* where a point lies against a boundary                        */
-    double distance;            /* m                                                            */
+    double distance2;           /* m^2      the square of its distance                          */
     int    nearest;             /* side                                                         */
     int    winding;             /* of the boundary round the point                              */
     double area;                /* m^2      twice what it encloses; of a hole < 0               */
@@ -39,15 +39,16 @@ typedef struct {                /* where a point lies against a boundary        
  * horizontal line through P on its right: up or down. */
 static void take_side(point a, point b, int side, point P, place *at)
 {
-    const double x = b.x - a.x, y = b.y - a.y, l = hypot(x, y);
+    const double x = b.x - a.x, y = b.y - a.y, l2 = x * x + y * y;
     const double px = P.x - a.x, py = P.y - a.y, d = px * y - py * x, s = px * x + py * y;
-    const double distance = hypot(d, fmax(0, fmax(-s, s - l * l))) / l;
+    const double beyond = s < 0 ? s : s > l2 ? s - l2 : 0;
+    const double distance2 = (d * d + beyond * beyond) / l2;
     const int up = (py >= 0) - (P.y >= b.y);
 
     at->winding += up * d < 0 ? up : 0;
     at->area -= d;
-    if (distance < at->distance) {
-        at->distance = distance;
+    if (distance2 < at->distance2) {
+        at->distance2 = distance2;
         at->nearest = side;
     }
 }
@@ -66,11 +67,11 @@ static point corner_of(const bbm_model *m, int e, int k)
 /* How deep P lies in element e; 0 outside. */
 static double depth_in(const bbm_model *m, int e, point P)
 {
-    place at = { .distance = INFINITY };
+    place at = { .distance2 = INFINITY };
 
     for (int k = 0; k < m->element[e].n; k++)
         take_side(corner_of(m, e, k), corner_of(m, e, k + 1), k, P, &at);
-    return at.winding > 0 ? at.distance : 0;
+    return at.winding > 0 ? sqrt(at.distance2) : 0;
 }
 
 /* Where the side c d cuts the side p q, as a share of that; -1: nowhere, or both are parallel. */
@@ -205,20 +206,20 @@ static void take_edge(const bbm_model *m, int e, point P, place *at)
 static double depth_in_block(const bbm_model *m, point P, int edge, double allowed,
                              int *nearest)
 {
-    place own = { .distance = INFINITY }, all = own;
+    place own = { .distance2 = INFINITY }, all = own;
     int e = edge;
 
     do {
         take_edge(m, e, P, &own);
         e = m->edge[e].after;
     } while (e != edge);
-    if (own.distance <= allowed || (own.area > 0 && own.winding <= 0))
+    if (sqrt(own.distance2) <= allowed || (own.area > 0 && own.winding <= 0))
         return 0;
     for (e = 0; e < m->edges; e++)
         if (m->edge[e].block == m->edge[edge].block)
             take_edge(m, e, P, &all);
     *nearest = all.nearest;
-    return all.winding > 0 && all.distance > allowed ? all.distance : 0;
+    return all.winding > 0 && sqrt(all.distance2) > allowed ? sqrt(all.distance2) : 0;
 }
 
 /* Whether the blocks i and j have a contact that is closed or has opened inside. */
