@@ -119,8 +119,7 @@ typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.
 /* Trials of a static step: as ever; friction as a load in any case; one change of state a pass. */
 enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
 
-/* Passes that change states or renew the vectors of the step. */
-enum { BBM_MAX_PASSES = 40 };
+enum { BBM_MAX_PASSES = 40 };   /* that change states or renew the vectors of the step          */
 
 /* What comes after a pass of the open-close iteration; with the same K: F alone is new. */
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP } bbm_pass;
