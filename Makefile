@@ -18,9 +18,9 @@ endif
 CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
-CORE     = bbm contact solver
+CORE     = bbm contact solver base/order
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy interpolation joints mechanism multipliers overlap passed pieces pressure \
+BEYOND   = beyond bending coarse energy interpolation joints mechanism multipliers overlap passed pieces pressure \
            refuse rotation sliding statics strain supports sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch
@@ -36,10 +36,10 @@ PROGRAMS = check_cases check_model check_statements check_moving check_files che
            check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
-           check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
+           check_coarse check_beyond check_motion check_bars check_limits check_refused \
            check_theory check_equations
 SHARING  = models shapes systems
-HEADERS  = $(wildcard *.h beyond/*.h cases/*.h tests/*.h)
+HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
@@ -209,7 +209,7 @@ again: $O/exp1
 
 # `make paper` in the tree without beyond/.
 without-beyond:
-	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h cases tests out/paper
+	@rm -rf out/paper && mkdir -p out/paper && cp -r Makefile *.c *.h base cases tests out/paper
 	@$(LIMIT) env -u CK_RUN_SUITE -u CK_RUN_CASE $(MAKE) -s -C out/paper paper O=build CPPFLAGS= CFLAGS=-O2 \
 	> out/paper/paper.log 2>&1
 

@@ -28,7 +28,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "bbm.h"
+#include "base/base.h"
 
 /* An element whose area is below FLAT times the square of its longest reach is a line: round-off
  * has its sign. */

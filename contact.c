@@ -57,7 +57,7 @@
  * inside the shorter of two straight sides touch, too (bbm_carries), so that a deformable block
  * rests on its whole side.
  */
-#include "bbm.h"
+#include "base/base.h"
 
 #include <float.h>
 #include <math.h>
@@ -914,7 +914,7 @@ static void measure(const bbm_model *m, bbm_contact *c)
 /* The largest force in the component of K that an element belongs to. */
 static double *force_on(const bbm_model *m, int element)
 {
-    return &m->scratch->motion[m->K->component[element]].force;
+    return &m->scratch->motion[bbm_component_of(m->K, element)].force;
 }
 
 /* The largest force in each component: on an element, inertia included, or in a contact. What the

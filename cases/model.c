@@ -261,7 +261,7 @@ static int read_pcg(model_reader *r)
 
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    p->method = coarse == 0 ? &bbm_two_level : &bbm_eisenstat;
+    p->method = coarse == 0 ? &bbm_two_level : NULL;
     return 1;
 }
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../bbm.h"
+#include "../base/base.h"
 #include "../cases/plot.h"
 
 #define THIN "fill=\"none\" stroke=\"#999\" stroke-width=\"1\" stroke-dasharray=\"5 4\""
