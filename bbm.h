@@ -23,8 +23,8 @@
  *     bbm_model_free(m);
  *
  * Read the structs from small to large, then the functions in tiers: run a model, build one, single
- * formulas; what the files of the library share comes last. SI units, plane stress, indices from 0,
- * elements counter-clockwise. What can fail returns a bbm_status.
+ * formulas; what the files of the library share comes last, and K stands in base/base.h. SI units,
+ * plane stress, indices from 0, elements counter-clockwise. What can fail returns a bbm_status.
  */
 #ifndef BBM_H
 #define BBM_H
@@ -165,7 +165,7 @@ typedef void bbm_field(double x, double y, const void *context, double f[2]);
 typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
 
-typedef struct bbm_method bbm_method;           /* another than the paper's, see section 5      */
+typedef struct bbm_method bbm_method;           /* another than the paper's, see base/base.h    */
 
 typedef struct {
     double omega;               /* -        relaxation factor of SSOR, in (0, 2)                */
@@ -261,7 +261,7 @@ typedef struct {                /* what the last step did                       
 } bbm_info;
 
 typedef struct bbm_model bbm_model;
-typedef struct bbm_matrix bbm_matrix;               /* K, in solver.c                           */
+typedef struct bbm_matrix bbm_matrix;               /* K, see base/base.h                       */
 typedef struct bbm_contact_scratch bbm_contact_scratch;     /* in contact.c             */
 typedef struct bbm_beyond bbm_beyond;               /* of the hooks                             */
 

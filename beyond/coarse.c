@@ -56,9 +56,11 @@ typedef struct {
 /* ----------------------------------------------------------------------------------- the layout */
 
 /* first, node and start; the nodes are numbered from the last row on, from the last number down. */
-static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *node, int *number,
+static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *node,
                              coarse_space *c)
 {
+    int *number = c->left;              /* not in use yet: 0 */
+
     for (int i = 0; i < K->n; i++)
         c->first[i + 1] = c->first[i] + first[K->caller[i] + 1] - first[K->caller[i]];
     c->start[K->n] = c->n;
@@ -90,8 +92,8 @@ static int share_a_side(const coarse_space *c, int i, int j)
     return common == 2;
 }
 
-/* left: both rows of a node begin with the first node that shares an element with it, or a block of
- * K. */
+/* left. Both rows of a node begin with the first node that it meets in an element, or in elements
+ * that a block of K joins. */
 static void find_neighbours(const bbm_matrix *K, const coarse_space *c)
 {
     int *left = c->left;
@@ -148,7 +150,7 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
     c->pays = 1;
     bbm_status status = allocate(K, (size_t)first[K->n], c);
     if (!status)
-        status = list_nodes(K, first, node, c->left, c);
+        status = list_nodes(K, first, node, c);
     if (status)
         return status;
     find_neighbours(K, c);
@@ -195,7 +197,8 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     return status;
 }
 
-/* The displacement of the k-th node of block row i alone gives the row's unknowns P (u, v). */
+/* The displacement (u, v) of the k-th node of block row i alone gives the row's unknowns,
+ * P (u, v). */
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
 {
     const coarse_space *c = K->extra;
@@ -241,7 +244,7 @@ static void multiply(double B[6][6], double X[6][2], double Y[6][2])
     }
 }
 
-/* Kc += f (P^T Y + its transpose), where P is that of corner a of node i and Y belongs to node j. */
+/* Kc += f (P^T Y + its transpose), where P belongs to node i and Y to node j. */
 static void add_block(const coarse_space *c, double f, double P[6][2], int i, double Y[6][2], int j)
 {
     double sum[2][2] = { { 0 } };

@@ -86,13 +86,16 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
     int count = 0;
 
     for (const bbm_term *t = K->term; t < K->term + K->terms; t++) {
+        const int i = 6 * t->row[0], j = 6 * t->row[1];
         double vx = 0;
         if (!is_in_hand(K, t))
             continue;
-        for (int a = 0; a < 12; a++)
-            vx += t->v[a / 6][a % 6] * x[6 * t->row[a / 6] + a % 6];
-        for (int a = 0; a < 12; a++)
-            y[6 * t->row[a / 6] + a % 6] += t->u[a / 6][a % 6] * vx;
+        for (int a = 0; a < 6; a++)
+            vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a];
+        for (int a = 0; a < 6; a++) {
+            y[i + a] += t->u[0][a] * vx;
+            y[j + a] += t->u[1][a] * vx;
+        }
         count++;
     }
     return count;

@@ -542,9 +542,9 @@ static size_t strip_bytes(int triangles)
     return bytes;
 }
 
-/* Each node of the strip has two rows of Kc that begin two nodes before it, of 5 and 6 entries; P of a
- * triangle's corners takes 288 bytes, a vector of its unknowns 48, all that is numbered and measured
- * 76. Nodes across a common side, 3 apart, would take 32 more. */
+/* Each node of the strip has two rows of Kc that begin two nodes before it, of 5 and 6 entries; P
+ * of a triangle's corners takes 288 bytes, a vector of its unknowns 48, all that is numbered and
+ * measured 76. Nodes across a common side, 3 apart, would take 32 more. */
 START_TEST(kc_has_room_for_corners_of_one_element_and_no_others)
 {
     ck_assert_uint_le(strip_bytes(200) - strip_bytes(100), 100 * (88 + 288 + 48 + 76));
