@@ -133,7 +133,7 @@ static void multiply_symmetric(double B[6][6], const double *restrict x, double 
              + (B[4][b] * x[4] + B[5][b] * x[5]);
 }
 
-/* ------------------------------------------------ products with L, L^T and K, of the rows in hand */
+/* --------------------------------------------------------- products with K, of the rows in hand */
 
 /* y += L x */
 void bbm_add_lower(const bbm_matrix *K, const double *x, double *y)
