@@ -176,11 +176,8 @@ double bbm_dot_rows(const bbm_matrix *K, const double *x, const double *y)
 /* z = x + c y; z may be x or y. */
 void bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z)
 {
-    for (int i = 6 * K->from; i < 6 * K->to; i += 2) {
-        const double even = x[i] + c * y[i], odd = x[i + 1] + c * y[i + 1];
-        z[i] = even;
-        z[i + 1] = odd;
-    }
+    for (int i = 6 * K->from; i < 6 * K->to; i++)
+        z[i] = x[i] + c * y[i];
 }
 
 /* ------------------------------------------------------------------------------------- SSOR-PCG */
@@ -238,15 +235,15 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     double ru = bbm_dot_rows(K, r, u);
     const double stop = pcg->tolerance * sqrt(ru);
     while (!(sqrt(ru) <= stop)) {
-        bbm_combine(K, u, b, p, p);
-        bbm_multiply(K, p, q);
+        bbm_combine(K, u, b, p, p);             /* p = u + b p */
+        bbm_multiply(K, p, q);                  /* q = K p     */
         const double pKp = bbm_dot_rows(K, p, q), a = ru / pKp, last = ru;
         const bbm_status status = bbm_count_iteration(pKp, pcg, info);
         if (status)
             return status;
-        bbm_combine(K, x, a, p, x);
-        bbm_combine(K, r, -a, q, r);
-        bbm_precondition(K, r, u);
+        bbm_combine(K, x, a, p, x);             /* x += a p    */
+        bbm_combine(K, r, -a, q, r);            /* r -= a q    */
+        bbm_precondition(K, r, u);              /* u = M^-1 r  */
         ru = bbm_dot_rows(K, r, u);
         b = ru / last;
     }
@@ -269,9 +266,10 @@ static int invert(double w, double D[6][6], double B[6][6])
 {
     memcpy(B, D, 36 * sizeof **B);
     for (int k = 0; k < 6; k++) {
-        double row[6], scale = 1 / B[k][k];
+        double row[6];
         if (!(B[k][k] > 0))
             return 0;
+        const double scale = 1 / B[k][k];
         memcpy(row, B[k], sizeof row);
         for (int i = 0; i < 6; i++)
             for (int j = 0; j < 6; j++)

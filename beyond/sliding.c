@@ -236,7 +236,8 @@ static void advance(const bbm_matrix *K, double a, const double *p, const double
     bbm_combine(K, K->r, -a, q, K->r);
 }
 
-/* From x = 0 and r = F to x; d is room for three vectors. */
+/* The iteration of the head, from x = 0 and r = F to x; d is room for three vectors, a length is the
+ * square root of rz, and `last` is z0.r. */
 static bbm_status bicgstab(bbm_matrix *K, double *d, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     double *r = K->r, *z = K->u, *p = K->p, *q = K->q;
@@ -298,8 +299,8 @@ static bbm_status solve_regular(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info 
     if (unknowns > 6 * SMALL)
         status = iterate(K, &few, info);
     if (status) {
-        memcpy(K->x + 6 * K->from, F, bytes);
-        status = solve_directly(K, K->x + 6 * K->from, info);
+        status = solve_directly(K, F, info);
+        memcpy(K->x + 6 * K->from, F, status ? 0 : bytes);
     }
     free(F);
     return status;
