@@ -19,11 +19,11 @@ CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 PAPER    = bbm contact solver
-BASE     = build detect step
+BASE     = build detect order step
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse eisenstat energy interpolation joints mesh multipliers overlap refuse rotation \
-           sliding statics surroundings sweep
+BEYOND   = beyond bending coarse energy interpolation joints mesh multipliers overlap refuse rotation sliding statics \
+           surroundings sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch
 CASES    = $(RUN) $(GALLERY)
@@ -38,7 +38,7 @@ PROGRAMS = check_cases check_model check_statements check_moving check_files che
            check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
-           check_eisenstat check_coarse check_beyond check_motion check_bars check_limits check_refused \
+           check_coarse check_beyond check_motion check_bars check_limits check_refused \
            check_theory check_equations check_run
 SHARING  = models shapes systems programs
 HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h tests/*.h)

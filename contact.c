@@ -340,7 +340,7 @@ static void measure(const bbm_model *m, bbm_contact *c)
 /* The largest force in the component of K that an element belongs to. */
 static double *force_around(const bbm_model *m, int element)
 {
-    return &m->scratch->force[m->K->component[element]];
+    return &m->scratch->force[bbm_component_of(m->K, element)];
 }
 
 /* The force tolerance of each contact: a share of the largest force in its component of K, on an

@@ -1,29 +1,12 @@
 /* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with
  * SSOR.
  *
- * Storage. K is symmetric and consists of 6x6 blocks, a block row for each element. Write
+ * K is symmetric and consists of 6x6 blocks, a block row for each element. Write
  *
  *     K = L + D + L^T,      D: the diagonal blocks,  L: the blocks left of them.
  *
- * Only D and those blocks of L that are not zero are stored, row by row: `first` says where the
- * blocks of a row begin and `back` how far left of the diagonal each of them is. The block rows are
- * not in the caller's order but in the reverse Cuthill-McKee order: number the elements from one
- * end of the body to the other, breadth first, and reverse the numbers; rows with many neighbours,
- * as a base under all has, come last. The blocks of L then lie in
- * a narrow band below the diagonal, and what a sweep reads was written shortly before. The band
- * itself is not stored: an element has three or four neighbours and a band has sqrt(n) places, all
- * but those few zero for ever, because an iteration, unlike a factorisation, fills nothing in. The
- * pattern is made once (bbm_matrix_new); each time step clears K and adds the submatrices anew.
- *
- * Nothing far away matters. Blocks that no bond and no contact joins, however indirectly, are
- * different components of K: no row of one has a block in a column of another. Each component is
- * solved by itself, with its own scale of F, its own steps and its own end of the iteration. In one
- * iteration for all, a stone that flies past would count the forces in a pile at rest as nothing
- * against its own, and leave them unsolved. The order puts the rows of a component one after the
- * other: they are the rows `from` to `to` - 1 of all that follows. Its D is the same to the last
- * bit whatever else there is.
- *
- * SSOR-PCG as in the textbooks, with a relaxation factor w, 0 < w < 2:
+ * Only D and those blocks of L that are not zero are stored, in the order of base/order.c. The
+ * iteration, SSOR-PCG, has a relaxation factor w, 0 < w < 2:
  *
  *     M = (D/w + L) (D/w)^-1 (D/w + L)^T
  *
@@ -34,37 +17,29 @@
  *         u = M^-1 r
  *         p = u + (r.u / its last value) p
  *
+ * M is never formed. M^-1 r takes two sweeps over the rows of L, forward for y, then backward:
+ *
+ *     (D/w + L) y = r,      (D/w + L)^T u = (D/w) y
+ *
  * The factor 1/(2-w) that M often has is left out: it changes neither x nor the end of the
  * iteration.
  *
- * Scaling. Factor D_i = C_i C_i^T once, and write r, x, K for C^-1 r, C^T x, C^-1 K C^-T: the
- * iterates stay the same. The diagonal blocks of K become I and those of L C_i^-1 L_ij C_j^-T; let
- * S be w times the latter, and E = I + S. Then
+ * Components. Elements that no bond and no contact joins, however indirectly, belong to different
+ * components of K. Each component is solved by itself, with its own scale of F and its own end of
+ * the iteration: its rows are `from` to `to` - 1, and its D is the same to the last bit whatever
+ * else there is. In one iteration for all, the forces of a stone that flies past would be the
+ * scale, and the small forces in a pile at rest would remain unsolved.
  *
- *     K = I + (S + S^T)/w,    M = E E^T/w.
- *
- * Two sweeps over S are M^-1 but for the factor w, and since the second says S^T u = y - u, a
- * product with K takes only one more pass over S:
- *
- *     y = E^-1 r,   u = E^-T y,   w K u = y + (w-1) u + S u,
- *
- * and with p = u + b p also w K p = w K u + b (w K p). The factors w cancel in a and in r, and
- * leave 1/w of x: D = w C^-T x.
- *
- * Another method than this one may make something of K when it has been scaled, correct y between
- * the sweeps, or iterate in a way of its own (bbm_method).
- *
- * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but F
- * - K D cannot become smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps =
+ * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but
+ * F - K D cannot become smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps =
  * 2e-16). A tolerance much below 1e-10 buys iterations and nothing else. Therefore bbm_solve stops
  * on r and then reports the true residual, computed afresh.
  *
  * Denormals. When a single element is loaded, a sweep carries the load from element to element and
  * weakens it each time, down to numbers below 1e-308, on which many processors take ten or a
- * hundred times longer; rounding can keep them alive through all the rest of the body. Therefore F
- * is scaled to a largest entry near 1, and its zeros become NEGLIGIBLE: no number fades below that,
- * squares of such numbers are still far from 1e-308, and nothing that matters changes. It costs
- * nothing in an iteration.
+ * hundred times longer. Therefore F is scaled to a largest entry near 1, and its zeros become
+ * NEGLIGIBLE: no number fades below that, squares of such numbers are still far from 1e-308, and
+ * nothing that matters changes.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -75,213 +50,8 @@
 
 /* Against the largest entry of F. */
 #define NEGLIGIBLE 1e-100
-/* A row has many neighbours: more than so many times the mean of its component. */
-#define HUB 3.0
-
-/* -------------------------------------------------------------------- the pattern and its order */
-
-typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */
-    int n;
-    int *first, (*end)[2];      /* [n+1]  of i: end[first[i] .. first[i+1]-1][1], ascending     */
-    int *level;                 /* [n]    distance from the start of the search, -1: not found  */
-    int *order;                 /* [n]    as they are found                                     */
-} graph;
-
-static int compare_ends(const void *a, const void *b)
-{
-    const int *p = a, *q = b, by = p[0] == q[0];
-
-    return (p[by] > q[by]) - (p[by] < q[by]);
-}
-
-/* Sorts both ends of all pairs by the row and then by the neighbour, and drops what comes twice. */
-static bbm_status graph_new(graph *g, int n, int pairs, int (*pair)[2])
-{
-    if (n < 1)
-        return BBM_NO_ELEMENT;
-    for (int k = 0; k < 2 * pairs; k++)
-        if (pair[k / 2][k % 2] < 0 || pair[k / 2][k % 2] >= n)
-            return BBM_BAD_INDEX;
-    g->n = n;
-    g->first = calloc(3 * (size_t)n + 1, sizeof *g->first);
-    g->end = calloc(2 * (size_t)pairs + 1, sizeof *g->end);
-    if (!g->first || !g->end)
-        return BBM_NO_MEMORY;
-    g->level = g->first + n + 1;
-    g->order = g->level + n;
-    for (int k = 0; k < 2 * pairs; k++) {
-        g->end[k][0] = pair[k / 2][k % 2];
-        g->end[k][1] = pair[k / 2][1 - k % 2];
-    }
-    qsort(g->end, 2 * (size_t)pairs, sizeof *g->end, compare_ends);
-    int count = 0;
-    for (int i = 0, k = 0; i < n; i++) {
-        for (; k < 2 * pairs && g->end[k][0] == i; k++)
-            if (g->end[k][1] != i && (count == g->first[i] || g->end[count - 1][1] != g->end[k][1]))
-                g->end[count++][1] = g->end[k][1];
-        g->first[i + 1] = count;
-        g->level[i] = -1;
-    }
-    return BBM_OK;
-}
-
-static int degree(const graph *g, int i) { return g->first[i + 1] - g->first[i]; }
-
-/* Cuthill-McKee: the rows of a component, breadth first; those found from the same row by ascending
- * degree. Returns their number. */
-static int breadth_first(graph *g, int start, int *order)
-{
-    int count = 1;
-
-    order[0] = start;
-    g->level[start] = 0;
-    for (int next = 0; next < count; next++) {
-        const int i = order[next], found = count;
-        for (int k = g->first[i]; k < g->first[i + 1]; k++) {
-            const int j = g->end[k][1];
-            if (g->level[j] >= 0)
-                continue;
-            g->level[j] = g->level[i] + 1;
-            int m = count++;
-            for (; m > found && degree(g, order[m - 1]) > degree(g, j); m--)
-                order[m] = order[m - 1];
-            order[m] = j;
-        }
-    }
-    return count;
-}
-
-/* A good start lies at an end of the component: search from anywhere, start again from the row
- * found last, and so on while that takes the search further. */
-static int order_component(graph *g, int start, int *order)
-{
-    for (int depth = -1;;) {
-        const int count = breadth_first(g, start, order);
-        start = order[count - 1];
-        if (g->level[start] <= depth)
-            return count;
-        depth = g->level[start];
-        for (int k = 0; k < count; k++)
-            g->level[order[k]] = -1;
-    }
-}
-
-/* The rows of a component in the order to reverse: first those with many neighbours, as a base
- * under all has; they come last then and widen no envelope. `rows`: scratch. Returns their
- * number. */
-static int order_with_hubs(graph *g, int start, int *order, int *rows)
-{
-    const int count = breadth_first(g, start, rows);
-    int done = 0, ends = 0;
-
-    for (int k = 0; k < count; k++)
-        ends += degree(g, rows[k]);
-    for (int k = 0; k < count; k++)
-        if (degree(g, rows[k]) > HUB * ends / count)
-            order[done++] = rows[k];
-        else
-            g->level[rows[k]] = -1;
-    for (int k = 0; k < count; k++)
-        if (g->level[rows[k]] < 0)
-            done += order_component(g, rows[k], order + done);
-    for (int k = 0; k < count; k++)
-        g->level[order[k]] = k > 0;
-    return count;
-}
-
-/* place[i] of row i: all components one after the other, then the whole order reversed. */
-static void reverse_cuthill_mckee(graph *g, int place[])
-{
-    int done = 0;
-
-    for (int i = 0; i < g->n; i++)
-        if (g->level[i] < 0)
-            done += order_with_hubs(g, i, g->order + done, place);
-    for (int i = 0; i < g->n; i++)
-        place[g->order[i]] = g->n - 1 - i;
-}
 
 /* ----------------------------------------------------------------------------------- the matrix */
-
-/* All arrays of one type are one piece of memory. */
-static bbm_status allocate(bbm_matrix *K, const graph *g)
-{
-    const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
-
-    K->n = K->to = g->n;
-    K->place = calloc(5 * n + 2 + blocks, sizeof *K->place);
-    K->D = calloc(2 * (n + blocks), sizeof *K->D);
-    K->x = calloc(6 * 6 * n, sizeof *K->x);
-    if (!K->place || !K->D || !K->x)
-        return BBM_NO_MEMORY;
-    K->caller = K->place + n;
-    K->first = K->caller + n;
-    K->start = K->first + n + 1;
-    K->component = K->start + n + 1;
-    K->back = K->component + n;
-    K->L = K->D + n;
-    K->G = K->L + blocks;
-    K->S = K->G + n;
-    K->r = K->x + 6 * n;
-    K->y = K->r + 6 * n;
-    K->u = K->y + 6 * n;
-    K->p = K->u + 6 * n;
-    K->q = K->p + 6 * n;
-    return BBM_OK;
-}
-
-/* caller, component, first, back and start. A component ends with the row where the search
- * began. */
-static void lay_out_rows(bbm_matrix *K, const graph *g)
-{
-    int count = 0;
-
-    for (int i = 0; i < K->n; i++)
-        K->caller[K->place[i]] = i;
-    for (int i = 0; i < K->n; i++) {
-        const int row = K->caller[i];
-        for (int k = g->first[row]; k < g->first[row + 1]; k++)
-            if (K->place[g->end[k][1]] < i)
-                K->back[count++] = i - K->place[g->end[k][1]];
-        K->first[i + 1] = count;
-        K->component[row] = K->components;
-        if (g->level[row] == 0)
-            K->start[++K->components] = i + 1;
-    }
-}
-
-bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **out)
-{
-    graph g = { 0 };
-    bbm_matrix *K = calloc(1, sizeof *K);
-    bbm_status status = K ? graph_new(&g, n, pairs, pair) : BBM_NO_MEMORY;
-
-    if (!status)
-        status = allocate(K, &g);
-    if (!status) {
-        reverse_cuthill_mckee(&g, K->place);
-        lay_out_rows(K, &g);
-    } else {
-        bbm_matrix_free(K);
-        K = NULL;
-    }
-    free(g.first);
-    free(g.end);
-    *out = K;
-    return status;
-}
-
-void bbm_matrix_free(bbm_matrix *K)
-{
-    if (!K)
-        return;
-    if (K->free_extra)
-        K->free_extra(K->extra);
-    free(K->place);
-    free(K->D);
-    free(K->x);
-    free(K);
-}
 
 void bbm_matrix_keep(bbm_matrix *K, int keep) { K->is_kept = keep; }
 
@@ -289,8 +59,7 @@ void bbm_matrix_clear(bbm_matrix *K)
 {
     if (K->is_kept)
         return;
-    memset(K->D, 0, (size_t)K->n * sizeof *K->D);
-    memset(K->L, 0, (size_t)K->first[K->n] * sizeof *K->L);
+    memset(K->D, 0, (size_t)(K->n + K->first[K->n]) * sizeof *K->D);
     K->ready = K->terms = K->lacks = 0;
 }
 
@@ -337,7 +106,7 @@ void bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6])
             B[a][b] = !from ? 0 : right ? from[b][a] : from[a][b];
 }
 
-/* ------------------------------------------------------------------------------------- the kernels
+/* ----------------------------------------------------------------------------- products of blocks
  * Written so that a compiler can do two entries at a time without changing the order of a sum. */
 
 /* y += c B x, each row in two partial sums: of the even and of the odd columns. */
@@ -353,7 +122,7 @@ static void multiply_add(double c, double B[6][6], const double *restrict x, dou
         y[a] += c * (s[a][0] + s[a][1]);
 }
 
-/* y += c B^T x, and for a symmetric B y += c B x. */
+/* y += c B^T x */
 static void multiply_add_transposed(double c, double B[6][6], const double *restrict x,
                                     double *restrict y)
 {
@@ -362,58 +131,45 @@ static void multiply_add_transposed(double c, double B[6][6], const double *rest
                      + (B[4][b] * x[4] + B[5][b] * x[5]));
 }
 
-static int is_in_hand(const bbm_matrix *K, const bbm_term *t)
+/* y = B x for a symmetric B. */
+static void multiply_symmetric(double B[6][6], const double *restrict x, double *restrict y)
 {
-    return t->row[0] >= K->from && t->row[0] < K->to;
+    for (int b = 0; b < 6; b++)
+        y[b] = (B[0][b] * x[0] + B[1][b] * x[1]) + (B[2][b] * x[2] + B[3][b] * x[3])
+             + (B[4][b] * x[4] + B[5][b] * x[5]);
 }
 
-/* y += u v^T x in the caller's order. */
-static void multiply_term(const bbm_matrix *K, const bbm_term *t, const double *x, double *y)
-{
-    double vx = 0;
+/* --------------------------------------------------------- products with K, of the rows in hand */
 
-    for (int k = 0; k < 12; k++)
-        vx += t->v[k / 6][k % 6] * x[6 * K->caller[t->row[k / 6]] + k % 6];
-    for (int k = 0; k < 12; k++)
-        y[6 * K->caller[t->row[k / 6]] + k % 6] += t->u[k / 6][k % 6] * vx;
-}
-
-/* y = K x in the caller's order, for the rows in hand. */
-void bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y)
-{
-    for (int i = K->from; i < K->to; i++) {
-        const int row = 6 * K->caller[i];
-        memset(y + row, 0, 6 * sizeof *y);
-        multiply_add_transposed(1, K->D[i], x + row, y + row);
-        for (int k = K->first[i]; k < K->first[i + 1]; k++) {
-            const int column = 6 * K->caller[i - K->back[k]];
-            multiply_add(1, K->L[k], x + column, y + row);
-            multiply_add_transposed(1, K->L[k], x + row, y + column);
-        }
-    }
-    for (int t = 0; t < K->terms; t++)
-        if (is_in_hand(K, &K->term[t]))
-            multiply_term(K, &K->term[t], x, y);
-}
-
-/* y += c S x. With c = -1 and x = y that is y = E^-1 y: a row takes those before it as they are. */
-void bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y)
+/* y += L x */
+void bbm_add_lower(const bbm_matrix *K, const double *x, double *y)
 {
     for (int i = K->from; i < K->to; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add(c, K->S[k], x + 6 * (i - K->back[k]), y + 6 * i);
+            multiply_add(1, K->L[k], x + 6 * (i - K->back[k]), y + 6 * i);
 }
 
-/* y += c S^T x. With c = -1 and x = y that is y = E^-T y: a row is passed on once it is done. */
-void bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y)
+/* y += L^T x */
+void bbm_add_upper(const bbm_matrix *K, const double *x, double *y)
 {
-    for (int i = K->to - 1; i >= K->from; i--)
+    for (int i = K->from; i < K->to; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            multiply_add_transposed(c, K->S[k], x + 6 * i, y + 6 * (i - K->back[k]));
+            multiply_add_transposed(1, K->L[k], x + 6 * i, y + 6 * (i - K->back[k]));
+}
+
+/* q = K p = D p + L p + L^T p, and what a hook adds. */
+void bbm_multiply(const bbm_matrix *K, const double *p, double *q)
+{
+    for (int i = K->from; i < K->to; i++)
+        multiply_symmetric(K->D[i], p + 6 * i, q + 6 * i);
+    bbm_add_lower(K, p, q);
+    bbm_add_upper(K, p, q);
+    if (K->terms > 0)
+        K->add_terms(K, p, q);
 }
 
 /* x.y */
-static double dot(const bbm_matrix *K, const double *x, const double *y)
+double bbm_dot_rows(const bbm_matrix *K, const double *x, const double *y)
 {
     double s = 0;
 
@@ -423,59 +179,84 @@ static double dot(const bbm_matrix *K, const double *x, const double *y)
     return s;
 }
 
-static void copy(const bbm_matrix *K, const double *from, double *to)
-{
-    memcpy(to + 6 * K->from, from + 6 * K->from, 6 * (size_t)(K->to - K->from) * sizeof *to);
-}
-
 /* z = x + c y; z may be x or y. */
 void bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z)
 {
-    for (int i = 6 * K->from; i < 6 * K->to; i += 2) {
-        const double even = x[i] + c * y[i], odd = x[i + 1] + c * y[i + 1];
-        z[i] = even;
-        z[i + 1] = odd;
+    for (int i = 6 * K->from; i < 6 * K->to; i++)
+        z[i] = x[i] + c * y[i];
+}
+
+/* ------------------------------------------------------------------------------------- SSOR-PCG */
+
+/* (D/w + L) y = r, and f = (D/w) y = r - L y. */
+static void sweep_forward(const bbm_matrix *K, const double *r, double *y, double *f)
+{
+    for (int i = K->from; i < K->to; i++) {
+        memcpy(f + 6 * i, r + 6 * i, 6 * sizeof *f);
+        for (int k = K->first[i]; k < K->first[i + 1]; k++)
+            multiply_add(-1, K->L[k], y + 6 * (i - K->back[k]), f + 6 * i);
+        multiply_symmetric(K->inverse[i], f + 6 * i, y + 6 * i);
     }
 }
 
-/* ---------------------------------------------------------------------------------- the scaling */
-
-/* G = C^-1, where D = C C^T by Cholesky. Returns 0 if D is not positive definite. */
-static int invert_factor(double D[6][6], double G[6][6])
+/* (D/w + L)^T u = f, with u in place of f. */
+static void sweep_backward(const bbm_matrix *K, double *u)
 {
-    double C[6][6];
-
-    for (int j = 0; j < 6; j++)
-        for (int i = j; i < 6; i++) {
-            double s = D[i][j];
-            for (int k = 0; k < j; k++)
-                s -= C[i][k] * C[j][k];
-            if (i == j && !(s > 0))
-                return 0;
-            C[i][j] = i == j ? sqrt(s) : s / C[j][j];
-        }
-    for (int j = 0; j < 6; j++)
-        for (int i = 0; i < 6; i++) {
-            double s = i == j;
-            for (int k = j; k < i; k++)
-                s -= C[i][k] * G[k][j];
-            G[i][j] = i < j ? 0 : s / C[i][i];
-        }
-    return 1;
-}
-
-/* S = w Gi L Gj^T */
-static void scale_block(double w, double Gi[6][6], double L[6][6], double Gj[6][6], double S[6][6])
-{
-    memset(S, 0, 36 * sizeof **S);
-    for (int a = 0; a < 6; a++) {
-        double t[6] = { 0 };
-        for (int c = 0; c <= a; c++)
-            for (int b = 0; b < 6; b++)
-                t[b] += w * Gi[a][c] * L[c][b];
-        multiply_add(1, Gj, t, S[a]);
+    for (int i = K->to - 1; i >= K->from; i--) {
+        double f[6];
+        memcpy(f, u + 6 * i, sizeof f);
+        multiply_symmetric(K->inverse[i], f, u + 6 * i);
+        for (int k = K->first[i]; k < K->first[i + 1]; k++)
+            multiply_add_transposed(-1, K->L[k], u + 6 * i, u + 6 * (i - K->back[k]));
     }
 }
+
+/* u = M^-1 r */
+void bbm_precondition(const bbm_matrix *K, const double *r, double *u)
+{
+    sweep_forward(K, r, K->y, u);
+    if (K->method && K->method->correct)
+        K->method->correct(K, K->y, u);
+    sweep_backward(K, u);
+}
+
+/* Counts an iteration, unless the limit is reached or p.Kp, perhaps a NaN, shows that K is not
+ * positive definite. */
+bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    if (info->iterations == pcg->iterations)
+        return BBM_NOT_CONVERGED;
+    if (!(pKp > 0))
+        return BBM_NOT_POSITIVE_DEFINITE;
+    info->iterations++;
+    return BBM_OK;
+}
+
+/* From x = 0 and r = F to x. */
+static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+{
+    double *x = K->x, *r = K->r, *u = K->u, *p = K->p, *q = K->q, b = 0;
+
+    bbm_precondition(K, r, u);
+    double ru = bbm_dot_rows(K, r, u);
+    const double stop = pcg->tolerance * sqrt(ru);
+    while (!(sqrt(ru) <= stop)) {
+        bbm_combine(K, u, b, p, p);             /* p = u + b p */
+        bbm_multiply(K, p, q);                  /* q = K p     */
+        const double pKp = bbm_dot_rows(K, p, q), a = ru / pKp, last = ru;
+        const bbm_status status = bbm_count_iteration(pKp, pcg, info);
+        if (status)
+            return status;
+        bbm_combine(K, x, a, p, x);             /* x += a p    */
+        bbm_combine(K, r, -a, q, r);            /* r -= a q    */
+        bbm_precondition(K, r, u);              /* u = M^-1 r  */
+        ru = bbm_dot_rows(K, r, u);
+        b = ru / last;
+    }
+    return BBM_OK;
+}
+
+/* --------------------------------------------------------------------------------- the solution */
 
 static int all_finite(size_t count, const double *x)
 {
@@ -485,29 +266,64 @@ static int all_finite(size_t count, const double *x)
     return 1;
 }
 
-/* Makes of K what the solution needs; further solutions with the same K find it ready. If a D_i is
- * not positive definite, info->element says which row that is. */
-static bbm_status make_ready(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+/* B = (D/w)^-1 by Gauss-Jordan elimination; -B stays symmetric. Returns 0 if D is not positive
+ * definite. */
+static int invert(double w, double D[6][6], double B[6][6])
 {
-    if (K->ready && K->method == pcg->method && K->omega == pcg->omega)
-        return BBM_OK;
-    K->ready = 0;
-    if (!all_finite(36 * (size_t)K->n, **K->D) || !all_finite(36 * (size_t)K->first[K->n], **K->L))
-        return BBM_NOT_FINITE;
-    for (int i = 0; i < K->n; i++) {
-        if (!invert_factor(K->D[i], K->G[i])) {
+    memcpy(B, D, 36 * sizeof **B);
+    for (int k = 0; k < 6; k++) {
+        double row[6];
+        if (!(B[k][k] > 0))
+            return 0;
+        const double scale = 1 / B[k][k];
+        memcpy(row, B[k], sizeof row);
+        for (int i = 0; i < 6; i++)
+            for (int j = 0; j < 6; j++)
+                B[i][j] -= row[i] * row[j] * scale;
+        for (int i = 0; i < 6; i++)
+            B[k][i] = B[i][k] = row[i] * scale;
+        B[k][k] = -scale;
+    }
+    for (int a = 0; a < 36; a++)
+        B[a / 6][a % 6] *= -w;
+    return 1;
+}
+
+/* If a D_i is not positive definite, info->element says which row that is. */
+static bbm_status invert_diagonal(bbm_matrix *K, bbm_pcg_info *info)
+{
+    for (int i = 0; i < K->n; i++)
+        if (!invert(K->omega, K->D[i], K->inverse[i])) {
             info->element = K->caller[i];
             return BBM_NOT_POSITIVE_DEFINITE;
         }
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            scale_block(pcg->omega, K->G[i], K->L[k], K->G[i - K->back[k]], K->S[k]);
-    }
-    K->ready = 1;
+    return BBM_OK;
+}
+
+/* Checks what is given, and makes of K what the solution needs; further solutions with the same K
+ * find it ready. */
+static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
+                             bbm_pcg_info *info)
+{
+    if (!(pcg->omega > 0 && pcg->omega < 2) || !(pcg->tolerance > 0 && pcg->tolerance < 1)
+        || pcg->iterations < 1)
+        return BBM_BAD_PARAMETER;
+    if (K->lacks)
+        return BBM_BAD_INDEX;
+    if (!all_finite(6 * (size_t)K->n, F))
+        return BBM_NOT_FINITE;
+    if (K->ready && K->method == pcg->method && K->omega == pcg->omega)
+        return BBM_OK;
+    K->ready = 0;
     K->method = pcg->method;
     K->omega = pcg->omega;
-    if (K->method->make_ready)
+    if (!all_finite(36 * (size_t)(K->n + K->first[K->n]), **K->D))
+        return BBM_NOT_FINITE;
+    const bbm_status status = invert_diagonal(K, info);
+    if (!status && K->method && K->method->make_ready)
         K->method->make_ready(K);
-    return BBM_OK;
+    K->ready = !status;
+    return status;
 }
 
 /* The power of two below the largest entry of F in the rows in hand: to divide by it rounds
@@ -523,103 +339,6 @@ static double magnitude(const bbm_matrix *K, const double *F)
     return m == 0 ? 0 : ldexp(1, exponent - 1);
 }
 
-/* x = p = q = 0 and r = G F/scale; the largest entry of F/scale is in [1, 2). */
-static void scale_load(const bbm_matrix *K, const double *F, double scale)
-{
-    for (int i = K->from; i < K->to; i++) {
-        double f[6];
-        for (int a = 0; a < 6; a++) {
-            f[a] = F[6 * K->caller[i] + a] / scale;
-            f[a] = f[a] == 0 ? NEGLIGIBLE : f[a];
-            K->x[6 * i + a] = K->r[6 * i + a] = K->p[6 * i + a] = K->q[6 * i + a] = 0;
-        }
-        multiply_add(1, K->G[i], f, K->r + 6 * i);
-    }
-}
-
-/* D = scale w G^T x */
-static void unscale_solution(const bbm_matrix *K, double scale, double *D)
-{
-    for (int i = K->from; i < K->to; i++)
-        multiply_add_transposed(scale * K->omega, K->G[i], K->x + 6 * i, D + 6 * K->caller[i]);
-}
-
-/* ------------------------------------------------------------------------------------- SSOR-PCG */
-
-/* Counts an iteration, unless the limit is reached or p.Kp, perhaps a NaN, shows that K is not
- * positive definite. */
-bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info)
-{
-    if (info->iterations == pcg->iterations)
-        return BBM_NOT_CONVERGED;
-    if (!(pKp > 0))
-        return BBM_NOT_POSITIVE_DEFINITE;
-    info->iterations++;
-    return BBM_OK;
-}
-
-/* y = E^-1 r, u = E^-T y. Returns r.u. */
-static double precondition(const bbm_matrix *K)
-{
-    copy(K, K->r, K->y);
-    bbm_multiply_lower(K, -1, K->y, K->y);
-    if (K->method->correct)
-        K->method->correct(K, K->y);
-    copy(K, K->y, K->u);
-    bbm_multiply_upper(K, -1, K->u, K->u);
-    return dot(K, K->r, K->u);
-}
-
-/* p = u + b p,  q = w K p = y + (w-1) u + S u + b q. Returns p.q. */
-static double new_direction(const bbm_matrix *K, double b)
-{
-    bbm_combine(K, K->u, b, K->p, K->p);
-    bbm_combine(K, K->y, b, K->q, K->q);
-    bbm_combine(K, K->q, K->omega - 1, K->u, K->q);
-    bbm_multiply_lower(K, 1, K->u, K->q);
-    return dot(K, K->p, K->q);
-}
-
-/* The textbook's iteration, from x = 0 and r = F of the rows in hand. */
-static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
-{
-    double ru = precondition(K), b = 0;
-    const double stop = pcg->tolerance * sqrt(ru);
-
-    while (!(sqrt(ru) <= stop)) {
-        const double pq = new_direction(K, b), last = ru;
-        const bbm_status status = bbm_count_iteration(pq, pcg, info);
-        if (status)
-            return status;
-        bbm_combine(K, K->x, ru / pq, K->p, K->x);
-        bbm_combine(K, K->r, -ru / pq, K->q, K->r);
-        ru = precondition(K);
-        b = ru / last;
-    }
-    return BBM_OK;
-}
-
-/* --------------------------------------------------------------------------------- the solution */
-
-static bbm_status check(const bbm_matrix *K, const double *F, const bbm_pcg *pcg)
-{
-    if (!(pcg->omega > 0 && pcg->omega < 2) || !(pcg->tolerance > 0 && pcg->tolerance < 1)
-        || pcg->iterations < 1)
-        return BBM_BAD_PARAMETER;
-    if (K->lacks)
-        return BBM_BAD_INDEX;
-    return all_finite(6 * (size_t)K->n, F) ? BBM_OK : BBM_NOT_FINITE;
-}
-
-/* From x = 0 and r = F, scaled, to x for the rows in hand. */
-static bbm_status solve_rows(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
-{
-    for (int t = 0; t < K->terms; t++)
-        if (is_in_hand(K, &K->term[t]))
-            return K->solve_terms(K, pcg, info);
-    return (K->method->iterate ? K->method->iterate : iterate)(K, pcg, info);
-}
-
 /* The rows of D in hand. Where the iteration ends early, they are those of its last iterate. */
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                                   bbm_pcg_info *info)
@@ -629,13 +348,18 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, con
 
     if (scale == 0)
         return BBM_OK;
-    scale_load(K, F, scale);
-    const bbm_status status = solve_rows(K, pcg, info);
-    unscale_solution(K, scale, D);
-    bbm_matrix_multiply(K, D, K->q);
+    for (int i = 6 * K->from; i < 6 * K->to; i++) {
+        const double f = F[6 * K->caller[i / 6] + i % 6] / scale;
+        K->r[i] = f == 0 ? NEGLIGIBLE : f;
+        K->x[i] = K->p[i] = K->q[i] = 0;
+    }
+    const int has_terms = K->terms > 0 && K->add_terms(K, K->x, K->q);
+    const bbm_status status = (has_terms ? K->solve_terms : iterate)(K, pcg, info);
+    bbm_multiply(K, K->x, K->q);
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         const int row = 6 * K->caller[i / 6] + i % 6;
-        const double r = (F[row] - K->q[row]) / scale, f = F[row] / scale;
+        const double f = F[row] / scale, r = f - K->q[i];
+        D[row] = scale * K->x[i];
         rr += r * r;
         ff += f * f;
     }
@@ -648,19 +372,14 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, con
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *wanted,
                      bbm_pcg_info *info)
 {
-    static const bbm_method paper = { 0 };
     const clock_t start = clock();
     bbm_pcg pcg = *wanted;
-    bbm_status status = check(K, F, &pcg);
 
     *info = (bbm_pcg_info){ .residual = 1, .element = -1 };
     memset(D, 0, 6 * (size_t)K->n * sizeof *D);
-    if (!pcg.method)
-        pcg.method = &paper;
-    if (pcg.method->choose)
+    if (pcg.method && pcg.method->choose)
         pcg.method->choose(K, &pcg);
-    if (!status)
-        status = make_ready(K, &pcg, info);
+    bbm_status status = make_ready(K, F, &pcg, info);
     const clock_t ready = clock();
     info->seconds[0] = (double)(ready - start) / CLOCKS_PER_SEC;
     if (status)

@@ -304,28 +304,14 @@ void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. 
 bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
 
-/* solver.c: K D = F, section 4. n block rows of 6; `pair` lists the i, j whose submatrix K_ij is
- * not zero, in any order, either way round, repeats allowed. Vectors have 6 n entries in the
- * caller's order. Rows that no pairs connect, however indirectly, are solved apart: neither changes
- * a bit of the other's D. */
-bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
-void       bbm_matrix_free(bbm_matrix *K);                                      /* takes NULL   */
-void       bbm_matrix_clear(bbm_matrix *K);                                     /* K = 0        */
-void       bbm_matrix_keep(bbm_matrix *K, int keep);    /* 1: clear and add leave K as it is    */
-bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
-                                   what the pattern does not have fails here and in bbm_solve   */
-void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   /* B = K_ij     */
-void       bbm_matrix_multiply(const bbm_matrix *K, const double *x, double *y); /* y = K x     */
-bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
-                     bbm_pcg_info *info);
-
-/* ------------------------------------------------------- inside the linear solver, see solver.c
- * Block rows are numbered in two ways: by the caller, and by their place in the reverse
- * Cuthill-McKee order. Vectors here have 6 n entries in the order of the places. */
+/* ------------------------------------------------------------------ the matrix and the solver
+ * K has n block rows of six. Block rows are numbered in two ways: by the caller, and by their place
+ * in the order of base/order.c. The functions of the first two groups take the caller's numbers,
+ * those of the third the places; so do their vectors, of 6 n entries. */
 
 /* What is not symmetric in K: K += u v^T. */
 typedef struct {
-    int    row[2];              /* two block rows, all others of u and v are 0                  */
+    int    row[2];              /* places of two block rows, all others of u and v are 0        */
     double u[2][6], v[2][6];
 } bbm_term;
 
@@ -336,36 +322,56 @@ struct bbm_matrix {
     int *back;                  /* [blocks]  its row less its column                            */
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
     int *component;             /* [n]       of a caller's row                                  */
-    double (*D)[6][6], (*L)[6][6];              /* [n], [blocks]                                */
+    double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
+    int is_kept;                /* see bbm_matrix_keep                                          */
+    int lacks;                  /* what was added to a block that the pattern does not have     */
     /* --- scratch of bbm_solve --- */
     int from, to;               /* the rows of the component in hand: from .. to-1              */
-    double (*G)[6][6], (*S)[6][6];              /* [n], [blocks]  C_i^-1, w C_i^-1 L_ij C_j^-T  */
-    double *x, *r, *p, *q;      /* solution, residual, direction, product                       */
-    double *y, *u;              /* results of a sweep forward and of one backward               */
+    double (*inverse)[6][6];    /* [n]       (D_i/omega)^-1                                     */
+    double *x, *r, *u, *p, *q;  /* [6 n]     solution, residual, M^-1 r, direction, K p         */
+    double *y;                  /* [6 n]     result of the sweep forward                        */
     const bbm_method *method;
     double omega;
-    int lacks;                  /* what was added to a block that the pattern does not have     */
-    int is_kept;                /* see bbm_matrix_keep                                          */
-    int ready;                  /* G, S and what the method made belong to D, L and these two   */
+    int ready;                  /* `inverse` and what the method made belong to D, L and these  */
     void *extra;                /* what a method keeps with K                                   */
     void (*free_extra)(void *extra);
-    /* --- beside D and L; given by a hook --- */
+    /* --- what a hook adds to D, L and L^T; it solves components with terms --- */
     int terms;
-    bbm_term *term;             /* [terms]                                                      */
+    bbm_term *term;             /* [terms]   NULL, or by malloc and released with K             */
+    int (*add_terms)(const bbm_matrix *K, const double *x, double *y);  /* y += u v^T x of the  */
+                                /*           rows in hand; returns the number of terms          */
     bbm_status (*solve_terms)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
-    bbm_beyond *beyond;         /* of that, which solves components with terms for the method   */
 };
 
-/* A method other than the paper's; what is NULL is done the paper's way. */
+/* A method other than the paper's. */
 struct bbm_method {
-    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);      /* changes method or omega          */
-    void (*make_ready)(bbm_matrix *K);                      /* G and S are new                  */
-    void (*correct)(const bbm_matrix *K, double *y);        /* between the two sweeps           */
-    bbm_status (*iterate)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
-};                              /* from x = 0 and r = F, scaled, to x for the rows in hand      */
+    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);  /* changes method or omega              */
+    void (*make_ready)(bbm_matrix *K);                  /* for a new K                          */
+    void (*correct)(const bbm_matrix *K, const double *y, double *f);   /* f, (D/w) y between   */
+};
 
-void       bbm_multiply_lower(const bbm_matrix *K, double c, const double *x, double *y);
-void       bbm_multiply_upper(const bbm_matrix *K, double c, const double *x, double *y);
+/* order.c: a new K. `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either
+ * way round, repeats allowed. */
+bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
+void       bbm_matrix_free(bbm_matrix *K);                              /* takes NULL           */
+int        bbm_component_of(const bbm_matrix *K, int i);                /* 0 .. components-1    */
+
+/* solver.c: K D = F, section 4. Rows that no pairs connect, however indirectly, are solved apart:
+ * neither changes a bit of the other's D. */
+void       bbm_matrix_clear(bbm_matrix *K);
+void       bbm_matrix_keep(bbm_matrix *K, int keep);    /* 1: clear and add leave K as it is    */
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
+                                   what the pattern does not have fails here and in bbm_solve   */
+void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   /* B = K_ij     */
+bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
+                     bbm_pcg_info *info);
+
+/* Inside the solver, for the rows in hand. */
+void       bbm_add_lower(const bbm_matrix *K, const double *x, double *y);      /* y += L x     */
+void       bbm_add_upper(const bbm_matrix *K, const double *x, double *y);      /* y += L^T x   */
+void       bbm_multiply(const bbm_matrix *K, const double *p, double *q);       /* q = K p      */
+void       bbm_precondition(const bbm_matrix *K, const double *r, double *u);   /* u = M^-1 r   */
+double     bbm_dot_rows(const bbm_matrix *K, const double *x, const double *y); /* x.y          */
 void       bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z);
 bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
 

@@ -8,8 +8,6 @@ static void release(bbm_model *m)
 {
     if (!m->beyond)
         return;
-    bbm_free_sliding(&m->beyond->sliding);
-    free(m->beyond->sign);
     free(m->beyond->edge_load);
     free(m->beyond->joint);
     free(m->beyond->support);

@@ -18,17 +18,6 @@ typedef enum {                  /* how two quadrilaterals are bonded; others at 
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
-typedef struct {                /* sliding.c: friction in K                                     */
-    bbm_term *term, *scaled;    /* [pairs]   of K; of the rows in hand in the solver's scale    */
-    int terms;                  /* of those                                                     */
-    double *r0, *Ap;            /* [6 n]     the first residual; a product                      */
-    int may_factor;             /* K is regular: in dynamics                                    */
-    int *left;                  /* [6 n]     the first column of a row that is not zero         */
-    size_t *diagonal;           /* [6 n]     where L_ii is; the row left of it lies before it   */
-    size_t room;
-    double *L, *U;              /* [room]    U by columns                                       */
-} bbm_sliding;
-
 typedef struct {                /* surroundings.c, of a node                                    */
     double force[2];            /* N        on it, at the end of the last step; 0: it is free   */
     double moved[2];            /* m        its wall point, since that step                     */
@@ -58,8 +47,6 @@ struct bbm_beyond {
     int rounds_done;            /* in this step                                                 */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
-    bbm_sliding sliding;
-    int *sign;                  /* [elements] or NULL, interpolation.c: of the second set       */
     int joints;
     bbm_joint *joint;           /* [joints]                                                     */
     bbm_support *support;       /* [nodes]                                                      */
@@ -75,18 +62,15 @@ struct bbm_beyond {
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
 
-/* Methods for pcg.method: eisenstat.c; coarse.c, two levels. */
-extern const bbm_method bbm_eisenstat, bbm_two_level;
-
-/* coarse.c */
-bbm_status bbm_matrix_coarse(bbm_matrix *K, int sets, int nodes, const int *first,
-                             const int *node);
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int set, int i, int k, double P[6][2]);
+/* coarse.c: two levels, for pcg.method */
+extern const bbm_method bbm_two_level;
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node);
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
 void       bbm_matrix_use_coarse(bbm_matrix *K, int pays);
 double     bbm_dot(int n, const double *x, const double *y);
 
 /* interpolation.c */
-typedef enum { BBM_CORNERS, BBM_MIDDLES, BBM_ALTERNATING } bbm_fit;
+typedef enum { BBM_CORNERS, BBM_MIDDLES } bbm_fit;
 void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], bbm_fit fit, int a,
                              double P[6][2]);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
@@ -126,7 +110,6 @@ void       bbm_store_multipliers(bbm_model *m);
 bbm_status bbm_lay_out_sliding(bbm_model *m);
 int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                                  bbm_submatrices *s);
-void       bbm_free_sliding(bbm_sliding *s);
 
 /* sweep.c, joints.c */
 bbm_status bbm_sweep(bbm_model *m, double search);

@@ -18,16 +18,8 @@
  *
  *     a = dg/ds,  b = -dg/dt,
  *
- * and a second set of displacements has them: a g of u and a g of v at each node. A side moves by
- * the mean of g at its ends, with signs that alternate around an element; and in the two elements
- * of a side they are opposite:
- *
- *         - g           + g
- *      + g   + g  ,  - g   - g  ,    and so on;
- *         - g           + g
- *
- * the element follows its sides as before. Where three or five quadrilaterals meet no such signs
- * exist all around, and along one row of sides they are wrong, which costs a few iterations.
+ * and these are not: on quadrilaterals the iterations grow with the number of elements along a
+ * body, and with alpha. They remain far fewer than those of SSOR alone.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -41,16 +33,15 @@
 /* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
  * displacements linear in x, y the one nearest to those of all n corners, by least squares; on a
  * triangle it is exact. BBM_MIDDLES: nearest to the means over the sides, for elements bonded
- * there; BBM_ALTERNATING: the same, every other mean negative. Fitted about the mean of the
- * corners, a linear function has the value mean(u) there and the gradient g = M^-1 sum_a d_a u_a,
- * M = sum d d^T:
+ * there. Fitted about the mean of the corners, a linear function has the value mean(u) there and
+ * the gradient g = M^-1 sum_a d_a u_a, M = sum d d^T:
  *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx,
  *     r0 = (vx - uy)/2. */
 void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], bbm_fit fit, int a,
                        double P[6][2])
 {
-    const int middles = fit != BBM_CORNERS;
-    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0, mean = 0;
+    const int middles = fit == BBM_MIDDLES;
+    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0;
 
     for (int k = 0; k < e->n; k++) {
         x += v[k].x / e->n;
@@ -60,9 +51,7 @@ void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], bbm_fit fit, 
         const int next = (k + 1) % e->n;
         const double dx = (middles ? (v[k].x + v[next].x) / 2 : v[k].x) - x;
         const double dy = (middles ? (v[k].y + v[next].y) / 2 : v[k].y) - y;
-        const double sign = fit == BBM_ALTERNATING && k % 2 ? -1 : 1;
-        const double share = sign * (middles ? (k == a || next == a) / 2.0 : k == a);
-        mean += share / e->n;
+        const double share = middles ? (k == a || next == a) / 2.0 : k == a;
         xx += dx * dx;
         yy += dy * dy;
         xy += dx * dy;
@@ -71,7 +60,7 @@ void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], bbm_fit fit, 
     }
     const double det = xx * yy - xy * xy;
     const double gx = (yy * X - xy * Y) / det, gy = (xx * Y - xy * X) / det;
-    const double u0 = mean + gx * (e->x - x) + gy * (e->y - y);
+    const double u0 = 1.0 / e->n + gx * (e->x - x) + gy * (e->y - y);
     const double matrix[6][2] = {
         { u0, 0 }, { 0, u0 }, { -gy / 2, gx / 2 }, { gx, 0 }, { 0, gy }, { gy, gx }
     };
@@ -94,33 +83,13 @@ static int held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
-/* For each element the sign of its first side in the second set. A side has not the same sign in
- * its two elements, so the sign of i fixes that of j: join i as it is with j as it follows, and the
- * opposites, unless that makes an element its own opposite, as around three quadrilaterals. */
-static void choose_signs(const bbm_model *m, int up[], int sign[])
-{
-    for (int k = 0; k < 2 * m->elements; k++)
-        up[k] = k;
-    for (int k = 0; k < m->bonds; k++) {
-        const bbm_bond *b = &m->bond[k];
-        const int sides = b->p[0] - m->element[b->i].first + b->q[1] - m->element[b->j].first;
-        const int same = 2 * b->j + (sides + 1) % 2, opposite = 2 * b->j + sides % 2;
-        if (bbm_root_of(up, 2 * b->i) == bbm_root_of(up, opposite))
-            continue;
-        up[bbm_root_of(up, 2 * b->i)] = bbm_root_of(up, same);
-        up[bbm_root_of(up, 2 * b->i + 1)] = bbm_root_of(up, opposite);
-    }
-    for (int i = 0; i < m->elements; i++)
-        sign[i] = bbm_root_of(up, 2 * i) % 2 ? -1 : 1;
-}
-
 /* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
  * them. An element without bonds is not in it, for there would be as many coarse unknowns as it has
  * of its own; nor is one held at every corner, which hardly moves. SSOR is faster for both. */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices;
-    int *up = calloc(3 * v + (size_t)m->elements + 1, sizeof *up), nodes = 0, sets = 1;
+    int *up = calloc(3 * v + (size_t)m->elements + 1, sizeof *up), nodes = 0;
 
     if (!up)
         return BBM_NO_MEMORY;
@@ -143,16 +112,8 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
             node[first[i] + k] = *n - 1;
         }
         first[i + 1] = first[i] + count;
-        if (count > 0 && fit_of(m, e) == BBM_MIDDLES)
-            sets = 2;
     }
-    bbm_status status = bbm_matrix_coarse(m->K, sets, nodes, first, node);
-    free(m->beyond->sign);
-    m->beyond->sign = sets == 2 ? calloc((size_t)m->elements, sizeof *m->beyond->sign) : NULL;
-    if (m->beyond->sign)
-        choose_signs(m, up, m->beyond->sign);
-    else if (sets == 2)
-        status = BBM_NO_MEMORY;
+    const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node);
     free(up);
     return status;
 }
@@ -175,7 +136,6 @@ static int step_is_long(const bbm_model *m)
  * are refused, which does no harm. */
 void bbm_interpolate_elements(bbm_model *m)
 {
-    const int *sign = m->beyond->sign;
     double P[6][2];
 
     if (!m->K->extra || m->K->ready || m->par.pcg.method != &bbm_two_level)
@@ -186,13 +146,7 @@ void bbm_interpolate_elements(bbm_model *m)
         const bbm_element *e = &m->element[i];
         for (int a = 0; a < e->n; a++) {
             bbm_interpolation(e, &m->vertex[e->first], fit_of(m, e), a, P);
-            (void)bbm_matrix_interpolate(m->K, 0, i, a, P);
-            if (!sign || fit_of(m, e) == BBM_CORNERS)
-                continue;
-            bbm_interpolation(e, &m->vertex[e->first], BBM_ALTERNATING, a, P);
-            for (int k = 0; k < 12; k++)
-                P[k / 2][k % 2] *= sign[i];
-            (void)bbm_matrix_interpolate(m->K, 1, i, a, P);
+            (void)bbm_matrix_interpolate(m->K, i, a, P);
         }
     }
 }

@@ -8,18 +8,21 @@
  *     F -= sign (c A - tan(phi) p_n (d_n0 - rest)) s,          n, s: (e, g) of normal and of shear.
  *
  * The price: K is not symmetric. Each component of K where a contact slides is solved by BiCGSTAB
- * (van der Vorst, SIAM J. Sci. Stat. Comput. 13, 1992), which takes two products with K for each
- * iteration, but no more vectors the longer it goes on, and no K^T. It iterates between the sweeps
- * of SSOR as eisenstat.c does, with the correction of coarse.c where the method has one. In the
- * scaled variables of solver.c, with B the correction,
+ * (van der Vorst, SIAM J. Sci. Stat. Comput. 13, 1992), which takes two products with K and with
+ * M^-1 for each iteration, but no more vectors the longer it goes on, and no K^T. M is that of
+ * solver.c, with the correction of coarse.c if the method has one, and r.M^-1 r is the square of a
+ * residual's length, as there:
  *
- *     A = w E^-1 K E^-T B,      K = (E + E^T - (2-w) I)/w + sum u v^T
+ *     x = 0,  r = F,  z = M^-1 r,  z0 = z,  p = z
+ *     until sqrt(r.z) <= tolerance * its first value:
+ *         q = K p,  a = z0.r / z0.q
+ *         x += a p,  r -= a q,  d = z - M^-1 r,  z = M^-1 r
+ *         q = K z,  v = M^-1 q,  c = z.q / v.q
+ *         x += c z,  r -= c q,  z -= c v
+ *         p = z + (z0.r / its last value) (a/c) (p - (c/a) d)
  *
- *     r = E^-1 F,  r0 = r,  x = p = 0
- *     until sqrt(r.r) <= tolerance * its first value:
- *         p = r + (r0.r / its last value) (a/w') (p - w' A p)
- *         a = r0.r / r0.A p,   x += a E^-T B p,   r -= a A p
- *         w' = r.A r / A r.A r,   x += w' E^-T B r,   r -= w' A r
+ * d is a M^-1 K p. In each iteration z is computed from r once, for if it were only updated, by
+ * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever.
  *
  * It may fail. Where it does, and where that is faster, in small components, the solution is by LU,
  *
@@ -38,7 +41,7 @@
 
 #include "beyond.h"
 
-/* Of a pivot, against the scaled diagonal: rounding of what cancelled. */
+/* Of a pivot, against the diagonal of K: rounding of what cancelled. */
 #define VANISHING 1e-12
 /* Block rows up to which LU is faster, measured on walls. */
 #define SMALL 100
@@ -71,254 +74,242 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
     return 1;
 }
 
-/* The terms of the rows in hand, scaled: w G u and G v. */
-static void scale_terms(const bbm_matrix *K, bbm_sliding *s)
+static int is_in_hand(const bbm_matrix *K, const bbm_term *t)
 {
-    s->terms = 0;
-    for (int k = 0; k < K->terms; k++) {
-        const bbm_term *t = &K->term[k];
-        if (t->row[0] < K->from || t->row[0] >= K->to)
-            continue;
-        bbm_term *to = &s->scaled[s->terms++];
-        *to = (bbm_term){ .row = { t->row[0], t->row[1] } };
-        for (int a = 0; a < 72; a++) {
-            const int end = a / 36, i = a / 6 % 6, j = a % 6;
-            const double G = K->G[t->row[end]][i][j];
-            to->u[end][i] += K->omega * G * t->u[end][j];
-            to->v[end][i] += G * t->v[end][j];
-        }
-    }
+    return t->row[0] >= K->from && t->row[0] < K->to;
 }
 
-/* ----------------------------------------------------------------------------------- the factor */
-
-/* L_ij and U_ji for j <= i: what lies at the same place of row i and of column i. */
-static double *lower(const bbm_sliding *f, int i, int j)
+/* y += u v^T x for the rows in hand. Returns the number of terms. */
+static int add_terms(const bbm_matrix *K, const double *x, double *y)
 {
-    return &f->L[f->diagonal[i] - (size_t)(i - j)];
-}
+    int count = 0;
 
-static double *upper(const bbm_sliding *f, int j, int i)
-{
-    return &f->U[f->diagonal[i] - (size_t)(i - j)];
-}
-
-/* left and diagonal of the rows in hand, and room for them. */
-static bbm_status lay_out(const bbm_matrix *K, bbm_sliding *f)
-{
-    size_t entries = 0;
-
-    for (int i = K->from; i < K->to; i++) {
-        int back = 0;
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            back = K->back[k] > back ? K->back[k] : back;
-        for (int row = 6 * i; row < 6 * i + 6; row++) {
-            f->left[row] = 6 * (i - back);
-            f->diagonal[row] = entries + (size_t)(row - f->left[row]);
-            entries = f->diagonal[row] + 1;
-        }
-    }
-    if (entries > f->room) {
-        free(f->L);
-        f->L = malloc(2 * entries * sizeof *f->L);
-        f->room = f->L ? entries : 0;
-    }
-    f->U = f->L + entries;
-    if (f->L)
-        memset(f->L, 0, 2 * entries * sizeof *f->L);
-    return f->L ? BBM_OK : BBM_NO_MEMORY;
-}
-
-/* The rows in hand of the scaled w K = w I + S + S^T and its terms. */
-static void fill(const bbm_matrix *K, const bbm_sliding *f)
-{
-    for (int i = K->from; i < K->to; i++) {
-        for (int row = 6 * i; row < 6 * i + 6; row++)
-            *lower(f, row, row) = K->omega;
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            for (int a = 0; a < 36; a++) {
-                const int row = 6 * i + a / 6, column = 6 * (i - K->back[k]) + a % 6;
-                *lower(f, row, column) = *upper(f, column, row) = K->S[k][a / 6][a % 6];
-            }
-    }
-    for (const bbm_term *t = f->scaled; t < f->scaled + f->terms; t++)
-        for (int a = 0; a < 144; a++) {
-            const int p = a / 12, q = a % 12;
-            const int i = 6 * t->row[p / 6] + p % 6, j = 6 * t->row[q / 6] + q % 6;
-            *(i >= j ? lower(f, i, j) : upper(f, i, j)) += t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
-        }
-}
-
-/* L and U in place of K. Returns the row of a pivot that vanishes or is no number, or -1. */
-static int factor(const bbm_matrix *K, const bbm_sliding *f)
-{
-    for (int i = 6 * K->from; i < 6 * K->to; i++) {
-        for (int j = f->left[i]; j <= i; j++) {
-            const int from = f->left[i] > f->left[j] ? f->left[i] : f->left[j];
-            const int n = j - from;
-            double *L = lower(f, i, from), *U = upper(f, from, i);
-            L[n] -= bbm_dot(n, L, upper(f, from, j));
-            if (j < i)
-                U[n] = (U[n] - bbm_dot(n, lower(f, j, from), U)) / *lower(f, j, j);
-        }
-        const double pivot = *lower(f, i, i);
-        if (!(fabs(pivot) > VANISHING) || isinf(pivot))
-            return i / 6;
-    }
-    return -1;
-}
-
-/* x = K^-1 r */
-static bbm_status solve_directly(bbm_matrix *K, bbm_pcg_info *info)
-{
-    bbm_sliding *f = &K->beyond->sliding;
-    double *x = K->x;
-
-    if (lay_out(K, f))
-        return BBM_NO_MEMORY;
-    fill(K, f);
-    const int singular = factor(K, f);
-    info->element = singular < 0 ? -1 : K->caller[singular];
-    if (singular >= 0)
-        return BBM_NOT_POSITIVE_DEFINITE;
-    for (int i = 6 * K->from; i < 6 * K->to; i++) {
-        const int left = f->left[i];
-        x[i] = (K->r[i] - bbm_dot(i - left, lower(f, i, left), x + left)) / *lower(f, i, i);
-    }
-    for (int i = 6 * K->to - 1; i >= 6 * K->from; i--) {
-        const double *U = upper(f, f->left[i], i);
-        for (int k = f->left[i]; k < i; k++)
-            x[k] -= U[k - f->left[i]] * x[i];
-    }
-    info->iterations++;
-    return BBM_OK;
-}
-
-/* ------------------------------------------------------------------------------- the iteration */
-
-static void add_terms(const bbm_sliding *s, const double *x, double *y)
-{
-    for (int k = 0; k < s->terms; k++) {
-        const bbm_term *t = &s->scaled[k];
+    for (const bbm_term *t = K->term; t < K->term + K->terms; t++) {
         const int i = 6 * t->row[0], j = 6 * t->row[1];
         double vx = 0;
+        if (!is_in_hand(K, t))
+            continue;
         for (int a = 0; a < 6; a++)
             vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a];
         for (int a = 0; a < 6; a++) {
             y[i + a] += t->u[0][a] * vx;
             y[j + a] += t->u[1][a] * vx;
         }
+        count++;
+    }
+    return count;
+}
+
+/* ----------------------------------------------------------------------------------- the factor */
+
+typedef struct {                /* of the rows in hand, which are counted from 0 here           */
+    int *left;                  /* [6 rows]  the first column of a row that is not zero         */
+    size_t *diagonal;           /* [6 rows]  where L_ii is; the row left of it lies before it   */
+    double *L, *U;              /* U by columns                                                 */
+} factors;
+
+/* L_ij and U_ji for j <= i: what lies at the same place of row i and of column i. */
+static double *lower(const factors *f, int i, int j)
+{
+    return &f->L[f->diagonal[i] - (size_t)(i - j)];
+}
+
+static double *upper(const factors *f, int j, int i)
+{
+    return &f->U[f->diagonal[i] - (size_t)(i - j)];
+}
+
+static bbm_status lay_out(const bbm_matrix *K, factors *f)
+{
+    const size_t n = 6 * (size_t)(K->to - K->from);
+    size_t entries = 0;
+
+    f->left = calloc(n, sizeof *f->left);
+    f->diagonal = calloc(n, sizeof *f->diagonal);
+    if (!f->left || !f->diagonal)
+        return BBM_NO_MEMORY;
+    for (int i = K->from; i < K->to; i++) {
+        int back = 0;
+        for (int k = K->first[i]; k < K->first[i + 1]; k++)
+            back = K->back[k] > back ? K->back[k] : back;
+        for (int row = 6 * (i - K->from); row < 6 * (i - K->from) + 6; row++) {
+            f->left[row] = 6 * (i - K->from - back);
+            f->diagonal[row] = entries + (size_t)(row - f->left[row]);
+            entries = f->diagonal[row] + 1;
+        }
+    }
+    f->L = calloc(2 * entries, sizeof *f->L);
+    f->U = f->L + entries;
+    return f->L ? BBM_OK : BBM_NO_MEMORY;
+}
+
+/* K_ij = B, and K_ji = B^T, for i >= j. */
+static void put_block(const factors *f, int i, int j, double B[6][6])
+{
+    for (int a = 0; a < 36; a++) {
+        const int row = 6 * i + a / 6, column = 6 * j + a % 6;
+        if (column <= row)
+            *lower(f, row, column) = *upper(f, column, row) = B[a / 6][a % 6];
     }
 }
 
-/* u = E^-T B p and q = A p = u + E^-1 (B p - (2-w) u + w sum u v^T u). */
-static void multiply(const bbm_matrix *K, const double *p, double *q)
+/* The rows in hand of K and its terms. */
+static void fill(const bbm_matrix *K, const factors *f)
 {
-    double *u = K->u;
-
-    bbm_combine(K, p, 0, p, K->y);
-    if (K->method->correct)
-        K->method->correct(K, K->y);
-    bbm_combine(K, K->y, 0, K->y, u);
-    bbm_multiply_upper(K, -1, u, u);
-    bbm_combine(K, K->y, K->omega - 2, u, q);
-    add_terms(&K->beyond->sliding, u, q);
-    bbm_multiply_lower(K, -1, q, q);
-    bbm_combine(K, q, 1, u, q);
+    for (int i = K->from; i < K->to; i++) {
+        put_block(f, i - K->from, i - K->from, K->D[i]);
+        for (int k = K->first[i]; k < K->first[i + 1]; k++)
+            put_block(f, i - K->from, i - K->from - K->back[k], K->L[k]);
+    }
+    for (const bbm_term *t = K->term; t < K->term + K->terms; t++)
+        for (int a = 0; a < 144 && is_in_hand(K, t); a++) {
+            const int p = a / 12, q = a % 12, i = 6 * (t->row[p / 6] - K->from) + p % 6;
+            const int j = 6 * (t->row[q / 6] - K->from) + q % 6;
+            *(i >= j ? lower(f, i, j) : upper(f, i, j)) += t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
+        }
 }
 
-static double dot(const bbm_matrix *K, const double *x, const double *y)
+/* L and U in place of K. Returns the row of a pivot that vanishes or is no number, or n. */
+static int factor(const bbm_matrix *K, const factors *f, int n)
 {
-    return bbm_dot(6 * (K->to - K->from), x + 6 * K->from, y + 6 * K->from);
+    for (int i = 0; i < n; i++) {
+        for (int j = f->left[i]; j <= i; j++) {
+            const int from = f->left[i] > f->left[j] ? f->left[i] : f->left[j];
+            double *L = lower(f, i, from), *U = upper(f, from, i);
+            L[j - from] -= bbm_dot(j - from, L, upper(f, from, j));
+            if (j < i)
+                U[j - from] = (U[j - from] - bbm_dot(j - from, lower(f, j, from), U))
+                              / *lower(f, j, j);
+        }
+        const double pivot = *lower(f, i, i);
+        const double before = K->D[K->from + i / 6][i % 6][i % 6];
+        if (!(fabs(pivot) > VANISHING * before) || isinf(pivot))
+            return i;
+    }
+    return n;
 }
 
-/* x += a u, r -= a q. Returns r.r. */
-static double advance(const bbm_matrix *K, double a, const double *q)
+/* x = U^-1 L^-1 x */
+static void substitute(const factors *f, int n, double *x)
 {
-    bbm_combine(K, K->x, a, K->u, K->x);
+    for (int i = 0; i < n; i++) {
+        const int left = f->left[i];
+        x[i] = (x[i] - bbm_dot(i - left, lower(f, i, left), x + left)) / *lower(f, i, i);
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        const double *U = upper(f, f->left[i], i);
+        for (int k = f->left[i]; k < i; k++)
+            x[k] -= U[k - f->left[i]] * x[i];
+    }
+}
+
+/* x = K^-1 x */
+static bbm_status solve_directly(const bbm_matrix *K, double *x, bbm_pcg_info *info)
+{
+    const int n = 6 * (K->to - K->from);
+    factors f = { 0 };
+    bbm_status status = lay_out(K, &f);
+
+    if (!status) {
+        fill(K, &f);
+        const int row = factor(K, &f, n);
+        status = row < n ? BBM_NOT_POSITIVE_DEFINITE : BBM_OK;
+        info->element = row < n ? K->caller[K->from + row / 6] : -1;
+    }
+    if (!status) {
+        substitute(&f, n, x);
+        info->iterations++;
+    }
+    free(f.left);
+    free(f.diagonal);
+    free(f.L);
+    return status;
+}
+
+/* ------------------------------------------------------------------------------- the iteration */
+
+/* x += a p, r -= a q */
+static void advance(const bbm_matrix *K, double a, const double *p, const double *q)
+{
+    bbm_combine(K, K->x, a, p, K->x);
     bbm_combine(K, K->r, -a, q, K->r);
-    return dot(K, K->r, K->r);
 }
 
-static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+/* The iteration of the head, from x = 0 and r = F to x; d is room for three vectors, a length is the
+ * square root of rz, and `last` is z0.r. */
+static bbm_status bicgstab(bbm_matrix *K, double *d, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    bbm_sliding *s = &K->beyond->sliding;
-    double *r = K->r, *p = K->p, *Ar = K->q, *Ap = s->Ap, *r0 = s->r0, b = 0, w = 0;
+    double *r = K->r, *z = K->u, *p = K->p, *q = K->q;
+    double *z0 = d + 6 * K->n, *v = z0 + 6 * K->n;
 
-    bbm_multiply_lower(K, -1, r, r);
-    bbm_combine(K, r, 0, r, r0);
-    bbm_combine(K, p, 0, p, Ap);
-    double rr = dot(K, r, r), rho = rr;
-    const double stop = pcg->tolerance * sqrt(rr);
-    while (!(sqrt(rr) <= stop)) {
-        const bbm_status status = bbm_count_iteration(rr, pcg, info);
+    bbm_precondition(K, r, z);
+    bbm_combine(K, z, 0, z, z0);
+    bbm_combine(K, z, 0, z, p);
+    double rz = bbm_dot_rows(K, r, z), last = rz;
+    const double stop = pcg->tolerance * sqrt(rz);
+    while (!(rz <= stop * stop)) {
+        const bbm_status status = bbm_count_iteration(rz, pcg, info);
         if (status)
             return status;
-        bbm_combine(K, p, -w, Ap, p);
-        bbm_combine(K, r, b, p, p);
-        multiply(K, p, Ap);
-        const double a = rho / dot(K, r0, Ap), last = rho;
-        advance(K, a, Ap);
-        multiply(K, r, Ar);
-        const double tt = dot(K, Ar, Ar);
-        w = tt > 0 ? dot(K, Ar, r) / tt : 0;
-        rr = advance(K, w, Ar);
-        rho = dot(K, r0, r);
-        b = rho / last * (a / w);
+        bbm_multiply(K, p, q);
+        const double a = last / bbm_dot_rows(K, z0, q);
+        advance(K, a, p, q);
+        bbm_combine(K, z, 0, z, d);
+        bbm_precondition(K, r, z);
+        bbm_combine(K, d, -1, z, d);
+        bbm_multiply(K, z, q);
+        bbm_precondition(K, q, v);
+        const double vq = bbm_dot_rows(K, v, q), c = vq > 0 ? bbm_dot_rows(K, z, q) / vq : 0;
+        advance(K, c, z, q);
+        bbm_combine(K, z, -c, v, z);
+        rz = bbm_dot_rows(K, r, z);
+        const double z0r = bbm_dot_rows(K, z0, r);
+        bbm_combine(K, p, -c / a, d, p);
+        bbm_combine(K, z, z0r / last * (a / c), p, p);
+        last = z0r;
     }
     return BBM_OK;
 }
 
-/* In dynamics LU has the last word, after no more iterations than there are unknowns. */
-static bbm_status solve_sliding(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    bbm_sliding *s = &K->beyond->sliding;
-    const int unknowns = 6 * (K->to - K->from);
-    bbm_pcg few = *pcg;
+    double *z = malloc(3 * 6 * (size_t)K->n * sizeof *z);
+    const bbm_status status = z ? bicgstab(K, z, pcg, info) : BBM_NO_MEMORY;
 
-    scale_terms(K, s);
-    if (s->may_factor && unknowns <= 6 * SMALL)
-        return solve_directly(K, info);
-    if (s->may_factor && few.iterations > unknowns)
-        few.iterations = unknowns;
-    const bbm_status status = iterate(K, &few, info);
-    if (!status || !s->may_factor)
-        return status;
-    bbm_combine(K, s->r0, 0, s->r0, K->r);
-    bbm_multiply_lower(K, 1, s->r0, K->r);              /* r = E r0 */
-    return solve_directly(K, info);
+    free(z);
+    return status;
 }
 
-/* ------------------------------------------------------------------------------------- a new K */
-
-void bbm_free_sliding(bbm_sliding *s)
+/* In dynamics K is regular: LU has the last word, after no more iterations than there are
+ * unknowns. */
+static bbm_status solve_regular(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    free(s->term);
-    free(s->r0);
-    free(s->left);
-    free(s->diagonal);
-    free(s->L);
-    *s = (bbm_sliding){ 0 };
+    const int unknowns = 6 * (K->to - K->from);
+    const size_t bytes = (size_t)unknowns * sizeof(double);
+    double *F = malloc(bytes);
+    bbm_status status = BBM_NOT_CONVERGED;
+    bbm_pcg few = *pcg;
+
+    if (!F)
+        return BBM_NO_MEMORY;
+    memcpy(F, K->r + 6 * K->from, bytes);
+    if (few.iterations > unknowns)
+        few.iterations = unknowns;
+    if (unknowns > 6 * SMALL)
+        status = iterate(K, &few, info);
+    if (status) {
+        status = solve_directly(K, F, info);
+        memcpy(K->x + 6 * K->from, F, status ? 0 : bytes);
+    }
+    free(F);
+    return status;
 }
 
 /* Room for the friction of all contacts of a new K. */
 bbm_status bbm_lay_out_sliding(bbm_model *m)
 {
-    const size_t n = 6 * (size_t)m->K->n, pairs = (size_t)m->links + 1;
-    bbm_sliding *s = &m->beyond->sliding;
-
-    bbm_free_sliding(s);
-    s->term = calloc(2 * pairs, sizeof *s->term);
-    s->r0 = calloc(2 * n, sizeof *s->r0);
-    s->left = calloc(n, sizeof *s->left);
-    s->diagonal = calloc(n, sizeof *s->diagonal);
-    if (!s->term || !s->r0 || !s->left || !s->diagonal)
-        return BBM_NO_MEMORY;
-    s->may_factor = !bbm_is_static(m);
-    s->scaled = s->term + pairs;
-    s->Ap = s->r0 + n;
-    m->K->term = s->term;
-    m->K->beyond = m->beyond;
-    m->K->solve_terms = solve_sliding;
-    return BBM_OK;
+    m->K->term = calloc((size_t)m->links + 1, sizeof *m->K->term);
+    m->K->add_terms = add_terms;
+    m->K->solve_terms = bbm_is_static(m) ? iterate : solve_regular;
+    return m->K->term ? BBM_OK : BBM_NO_MEMORY;
 }

@@ -57,13 +57,14 @@ static int is_regular(double G[3][3])
     return 1;
 }
 
+static int body(const bbm_model *m, int i) { return bbm_component_of(m->K, i); }
+
 /* Statics needs bodies that the wall holds, by themselves or through contacts; a component of K is
  * a body. That a contact holds in each direction is too kind to it: a block on a slope passes, and
  * fails later. */
 bbm_status bbm_check_supports(bbm_model *m)
 {
     const bbm_element *e = m->element;
-    const int *body = m->K->component;
     int loose = -1;
 
     if (!bbm_is_static(m))
@@ -72,14 +73,14 @@ bbm_status bbm_check_supports(bbm_model *m)
     double (*G)[3][3] = calloc((size_t)m->elements, sizeof *G);
     const bbm_status status = first && G ? BBM_OK : BBM_NO_MEMORY;
     for (int i = m->elements - 1; i >= 0 && !status; i--)
-        first[body[i]] = i;
+        first[body(m, i)] = i;
     for (int g = 0; g < m->gaps && !status; g++) {
-        const bbm_element *own = &e[m->gap[g].i], *o = &e[first[body[m->gap[g].i]]];
+        const bbm_element *own = &e[m->gap[g].i], *o = &e[first[body(m, m->gap[g].i)]];
         if (m->gap[g].j < 0)
-            add_hold(m->gap[g], own->x - o->x, own->y - o->y, G[body[m->gap[g].i]]);
+            add_hold(m->gap[g], own->x - o->x, own->y - o->y, G[body(m, m->gap[g].i)]);
     }
     for (int i = 0; i < m->elements && !status && loose < 0; i++)
-        if (first[body[i]] == i && !is_regular(G[body[i]]))
+        if (first[body(m, i)] == i && !is_regular(G[body(m, i)]))
             loose = i;
     free(first);
     free(G);
@@ -123,13 +124,13 @@ static bbm_status take_long_step(bbm_model *m, double *far)
     const double a = (load > 0 ? load : 1) / mass, push[2] = { a * cos(1), a * sin(1) };
     *far = load / mass * h2 / 2;
     m->h = sqrt(h2);
-    m->K->is_kept = 0;
+    bbm_matrix_keep(m->K, 0);
     bbm_assemble(m);
     m->h = INFINITY;
     m->K->terms = 0;
     for (int i = 0; i < m->elements; i++)
         bbm_gravity_submatrix(&m->element[i], push, &m->F[6 * i]);
-    pcg.method = &bbm_eisenstat;
+    pcg.method = NULL;
     return bbm_solve(m->K, m->F, m->D, &pcg, &info);
 }
 

@@ -372,7 +372,7 @@ END_TEST
 /* What stands in a header before ( ; , } or = and begins with bbm_ or BBM_ is declared there. */
 START_TEST(the_core_names_nothing_of_what_stands_beside_it)
 {
-    static const char core[] = "bbm.h bbm.c contact.c solver.c";
+    static const char core[] = "bbm.h bbm.c contact.c solver.c base/*.h base/*.c";
     char command[200];
 
     ck_assert_int_eq(system("sed 's|/[*].*||' beyond/*.h | "

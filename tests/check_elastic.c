@@ -14,7 +14,7 @@ static double *dense_matrix(const bbm_model *m)
 
     for (int c = 0; c < n; c++) {
         x[c] = 1;
-        bbm_matrix_multiply(m->K, x, &A[c * n]);
+        matrix_multiply(m->K, x, &A[c * n]);
         x[c] = 0;
     }
     free(x);
@@ -111,7 +111,7 @@ START_TEST(a_rigid_motion_of_bonded_elements_costs_nothing)
         D[6 * e + 1] = motion[1] + motion[2] * m->element[e].x;
         D[6 * e + 2] = motion[2];
     }
-    bbm_matrix_multiply(m->K, D, KD);
+    matrix_multiply(m->K, D, KD);
     for (int a = 0; a < 6 * m->elements; a++) {
         ck_near(KD[a], 0, 1e5, ROUNDING);  /* of K: alpha G t = 2e4 times D */
         energy_of += KD[a] * D[a] / 2;

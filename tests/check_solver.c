@@ -6,8 +6,6 @@
 #include "check.h"
 #include "systems.h"
 
-static const bbm_method *const METHOD[] = { &bbm_eisenstat, NULL };
-
 static int bandwidth_of(const bbm_matrix *K)
 {
     int width = 0;
@@ -24,7 +22,7 @@ START_TEST(product_is_that_of_the_dense_matrix)
     dense_system *s = new_system(_i, 1);
     double y[MOST_6], expected[MOST_6];
 
-    bbm_matrix_multiply(s->K, s->F, y);
+    matrix_multiply(s->K, s->F, y);
     dense_multiply(s, s->F, expected);
     assert_same(6 * s->n, y, expected, ROUNDING);
     free_system(s);
@@ -39,8 +37,8 @@ START_TEST(product_is_symmetric)
 
     for (int i = 0; i < 6 * s->n; i++)
         x[i] = random_entry(&seed);
-    bbm_matrix_multiply(s->K, x, Kx);
-    bbm_matrix_multiply(s->K, s->F, KF);
+    matrix_multiply(s->K, x, Kx);
+    matrix_multiply(s->K, s->F, KF);
     ck_near(inner_product(6 * s->n, s->F, Kx), inner_product(6 * s->n, x, KF),
             norm(6 * s->n, x) * norm(6 * s->n, KF), ROUNDING);
     free_system(s);
@@ -50,7 +48,7 @@ END_TEST
 START_TEST(order_direction_and_repetition_of_the_pairs_change_no_bit)
 {
     dense_system *s = new_system(_i, 4), *t = new_system(_i, 4);
-    const bbm_pcg pcg = accurate(1, METHOD[0]);
+    const bbm_pcg pcg = accurate(1, NULL);
     bbm_pcg_info info;
     int other[3 * MOST_PAIRS][2], pairs = 0;
     double D[MOST_6], E[MOST_6];
@@ -79,7 +77,7 @@ START_TEST(block_added_as_ij_or_transposed_as_ji_is_the_same)
     double x[MOST_6], y[MOST_6], B[6][6], T[6][6];
     unsigned seed = 6;
 
-    bbm_matrix_multiply(s->K, s->F, x);
+    matrix_multiply(s->K, s->F, x);
     for (int k = 0; k < s->pairs; k++) {
         for (int a = 0; a < 36; a++) {
             B[a / 6][a % 6] = random_entry(&seed);
@@ -88,7 +86,7 @@ START_TEST(block_added_as_ij_or_transposed_as_ji_is_the_same)
         ck_assert_int_eq(bbm_matrix_add(s->K, s->pair[k][0], s->pair[k][1], B), BBM_OK);
         ck_assert_int_eq(bbm_matrix_add(s->K, s->pair[k][1], s->pair[k][0], T), BBM_OK);
     }
-    bbm_matrix_multiply(s->K, s->F, y);
+    matrix_multiply(s->K, s->F, y);
     assert_same(6 * s->n, y, x, ROUNDING);
     free_system(s);
 }
@@ -99,13 +97,13 @@ START_TEST(cleared_matrix_is_zero_and_can_be_filled_again)
     dense_system *s = new_system(_i, 7);
     double x[MOST_6], y[MOST_6];
 
-    bbm_matrix_multiply(s->K, s->F, x);
+    matrix_multiply(s->K, s->F, x);
     bbm_matrix_clear(s->K);
-    bbm_matrix_multiply(s->K, s->F, y);
+    matrix_multiply(s->K, s->F, y);
     for (int i = 0; i < 6 * s->n; i++)
         ck_assert(y[i] == 0);
     fill_system(s, 7);
-    bbm_matrix_multiply(s->K, s->F, y);
+    matrix_multiply(s->K, s->F, y);
     ck_assert_mem_eq(x, y, (size_t)(6 * s->n) * sizeof *x);
     free_system(s);
 }
@@ -120,11 +118,11 @@ START_TEST(pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing)
     const bbm_pcg pcg = accurate(1, NULL);
     bbm_pcg_info info;
 
-    bbm_matrix_multiply(s->K, s->F, x);
+    matrix_multiply(s->K, s->F, x);
     ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
     for (int k = 0; k < COUNT(wrong); k++)
         ck_assert_int_eq(bbm_matrix_add(s->K, wrong[k][0], wrong[k][1], B), BBM_BAD_INDEX);
-    bbm_matrix_multiply(s->K, s->F, y);
+    matrix_multiply(s->K, s->F, y);
     ck_assert_mem_eq(x, y, (size_t)(6 * s->n) * sizeof *x);
     ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_BAD_INDEX);
     ck_assert_int_eq(info.iterations, 0);
@@ -280,8 +278,8 @@ START_TEST(solution_is_that_of_the_dense_matrix)
 
     dense_solve(6 * s->n, s->A, s->F, expected);
     D[6 * s->n] = 77;
-    for (int k = 0; k < COUNT(OMEGA) * COUNT(METHOD); k++) {
-        const bbm_pcg pcg = accurate(OMEGA[k / COUNT(METHOD)], METHOD[k % COUNT(METHOD)]);
+    for (int k = 0; k < COUNT(OMEGA); k++) {
+        const bbm_pcg pcg = accurate(OMEGA[k], NULL);
         ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
         assert_same(6 * s->n, D, expected, SOLVED);
         ck_assert(D[6 * s->n] == 77);
@@ -331,8 +329,8 @@ START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(OMEGA) * COUNT(METHOD); k++) {
-        bbm_pcg pcg = accurate(OMEGA[k / COUNT(METHOD)], METHOD[k % COUNT(METHOD)]);
+    for (int k = 0; k < COUNT(OMEGA); k++) {
+        bbm_pcg pcg = accurate(OMEGA[k], NULL);
         for (pcg.iterations = 1; pcg.iterations <= 4; pcg.iterations++) {
             ck_assert_int_eq(dense_ssor_pcg(s, pcg.omega, 1e-13, pcg.iterations, expected),
                              pcg.iterations);
@@ -352,9 +350,9 @@ START_TEST(iterations_are_as_many_as_with_dense_matrices)
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(tolerance) * COUNT(METHOD); k++) {
-        bbm_pcg pcg = accurate(OMEGA[_i], METHOD[k % COUNT(METHOD)]);
-        pcg.tolerance = tolerance[k / COUNT(METHOD)];
+    for (int k = 0; k < COUNT(tolerance); k++) {
+        bbm_pcg pcg = accurate(OMEGA[_i], NULL);
+        pcg.tolerance = tolerance[k];
         const int iterations = dense_ssor_pcg(s, pcg.omega, pcg.tolerance, 1000, expected);
         ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
         ck_assert_int_eq(info.iterations, iterations);
@@ -390,13 +388,11 @@ START_TEST(residual_is_the_true_one)
     double D[MOST_6];
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(METHOD); k++) {
-        bbm_pcg pcg = accurate(1.2, METHOD[k]);
-        pcg.tolerance = 1e-3;
-        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
-        /* two ways to round K D, against a residual that may be rounding itself */
-        ck_near(info.residual, largest_residual(s, D), 1.0, ROUNDING);
-    }
+    bbm_pcg pcg = accurate(1.2, NULL);
+    pcg.tolerance = 1e-3;
+    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+    /* two ways to round K D, against a residual that may be rounding itself */
+    ck_near(info.residual, largest_residual(s, D), 1.0, ROUNDING);
     free_system(s);
 }
 END_TEST
@@ -404,7 +400,7 @@ END_TEST
 START_TEST(a_solution_takes_no_longer_than_the_processor_was_at_it)
 {
     dense_system *s = new_system(GRID, 15);
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     const clock_t start = clock();
     double D[MOST_6];
     bbm_pcg_info info;
@@ -424,7 +420,7 @@ END_TEST
 START_TEST(two_solutions_are_equal_to_the_last_bit)
 {
     dense_system *s = new_system(GRID, 15);
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     double D[MOST_6], E[MOST_6];
     bbm_pcg_info info[2];
 
@@ -442,7 +438,7 @@ START_TEST(loads_of_any_size_give_the_same_digits)
 {
     static const int exponent[] = { 900, 600, -600, -900 };
     dense_system *s = new_system(CHAIN, 16);
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     double D[MOST_6], E[MOST_6], F[MOST_6];
     bbm_pcg_info info;
 
@@ -461,7 +457,7 @@ END_TEST
 START_TEST(no_load_gives_no_displacement_in_no_iteration)
 {
     dense_system *s = new_system(PARTS, 17);
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     double F[MOST_6] = { 0 }, D[MOST_6];
     bbm_pcg_info info;
 
@@ -481,7 +477,7 @@ START_TEST(load_on_one_of_many_rows_makes_no_denormals)
 {
     enum { ROWS = 4000 };
     const double c = 0.8 / 1.64;
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     bbm_matrix *K = tridiagonal(ROWS, -c);
     double *F = calloc(6 * ROWS, sizeof *F), *D = calloc(6 * ROWS, sizeof *D);
     bbm_pcg_info info;
@@ -521,10 +517,10 @@ static bbm_status refused(dense_system *s, const bbm_pcg *pcg, bbm_pcg_info *inf
 START_TEST(parameter_outside_its_range_is_refused)
 {
     const bbm_pcg wrong[] = {
-        { 0, 1e-8, 100, METHOD[0] }, { 2, 1e-8, 100, METHOD[0] }, { -1, 1e-8, 100, METHOD[0] },
-        { 3, 1e-8, 100, METHOD[0] }, { NAN, 1e-8, 100, METHOD[0] }, { 1, 0, 100, METHOD[0] },
-        { 1, -1e-8, 100, METHOD[0] }, { 1, NAN, 100, METHOD[0] }, { 1, INFINITY, 100, METHOD[0] },
-        { 1, 1, 100, METHOD[0] }, { 1, 1e-8, 0, METHOD[0] }, { 1, 1e-8, -1, METHOD[0] },
+        { 0, 1e-8, 100, NULL }, { 2, 1e-8, 100, NULL }, { -1, 1e-8, 100, NULL },
+        { 3, 1e-8, 100, NULL }, { NAN, 1e-8, 100, NULL }, { 1, 0, 100, NULL },
+        { 1, -1e-8, 100, NULL }, { 1, NAN, 100, NULL }, { 1, INFINITY, 100, NULL },
+        { 1, 1, 100, NULL }, { 1, 1e-8, 0, NULL }, { 1, 1e-8, -1, NULL },
     };
     dense_system *s = new_system(CHAIN, 18);
     bbm_pcg_info info;
@@ -541,7 +537,7 @@ START_TEST(entry_of_the_load_that_is_not_finite_is_refused)
 {
     static const double wrong[] = { NAN, INFINITY, -INFINITY };
     dense_system *s = new_system(CHAIN, 19);
-    const bbm_pcg pcg = accurate(1, METHOD[0]);
+    const bbm_pcg pcg = accurate(1, NULL);
     bbm_pcg_info info;
 
     for (int i = 0; i < 6 * s->n; i++) {
@@ -559,7 +555,7 @@ START_TEST(entry_of_the_matrix_that_is_not_finite_is_refused)
 {
     static const int place[][2] = { { 0, 0 }, { 11, 11 }, { 0, 1 }, { 10, 11 }, { 5, 5 } };
     dense_system *s = new_system(CHAIN, 20);
-    const bbm_pcg pcg = accurate(1, METHOD[0]);
+    const bbm_pcg pcg = accurate(1, NULL);
     bbm_pcg_info info;
     double B[6][6] = { { 0 } };
 
@@ -580,20 +576,19 @@ START_TEST(diagonal_block_that_is_not_positive_definite_is_named)
     dense_system *s = new_system(GRID, 21);
     bbm_pcg_info info;
 
-    for (int k = 0; k < COUNT(METHOD); k++)
-        for (int row = 0; row < s->n; row += 5) {
-            const bbm_pcg pcg = accurate(1, METHOD[k]);
-            double I[6][6] = { { 0 } };
+    for (int row = 0; row < s->n; row += 5) {
+        const bbm_pcg pcg = accurate(1, NULL);
+        double I[6][6] = { { 0 } };
 
-            bbm_matrix_clear(s->K);
-            for (int i = 0; i < s->n; i++) {
-                for (int a = 0; a < 6; a++)
-                    I[a][a] = i == row && a == _i ? -(row % 2) : 1;
-                ck_assert_int_eq(bbm_matrix_add(s->K, i, i, I), BBM_OK);
-            }
-            ck_assert_int_eq(refused(s, &pcg, &info), BBM_NOT_POSITIVE_DEFINITE);
-            ck_assert_int_eq(info.element, row);
+        bbm_matrix_clear(s->K);
+        for (int i = 0; i < s->n; i++) {
+            for (int a = 0; a < 6; a++)
+                I[a][a] = i == row && a == _i ? -(row % 2) : 1;
+            ck_assert_int_eq(bbm_matrix_add(s->K, i, i, I), BBM_OK);
         }
+        ck_assert_int_eq(refused(s, &pcg, &info), BBM_NOT_POSITIVE_DEFINITE);
+        ck_assert_int_eq(info.element, row);
+    }
     free_system(s);
 }
 END_TEST
@@ -602,7 +597,7 @@ END_TEST
  * exactly 0. */
 START_TEST(matrix_that_is_not_positive_definite_is_found_out_by_the_iteration)
 {
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     double F[12] = { 0 }, D[12];
     bbm_pcg_info info;
 
@@ -623,7 +618,7 @@ END_TEST
 START_TEST(limit_of_iterations_ends_with_the_last_iterate_and_its_residual)
 {
     dense_system *s = new_system(GRID, 22);
-    bbm_pcg pcg = accurate(1, METHOD[_i]);
+    bbm_pcg pcg = accurate(1, NULL);
     double D[MOST_6], r[MOST_6];
     bbm_pcg_info info;
     int needed;
@@ -647,7 +642,7 @@ END_TEST
 
 START_TEST(solution_too_large_for_a_number_is_not_returned_in_silence)
 {
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     double B[6][6] = { { 0 } }, F[18] = { 0 }, D[18];
     bbm_pcg_info info;
     bbm_matrix *K;
@@ -667,8 +662,7 @@ END_TEST
  * times the tolerance is 0. */
 START_TEST(least_tolerance_is_met_by_an_exact_solution)
 {
-    const bbm_pcg pcg = { .omega = 1, .tolerance = DBL_MIN * DBL_EPSILON, .iterations = 10,
-                          .method = METHOD[_i] };
+    const bbm_pcg pcg = { .omega = 1, .tolerance = DBL_MIN * DBL_EPSILON, .iterations = 10 };
     double B[6][6] = { { 0 } }, F[6] = { 1, 1, 1, 1, 1, 1 }, D[6];
     bbm_pcg_info info;
     bbm_matrix *K;
@@ -691,7 +685,7 @@ END_TEST
 START_TEST(component_without_load_stays_where_it_is)
 {
     dense_system *s = new_system(PARTS, 64);
-    const bbm_pcg pcg = accurate(1, METHOD[_i]);
+    const bbm_pcg pcg = accurate(1, NULL);
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
 
@@ -709,8 +703,7 @@ END_TEST
 START_TEST(rows_that_are_not_connected_take_one_iteration)
 {
     dense_system *s = calloc(1, sizeof *s);
-    const bbm_pcg pcg = { .omega = OMEGA[_i / COUNT(METHOD)], .tolerance = 1e-10, .iterations = 1,
-                          .method = METHOD[_i % COUNT(METHOD)] };
+    const bbm_pcg pcg = { .omega = OMEGA[_i], .tolerance = 1e-10, .iterations = 1 };
     double expected[MOST_6], D[MOST_6];
     unsigned seed = 65;
     bbm_pcg_info info;
@@ -740,7 +733,7 @@ END_TEST
 START_TEST(component_that_fails_is_reported_and_the_others_are_solved)
 {
     dense_system *s = new_system(PARTS, 67), *t = new_system(PARTS, 67);
-    bbm_pcg pcg = accurate(1, METHOD[_i]);
+    bbm_pcg pcg = accurate(1, NULL);
     double D[MOST_6], E[MOST_6];
     bbm_pcg_info info;
 
@@ -790,26 +783,26 @@ Suite *solver_suite(void)
         { iterates_are_those_of_ssor_pcg_with_dense_matrices, 1 },
         { iterations_are_as_many_as_with_dense_matrices, COUNT(OMEGA) },
         { residual_is_the_true_one, PATTERNS },
-        { a_solution_takes_no_longer_than_the_processor_was_at_it, COUNT(METHOD) },
-        { two_solutions_are_equal_to_the_last_bit, COUNT(METHOD) },
-        { loads_of_any_size_give_the_same_digits, COUNT(METHOD) },
-        { no_load_gives_no_displacement_in_no_iteration, COUNT(METHOD) },
-        { load_on_one_of_many_rows_makes_no_denormals, COUNT(METHOD) },
+        { a_solution_takes_no_longer_than_the_processor_was_at_it, 1 },
+        { two_solutions_are_equal_to_the_last_bit, 1 },
+        { loads_of_any_size_give_the_same_digits, 1 },
+        { no_load_gives_no_displacement_in_no_iteration, 1 },
+        { load_on_one_of_many_rows_makes_no_denormals, 1 },
     };
     const loop_test failure[] = {
         { parameter_outside_its_range_is_refused, 1 },
         { entry_of_the_load_that_is_not_finite_is_refused, 1 },
         { entry_of_the_matrix_that_is_not_finite_is_refused, 36 },
         { diagonal_block_that_is_not_positive_definite_is_named, 6 },
-        { matrix_that_is_not_positive_definite_is_found_out_by_the_iteration, COUNT(METHOD) },
-        { limit_of_iterations_ends_with_the_last_iterate_and_its_residual, COUNT(METHOD) },
-        { solution_too_large_for_a_number_is_not_returned_in_silence, COUNT(METHOD) },
-        { least_tolerance_is_met_by_an_exact_solution, COUNT(METHOD) },
+        { matrix_that_is_not_positive_definite_is_found_out_by_the_iteration, 1 },
+        { limit_of_iterations_ends_with_the_last_iterate_and_its_residual, 1 },
+        { solution_too_large_for_a_number_is_not_returned_in_silence, 1 },
+        { least_tolerance_is_met_by_an_exact_solution, 1 },
     };
     const loop_test components[] = {
-        { component_without_load_stays_where_it_is, COUNT(METHOD) },
-        { rows_that_are_not_connected_take_one_iteration, COUNT(METHOD) * COUNT(OMEGA) },
-        { component_that_fails_is_reported_and_the_others_are_solved, COUNT(METHOD) },
+        { component_without_load_stays_where_it_is, 1 },
+        { rows_that_are_not_connected_take_one_iteration, COUNT(OMEGA) },
+        { component_that_fails_is_reported_and_the_others_are_solved, 1 },
     };
 
     add_case(s, "matrix", matrix, COUNT(matrix));

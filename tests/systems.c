@@ -115,6 +115,15 @@ double inner_product(int n, const double *x, const double *y)
     return sum;
 }
 
+void matrix_multiply(const bbm_matrix *K, const double *x, double *y)
+{
+    for (int i = 0; i < K->n; i++)
+        memcpy(K->p + 6 * i, x + 6 * K->caller[i], 6 * sizeof *x);
+    bbm_multiply(K, K->p, K->q);
+    for (int i = 0; i < K->n; i++)
+        memcpy(y + 6 * K->caller[i], K->q + 6 * i, 6 * sizeof *y);
+}
+
 void dense_multiply(const dense_system *s, const double *x, double *y)
 {
     for (int i = 0; i < 6 * s->n; i++)

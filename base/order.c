@@ -1,0 +1,227 @@
+/* order.c - the pattern of K, the order of its rows, and which of them hang together.
+ *
+ * Pattern. K consists of 6x6 blocks, a block row for each element. An element has three or four
+ * neighbours, so that most blocks are zero for ever, and an iteration, unlike a factorisation,
+ * fills none of them. Only the diagonal blocks and those left of them that are not zero are stored,
+ * row by row: `first` says where the blocks of a row begin, `back` how far left of the diagonal
+ * each of them is. The pattern is made once; each time step clears K and adds the submatrices anew.
+ *
+ * Order. The rows are not in the caller's order but in the reverse Cuthill-McKee order: number the
+ * elements from one end of the body to the other, breadth first, and reverse the numbers. The
+ * blocks then lie in a narrow band, and what a sweep reads was written shortly before. Rows with
+ * many neighbours, such as a base on which all stands, come last.
+ *
+ * Components. Rows that no block joins, however indirectly, belong to different components. The
+ * order puts the rows of a component one after the other.
+ */
+#include <stdlib.h>
+
+#include "base.h"
+
+/* A row has many neighbours: more than so many times the mean of its component. */
+#define HUB 3.0
+
+typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */
+    int n;
+    int *first, (*end)[2];      /* [n+1]  of i: end[first[i] .. first[i+1]-1][1], ascending     */
+    int *level;                 /* [n]    distance from the start of the search, -1: not found  */
+    int *order;                 /* [n]    as they are found                                     */
+} graph;
+
+static int compare_ends(const void *a, const void *b)
+{
+    const int *p = a, *q = b, by = p[0] == q[0];
+
+    return (p[by] > q[by]) - (p[by] < q[by]);
+}
+
+/* Sorts both ends of all pairs by the row and then by the neighbour, and drops what comes twice. */
+static bbm_status graph_new(graph *g, int n, int pairs, int (*pair)[2])
+{
+    if (n < 1)
+        return BBM_NO_ELEMENT;
+    for (int k = 0; k < 2 * pairs; k++)
+        if (pair[k / 2][k % 2] < 0 || pair[k / 2][k % 2] >= n)
+            return BBM_BAD_INDEX;
+    g->n = n;
+    g->first = calloc(3 * (size_t)n + 1, sizeof *g->first);
+    g->end = calloc(2 * (size_t)pairs + 1, sizeof *g->end);
+    if (!g->first || !g->end)
+        return BBM_NO_MEMORY;
+    g->level = g->first + n + 1;
+    g->order = g->level + n;
+    for (int k = 0; k < 2 * pairs; k++) {
+        g->end[k][0] = pair[k / 2][k % 2];
+        g->end[k][1] = pair[k / 2][1 - k % 2];
+    }
+    qsort(g->end, 2 * (size_t)pairs, sizeof *g->end, compare_ends);
+    int count = 0;
+    for (int i = 0, k = 0; i < n; i++) {
+        for (; k < 2 * pairs && g->end[k][0] == i; k++)
+            if (g->end[k][1] != i && (count == g->first[i] || g->end[count - 1][1] != g->end[k][1]))
+                g->end[count++][1] = g->end[k][1];
+        g->first[i + 1] = count;
+        g->level[i] = -1;
+    }
+    return BBM_OK;
+}
+
+static int degree(const graph *g, int i) { return g->first[i + 1] - g->first[i]; }
+
+/* Cuthill-McKee: the rows of a component, breadth first; those found from the same row by ascending
+ * degree. Returns their number. */
+static int breadth_first(graph *g, int start, int *order)
+{
+    int count = 1;
+
+    order[0] = start;
+    g->level[start] = 0;
+    for (int next = 0; next < count; next++) {
+        const int i = order[next], found = count;
+        for (int k = g->first[i]; k < g->first[i + 1]; k++) {
+            const int j = g->end[k][1];
+            if (g->level[j] >= 0)
+                continue;
+            g->level[j] = g->level[i] + 1;
+            int m = count++;
+            for (; m > found && degree(g, order[m - 1]) > degree(g, j); m--)
+                order[m] = order[m - 1];
+            order[m] = j;
+        }
+    }
+    return count;
+}
+
+/* A good start lies at an end of the component: search from anywhere, start again from the row
+ * found last, and so on while that takes the search further. */
+static int order_component(graph *g, int start, int *order)
+{
+    for (int depth = -1;;) {
+        const int count = breadth_first(g, start, order);
+        start = order[count - 1];
+        if (g->level[start] <= depth)
+            return count;
+        depth = g->level[start];
+        for (int k = 0; k < count; k++)
+            g->level[order[k]] = -1;
+    }
+}
+
+/* The rows of a component in the order to reverse: first those with many neighbours, as a base
+ * under all has; they come last then and widen no envelope. `rows`: scratch. Returns their
+ * number. */
+static int order_with_hubs(graph *g, int start, int *order, int *rows)
+{
+    const int count = breadth_first(g, start, rows);
+    int done = 0, ends = 0;
+
+    for (int k = 0; k < count; k++)
+        ends += degree(g, rows[k]);
+    for (int k = 0; k < count; k++)
+        if (degree(g, rows[k]) > HUB * ends / count)
+            order[done++] = rows[k];
+        else
+            g->level[rows[k]] = -1;
+    for (int k = 0; k < count; k++)
+        if (g->level[rows[k]] < 0)
+            done += order_component(g, rows[k], order + done);
+    for (int k = 0; k < count; k++)
+        g->level[order[k]] = k > 0;
+    return count;
+}
+
+/* place[i] of row i: all components one after the other, then the whole order reversed. */
+static void reverse_cuthill_mckee(graph *g, int place[])
+{
+    int done = 0;
+
+    for (int i = 0; i < g->n; i++)
+        if (g->level[i] < 0)
+            done += order_with_hubs(g, i, g->order + done, place);
+    for (int i = 0; i < g->n; i++)
+        place[g->order[i]] = g->n - 1 - i;
+}
+
+/* ----------------------------------------------------------------------------------- the matrix */
+
+/* All arrays of one type are one piece of memory. */
+static bbm_status allocate(bbm_matrix *K, const graph *g)
+{
+    const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
+
+    K->n = K->to = g->n;
+    K->place = calloc(5 * n + 2 + blocks, sizeof *K->place);
+    K->D = calloc(2 * n + blocks, sizeof *K->D);
+    K->x = calloc(6 * 6 * n, sizeof *K->x);
+    if (!K->place || !K->D || !K->x)
+        return BBM_NO_MEMORY;
+    K->caller = K->place + n;
+    K->first = K->caller + n;
+    K->start = K->first + n + 1;
+    K->component = K->start + n + 1;
+    K->back = K->component + n;
+    K->L = K->D + n;
+    K->inverse = K->L + blocks;
+    K->r = K->x + 6 * n;
+    K->u = K->r + 6 * n;
+    K->p = K->u + 6 * n;
+    K->q = K->p + 6 * n;
+    K->y = K->q + 6 * n;
+    return BBM_OK;
+}
+
+/* caller, component, first, back and start. A component ends with the row where the search
+ * began. */
+static void lay_out_rows(bbm_matrix *K, const graph *g)
+{
+    int count = 0;
+
+    for (int i = 0; i < K->n; i++)
+        K->caller[K->place[i]] = i;
+    for (int i = 0; i < K->n; i++) {
+        const int row = K->caller[i];
+        for (int k = g->first[row]; k < g->first[row + 1]; k++)
+            if (K->place[g->end[k][1]] < i)
+                K->back[count++] = i - K->place[g->end[k][1]];
+        K->first[i + 1] = count;
+        K->component[row] = K->components;
+        if (g->level[row] == 0)
+            K->start[++K->components] = i + 1;
+    }
+}
+
+bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **out)
+{
+    graph g = { 0 };
+    bbm_matrix *K = calloc(1, sizeof *K);
+    bbm_status status = K ? graph_new(&g, n, pairs, pair) : BBM_NO_MEMORY;
+
+    if (!status)
+        status = allocate(K, &g);
+    if (!status) {
+        reverse_cuthill_mckee(&g, K->place);
+        lay_out_rows(K, &g);
+    } else {
+        bbm_matrix_free(K);
+        K = NULL;
+    }
+    free(g.first);
+    free(g.end);
+    *out = K;
+    return status;
+}
+
+void bbm_matrix_free(bbm_matrix *K)
+{
+    if (!K)
+        return;
+    if (K->free_extra)
+        K->free_extra(K->extra);
+    free(K->place);
+    free(K->D);
+    free(K->x);
+    free(K->term);
+    free(K);
+}
+
+int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
