@@ -223,25 +223,25 @@ int bbm_next_part(bbm_model *m, const bbm_parts *p)
     return p->left > 0;
 }
 
-/* Whether the equations, or the states of the contacts, had no end. */
-static int is_lost(bbm_status s)
+/* Whether a part may go well in another way: its equations, or the states of its contacts, had no
+ * end, it makes energy, or something in it goes too far. */
+static int may_be_tried_again(bbm_status s)
 {
     return s == BBM_NOT_POSITIVE_DEFINITE || s == BBM_NOT_CONVERGED || s == BBM_NOT_FINITE
-        || s == BBM_OPEN_CLOSE;
+        || s == BBM_OPEN_CLOSE || s == BBM_ENERGY || s == BBM_STEP_TOO_LONG;
 }
 
 /* What follows from the status of a part: the next one, the same one in another way (BBM_OK), or
  * the end. */
 bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status)
 {
-    const int lost = is_lost(status);
-    const int again = lost || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG;
+    const int again = may_be_tried_again(status);
 
-    if (bbm_is_static(m) && lost && m->trial < BBM_ONE_BY_ONE) {
+    if (again && bbm_is_static(m) && m->trial < BBM_ONE_BY_ONE) {
         m->trial++;
         return BBM_OK;
     }
-    if (!bbm_is_static(m) && again && p->part > 1 && !bbm_is_spent(m)) {
+    if (again && !bbm_is_static(m) && p->part > 1 && !bbm_is_spent(m)) {
         p->part /= 2;
         m->info.cuts++;
         m->message[0] = '\0';
