@@ -560,27 +560,33 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         bbm_motion_of(m)->turn(&start, e, vertex);
 }
 
-/* The end of the step: each element is moved by its place in D, Eq. (3), in a copy, since nothing
- * moves before all has gone well. How small the step was against all so far, Eq. (71), goes to
- * info.change. */
+/* Moves the elements and vertices of the model, or of a copy, each by its place in D, Eq. (3). */
+void bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[])
+{
+    for (int i = 0; i < m->elements; i++) {
+        memcpy(element[i].D, &m->D[6 * i], sizeof element[i].D);
+        update_element(m, &element[i], &vertex[element[i].first]);
+    }
+}
+
+/* The model moves by the six unknowns of its elements, Eq. (3), unless a hook finds the solution
+ * wrong. How small the step was against all so far, Eq. (71), goes to info.change. */
 static bbm_status update(bbm_model *m)
 {
-    bbm_model end = bbm_copy_what_moves(m);
+    const bbm_status status = m->hook->accept ? m->hook->accept(m) : BBM_OK;
     double step2 = 0, sum2 = 0;
 
-    for (int i = 0; i < m->elements; i++) {
-        bbm_element *e = &end.element[i];
-        memcpy(e->D, &m->D[6 * i], sizeof e->D);
-        update_element(m, e, &end.vertex[e->first]);
+    if (status)
+        return status;
+    bbm_move_elements(m, m->element, m->vertex);
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
         step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
     }
-    end.info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
-    end.info.t += bbm_is_static(m) ? 0 : m->h;
-    const bbm_status status = bbm_accept_end(m, &end);
-    if (!status)
-        bbm_store_contacts(m);
-    return status;
+    m->info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
+    m->info.t += bbm_is_static(m) ? 0 : m->h;
+    bbm_store_contacts(m);
+    return BBM_OK;
 }
 
 /* --------------------------------------------------------------- the time step, Fig. 8 */
@@ -608,16 +614,28 @@ static bbm_status try_step(bbm_model *m)
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 
-/* One time step, in one part or in several: a part that fails is done again, shorter, or in statics
- * in another way, see base/step.c. A step that fails leaves the model as the last part left it. */
+/* One part of a step, of length h. If it fails it is done in two halves, down to dt/1024; in statics
+ * it is tried in two other ways, see base/step.c. */
+static bbm_status take_part(bbm_model *m, double h, int halvings)
+{
+    bbm_status status;
+
+    m->h = h;
+    do
+        status = try_step(m);
+    while (bbm_has_another_way(m, status));
+    if (!bbm_may_be_halved(m, status, halvings))
+        return status;
+    status = take_part(m, h / 2, halvings + 1);
+    return status ? status : take_part(m, h / 2, halvings + 1);
+}
+
+/* One time step. One that fails leaves the model as its last part left it. */
 bbm_status bbm_step(bbm_model *m)
 {
-    bbm_status status = bbm_check_step(m);
-    bbm_parts parts = bbm_whole_step(m);
+    const bbm_status status = bbm_check_step(m);
 
-    while (!status && bbm_next_part(m, &parts))     /* its length: m->h                         */
-        status = bbm_judge_part(m, &parts, try_step(m));
-    return bbm_end_step(m, status);
+    return bbm_end_step(m, status ? status : take_part(m, m->par.dt, 0));
 }
 
 /* All time steps. With a tolerance they end when the step has become small against the sum of all,

@@ -178,8 +178,6 @@ struct bbm_model {
     bbm_contact_scratch *scratch;
     int *adjacent_first;        /* [nodes+1] the vertices at node n are                         */
     int *adjacent;              /* [vertices]    adjacent[adjacent_first[n] ..]                 */
-    bbm_element *end_element;   /* [elements] the end of the step, base/step.c               */
-    bbm_vertex *end_vertex;     /* [vertices]                                                   */
     /* --- K D = F --- */
     bbm_matrix *K;
     int links, (*link)[2];      /* the two elements of each contact and bond in K               */

@@ -182,7 +182,7 @@ struct bbm_hooks {
                                                             /* 1: added for the N of the solution */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
-    bbm_status (*accept)(bbm_model *m, const bbm_model *end);       /* before the model moves   */
+    bbm_status (*accept)(bbm_model *m);                     /* before the model moves           */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
 };
 
@@ -230,8 +230,6 @@ static inline void bbm_move(const bbm_model *m, const bbm_element *e, const doub
 }
 
 /* step.c: around a step */
-typedef struct { int left, part; } bbm_parts;                   /* of dt, in 1/1024             */
-
 typedef struct {                /* of a parameter, low and high included                        */
     const char *name;
     double value, low, high;
@@ -242,11 +240,8 @@ bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...);
 bbm_status bbm_out_of_memory(bbm_model *m);
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters         */
-bbm_parts  bbm_whole_step(bbm_model *m);
-int        bbm_next_part(bbm_model *m, const bbm_parts *p);     /* 0: the step is done          */
-bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status);
-bbm_model  bbm_copy_what_moves(const bbm_model *m);
-bbm_status bbm_accept_end(bbm_model *m, const bbm_model *end);
+int        bbm_has_another_way(bbm_model *m, bbm_status status);
+int        bbm_may_be_halved(bbm_model *m, bbm_status status, int halvings);
 bbm_status bbm_end_step(bbm_model *m, bbm_status status);
 int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
 int        bbm_has_detected_enough(bbm_model *m);
@@ -301,6 +296,7 @@ void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W);
 void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
 void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
+void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[]);
 bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
 

@@ -51,8 +51,6 @@ static void free_prepared(bbm_model *m)
     free(m->edge);
     free(m->adjacent_first);
     free(m->F);
-    free(m->end_element);
-    free(m->end_vertex);
     free(m->gap);
     free(m->link);
     free(m->contact);
@@ -360,10 +358,8 @@ static bbm_status place_line_loads(bbm_model *m)
 static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
-    m->end_element = calloc((size_t)m->elements, sizeof *m->element);
-    m->end_vertex = calloc((size_t)m->vertices, sizeof *m->vertex);
     m->gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *m->gap);
-    if (!m->F || !m->end_element || !m->end_vertex || !m->gap)
+    if (!m->F || !m->gap)
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;
     m->load = m->D + 6 * (size_t)m->elements;

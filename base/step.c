@@ -19,8 +19,8 @@
  * SOLUTIONS   in all its parts: several times what the worst walls needed
  * ITERATIONS  in all solutions, as a multiple of what one solution may take
  * DETECTIONS  of contacts, in one part
- * PARTS       the shortest part is dt/PARTS */
-enum { SOLUTIONS = 5000, ITERATIONS = 10, DETECTIONS = 8, PARTS = 1024 };
+ * HALVINGS    of dt, to the shortest part */
+enum { SOLUTIONS = 5000, ITERATIONS = 10, DETECTIONS = 8, HALVINGS = 10 };
 
 /* ------------------------------------------------------------------------------------ messages */
 
@@ -144,12 +144,9 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
         link[n][1] = bbm_element_of(m, m->scratch->contact[n].edge);
     }
     for (int g = 0; g < m->gaps; g++) {
-        const int repeated = g > 0 && m->gap[g].i == m->gap[g - 1].i
-                          && m->gap[g].j == m->gap[g - 1].j;
-        if (m->gap[g].j < 0 || repeated)
-            continue;
         link[n][0] = m->gap[g].i;
-        link[n++][1] = m->gap[g].j;
+        link[n][1] = m->gap[g].j;
+        n += m->gap[g].j >= 0;
     }
     if (m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0) {
         free(link);
@@ -182,7 +179,7 @@ bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[])
     return BBM_OK;
 }
 
-/* What must hold before a step: a prepared model, and parameters in their ranges. */
+/* What must hold before a step: a prepared model, and parameters in their ranges. Counting begins. */
 bbm_status bbm_check_step(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
@@ -203,79 +200,38 @@ bbm_status bbm_check_step(bbm_model *m)
         { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
     };
 
+    m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
     if (!m->K)
         return m->status ? m->status
                          : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
-/* All of dt is left, and is tried as a whole. */
-bbm_parts bbm_whole_step(bbm_model *m)
-{
-    m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
-    return (bbm_parts){ PARTS, PARTS };
-}
-
-/* The length of the next part, if there is one. */
-int bbm_next_part(bbm_model *m, const bbm_parts *p)
-{
-    m->h = isinf(m->par.dt) ? INFINITY : m->par.dt * p->part / PARTS;
-    return p->left > 0;
-}
-
-/* Whether a part may go well in another way: its equations, or the states of its contacts, had no
- * end, it makes energy, or something in it goes too far. */
-static int may_be_tried_again(bbm_status s)
+/* Whether a part may go well when it is done otherwise: its equations, or the states of its
+ * contacts, had no end, it makes energy, or something in it goes too far. */
+static int may_go_otherwise(bbm_status s)
 {
     return s == BBM_NOT_POSITIVE_DEFINITE || s == BBM_NOT_CONVERGED || s == BBM_NOT_FINITE
         || s == BBM_OPEN_CLOSE || s == BBM_ENERGY || s == BBM_STEP_TOO_LONG;
 }
 
-/* What follows from the status of a part: the next one, the same one in another way (BBM_OK), or
- * the end. */
-bbm_status bbm_judge_part(bbm_model *m, bbm_parts *p, bbm_status status)
+/* In statics: whether there is another way to try the step; takes it. */
+int bbm_has_another_way(bbm_model *m, bbm_status status)
 {
-    const int again = may_be_tried_again(status);
-
-    if (again && bbm_is_static(m) && m->trial < BBM_ONE_BY_ONE) {
-        m->trial++;
-        return BBM_OK;
-    }
-    if (again && !bbm_is_static(m) && p->part > 1 && !bbm_is_spent(m)) {
-        p->part /= 2;
-        m->info.cuts++;
-        m->message[0] = '\0';
-        return BBM_OK;
-    }
-    p->left -= p->part;
-    if (p->left > 0 && (p->left / p->part) % 2 == 0 && p->part < PARTS)
-        p->part *= 2;
-    return status;
+    if (!bbm_is_static(m) || !may_go_otherwise(status) || m->trial == BBM_ONE_BY_ONE)
+        return 0;
+    m->trial++;
+    return 1;
 }
 
-/* A second model, which shares all with the first but what moves: elements, vertices, info. */
-bbm_model bbm_copy_what_moves(const bbm_model *m)
+/* In dynamics: whether the part that has failed may be done in two halves; counts the cut. */
+int bbm_may_be_halved(bbm_model *m, bbm_status status, int halvings)
 {
-    bbm_model end = *m;
-
-    end.element = m->end_element;
-    end.vertex = m->end_vertex;
-    memcpy(end.element, m->element, (size_t)m->elements * sizeof *m->element);
-    memcpy(end.vertex, m->vertex, (size_t)m->vertices * sizeof *m->vertex);
-    return end;
-}
-
-/* Makes the end of the step the present, unless a hook finds it wrong. */
-bbm_status bbm_accept_end(bbm_model *m, const bbm_model *end)
-{
-    const bbm_status status = m->hook->accept ? m->hook->accept(m, end) : BBM_OK;
-
-    if (status)
-        return status;
-    memcpy(m->element, end->element, (size_t)m->elements * sizeof *m->element);
-    memcpy(m->vertex, end->vertex, (size_t)m->vertices * sizeof *m->vertex);
-    m->info = end->info;
-    return BBM_OK;
+    if (bbm_is_static(m) || !may_go_otherwise(status) || halvings == HALVINGS || bbm_is_spent(m))
+        return 0;
+    m->info.cuts++;
+    m->message[0] = '\0';
+    return 1;
 }
 
 /* Counts the step, or says why it failed. */

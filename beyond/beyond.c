@@ -4,25 +4,41 @@
 
 #include "beyond.h"
 
+/* What belongs to the elements and nodes of a prepared model. */
+static void free_prepared(bbm_beyond *b)
+{
+    free(b->middle);
+    free(b->end_element);
+    free(b->end_vertex);
+    free(b->support);
+}
+
 static void release(bbm_model *m)
 {
     if (!m->beyond)
         return;
+    free_prepared(m->beyond);
     free(m->beyond->edge_load);
     free(m->beyond->joint);
-    free(m->beyond->support);
-    free(m->beyond->middle);
     free(m->beyond);
 }
 
 /* A prepared model: elements lie side by side, springs have the energy that they begin with. */
 static bbm_status check(bbm_model *m)
 {
-    m->beyond->springs = bbm_spring_energy(m);
-    bbm_status status = bbm_lay_out_motion(m);
-    if (!status)
-        status = bbm_lay_out_supports(m);
-    return status ? status : bbm_check_overlap(m);
+    const size_t n = (size_t)m->elements;
+    bbm_beyond *b = m->beyond;
+
+    free_prepared(b);
+    b->middle = calloc(n, sizeof *b->middle);
+    b->end_element = calloc(n, sizeof *b->end_element);
+    b->end_vertex = calloc((size_t)m->vertices, sizeof *b->end_vertex);
+    b->support = calloc((size_t)m->nodes, sizeof *b->support);
+    b->springs = bbm_spring_energy(m);
+    for (int i = 0; i < m->elements; i++)
+        m->element[i].middle = NULL;
+    return b->middle && b->end_element && b->end_vertex && b->support ? bbm_check_overlap(m)
+         : BBM_NO_MEMORY;
 }
 
 /* The base accelerates, and the model is at rest in it: gravity less that, at the end of the step.
@@ -66,7 +82,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
 }
 
 /* A step that went well: right as far as one can tell, and without energy from nowhere. */
-static bbm_status accept(bbm_model *m, const bbm_model *end)
+static bbm_status accept(bbm_model *m)
 {
     bbm_status status = bbm_check_solution(m);
     double gain, there;
@@ -76,7 +92,8 @@ static bbm_status accept(bbm_model *m, const bbm_model *end)
     if (status)
         return status;
     bbm_find_reactions(m);
-    status = bbm_check_balance(m, end, &gain, &there);
+    const bbm_model end = bbm_end_of_step(m);
+    status = bbm_check_balance(m, &end, &gain, &there);
     if (status == BBM_ENERGY)
         return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: %g J more than its loads' "
                         "work, of %g J", m->info.step + 1, m->info.t, m->h, gain, there);

@@ -51,6 +51,8 @@ struct bbm_beyond {
     bbm_joint *joint;           /* [joints]                                                     */
     bbm_support *support;       /* [nodes]                                                      */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
+    bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
+    bbm_vertex *end_vertex;     /* [vertices]                                                   */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
@@ -80,6 +82,7 @@ void       bbm_interpolate_elements(bbm_model *m);
 typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 void       bbm_energies(const bbm_model *m, bbm_energy *e);
 double     bbm_spring_energy(const bbm_model *m);        /* J, of the solution in hand          */
+bbm_model  bbm_end_of_step(const bbm_model *m);
 bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there);
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
@@ -88,7 +91,6 @@ const bbm_motion *bbm_find_motion(const bbm_model *m);
 void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
                              double at[2]);
 void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
-bbm_status bbm_lay_out_motion(bbm_model *m);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
@@ -121,7 +123,6 @@ void       bbm_joint_strength(const bbm_model *m, bbm_contact *c);
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
 bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
 void       bbm_gather_edge_loads(bbm_model *m);
-bbm_status bbm_lay_out_supports(bbm_model *m);
 void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
 void       bbm_find_reactions(bbm_model *m);
 void       bbm_stop_supports(bbm_model *m);

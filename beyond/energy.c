@@ -16,6 +16,7 @@
  */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "beyond.h"
 
@@ -110,6 +111,21 @@ double bbm_spring_energy(const bbm_model *m)
     for (int k = 0; k < contacts; k++)
         energy += contact_energy(m, &c[k]);
     return energy;
+}
+
+/* The model at the end of the step, before it moves: a second one, which shares all with the first
+ * but what will move. */
+bbm_model bbm_end_of_step(const bbm_model *m)
+{
+    bbm_model end = *m;
+
+    end.element = m->beyond->end_element;
+    end.vertex = m->beyond->end_vertex;
+    memcpy(end.element, m->element, (size_t)m->elements * sizeof *m->element);
+    memcpy(end.vertex, m->vertex, (size_t)m->vertices * sizeof *m->vertex);
+    bbm_move_elements(m, end.element, end.vertex);
+    end.info.t += bbm_is_static(m) ? 0 : m->h;
+    return end;
 }
 
 /* The energy that the step from m to `end` makes beyond the work of its loads: `gain`, J. It is

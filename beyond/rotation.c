@@ -25,7 +25,6 @@
  * keep T.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "beyond.h"
@@ -177,16 +176,6 @@ const bbm_motion *bbm_find_motion(const bbm_model *m)
     const int exact = m->beyond->rotation == BBM_EXACT && !bbm_is_static(m);
 
     return exact ? &exact_motion : NULL;
-}
-
-/* Room for all elements of a prepared model. */
-bbm_status bbm_lay_out_motion(bbm_model *m)
-{
-    free(m->beyond->middle);
-    m->beyond->middle = calloc((size_t)m->elements, sizeof *m->beyond->middle);
-    for (int i = 0; i < m->elements; i++)
-        m->element[i].middle = NULL;
-    return m->beyond->middle ? BBM_OK : BBM_NO_MEMORY;
 }
 
 /* Takes the vectors of the step in the middle of D; not exact: at its start. */

@@ -121,14 +121,6 @@ void bbm_gather_edge_loads(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------- supports */
 
-/* Room for all nodes of a prepared model. */
-bbm_status bbm_lay_out_supports(bbm_model *m)
-{
-    free(m->beyond->support);
-    m->beyond->support = calloc((size_t)m->nodes, sizeof *m->beyond->support);
-    return m->beyond->support ? BBM_OK : BBM_NO_MEMORY;
-}
-
 /* Displaces the wall point of a node that is held. */
 void bbm_move_support(bbm_model *m, int node, double u, double v)
 {
