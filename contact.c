@@ -32,7 +32,6 @@
  *
  * Which corners may touch which edges is in base/detect.c.
  */
-#include <float.h>
 #include <string.h>
 
 #include "base/base.h"
@@ -236,17 +235,14 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
         c->state = BBM_LOCK;
 }
 
-/* The contacts that may be closed in this step, each with the state with which it begins. `same`
- * (may be NULL): the step had them already. */
+/* The contacts that may be closed in this step, each with the state with which it begins. `same`:
+ * the step had them already. */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same)
 {
     bbm_contact_scratch *w = m->scratch;
-    int known;
-    const bbm_status status = bbm_list_pairs(m, &known);
+    const bbm_status status = bbm_list_pairs(m, same);
 
-    if (same)
-        *same = known;
-    if (status || known)
+    if (status || *same)
         return status;
     for (int k = 0; k < w->contacts; k++)
         begin_contact(m, &w->contact[k]);

@@ -13,15 +13,24 @@
 
 /* ----------------------------------------------------------------------------- building a model */
 
-/* Makes room for one more entry in an array of `count`: its room is the next power of two. */
-static int make_room(void **array, int count, size_t size)
+/* A new entry at the end of an array of *count, whose room is the next power of two; its index goes
+ * through the last pointer, which may be NULL. NULL: out of memory. */
+static void *append(bbm_model *m, void **array, int *count, size_t size, int *index)
 {
-    if (count != 0 && (count < 16 || (count & (count - 1)) != 0))
-        return 1;
-    void *room = realloc(*array, (count == 0 ? 16 : 2 * (size_t)count) * size);
-    if (room)
-        *array = room;
-    return room != NULL;
+    const size_t n = (size_t)*count;
+    void *room = *array;
+
+    if (n == 0 || (n >= 16 && (n & (n - 1)) == 0))
+        room = realloc(*array, (n == 0 ? 16 : 2 * n) * size);
+    if (!room) {
+        m->status = bbm_out_of_memory(m);
+        return NULL;
+    }
+    *array = room;
+    ++*count;
+    if (index)
+        *index = (int)n;
+    return (char *)room + n * size;
 }
 
 /* A model with the defaults of statics in one step. */
@@ -95,12 +104,10 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
                           positive[k].name, positive[k].value);
     if (a->nu <= -1 || a->nu >= 0.5)
         return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
-    if (!make_room((void **)&m->material, n, sizeof *a))
-        return m->status = bbm_out_of_memory(m);
-    m->material[m->materials++] = *a;
-    if (index)
-        *index = n;
-    return BBM_OK;
+    bbm_material *to = append(m, (void **)&m->material, &m->materials, sizeof *to, index);
+    if (to)
+        *to = *a;
+    return m->status;
 }
 
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
@@ -109,13 +116,10 @@ bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
         return m->status;
     if (!isfinite(x) || !isfinite(y))
         return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
-    if (!make_room((void **)&m->node, m->nodes, sizeof *m->node))
-        return m->status = bbm_out_of_memory(m);
-    m->node[m->nodes] = (bbm_node){ .x = x, .y = y };
-    if (index)
-        *index = m->nodes;
-    m->nodes++;
-    return BBM_OK;
+    bbm_node *to = append(m, (void **)&m->node, &m->nodes, sizeof *to, index);
+    if (to)
+        *to = (bbm_node){ .x = x, .y = y };
+    return m->status;
 }
 
 static int is_node(const bbm_model *m, int node) { return node >= 0 && node < m->nodes; }
@@ -162,22 +166,19 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
         return REFUSE(m, BBM_BAD_ELEMENT, "element %d has no area, %g m^2", e, area);
     if (m->hook->check_polygon && m->hook->check_polygon(m, n, node))
         return m->status = BBM_SELF_CROSSING;
-    if (!make_room((void **)&m->element, e, sizeof *m->element))
-        return m->status = bbm_out_of_memory(m);
     for (int i = 0; i < n; i++) {
         const int at = node[area > 0 ? i : n - 1 - i];
-        if (!make_room((void **)&m->vertex, m->vertices, sizeof *m->vertex))
-            return m->status = bbm_out_of_memory(m);
-        m->vertex[m->vertices++] = (bbm_vertex){ .node = at, .element = e, .x = m->node[at].x,
-                                                 .y = m->node[at].y };
+        bbm_vertex *v = append(m, (void **)&m->vertex, &m->vertices, sizeof *v, NULL);
+        if (!v)
+            return m->status;
+        *v = (bbm_vertex){ .node = at, .element = e, .x = m->node[at].x, .y = m->node[at].y };
     }
-    m->element[e] = (bbm_element){ .block = block, .material = m->material[material],
-                                   .first = first, .n = n };
-    bbm_element_geometry(&m->element[e], &m->vertex[first]);
-    m->element[e].A0 = m->element[e].A;
-    m->elements++;
-    if (index)
-        *index = e;
+    bbm_element *to = append(m, (void **)&m->element, &m->elements, sizeof *to, index);
+    if (!to)
+        return m->status;
+    *to = (bbm_element){ .block = block, .material = m->material[material], .first = first, .n = n };
+    bbm_element_geometry(to, &m->vertex[first]);
+    to->A0 = to->A;
     return BBM_OK;
 }
 
@@ -214,16 +215,16 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
 }
 
 /* Adds a line load with everything but its vertices, which bbm_prepare finds. */
-static bbm_status add_line_load(bbm_model *m, const bbm_line_load *load)
+static bbm_status add_line(bbm_model *m, const bbm_line_load *load)
 {
     for (int g = 0; g < BBM_GAUSS; g++)
         if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
             return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0],
                           load->node[1]);
-    if (!make_room((void **)&m->line_load, m->line_loads, sizeof *load))
-        return m->status = bbm_out_of_memory(m);
-    m->line_load[m->line_loads++] = *load;
-    return BBM_OK;
+    bbm_line_load *to = append(m, (void **)&m->line_load, &m->line_loads, sizeof *to, NULL);
+    if (to)
+        *to = *load;
+    return m->status;
 }
 
 static bbm_status check_line(bbm_model *m, int node1, int node2)
@@ -235,9 +236,9 @@ static bbm_status check_line(bbm_model *m, int node1, int node2)
 
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy)
 {
-    bbm_line_load load = { .node = { node1, node2 }, .constant = 1, .f = { { fx, fy } } };
+    const bbm_line_load load = { .node = { node1, node2 }, .constant = 1, .f = { { fx, fy } } };
 
-    return check_line(m, node1, node2) ? m->status : add_line_load(m, &load);
+    return check_line(m, node1, node2) ? m->status : add_line(m, &load);
 }
 
 /* The load f(x, y) [N/m] on the edge between two nodes, taken at the Gauss points of the starting
@@ -255,7 +256,7 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
         bbm_gauss_point(g, &s, &weight);
         f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
     }
-    return add_line_load(m, &load);
+    return add_line(m, &load);
 }
 
 /* ------------------------------------------------------ preparing: 2.2, the edges, and K */

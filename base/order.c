@@ -92,25 +92,11 @@ static int breadth_first(graph *g, int start, int *order)
     return count;
 }
 
-/* A good start lies at an end of the component: search from anywhere, start again from the row
- * found last, and so on while that takes the search further. */
-static int order_component(graph *g, int start, int *order)
-{
-    for (int depth = -1;;) {
-        const int count = breadth_first(g, start, order);
-        start = order[count - 1];
-        if (g->level[start] <= depth)
-            return count;
-        depth = g->level[start];
-        for (int k = 0; k < count; k++)
-            g->level[order[k]] = -1;
-    }
-}
-
-/* The rows of a component in the order to reverse: first those with many neighbours, as a base
- * under all has; they come last then and widen no envelope. `rows`: scratch. Returns their
- * number. */
-static int order_with_hubs(graph *g, int start, int *order, int *rows)
+/* The rows of a component in the order to reverse. First come those with many neighbours, such as a
+ * base on which all stands: they come last then and widen no envelope. The others follow from the
+ * row on that a search finds last, for it lies at an end of the component. `rows`: scratch. Returns
+ * their number. */
+static int order_component(graph *g, int start, int *order, int *rows)
 {
     const int count = breadth_first(g, start, rows);
     int done = 0, ends = 0;
@@ -122,9 +108,9 @@ static int order_with_hubs(graph *g, int start, int *order, int *rows)
             order[done++] = rows[k];
         else
             g->level[rows[k]] = -1;
-    for (int k = 0; k < count; k++)
+    for (int k = count - 1; k >= 0; k--)
         if (g->level[rows[k]] < 0)
-            done += order_component(g, rows[k], order + done);
+            done += breadth_first(g, rows[k], order + done);
     for (int k = 0; k < count; k++)
         g->level[order[k]] = k > 0;
     return count;
@@ -137,7 +123,7 @@ static void reverse_cuthill_mckee(graph *g, int place[])
 
     for (int i = 0; i < g->n; i++)
         if (g->level[i] < 0)
-            done += order_with_hubs(g, i, g->order + done, place);
+            done += order_component(g, i, g->order + done, place);
     for (int i = 0; i < g->n; i++)
         place[g->order[i]] = g->n - 1 - i;
 }

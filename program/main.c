@@ -437,7 +437,7 @@ static int count_contacts(bbm_model *m)
 
     m->h = INFINITY;
     bbm_foresee_step(m);
-    if (bbm_detect_contacts(m, NULL))
+    if (bbm_detect_contacts(m, &(int){ 0 }))
         return -1;
     const bbm_contact *c = bbm_list_contacts(m, &contacts);
     for (int k = 0; k < contacts; k++)

@@ -143,7 +143,7 @@ static bbm_model *model_in_contact(void add(bbm_model *, int), int n)
     case_must(m, bbm_prepare(m));
     m->h = 0.01;
     bbm_foresee_step(m);
-    case_must(m, bbm_detect_contacts(m, NULL));
+    case_must(m, bbm_detect_contacts(m, &(int){ 0 }));
     bbm_store_contacts(m);
     for (int k = 0; k < m->contacts; k++)
         m->contact[k].state = BBM_LOCK;
@@ -158,7 +158,7 @@ static double detection_time(bbm_model *m)
 
     for (int i = 0; i < times; i++) {
         bbm_foresee_step(m);                                      /* or the list would be known */
-        case_must(m, bbm_detect_contacts(m, NULL));
+        case_must(m, bbm_detect_contacts(m, &(int){ 0 }));
     }
     return 1e9 * (double)(clock() - start) / CLOCKS_PER_SEC / times / m->edges;
 }

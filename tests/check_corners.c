@@ -283,7 +283,7 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
         int n;
         m->h = m->par.dt;
         bbm_foresee_step(m);
-        ck_ok(bbm_detect_contacts(m, NULL), m);
+        ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
         bbm_contact *list = bbm_list_contacts(m, &n);
         for (int k = 0; k < n; k++)
             if (corner_vertex(m, &list[k]) == vertex_of(m, e, 0)) {
@@ -414,7 +414,7 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
     m->element[e].V[2] = turn / m->par.dt;
     m->h = m->par.dt;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     m->D[6 * e + 2] = turn;
     bbm_move(m, &m->element[e], &m->D[6 * e], start[0], start[1], u);

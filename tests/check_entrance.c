@@ -233,7 +233,7 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
     set_velocity(m, e + 1, 0, -25);
     m->h = m->par.dt;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     for (int i = e; i < e + 2; i++) {
         m->D[6 * i] = -side * beyond;
@@ -271,7 +271,7 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
     set_velocity(m, e, 0, -10);
     m->h = m->par.dt;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     m->D[6 * e + 2] = turned;
     bbm_move(m, &m->element[e], &m->D[6 * e], tip[0], tip[1], u);
@@ -720,7 +720,7 @@ START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
     set_velocity(m, e, 3, 0);
     m->h = m->par.dt;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     ck_assert_int_lt(m->beyond->passed[0], 0);
     ck_assert(deepest_passed(m) == 0);
     shift_element(m, e, 8.5e-3, 0);                     /* 0.5 mm from the inner side of the wall */

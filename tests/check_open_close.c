@@ -19,7 +19,7 @@ static bbm_model *block_on_table(double friction)
     ck_ok(bbm_prepare(m), m);
     m->h = m->par.dt;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     return m;
 }
 
@@ -145,7 +145,7 @@ START_TEST(the_contact_that_fits_worst_changes_first)
 
     m->trial = BBM_ONE_BY_ONE;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     m->D[7] = -1e-2;
     m->D[8] = _i ? 1e-3 : -1e-3;
@@ -355,14 +355,14 @@ START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
     m->element[1].V[2] = _i < 2 ? 0 : 1;
     m->acceleration[1] = 0;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     ck_assert(!bbm_moved_too_far(m));
     m->D[6] = way * by[_i][0];
     m->D[6 + 2] = turn * by[_i][1];
     ck_assert_int_eq(bbm_moved_too_far(m), _i % 2);
     if (_i % 2) {
-        ck_ok(bbm_detect_contacts(m, NULL), m);
+        ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
         ck_assert(!bbm_moved_too_far(m));           /* it has become the guess */
     }
     bbm_model_free(m);
@@ -410,7 +410,7 @@ START_TEST(a_step_foresees_no_less_than_it_did_before)
     start_step(m, &n);
     m->D[6] = 0.01;
     ck_assert(bbm_moved_too_far(m));                    /* block 1; and block 0 rests */
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     m->D[0] = m->D[6] = 0.0109;
     ck_assert(!bbm_moved_too_far(m));
     bbm_model_free(m);
@@ -439,7 +439,7 @@ START_TEST(a_step_that_starts_again_begins_from_the_last_one)
         ck_assert_int_eq(look_at(m, 1, 0, -1e-3), 1 + _i);
         m->trial = BBM_ONE_BY_ONE;
         bbm_foresee_step(m);
-        ck_ok(bbm_detect_contacts(m, NULL), m);
+        ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
         m->trial = BBM_AS_EVER;
         bbm_contact *list = bbm_list_contacts(m, &n);
         ck_assert_int_eq(n, 1 + _i);

@@ -464,7 +464,7 @@ void detect(bbm_model *m)
 {
     m->h = m->par.dt;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     bbm_store_contacts(m);
 }
 
@@ -558,7 +558,7 @@ bbm_contact *start_step(bbm_model *m, int *n)
 {
     m->h = m->par.dt;
     bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, NULL), m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     return bbm_list_contacts(m, n);
 }
