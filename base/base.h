@@ -135,7 +135,7 @@ struct bbm_contact_scratch {
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass                      */
     double *force;              /* [elements] the largest one in each component of K, N         */
     /* --- detect.c --- */
-    int pairs, pair_room;
+    int pairs;
     struct bbm_pair *pair;      /* [pairs]    that may touch, by corner and edge                */
     struct bbm_reach *reach;    /* [elements] of blocks                                         */
 };
@@ -238,6 +238,7 @@ typedef struct {                /* of a parameter, low and high included        
 
 bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...);
 bbm_status bbm_out_of_memory(bbm_model *m);
+void      *bbm_append(void **array, int *count, size_t size);   /* NULL: out of memory          */
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters         */
 int        bbm_has_another_way(bbm_model *m, bbm_status status);

@@ -13,24 +13,18 @@
 
 /* ----------------------------------------------------------------------------- building a model */
 
-/* A new entry at the end of an array of *count, whose room is the next power of two; its index goes
- * through the last pointer, which may be NULL. NULL: out of memory. */
+/* A new entry at the end of an array of the model. Its index goes through the last pointer, which
+ * may be NULL. NULL: out of memory. */
 static void *append(bbm_model *m, void **array, int *count, size_t size, int *index)
 {
-    const size_t n = (size_t)*count;
-    void *room = *array;
+    const int n = *count;
+    void *to = bbm_append(array, count, size);
 
-    if (n == 0 || (n >= 16 && (n & (n - 1)) == 0))
-        room = realloc(*array, (n == 0 ? 16 : 2 * n) * size);
-    if (!room) {
+    if (!to)
         m->status = bbm_out_of_memory(m);
-        return NULL;
-    }
-    *array = room;
-    ++*count;
-    if (index)
-        *index = (int)n;
-    return (char *)room + n * size;
+    else if (index)
+        *index = n;
+    return to;
 }
 
 /* A model with the defaults of statics in one step. */

@@ -178,7 +178,6 @@ bbm_status bbm_detect_new(bbm_model *m)
     w->pair = calloc((size_t)m->edges, sizeof *w->pair);
     if (!w->reach || !w->force || !w->pair)
         return BBM_NO_MEMORY;
-    w->pair_room = m->edges;
     number_blocks(m);
     link_edges(m);
     find_directions(m);
@@ -376,15 +375,10 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
     m->info.candidates++;
     if (!may_touch(m, corner, edge))
         return BBM_OK;
-    if (w->pairs == w->pair_room) {
-        pair *larger = realloc(w->pair, 2 * (size_t)w->pairs * sizeof *larger);
-        if (!larger)
-            return BBM_NO_MEMORY;
-        w->pair = larger;
-        w->pair_room *= 2;
-    }
-    w->pair[w->pairs++] = (pair){ corner, edge, 0 };
-    return BBM_OK;
+    pair *to = bbm_append((void **)&w->pair, &w->pairs, sizeof *to);
+    if (to)
+        *to = (pair){ corner, edge, 0 };
+    return to ? BBM_OK : BBM_NO_MEMORY;
 }
 
 /* All pairs that may touch. The hook gets a search distance. Two blocks may approach each other,
@@ -654,25 +648,20 @@ int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* The depth of a closed contact counts for both its blocks. */
-static void note_depth(const bbm_model *m, const bbm_contact *c)
-{
-    reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
-    const double depth = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
-
-    i->depth_now = fmax(i->depth_now, depth);
-    j->depth_now = fmax(j->depth_now, depth);
-}
-
-/* The depths of the blocks in the solution in hand. */
+/* How deep the blocks are in the solution in hand: the depth of a closed contact counts for both.
+ * */
 void bbm_note_depths(bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth_now = w->reach[i].depth;
-    for (int k = 0; k < w->contacts; k++)
-        note_depth(m, &w->contact[k]);
+    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
+        const double depth = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
+        i->depth_now = fmax(i->depth_now, depth);
+        j->depth_now = fmax(j->depth_now, depth);
+    }
 }
 
 /* The list of the step becomes that of the model, which has moved. */
@@ -684,9 +673,8 @@ void bbm_keep_contacts(bbm_model *m)
 
     find_directions(m);
     for (int i = 0; i < m->elements; i++)
-        w->reach[i].depth_now = 0;
-    for (int k = 0; k < w->contacts; k++)
-        note_depth(m, &w->contact[k]);
+        w->reach[i].depth = 0;
+    bbm_note_depths(m);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = w->reach[i].depth_now;
     m->contact = w->contact;

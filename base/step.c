@@ -74,6 +74,22 @@ bbm_status bbm_out_of_memory(bbm_model *m)
     return bbm_fail(m, BBM_NO_MEMORY, "%d elements, %d nodes", m->elements, m->nodes);
 }
 
+/* A new entry at the end of an array of *count entries, whose room is the next power of two; NULL:
+ * out of memory. */
+void *bbm_append(void **array, int *count, size_t size)
+{
+    const size_t n = (size_t)*count;
+    void *room = *array;
+
+    if (n == 0 || (n >= 16 && (n & (n - 1)) == 0))
+        room = realloc(*array, (n == 0 ? 16 : 2 * n) * size);
+    if (!room)
+        return NULL;
+    *array = room;
+    ++*count;
+    return (char *)room + n * size;
+}
+
 /* ------------------------------------------------------------------------- what a step counts */
 
 /* Counts the CPU time since `since` for a phase. */
@@ -179,7 +195,8 @@ bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[])
     return BBM_OK;
 }
 
-/* What must hold before a step: a prepared model, and parameters in their ranges. Counting begins. */
+/* What must hold before a step: a prepared model, and parameters in their ranges. Counting begins.
+ * */
 bbm_status bbm_check_step(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
