@@ -95,17 +95,6 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
     return BBM_OK;
 }
 
-/* B = K_ij, without terms; 0 where the pattern has no block. */
-void bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6])
-{
-    double (*from)[6] = find_block(K, i, j);
-    const int right = K->place[i] < K->place[j];
-
-    for (int a = 0; a < 6; a++)
-        for (int b = 0; b < 6; b++)
-            B[a][b] = !from ? 0 : right ? from[b][a] : from[a][b];
-}
-
 /* ----------------------------------------------------------------------------- products of blocks
  * Written so that a compiler can do two entries at a time without changing the order of a sum. */
 

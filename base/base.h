@@ -265,7 +265,6 @@ double     bbm_girth(const bbm_model *m, int edge);             /* m, of its blo
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
 void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
-bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts);      /* of the step in hand  */
 
 /* contact.c: 3.7 and 3.8 */
 void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               /* (52)-(57)    */
@@ -359,7 +358,6 @@ void       bbm_matrix_clear(bbm_matrix *K);
 void       bbm_matrix_keep(bbm_matrix *K, int keep);    /* 1: clear and add leave K as it is    */
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
                                    what the pattern does not have fails here and in bbm_solve   */
-void       bbm_matrix_get(const bbm_matrix *K, int i, int j, double B[6][6]);   /* B = K_ij     */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                      bbm_pcg_info *info);
 

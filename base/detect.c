@@ -575,13 +575,6 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
     return BBM_OK;
 }
 
-/* The contacts of the step in hand. */
-bbm_contact *bbm_list_contacts(const bbm_model *m, int *contacts)
-{
-    *contacts = m->scratch->contacts;
-    return m->scratch->contact;
-}
-
 /* ----------------------------------------------------- where a corner comes in, of the solution */
 
 /* Whether the corner, as it is turned at the end of the step, can enter there. */

@@ -98,8 +98,7 @@ static double contact_energy(const bbm_model *m, const bbm_contact *c)
 /* Energy of all springs: of the bonds and fixed points as they are listed, and of the contacts. */
 double bbm_spring_energy(const bbm_model *m)
 {
-    int contacts;
-    const bbm_contact *c = bbm_list_contacts(m, &contacts);
+    const bbm_contact *c = m->scratch->contact;
     double energy = 0;
 
     for (int k = 0; k < m->gaps; k++) {
@@ -108,7 +107,7 @@ double bbm_spring_energy(const bbm_model *m)
             energy += g->d0[r] / 2
                     * (g->own.f[r] + g->own.W[r][0] * g->d0[0] + g->own.W[r][1] * g->d0[1]);
     }
-    for (int k = 0; k < contacts; k++)
+    for (int k = 0; k < m->scratch->contacts; k++)
         energy += contact_energy(m, &c[k]);
     return energy;
 }

@@ -71,11 +71,10 @@ bbm_status bbm_check_solution(bbm_model *m)
  * boundary; returns that share, or 0 if none is closed. */
 double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
 {
-    int contacts;
-    const bbm_contact *c = bbm_list_contacts(m, &contacts);
+    const bbm_contact *c = m->scratch->contact;
     double most = 0;
 
-    for (int k = 0; k < contacts; k++) {
+    for (int k = 0; k < m->scratch->contacts; k++) {
         const double girth = fmin(bbm_girth(m, c[k].corner), bbm_girth(m, c[k].edge));
         const double share = -c[k].d_n / (girth / 4);
         if (c[k].state != BBM_OPEN && share > most) {

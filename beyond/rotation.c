@@ -234,10 +234,10 @@ static int turns_otherwise(const bbm_model *m, const bbm_contact *c, int i)
  * on the wrong side. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
-    int contacts, off = 0;
-    const bbm_contact *list = bbm_list_contacts(m, &contacts);
+    int off = 0;
+    const bbm_contact *list = m->scratch->contact;
 
-    for (int k = 0; k < contacts && !off; k++) {
+    for (int k = 0; k < m->scratch->contacts && !off; k++) {
         const bbm_contact *c = &list[k];
         const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
         const double Fi = hypot(m->F[6 * i], m->F[6 * i + 1]);

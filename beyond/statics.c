@@ -149,8 +149,7 @@ static double distance(const bbm_model *m, int i, int j)
  * blocks part most, the one that goes further first. The second is -1 if no blocks part. */
 static double find_loose(const bbm_model *m, int pair[2])
 {
-    int contacts;
-    const bbm_contact *list = bbm_list_contacts(m, &contacts);
+    const bbm_contact *list = m->scratch->contact;
 
     pair[0] = 0;
     pair[1] = -1;
@@ -159,7 +158,7 @@ static double find_loose(const bbm_model *m, int pair[2])
             pair[0] = i;
     const double furthest = way(m, pair[0]);
     double most = PARTS * furthest;
-    for (int k = 0; k < contacts; k++) {
+    for (int k = 0; k < m->scratch->contacts; k++) {
         const int c[2] = { m->edge[list[k].corner].element, m->edge[list[k].edge].element };
         const double apart = distance(m, c[0], c[1]);
         if (apart > most) {

@@ -433,15 +433,14 @@ static void catch_signals(void)
 /* --check: how many contacts touch at the start; those are closed in statics. -1: no memory. */
 static int count_contacts(bbm_model *m)
 {
-    int contacts, touching = 0;
+    int touching = 0;
 
     m->h = INFINITY;
     bbm_foresee_step(m);
     if (bbm_detect_contacts(m, &(int){ 0 }))
         return -1;
-    const bbm_contact *c = bbm_list_contacts(m, &contacts);
-    for (int k = 0; k < contacts; k++)
-        touching += c[k].state != BBM_OPEN;
+    for (int k = 0; k < m->scratch->contacts; k++)
+        touching += m->scratch->contact[k].state != BBM_OPEN;
     return touching;
 }
 

@@ -320,44 +320,23 @@ static void draw_pictures(write_results *w)
 
 /* -------------------------------------------------------------------------------- Matrix Market */
 
-static int compare_pairs(const void *p, const void *q)
+/* A block of K at the caller's rows i and j: its entries on the diagonal of K and below it. */
+static void put_block(FILE *f, int i, int j, double B[6][6])
 {
-    const int *a = p, *b = q;
-
-    return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < (i == j ? a + 1 : 6); b++)
+            fprintf(f, "%d %d %.17g\n", 6 * (i > j ? i : j) + (i < j ? b : a) + 1,
+                    6 * (i > j ? j : i) + (i < j ? a : b) + 1, B[a][b]);
 }
 
-/* The pairs i >= j with a submatrix, sorted, each once: the diagonal, and those of bonds and
- * contacts. Returns their number. */
-static int list_submatrices(const bbm_model *m, int (*pair)[2])
+static void put_matrix(FILE *f, const bbm_matrix *K)
 {
-    int n = 0;
-
-    for (int i = 0; i < m->elements; i++)
-        pair[i][0] = pair[i][1] = i;
-    for (int k = 0; k < m->links; k++) {
-        const int i = m->link[k][0], j = m->link[k][1];
-        pair[m->elements + k][0] = i > j ? i : j;
-        pair[m->elements + k][1] = i > j ? j : i;
-    }
-    qsort(pair, (size_t)(m->elements + m->links), sizeof *pair, compare_pairs);
-    for (int k = 0; k < m->elements + m->links; k++)
-        if (n == 0 || compare_pairs(pair[n - 1], pair[k]) != 0)
-            memmove(pair[n++], pair[k], sizeof *pair);
-    return n;
-}
-
-static void put_matrix(FILE *f, const bbm_model *m, int count, int (*pair)[2])
-{
-    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * m->elements,
-            6 * m->elements, 36LL * (count - m->elements) + 21LL * m->elements);
-    for (int k = 0; k < count; k++) {
-        const int i = pair[k][0], j = pair[k][1];
-        double B[6][6];
-        bbm_matrix_get(m->K, i, j, B);
-        for (int a = 0; a < 6; a++)
-            for (int b = 0; b < (i == j ? a + 1 : 6); b++)
-                fprintf(f, "%d %d %.17g\n", 6 * i + a + 1, 6 * j + b + 1, B[a][b]);
+    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * K->n,
+            6 * K->n, 36LL * K->first[K->n] + 21LL * K->n);
+    for (int i = 0; i < K->n; i++) {
+        put_block(f, K->caller[i], K->caller[i], K->D[i]);
+        for (int k = K->first[i]; k < K->first[i + 1]; k++)
+            put_block(f, K->caller[i], K->caller[i - K->back[k]], K->L[k]);
     }
 }
 
@@ -372,22 +351,16 @@ static void put_right_side(FILE *f, const write_results *w)
 
 void write_matrix(write_results *w)
 {
-    const bbm_model *m = w->p->m;
     const clock_t start = clock();
-    int (*pair)[2];
     char name[LONGEST];
     output f;
 
     if (w->matrix_done++)
         return;
-    pair = calloc((size_t)m->elements + (size_t)m->links, sizeof *pair);
-    if (!pair) {
-        fail(w, w->matrix, "out of memory");
-    } else if (open_file(w, &f, w->matrix)) {
-        put_matrix(f.file, m, list_submatrices(m, pair), pair);
+    if (open_file(w, &f, w->matrix)) {
+        put_matrix(f.file, w->p->m->K);
         close_file(w, &f);
     }
-    free(pair);
     snprintf(name, sizeof name, "%s.rhs", w->matrix);
     if (!w->status)
         write_file(w, name, put_right_side);

@@ -176,9 +176,7 @@ static void bench_detection(const char *name, void add(bbm_model *, int), const 
             ratio[i][t] = time[i][t] / time[0][t];
         }
     for (int i = 0; i < 3; i++) {
-        int contacts;
-        (void)bbm_list_contacts(m[i], &contacts);
-        printf("| %s | %d | %d | %.1f | %.0f | %.2f |\n", name, m[i]->edges, contacts,
+        printf("| %s | %d | %d | %.1f | %.0f | %.2f |\n", name, m[i]->edges, m[i]->scratch->contacts,
                (double)m[i]->info.candidates / m[i]->edges, median(time[i]), median(ratio[i]));
         bbm_model_free(m[i]);
     }
@@ -294,7 +292,7 @@ static void write_block(FILE *f, const bbm_matrix *K, int i, int j)
 {
     double B[6][6];
 
-    bbm_matrix_get(K, i, j, B);
+    get_block(K, i, j, B);
     for (int a = 0; a < 6; a++)
         for (int b = 0; b < (i == j ? a + 1 : 6); b++)
             fprintf(f, "%d %d %.17g\n", 6 * i + a + 1, 6 * j + b + 1, B[a][b]);

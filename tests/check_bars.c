@@ -13,6 +13,7 @@
  */
 #include "../beyond/beyond.h"
 #include "check.h"
+#include "rock.h"
 
 Suite *bars_suite(void);
 
@@ -221,7 +222,7 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
         bbm_edge_gap(end, g == 0 ? 1 : -1, W[g], &gap);
         bbm_weighted_submatrices(&gap, &s);
     }
-    bbm_matrix_get(m->K, b->i, b->j, K);
+    get_block(m->K, b->i, b->j, K);
     for (int a = 0; a < 36; a++)        /* K of its middle is 100 times larger: 1e-13 of it */
         ck_near(K[a / 6][a % 6], s.Kij[a / 6][a % 6], W[1][0][0] + W[1][1][1], 1e-11);
     bbm_model_free(m);

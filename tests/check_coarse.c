@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include "check.h"
+#include "rock.h"
 #include "systems.h"
 
 /* ----------------------------------------------------------------------------------- two levels */
@@ -415,7 +416,7 @@ static dense_system *join(dense_system *const s[2], dense_coarse *const c[2], co
         for (int k = -s[q]->n; k < s[q]->pairs; k++) {
             const int i = k < 0 ? -1 - k : s[q]->pair[k][0], j = k < 0 ? i : s[q]->pair[k][1];
 
-            bbm_matrix_get(s[q]->K, i, j, B);
+            get_block(s[q]->K, i, j, B);
             ck_assert_int_eq(bbm_matrix_add(t->K, row[q][i], row[q][j], B), BBM_OK);
         }
     hang(t, d);

@@ -284,7 +284,7 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
         m->h = m->par.dt;
         bbm_foresee_step(m);
         ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
-        bbm_contact *list = bbm_list_contacts(m, &n);
+        bbm_contact *list = list_contacts(m, &n);
         for (int k = 0; k < n; k++)
             if (corner_vertex(m, &list[k]) == vertex_of(m, e, 0)) {
                 ck_assert_int_eq(list[k].state, again ? PASSED[_i / 4].then : BBM_OPEN);

@@ -716,7 +716,7 @@ START_TEST(a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step)
         shift_element(m, 2 + k, MOVES[_i].x[k] - 5 * k, MOVES[_i].y[k] - 5 * k);
     ck_ok(bbm_detect_contacts(m, &same), m);
     ck_assert_int_eq(same, MOVES[_i].same);
-    const bbm_contact *list = bbm_list_contacts(m, &n);
+    const bbm_contact *list = list_contacts(m, &n);
     for (int k = 0; k < n; k++)
         ck_assert_int_eq(list[k].state, same ? BBM_LOCK : BBM_OPEN);
     ck_ok(bbm_detect_contacts(m, &same), m);

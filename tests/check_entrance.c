@@ -335,7 +335,7 @@ START_TEST(a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks)
     const double *depth = DEPTHS[_i / 2], most = fmax(depth[0], depth[1]);
     bbm_model *m = slab_at(depth, -2 * most * (_i % 2 ? 1.01 : 0.99), BBM_EXACT);
     int listed = 0, n;
-    const bbm_contact *list = bbm_list_contacts(m, &n);
+    const bbm_contact *list = list_contacts(m, &n);
 
     for (int k = 0; k < n; k++)
         listed += corner_vertex(m, &list[k])->x == 0;
@@ -420,7 +420,7 @@ START_TEST(what_contacts_are_deep_is_that_of_the_last_step)
 {
     bbm_model *m = slab_at(DEPTHS[0], 1e-3, BBM_EXACT);
     int n;
-    bbm_contact *list = bbm_list_contacts(m, &n);
+    bbm_contact *list = list_contacts(m, &n);
 
     ck_assert_int_eq(n, 3);
     for (int k = 0; k < n; k++)
@@ -576,7 +576,7 @@ START_TEST(a_contact_that_closes_inside_starts_without_force)
     for (int again = 0; again < 2; again++) {
         int found = 0;
         look_at(m, 2, 0, again || linear ? 0 : -1e-4);
-        bbm_contact *list = bbm_list_contacts(m, &n);
+        bbm_contact *list = list_contacts(m, &n);
         for (int k = 0; k < n; k++) {
             bbm_contact *c = &list[k];
             if (corner_vertex(m, c)->x != 0)
@@ -614,7 +614,7 @@ START_TEST(a_corner_that_opens_inside_may_close_again)
     const int inside = _i == 0;
     bbm_model *m = slab_at(DEPTHS[0], -3e-3, BBM_EXACT);
     int n;
-    bbm_contact *c = bbm_list_contacts(m, &n);
+    bbm_contact *c = list_contacts(m, &n);
 
     ck_assert_int_eq(n, 1);
     ck_assert(c->state == BBM_LOCK && c->was_closed && !c->inside);

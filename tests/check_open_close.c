@@ -127,7 +127,7 @@ START_TEST(a_cycle_is_broken_one_by_one_for_as_many_passes_again)
         int n, count = 0;
         m->D[7] = v[k];
         (void)bbm_open_close(m);
-        const bbm_contact *c = bbm_list_contacts(m, &n);
+        const bbm_contact *c = list_contacts(m, &n);
         for (int q = 0; q < n; q++)
             count += c[q].state != BBM_OPEN;
         ck_assert_int_eq(count, closed[k]);
@@ -150,7 +150,7 @@ START_TEST(the_contact_that_fits_worst_changes_first)
     m->D[7] = -1e-2;
     m->D[8] = _i ? 1e-3 : -1e-3;
     (void)bbm_open_close(m);
-    const bbm_contact *c = bbm_list_contacts(m, &n);
+    const bbm_contact *c = list_contacts(m, &n);
     for (int k = 0; k < n; k++) {
         closed += c[k].state != BBM_OPEN;
         for (int q = 0; q < n && c[k].state != BBM_OPEN; q++)
@@ -173,7 +173,7 @@ START_TEST(a_contact_that_closes_outside_the_cone_of_friction_slides)
     m->D[6] = (_i % 2 ? 1 : -1) * (_i < 2 ? 0.99 : 1.01)
             * 1e-4 * tan(PI / 6) * m->par.p_n / m->par.p_s;
     (void)bbm_open_close(m);
-    const bbm_contact *c = bbm_list_contacts(m, &n);
+    const bbm_contact *c = list_contacts(m, &n);
     for (int k = 0; k < n; k++) {
         ck_assert_int_eq(c[k].state, _i < 2 ? BBM_LOCK : BBM_SLIDE);
         ck_assert(_i < 2 || c[k].sign * m->D[6] > 0);
@@ -195,7 +195,7 @@ START_TEST(a_contact_that_its_shear_spring_pulls_open_slides_first)
         m->D[6] = k ? u : 0;
         m->D[7] = k ? 1e-4 : -1e-4;
         (void)bbm_open_close(m);
-        const bbm_contact *c = bbm_list_contacts(m, &n);
+        const bbm_contact *c = list_contacts(m, &n);
         for (int q = 0; q < n; q++)
             ck_assert_int_eq(c[q].state, k == 0 ? BBM_LOCK : k == 1 && _i ? BBM_SLIDE : BBM_OPEN);
     }
@@ -441,7 +441,7 @@ START_TEST(a_step_that_starts_again_begins_from_the_last_one)
         bbm_foresee_step(m);
         ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
         m->trial = BBM_AS_EVER;
-        bbm_contact *list = bbm_list_contacts(m, &n);
+        bbm_contact *list = list_contacts(m, &n);
         ck_assert_int_eq(n, 1 + _i);
         for (int k = 0; k < n; k++) {
             ck_assert_int_eq(list[k].state, slid ? BBM_LOCK : BBM_OPEN);
@@ -545,7 +545,7 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
     ck_ok(bbm_detect(m, &other), m);                    /* lays out K for the contacts */
     memset(m->D, 0, 24 * sizeof *m->D);
     bbm_set_middle(m);
-    (void)bbm_list_contacts(m, &n);
+    (void)list_contacts(m, &n);
     ck_assert_int_eq(n, 2);
     memset(m->F, 0, 24 * sizeof *m->F);
     for (int a = 0; a < 2; a++) {

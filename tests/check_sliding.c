@@ -2,6 +2,7 @@
  * blocks slide. */
 #include "check.h"
 #include "models.h"
+#include "rock.h"
 
 /* ------------------------------------------------------------------------------------- friction */
 
@@ -205,7 +206,7 @@ START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
     add_rectangle(m, 0, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 2 });
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);
-    bbm_matrix_get(m->K, 0, 0, B);
+    get_block(m->K, 0, 0, B);
     bbm_term *t = &m->K->term[0];
     *t = (bbm_term){ .v = { { 1 } } };
     for (int a = 0; a < 6; a++) {

@@ -554,13 +554,19 @@ bbm_status fall(bbm_model *m)
     return status;
 }
 
+bbm_contact *list_contacts(const bbm_model *m, int *n)
+{
+    *n = m->scratch->contacts;
+    return m->scratch->contact;
+}
+
 bbm_contact *start_step(bbm_model *m, int *n)
 {
     m->h = m->par.dt;
     bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
-    return bbm_list_contacts(m, n);
+    return list_contacts(m, n);
 }
 
 int look_at(bbm_model *m, int e, double u, double v)
@@ -570,7 +576,7 @@ int look_at(bbm_model *m, int e, double u, double v)
     m->D[6 * e] = u;
     m->D[6 * e + 1] = v;
     (void)bbm_open_close(m);
-    const bbm_contact *list = bbm_list_contacts(m, &n);
+    const bbm_contact *list = list_contacts(m, &n);
     for (int k = 0; k < n; k++)
         closed += list[k].state != BBM_OPEN;
     return closed;
@@ -579,7 +585,7 @@ int look_at(bbm_model *m, int e, double u, double v)
 bbm_contact *find_listed(const bbm_model *m, int e, int corner, int f, int edge)
 {
     int n;
-    bbm_contact *list = bbm_list_contacts(m, &n);
+    bbm_contact *list = list_contacts(m, &n);
 
     for (int k = 0; k < n; k++)
         if (corner_vertex(m, &list[k]) == vertex_of(m, e, corner)

@@ -182,6 +182,9 @@ bbm_model *pile(unsigned seed, int reversed);
 /* Steps until the pile has lain down, from a model just prepared. */
 bbm_status fall(bbm_model *m);
 
+/* The contacts of the step in hand. */
+bbm_contact *list_contacts(const bbm_model *m, int *n);
+
 /* Starts a step: what it foretells, and its list. */
 bbm_contact *start_step(bbm_model *m, int *n);
 

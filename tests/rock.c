@@ -4,6 +4,7 @@
  * All of it is drawn upright and inclined by its gravity: downhill is to the left. The springs of
  * the contacts are those of a new model, p_n = 1e9 and p_s = 4e8 N/m. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "rock.h"
 
@@ -168,3 +169,15 @@ const rock_scene rock[ROCK_SCENES] = {
     { "two blocks on an incline", make_incline, 1000 },
     { "wall of 1,008 bricks", make_tall_wall, 4 },
 };
+
+void get_block(const bbm_matrix *K, int i, int j, double B[6][6])
+{
+    const int p = K->place[i], q = K->place[j], row = p > q ? p : q, left = abs(p - q);
+    double (*from)[6] = left == 0 ? K->D[row] : NULL;
+
+    for (int k = K->first[row]; k < K->first[row + 1]; k++)
+        from = K->back[k] == left ? K->L[k] : from;
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            B[a][b] = !from ? 0 : p < q ? from[b][a] : from[a][b];
+}

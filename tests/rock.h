@@ -15,4 +15,7 @@ typedef struct {
 
 extern const rock_scene rock[ROCK_SCENES];
 
+/* B = K_ij, without terms; 0 where the pattern has no block. */
+void get_block(const bbm_matrix *K, int i, int j, double B[6][6]);
+
 #endif
