@@ -268,12 +268,13 @@ static int has_word(const char *text, const char *word)
  * file is there, and each file of beyond/ is in it. */
 START_TEST(the_picture_of_the_house_names_what_there_is)
 {
-    const char *const path[] = { "bbm.h", "bbm.c", "contact.c", "solver.c", "beyond/beyond.c" };
+    const char *const path[] = { "bbm.h", "bbm.c", "contact.c", "solver.c", "base/base.h", "base/build.c",
+                                 "beyond/beyond.c" };
     const char *const folder[] = { "", "base/", "beyond/" };
-    char *picture = slurp("doc/house.svg"), *source[5], word[NAME], file[NAME + 16];
+    char *picture = slurp("doc/house.svg"), *source[COUNT(path)], word[NAME], file[NAME + 16];
     int names = 0, files = 0;
 
-    for (int k = 0; k < 5; k++)
+    for (int k = 0; k < COUNT(path); k++)
         source[k] = slurp(path[k]);
     for (const char *p = picture; *p;) {
         const size_t n = strspn(p, "abcdefghijklmnopqrstuvwxyz_0123456789");
@@ -284,7 +285,7 @@ START_TEST(the_picture_of_the_house_names_what_there_is)
         snprintf(word, sizeof word, "%.*s", (int)n, p);
         p += n;
         int known = 0;
-        for (int k = 0; k < 5; k++)
+        for (int k = 0; k < COUNT(path); k++)
             known |= has_word(source[k], word);
         if (strchr(word, '_') && word[n - 1] != '_') {
             ck_assert_msg(known, "doc/house.svg names %s", word);
@@ -309,7 +310,7 @@ START_TEST(the_picture_of_the_house_names_what_there_is)
                       || strcmp(all.gl_pathv[k], "beyond/beyond.c") == 0,
                       "doc/house.svg lacks %s", all.gl_pathv[k]);
     globfree(&all);
-    for (int k = 0; k < 5; k++)
+    for (int k = 0; k < COUNT(path); k++)
         free(source[k]);
     free(picture);
 }
