@@ -1,10 +1,10 @@
 /* base.h - the data of 3.3 and 3.7, and what the files of the library share.
  *
  * A reader of the paper finds here what its formulas take: the gap of a bond or fixed point (3.3,
- * 3.4), a boundary edge, a contact and its three points (3.7). Then come the hooks, through which
- * beyond/ adds what the paper does not have, the functions that the files of the library share,
- * from the bottom up, and the matrix. A program that looks at bonds, edges, contacts or K includes
- * this file in place of bbm.h.
+ * 3.4), a boundary edge, a contact and its three points (3.7). Then come the hooks, for what the
+ * paper does not have, the functions that the files of the library share, from the bottom up, and
+ * the matrix. A program that looks at bonds, edges, contacts or K includes this file in place of
+ * bbm.h.
  */
 #ifndef BBM_BASE_H
 #define BBM_BASE_H
