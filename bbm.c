@@ -500,7 +500,7 @@ bbm_status bbm_detect(bbm_model *m, int *other)
     *other = 0;
     if (m->detections > 0 && !bbm_moved_too_far(m))
         return BBM_OK;
-    if (bbm_has_detected_enough(m))
+    if (m->detections++ == BBM_MAX_DETECTIONS)
         return bbm_unsettled(m);
     bbm_status status = bbm_detect_contacts(m, &same);
     bbm_count_time(m, BBM_DETECT, start);

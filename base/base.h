@@ -119,7 +119,8 @@ typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.
 /* Trials of a static step: as ever; friction as a load in any case; one change of state a pass. */
 enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
 
-enum { BBM_MAX_PASSES = 40 };   /* that change states or renew the vectors of the step          */
+/* The most passes that change states or renew the vectors of the step, and detections in one part. */
+enum { BBM_MAX_PASSES = 40, BBM_MAX_DETECTIONS = 8 };
 
 /* What comes after a pass of the open-close iteration; with the same K: F alone is new. */
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP } bbm_pass;
@@ -245,7 +246,6 @@ int        bbm_has_another_way(bbm_model *m, bbm_status status);
 int        bbm_may_be_halved(bbm_model *m, bbm_status status, int halvings);
 bbm_status bbm_end_step(bbm_model *m, bbm_status status);
 int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
-int        bbm_has_detected_enough(bbm_model *m);
 bbm_status bbm_unsettled(bbm_model *m);
 bbm_status bbm_note_solution(bbm_model *m, bbm_status status);
 void       bbm_count_time(bbm_model *m, int phase, clock_t since);
@@ -346,9 +346,9 @@ struct bbm_method {
     void (*correct)(const bbm_matrix *K, const double *y, double *f);   /* f, (D/w) y between   */
 };
 
-/* order.c: a new K. `pair` lists the i, j whose submatrix K_ij is not zero, in any order, either
+/* order.c: a new K. `link` lists the i, j whose submatrix K_ij is not zero, in any order, either
  * way round, repeats allowed. */
-bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **K);
+bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                              /* takes NULL           */
 int        bbm_component_of(const bbm_matrix *K, int i);                /* 0 .. components-1    */
 

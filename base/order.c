@@ -35,29 +35,29 @@ static int compare_ends(const void *a, const void *b)
     return (p[by] > q[by]) - (p[by] < q[by]);
 }
 
-/* Sorts both ends of all pairs by the row and then by the neighbour, and drops what comes twice. */
-static bbm_status graph_new(graph *g, int n, int pairs, int (*pair)[2])
+/* Sorts both ends of all links by the row and then by the neighbour, and drops what comes twice. */
+static bbm_status graph_new(graph *g, int n, int links, int (*link)[2])
 {
     if (n < 1)
         return BBM_NO_ELEMENT;
-    for (int k = 0; k < 2 * pairs; k++)
-        if (pair[k / 2][k % 2] < 0 || pair[k / 2][k % 2] >= n)
+    for (int k = 0; k < 2 * links; k++)
+        if (link[k / 2][k % 2] < 0 || link[k / 2][k % 2] >= n)
             return BBM_BAD_INDEX;
     g->n = n;
     g->first = calloc(3 * (size_t)n + 1, sizeof *g->first);
-    g->end = calloc(2 * (size_t)pairs + 1, sizeof *g->end);
+    g->end = calloc(2 * (size_t)links + 1, sizeof *g->end);
     if (!g->first || !g->end)
         return BBM_NO_MEMORY;
     g->level = g->first + n + 1;
     g->order = g->level + n;
-    for (int k = 0; k < 2 * pairs; k++) {
-        g->end[k][0] = pair[k / 2][k % 2];
-        g->end[k][1] = pair[k / 2][1 - k % 2];
+    for (int k = 0; k < 2 * links; k++) {
+        g->end[k][0] = link[k / 2][k % 2];
+        g->end[k][1] = link[k / 2][1 - k % 2];
     }
-    qsort(g->end, 2 * (size_t)pairs, sizeof *g->end, compare_ends);
+    qsort(g->end, 2 * (size_t)links, sizeof *g->end, compare_ends);
     int count = 0;
     for (int i = 0, k = 0; i < n; i++) {
-        for (; k < 2 * pairs && g->end[k][0] == i; k++)
+        for (; k < 2 * links && g->end[k][0] == i; k++)
             if (g->end[k][1] != i && (count == g->first[i] || g->end[count - 1][1] != g->end[k][1]))
                 g->end[count++][1] = g->end[k][1];
         g->first[i + 1] = count;
@@ -176,11 +176,11 @@ static void lay_out_rows(bbm_matrix *K, const graph *g)
     }
 }
 
-bbm_status bbm_matrix_new(int n, int pairs, int (*pair)[2], bbm_matrix **out)
+bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **out)
 {
     graph g = { 0 };
     bbm_matrix *K = calloc(1, sizeof *K);
-    bbm_status status = K ? graph_new(&g, n, pairs, pair) : BBM_NO_MEMORY;
+    bbm_status status = K ? graph_new(&g, n, links, link) : BBM_NO_MEMORY;
 
     if (!status)
         status = allocate(K, &g);

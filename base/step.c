@@ -18,9 +18,8 @@
 /* A step that has taken more work than this does not settle.
  * SOLUTIONS   in all its parts: several times what the worst walls needed
  * ITERATIONS  in all solutions, as a multiple of what one solution may take
- * DETECTIONS  of contacts, in one part
  * HALVINGS    of dt, to the shortest part */
-enum { SOLUTIONS = 5000, ITERATIONS = 10, DETECTIONS = 8, HALVINGS = 10 };
+enum { SOLUTIONS = 5000, ITERATIONS = 10, HALVINGS = 10 };
 
 /* ------------------------------------------------------------------------------------ messages */
 
@@ -103,9 +102,6 @@ int bbm_is_spent(const bbm_model *m)
 {
     return m->info.passes >= SOLUTIONS || m->info.iterations / ITERATIONS >= m->par.pcg.iterations;
 }
-
-/* Whether the contacts have been listed as often as they may in one trial; counts one more. */
-int bbm_has_detected_enough(bbm_model *m) { return m->detections++ == DETECTIONS; }
 
 /* The contacts have not settled. */
 bbm_status bbm_unsettled(bbm_model *m)
