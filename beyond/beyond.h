@@ -69,7 +69,22 @@ extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
 void       bbm_matrix_use_coarse(bbm_matrix *K, int pays);
+
+/* envelope.c */
+typedef struct {                /* a triangle                                                   */
+    int    n, *left;            /* [n]      the first column of row i that is not 0; malloc     */
+    size_t *diagonal;           /* [n]      where A_ii is; the row lies before it               */
+    double *A;
+} bbm_envelope;
+static inline double *bbm_entry(const bbm_envelope *e, int i, int j)
+{
+    return &e->A[e->diagonal[i] - (size_t)(i - j)];
+}
+bbm_status bbm_envelope_lay_out(bbm_envelope *e, size_t triangles);
+void       bbm_envelope_free(bbm_envelope *e);
 double     bbm_dot(int n, const double *x, const double *y);
+void       bbm_substitute(const bbm_envelope *L, const bbm_envelope *U, int from, int to,
+                          double *x);
 
 /* interpolation.c */
 typedef enum { BBM_CORNERS, BBM_MIDDLES } bbm_fit;
