@@ -87,9 +87,9 @@ void       bbm_substitute(const bbm_envelope *L, const bbm_envelope *U, int from
                           double *x);
 
 /* interpolation.c */
-typedef enum { BBM_CORNERS, BBM_MIDDLES } bbm_fit;
-void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], bbm_fit fit, int a,
+void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a,
                              double P[6][2]);
+int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
 void       bbm_interpolate_elements(bbm_model *m);
 
@@ -103,8 +103,6 @@ double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u
 
 /* rotation.c */
 const bbm_motion *bbm_find_motion(const bbm_model *m);
-void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
-                             double at[2]);
 void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);

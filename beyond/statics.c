@@ -181,9 +181,7 @@ bbm_status bbm_explain(bbm_model *m, bbm_status status)
     if (!bbm_is_static(m))
         return status == BBM_OPEN_CLOSE && bbm_check_solution(m) == BBM_STEP_TOO_LONG
              ? BBM_STEP_TOO_LONG : status;
-    if (status != BBM_NOT_POSITIVE_DEFINITE && status != BBM_NOT_CONVERGED
-        && status != BBM_NOT_FINITE && status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG
-        && status != BBM_TOO_SOFT)
+    if (status != BBM_NOT_FINITE && (status < BBM_NOT_POSITIVE_DEFINITE || status > BBM_TOO_SOFT))
         return status;
     if (take_long_step(m, &far) || !(find_loose(m, p) > FREE * far))
         return status;
