@@ -18,16 +18,14 @@
 
 /* ------------------------------------------------------------------------ the moment of an edge */
 
-/* Condenses the symmetric 6x6 W, rows (h, a, b), to its first two rows: minimises the energy over
- * a and b. */
-static void condense(double W[6][6], double S[2][2])
+/* Condenses the symmetric W to its first rows: minimises the energy 1/2 x.W x over all other
+ * unknowns, from the last one on. Their pivots are left on the diagonal. */
+void bbm_condense(int n, int rows, double W[n][n])
 {
-    for (int p = 5; p > 1; p--)
+    for (int p = n - 1; p >= rows; p--)
         for (int a = 0; a < p; a++)
             for (int b = 0; b < p; b++)
                 W[a][b] -= W[a][p] * W[p][b] / W[p][p];
-    memcpy(S[0], W[0], sizeof S[0]);
-    memcpy(S[1], W[1], sizeof S[1]);
 }
 
 /* The stiffness of a quadrilateral x = c + xi p + eta q, -1/2 <= xi, eta <= 1/2, against the
@@ -59,7 +57,9 @@ static void bending_stiffness(const bbm_element *e, const double p[2], const dou
                 for (int x = 0; x < 2; x++)
                     W[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3]
                              * strain[x][r % 3][b];
-    condense(W, S);
+    bbm_condense(6, 2, W);
+    memcpy(S[0], W[0], sizeof S[0]);
+    memcpy(S[1], W[1], sizeof S[1]);
 }
 
 /* S s s^T S / (s^T S s) */

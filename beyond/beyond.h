@@ -69,12 +69,27 @@ extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
 void       bbm_matrix_use_coarse(bbm_matrix *K, int pays);
+
+/* envelope.c */
+typedef struct {                /* a triangle                                                   */
+    int    n, *left;            /* [n]      the first column of row i that is not 0; malloc     */
+    size_t *diagonal;           /* [n]      where A_ii is; the row lies before it               */
+    double *A;
+} bbm_envelope;
+static inline double *bbm_entry(const bbm_envelope *e, int i, int j)
+{
+    return &e->A[e->diagonal[i] - (size_t)(i - j)];
+}
+bbm_status bbm_envelope_lay_out(bbm_envelope *e, size_t triangles);
+void       bbm_envelope_free(bbm_envelope *e);
 double     bbm_dot(int n, const double *x, const double *y);
+void       bbm_substitute(const bbm_envelope *L, const bbm_envelope *U, int from, int to,
+                          double *x);
 
 /* interpolation.c */
-typedef enum { BBM_CORNERS, BBM_MIDDLES } bbm_fit;
-void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], bbm_fit fit, int a,
+void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a,
                              double P[6][2]);
+int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
 void       bbm_interpolate_elements(bbm_model *m);
 
@@ -88,8 +103,6 @@ double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u
 
 /* rotation.c */
 const bbm_motion *bbm_find_motion(const bbm_model *m);
-void       bbm_middle_matrix(const bbm_element *e, double x, double y, double T[2][6],
-                             double at[2]);
 void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
@@ -97,6 +110,7 @@ int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
 
 /* bending.c */
+void       bbm_condense(int n, int rows, double W[n][n]);
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
 void       bbm_weighted_submatrices(const bbm_gap *g, bbm_submatrices *s);

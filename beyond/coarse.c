@@ -22,8 +22,7 @@
  * positive definite by its form. On triangles some 15 iterations suffice on a mesh of any fineness.
  * What the nodes of a model are, and P, is in interpolation.c.
  *
- * Kc has an envelope: from the first entry of each row that is not zero to the diagonal, everything
- * is stored and factored by Cholesky. The nodes are numbered by the last row that has them, so that
+ * Kc is factored by Cholesky in its envelope. The nodes are numbered by the last row that has them, so that
  * the envelope is narrow as the band of K is. Displacements of the nodes that move no element (the
  * hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left, some eps of
  * what was summed up before it cancelled. A pivot below VANISHING of that is struck out with its
@@ -45,9 +44,7 @@ typedef struct {
                                 /*           start[i] .. start[j]-1                             */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
     double (*P)[6][2];          /* as node                                                      */
-    int *left;                  /* [2 n]     the first column of row i of Kc that is not 0      */
-    size_t *diagonal;           /* [2 n]     where Kc_ii is; the row lies before it             */
-    double *A;                  /* Kc, then its factor, with 1/C_ii on the diagonal             */
+    bbm_envelope Kc;            /* then its factor, with 1/C_ii on the diagonal                 */
     double *size, *x;           /* [2 n]     what a pivot is measured by; a vector              */
     double *z;                  /* [6 rows]  a vector                                           */
     int pays;                   /* in the step in hand                                          */
@@ -59,7 +56,7 @@ typedef struct {
 static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *node,
                              coarse_space *c)
 {
-    int *number = c->left;              /* not in use yet: 0 */
+    int *number = c->Kc.left;           /* not in use yet: 0 */
 
     for (int i = 0; i < K->n; i++)
         c->first[i + 1] = c->first[i] + first[K->caller[i] + 1] - first[K->caller[i]];
@@ -96,7 +93,7 @@ static int share_a_side(const coarse_space *c, int i, int j)
  * that a block of K joins. */
 static void find_neighbours(const bbm_matrix *K, const coarse_space *c)
 {
-    int *left = c->left;
+    int *left = c->Kc.left;
 
     for (int k = 0; k < 2 * c->n; k++)
         left[k] = k / 2 * 2;
@@ -112,29 +109,16 @@ static void find_neighbours(const bbm_matrix *K, const coarse_space *c)
         }
 }
 
-/* Room for Kc. */
-static bbm_status lay_out_envelope(coarse_space *c)
-{
-    size_t entries = 0;
-
-    for (int k = 0; k < 2 * c->n; k++) {
-        c->diagonal[k] = entries + (size_t)(k - c->left[k]);
-        entries = c->diagonal[k] + 1;
-    }
-    c->A = calloc(entries, sizeof *c->A);
-    return c->A ? BBM_OK : BBM_NO_MEMORY;
-}
-
 static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
 {
     const size_t n = (size_t)c->n, rows = (size_t)K->n + 1;
 
     c->start = calloc(2 * rows + corners, sizeof *c->start);
     c->P = calloc(corners, sizeof *c->P);
-    c->left = calloc(2 * n, sizeof *c->left);
-    c->diagonal = calloc(2 * n, sizeof *c->diagonal);
+    c->Kc.left = calloc(2 * n, sizeof *c->Kc.left);
+    c->Kc.n = 2 * c->n;
     c->size = calloc(4 * n + 6 * rows, sizeof *c->size);
-    if (!c->start || !c->P || !c->left || !c->diagonal || !c->size)
+    if (!c->start || !c->P || !c->Kc.left || !c->size)
         return BBM_NO_MEMORY;
     c->first = c->start + rows;
     c->node = c->first + rows;
@@ -154,7 +138,7 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
     if (status)
         return status;
     find_neighbours(K, c);
-    return lay_out_envelope(c);
+    return bbm_envelope_lay_out(&c->Kc, 1);
 }
 
 static void coarse_free(void *extra)
@@ -165,10 +149,8 @@ static void coarse_free(void *extra)
         return;
     free(c->start);
     free(c->P);
-    free(c->left);
-    free(c->diagonal);
     free(c->size);
-    free(c->A);
+    bbm_envelope_free(&c->Kc);
     free(c);
 }
 
@@ -224,12 +206,6 @@ void bbm_matrix_use_coarse(bbm_matrix *K, int pays)
 
 /* ---------------------------------------------------------------------------- Kc and its factor */
 
-/* Kc_ij, left of the diagonal or on it; those right of it in the same row lie after it. */
-static double *entry(const coarse_space *c, int i, int j)
-{
-    return &c->A[c->diagonal[i] - (size_t)(i - j)];
-}
-
 /* Y = B X */
 static void multiply(double B[6][6], double X[6][2], double Y[6][2])
 {
@@ -254,17 +230,17 @@ static void add_block(const coarse_space *c, double f, double P[6][2], int i, do
             sum[k / 2][k % 2] += P[b][k / 2] * Y[b][k % 2];
     for (int k = 0; k < 4; k++) {
         const int p = 2 * i + k / 2, q = 2 * j + k % 2;
-        *(p > q ? entry(c, p, q) : entry(c, q, p)) += (p == q ? 2 : 1) * f * sum[k / 2][k % 2];
+        *bbm_entry(&c->Kc, p > q ? p : q, p > q ? q : p) += (p == q ? 2 : 1) * f * sum[k / 2][k % 2];
     }
 }
 
 /* Kc = P^T (D + L + L^T) P, of which the first is what pivots are measured by. */
 static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
 {
-    const int n = 2 * c->n;
+    const int n = c->Kc.n;
     double Y[6][2];
 
-    memset(c->A, 0, (c->diagonal[n - 1] + 1) * sizeof *c->A);
+    memset(c->Kc.A, 0, (c->Kc.diagonal[n - 1] + 1) * sizeof *c->Kc.A);
     for (int i = 0; i < K->n; i++)
         for (int b = c->first[i]; b < c->first[i + 1]; b++) {
             multiply(K->D[i], c->P[b], Y);
@@ -272,7 +248,7 @@ static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
                 add_block(c, a == b ? 0.5 : 1, c->P[a], c->node[a], Y, c->node[b]);
         }
     for (int k = 0; k < n; k++)
-        c->size[k] = *entry(c, k, k);
+        c->size[k] = *bbm_entry(&c->Kc, k, k);
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
             const int j = i - K->back[k], side = share_a_side(c, i, j);
@@ -304,69 +280,34 @@ static void multiply_rows(int n, const double *a0, const double *a1, const doubl
 }
 
 /* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk)/C_jj, two rows and two columns at a time. */
-static void factor(const coarse_space *c)
+static void factor(const bbm_envelope *e, const double *size)
 {
-    for (int i = 0; i < 2 * c->n; i += 2)
-        for (int j = c->left[i]; j <= i; j += 2) {
-            const int from = c->left[i] > c->left[j] ? c->left[i] : c->left[j];
+    const int *left = e->left;
+
+    for (int i = 0; i < e->n; i += 2)
+        for (int j = left[i]; j <= i; j += 2) {
+            const int from = left[i] > left[j] ? left[i] : left[j];
             double sum[4];
-            multiply_rows(j - from, entry(c, i, from), entry(c, i + 1, from), entry(c, j, from),
-                          entry(c, j + 1, from), sum);
+            multiply_rows(j - from, bbm_entry(e, i, from), bbm_entry(e, i + 1, from),
+                          bbm_entry(e, j, from), bbm_entry(e, j + 1, from), sum);
             for (int a = 0; a < 2; a++)
                 for (int b = 0; b < 2 && j + b <= i + a; b++) {
-                    double *to = entry(c, i + a, j + b), *pivot = entry(c, j + b, j + b);
+                    double *to = bbm_entry(e, i + a, j + b), *pivot = bbm_entry(e, j + b, j + b);
                     const double t = *to - sum[2 * a + b] - (b ? to[-1] * pivot[-1] : 0);
                     if (to != pivot)
                         *to = t * *pivot;
                     else
-                        *to = t > VANISHING * c->size[i + a] ? 1 / sqrt(t) : 0;
+                        *to = t > VANISHING * size[i + a] ? 1 / sqrt(t) : 0;
                 }
         }
 }
 
 static void make_ready(bbm_matrix *K)
 {
-    sum_coarse(K, K->extra);
-    factor(K->extra);
-}
+    const coarse_space *c = K->extra;
 
-/* x.y in four partial sums */
-double bbm_dot(int n, const double *x, const double *y)
-{
-    double sum[4] = { 0 };
-    int k = 0;
-
-    for (; k + 4 <= n; k += 4) {
-        sum[0] += x[k] * y[k];
-        sum[1] += x[k + 1] * y[k + 1];
-        sum[2] += x[k + 2] * y[k + 2];
-        sum[3] += x[k + 3] * y[k + 3];
-    }
-    for (; k < n; k++)
-        sum[n - k] += x[k] * y[k];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-/* x = C^-T C^-1 x for the unknowns from .. to-1 of Kc; on the way back two rows at a time. */
-static void solve(const coarse_space *c, int from, int to, double *restrict x)
-{
-    for (int i = from; i < to; i++) {
-        const double *row = entry(c, i, c->left[i]);
-        const int n = i - c->left[i];
-        x[i] = (x[i] - bbm_dot(n, row, x + c->left[i])) * row[n];
-    }
-    for (int i = to - 2; i >= from; i -= 2) {
-        const double *p = entry(c, i, c->left[i]), *q = entry(c, i + 1, c->left[i]);
-        const int n = i - c->left[i];
-        const double x1 = x[i + 1] * q[n + 1], x0 = (x[i] - q[n] * x1) * p[n];
-        double *restrict y = x + c->left[i];
-        for (int k = 0; k < n; k += 2) {
-            y[k] -= p[k] * x0 + q[k] * x1;
-            y[k + 1] -= p[k + 1] * x0 + q[k + 1] * x1;
-        }
-        x[i] = x0;
-        x[i + 1] = x1;
-    }
+    sum_coarse(K, c);
+    factor(&c->Kc, c->size);
 }
 
 /* x = P^T z for the rows in hand. */
@@ -409,7 +350,7 @@ static void correct(const bbm_matrix *K, const double *y, double *f)
     memset(c->z + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *c->z);
     bbm_add_upper(K, y, c->z);
     restrict_to_nodes(K, c);
-    solve(c, 2 * c->start[K->from], 2 * c->start[K->to], c->x);
+    bbm_substitute(&c->Kc, &c->Kc, 2 * c->start[K->from], 2 * c->start[K->to], c->x);
     interpolate(K, c);
     bbm_add_lower(K, c->z, f);
 }

@@ -54,22 +54,19 @@ static double kinetic_energy(const bbm_model *m, const bbm_element *e)
     return bbm_inertia_form(&now, V) / 2;
 }
 
-/* 1/2 int stress.strain dA = 1/2 t A s.E^-1 s with Hooke's law (7), by elimination: what is left of
- * s, squared, over each pivot. */
+/* 1/2 int stress.strain dA = 1/2 t A s.E^-1 s with Hooke's law (7): without strain s.E^-1 s is what
+ * is left, with the other sign, of [0 s; s E]. */
 static double elastic_energy(const bbm_element *e)
 {
-    double s[3] = { e->stress[0], e->stress[1], e->stress[2] }, E[3][3], stress_strain = 0;
+    double E[3][3], W[4][4] = { { 0 } };
 
     bbm_elastic_matrix(&e->material, E);
-    for (int p = 0; p < 3; p++) {
-        stress_strain += s[p] * s[p] / E[p][p];
-        for (int a = p + 1; a < 3; a++) {
-            s[a] -= E[a][p] / E[p][p] * s[p];
-            for (int b = p + 1; b < 3; b++)
-                E[a][b] -= E[a][p] / E[p][p] * E[p][b];
-        }
-    }
-    return e->material.thickness * e->A0 * stress_strain / 2;
+    for (int a = 0; a < 9; a++)
+        W[1 + a / 3][1 + a % 3] = E[a / 3][a % 3];
+    for (int a = 0; a < 3; a++)
+        W[0][1 + a] = W[1 + a][0] = e->stress[a];
+    bbm_condense(4, 1, W);
+    return -e->material.thickness * e->A0 * W[0][0] / 2;
 }
 
 /* The energies after the last step; none before bbm_prepare. */

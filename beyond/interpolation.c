@@ -31,16 +31,14 @@
 #define CROSSED 3.0
 
 /* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
- * displacements linear in x, y the one nearest to those of all n corners, by least squares; on a
- * triangle it is exact. BBM_MIDDLES: nearest to the means over the sides, for elements bonded
- * there. Fitted about the mean of the corners, a linear function has the value mean(u) there and
- * the gradient g = M^-1 sum_a d_a u_a, M = sum d d^T:
+ * displacements linear in x, y the one nearest to the means of the corners' over the n sides, by
+ * least squares; on a triangle, and for a quadrilateral's middles, it is exact. Fitted about the
+ * mean of the corners, a linear function has the value mean(u) there and, with d_k the middle of
+ * side k from there, u_k that mean and M = sum d d^T, the gradient g = M^-1 sum_k d_k u_k:
  *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx,
  *     r0 = (vx - uy)/2. */
-void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], bbm_fit fit, int a,
-                       double P[6][2])
+void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a, double P[6][2])
 {
-    const int middles = fit == BBM_MIDDLES;
     double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0;
 
     for (int k = 0; k < e->n; k++) {
@@ -49,9 +47,8 @@ void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], bbm_fit fit, 
     }
     for (int k = 0; k < e->n; k++) {
         const int next = (k + 1) % e->n;
-        const double dx = (middles ? (v[k].x + v[next].x) / 2 : v[k].x) - x;
-        const double dy = (middles ? (v[k].y + v[next].y) / 2 : v[k].y) - y;
-        const double share = middles ? (k == a || next == a) / 2.0 : k == a;
+        const double dx = (v[k].x + v[next].x) / 2 - x, dy = (v[k].y + v[next].y) / 2 - y;
+        const double share = (k == a || next == a) / 2.0;
         xx += dx * dx;
         yy += dy * dy;
         xy += dx * dy;
@@ -68,13 +65,8 @@ void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], bbm_fit fit, 
     memcpy(P, matrix, sizeof matrix);
 }
 
-static bbm_fit fit_of(const bbm_model *m, const bbm_element *e)
-{
-    return m->beyond->bonding != BBM_VERTICES && e->n == 4 ? BBM_MIDDLES : BBM_CORNERS;
-}
-
 /* Whether fixed points hold every corner of an element. */
-static int held_all_round(const bbm_model *m, const bbm_element *e)
+int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
 {
     int held = 0;
 
@@ -89,11 +81,11 @@ static int held_all_round(const bbm_model *m, const bbm_element *e)
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices;
-    int *up = calloc(3 * v + (size_t)m->elements + 1, sizeof *up), nodes = 0;
+    int *up = calloc(2 * v + (size_t)m->elements + 1, sizeof *up);
 
     if (!up)
         return BBM_NO_MEMORY;
-    int *number = up + v, *node = number + v, *first = node + v;
+    int *node = up + v, *first = node + v;
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
@@ -104,16 +96,12 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
-        const int count = first[i + 1] && !held_all_round(m, e) ? e->n : 0;
-        for (int k = 0; k < count; k++) {
-            int *n = &number[bbm_root_of(up, e->first + k)];
-            if (*n == 0)
-                *n = ++nodes;
-            node[first[i] + k] = *n - 1;
-        }
+        const int count = first[i + 1] && !bbm_is_held_all_round(m, e) ? e->n : 0;
+        for (int k = 0; k < count; k++)
+            node[first[i] + k] = bbm_root_of(up, e->first + k);
         first[i + 1] = first[i] + count;
     }
-    const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node);
+    const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node);
     free(up);
     return status;
 }
@@ -126,7 +114,7 @@ static int step_is_long(const bbm_model *m)
     for (int b = 0; b < m->bonds; b++) {
         const bbm_element *e = &m->element[m->bond[b].i];
         const double way2 = e->material.E / e->material.density * m->h * m->h;
-        if (way2 > CROSSED * CROSSED * e->A && !held_all_round(m, e))
+        if (way2 > CROSSED * CROSSED * e->A && !bbm_is_held_all_round(m, e))
             return 1;
     }
     return 0;
@@ -145,7 +133,7 @@ void bbm_interpolate_elements(bbm_model *m)
     for (int i = 0; i < m->elements && pays; i++) {
         const bbm_element *e = &m->element[i];
         for (int a = 0; a < e->n; a++) {
-            bbm_interpolation(e, &m->vertex[e->first], fit_of(m, e), a, P);
+            bbm_interpolation(e, &m->vertex[e->first], a, P);
             (void)bbm_matrix_interpolate(m->K, i, a, P);
         }
     }

@@ -19,15 +19,6 @@
 #define PARALLEL 1e-2
 #define SAME 1e-6
 
-/* The way along an edge from its start to the corner c. */
-static double way_along(const bbm_model *m, int edge, int c)
-{
-    const bbm_vertex *p = &m->vertex[m->edge[c].a], *a = &m->vertex[m->edge[edge].a];
-    const bbm_direction t = m->edge[edge].along;
-
-    return (p->x - a->x) * t.x + (p->y - a->y) * t.y;
-}
-
 /* The end of an edge, or of its whole straight side: the corner that starts it, or ends it. */
 static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
 {
@@ -44,7 +35,7 @@ static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
 static double joint_area(const bbm_model *m, int corner, int edge)
 {
     const bbm_edge *e = &m->edge[edge];
-    const double s = way_along(m, edge, corner), same = SAME * e->along.length;
+    const double s = bbm_way_along(m, corner, edge), same = SAME * e->along.length;
     double length = 0;
 
     for (int ends = 0; ends < 2; ends++) {
@@ -54,9 +45,10 @@ static double joint_area(const bbm_model *m, int corner, int edge)
             continue;
         const int own = end_of_side(m, mine, !bbm_carries(m, mine, edge), ends);
         int other = end_of_side(m, edge, !bbm_carries(m, edge, mine), !ends);
-        if (m->edge[other].side != other && fabs(way_along(m, edge, other) - s) <= same)
+        if (m->edge[other].side != other && fabs(bbm_way_along(m, other, edge) - s) <= same)
             other = ends ? m->edge[other].before : m->edge[other].after;
-        length += fmin(fabs(way_along(m, edge, own) - s), fabs(way_along(m, edge, other) - s)) / 2;
+        length += fmin(fabs(bbm_way_along(m, own, edge) - s),
+                       fabs(bbm_way_along(m, other, edge) - s)) / 2;
     }
     return length * fmin(m->element[m->edge[corner].element].material.thickness,
                          m->element[e->element].material.thickness);

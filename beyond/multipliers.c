@@ -39,12 +39,8 @@ static int needs_multipliers(const bbm_model *m)
 {
     int needed = bbm_is_static(m);
 
-    for (int g = 0; g < m->gaps && !needed; g++) {
-        const bbm_element *e = &m->element[m->gap[g].i];
-        needed = m->gap[g].j >= 0;
-        for (int k = e->first; k < e->first + e->n && !needed; k++)
-            needed = m->node[m->vertex[k].node].held != BBM_XY;
-    }
+    for (int g = 0; g < m->gaps && !needed; g++)
+        needed = m->gap[g].j >= 0 || !bbm_is_held_all_round(m, &m->element[m->gap[g].i]);
     return needed;
 }
 

@@ -102,45 +102,28 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
 
 /* ----------------------------------------------------------------------------------- the factor */
 
-typedef struct {                /* of the rows in hand, which are counted from 0 here           */
-    int *left;                  /* [6 rows]  the first column of a row that is not zero         */
-    size_t *diagonal;           /* [6 rows]  where L_ii is; the row left of it lies before it   */
-    double *L, *U;              /* U by columns                                                 */
-} factors;
-
-/* L_ij and U_ji for j <= i: what lies at the same place of row i and of column i. */
-static double *lower(const factors *f, int i, int j)
-{
-    return &f->L[f->diagonal[i] - (size_t)(i - j)];
-}
-
-static double *upper(const factors *f, int j, int i)
-{
-    return &f->U[f->diagonal[i] - (size_t)(i - j)];
-}
+/* Of the rows in hand, which are counted from 0 here; of U the columns, like the rows of L. */
+typedef struct { bbm_envelope L, U; } factors;
 
 static bbm_status lay_out(const bbm_matrix *K, factors *f)
 {
-    const size_t n = 6 * (size_t)(K->to - K->from);
-    size_t entries = 0;
+    bbm_envelope *L = &f->L;
 
-    f->left = calloc(n, sizeof *f->left);
-    f->diagonal = calloc(n, sizeof *f->diagonal);
-    if (!f->left || !f->diagonal)
+    L->n = 6 * (K->to - K->from);
+    L->left = calloc((size_t)L->n, sizeof *L->left);
+    if (!L->left)
         return BBM_NO_MEMORY;
-    for (int i = K->from; i < K->to; i++) {
+    for (int row = 0; row < L->n; row++) {
+        const int i = K->from + row / 6;
         int back = 0;
         for (int k = K->first[i]; k < K->first[i + 1]; k++)
             back = K->back[k] > back ? K->back[k] : back;
-        for (int row = 6 * (i - K->from); row < 6 * (i - K->from) + 6; row++) {
-            f->left[row] = 6 * (i - K->from - back);
-            f->diagonal[row] = entries + (size_t)(row - f->left[row]);
-            entries = f->diagonal[row] + 1;
-        }
+        L->left[row] = 6 * (row / 6 - back);
     }
-    f->L = calloc(2 * entries, sizeof *f->L);
-    f->U = f->L + entries;
-    return f->L ? BBM_OK : BBM_NO_MEMORY;
+    const bbm_status status = bbm_envelope_lay_out(L, 2);
+    f->U = *L;
+    f->U.A += status ? 0 : L->diagonal[L->n - 1] + 1;
+    return status;
 }
 
 /* K_ij = B, and K_ji = B^T, for i >= j. */
@@ -149,7 +132,7 @@ static void put_block(const factors *f, int i, int j, double B[6][6])
     for (int a = 0; a < 36; a++) {
         const int row = 6 * i + a / 6, column = 6 * j + a % 6;
         if (column <= row)
-            *lower(f, row, column) = *upper(f, column, row) = B[a / 6][a % 6];
+            *bbm_entry(&f->L, row, column) = *bbm_entry(&f->U, row, column) = B[a / 6][a % 6];
     }
 }
 
@@ -165,64 +148,53 @@ static void fill(const bbm_matrix *K, const factors *f)
         for (int a = 0; a < 144 && is_in_hand(K, t); a++) {
             const int p = a / 12, q = a % 12, i = 6 * (t->row[p / 6] - K->from) + p % 6;
             const int j = 6 * (t->row[q / 6] - K->from) + q % 6;
-            *(i >= j ? lower(f, i, j) : upper(f, i, j)) += t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
+            *(i >= j ? bbm_entry(&f->L, i, j) : bbm_entry(&f->U, j, i)) +=
+                t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
         }
 }
 
-/* L and U in place of K. Returns the row of a pivot that vanishes or is no number, or n. */
-static int factor(const bbm_matrix *K, const factors *f, int n)
+/* L with 1/L_ii on its diagonal and U in place of K. Returns the row of a pivot that vanishes or is
+ * no number, or n. */
+static int factor(const bbm_matrix *K, const factors *f)
 {
-    for (int i = 0; i < n; i++) {
-        for (int j = f->left[i]; j <= i; j++) {
-            const int from = f->left[i] > f->left[j] ? f->left[i] : f->left[j];
-            double *L = lower(f, i, from), *U = upper(f, from, i);
-            L[j - from] -= bbm_dot(j - from, L, upper(f, from, j));
+    const int *left = f->L.left;
+
+    for (int i = 0; i < f->L.n; i++) {
+        for (int j = left[i]; j <= i; j++) {
+            const int from = left[i] > left[j] ? left[i] : left[j];
+            double *L = bbm_entry(&f->L, i, from), *U = bbm_entry(&f->U, i, from);
+            L[j - from] -= bbm_dot(j - from, L, bbm_entry(&f->U, j, from));
             if (j < i)
-                U[j - from] = (U[j - from] - bbm_dot(j - from, lower(f, j, from), U))
-                              / *lower(f, j, j);
+                U[j - from] = (U[j - from] - bbm_dot(j - from, bbm_entry(&f->L, j, from), U))
+                              * *bbm_entry(&f->L, j, j);
         }
-        const double pivot = *lower(f, i, i);
+        double *pivot = bbm_entry(&f->L, i, i);
         const double before = K->D[K->from + i / 6][i % 6][i % 6];
-        if (!(fabs(pivot) > VANISHING * before) || isinf(pivot))
+        if (!(fabs(*pivot) > VANISHING * before) || isinf(*pivot))
             return i;
+        *pivot = 1 / *pivot;
+        *bbm_entry(&f->U, i, i) = 1;
     }
-    return n;
-}
-
-/* x = U^-1 L^-1 x */
-static void substitute(const factors *f, int n, double *x)
-{
-    for (int i = 0; i < n; i++) {
-        const int left = f->left[i];
-        x[i] = (x[i] - bbm_dot(i - left, lower(f, i, left), x + left)) / *lower(f, i, i);
-    }
-    for (int i = n - 1; i >= 0; i--) {
-        const double *U = upper(f, f->left[i], i);
-        for (int k = f->left[i]; k < i; k++)
-            x[k] -= U[k - f->left[i]] * x[i];
-    }
+    return f->L.n;
 }
 
 /* x = K^-1 x */
 static bbm_status solve_directly(const bbm_matrix *K, double *x, bbm_pcg_info *info)
 {
-    const int n = 6 * (K->to - K->from);
-    factors f = { 0 };
+    factors f = { { 0 }, { 0 } };
     bbm_status status = lay_out(K, &f);
 
     if (!status) {
         fill(K, &f);
-        const int row = factor(K, &f, n);
+        const int row = factor(K, &f), n = f.L.n;
         status = row < n ? BBM_NOT_POSITIVE_DEFINITE : BBM_OK;
         info->element = row < n ? K->caller[K->from + row / 6] : -1;
     }
     if (!status) {
-        substitute(&f, n, x);
+        bbm_substitute(&f.L, &f.U, 0, f.L.n, x);
         info->iterations++;
     }
-    free(f.left);
-    free(f.diagonal);
-    free(f.L);
+    bbm_envelope_free(&f.L);
     return status;
 }
 
@@ -235,22 +207,26 @@ static void advance(const bbm_matrix *K, double a, const double *p, const double
     bbm_combine(K, K->r, -a, q, K->r);
 }
 
-/* The iteration of the head, from x = 0 and r = F to x; d is room for three vectors, a length is the
- * square root of rz, and `last` is z0.r. */
-static bbm_status bicgstab(bbm_matrix *K, double *d, const bbm_pcg *pcg, bbm_pcg_info *info)
+/* The iteration of the head, from x = 0 and r = F to x; a length is the square root of rz, and
+ * `last` is z0.r. */
+static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    double *r = K->r, *z = K->u, *p = K->p, *q = K->q;
-    double *z0 = d + 6 * K->n, *v = z0 + 6 * K->n;
+    const size_t n = 6 * (size_t)K->n;
+    double *r = K->r, *z = K->u, *p = K->p, *q = K->q, *d = malloc(3 * n * sizeof *d);
+    bbm_status status = BBM_OK;
 
+    if (!d)
+        return BBM_NO_MEMORY;
+    double *z0 = d + n, *v = z0 + n;
     bbm_precondition(K, r, z);
     bbm_combine(K, z, 0, z, z0);
     bbm_combine(K, z, 0, z, p);
     double rz = bbm_dot_rows(K, r, z), last = rz;
     const double stop = pcg->tolerance * sqrt(rz);
     while (!(rz <= stop * stop)) {
-        const bbm_status status = bbm_count_iteration(rz, pcg, info);
+        status = bbm_count_iteration(rz, pcg, info);
         if (status)
-            return status;
+            break;
         bbm_multiply(K, p, q);
         const double a = last / bbm_dot_rows(K, z0, q);
         advance(K, a, p, q);
@@ -268,15 +244,7 @@ static bbm_status bicgstab(bbm_matrix *K, double *d, const bbm_pcg *pcg, bbm_pcg
         bbm_combine(K, z, z0r / last * (a / c), p, p);
         last = z0r;
     }
-    return BBM_OK;
-}
-
-static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
-{
-    double *z = malloc(3 * 6 * (size_t)K->n * sizeof *z);
-    const bbm_status status = z ? bicgstab(K, z, pcg, info) : BBM_NO_MEMORY;
-
-    free(z);
+    free(d);
     return status;
 }
 

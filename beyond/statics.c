@@ -42,19 +42,13 @@ static void add_hold(bbm_gap g, double X, double Y, double G[3][3])
     }
 }
 
-/* Whether a positive semi-definite 3x3 matrix is regular, by elimination. */
+/* Whether a positive semi-definite 3x3 matrix is regular, by its pivots. */
 static int is_regular(double G[3][3])
 {
     const double whole[3] = { G[0][0], G[1][1], G[2][2] };
 
-    for (int p = 0; p < 3; p++) {
-        if (G[p][p] <= LOOSE * whole[p])
-            return 0;
-        for (int a = p + 1; a < 3; a++)
-            for (int b = p + 1; b < 3; b++)
-                G[a][b] -= G[a][p] * G[p][b] / G[p][p];
-    }
-    return 1;
+    bbm_condense(3, 1, G);
+    return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
 }
 
 static int body(const bbm_model *m, int i) { return bbm_component_of(m->K, i); }
@@ -180,9 +174,7 @@ bbm_status bbm_explain(bbm_model *m, bbm_status status)
     if (!bbm_is_static(m))
         return status == BBM_OPEN_CLOSE && bbm_check_solution(m) == BBM_STEP_TOO_LONG
              ? BBM_STEP_TOO_LONG : status;
-    if (status != BBM_NOT_POSITIVE_DEFINITE && status != BBM_NOT_CONVERGED
-        && status != BBM_NOT_FINITE && status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG
-        && status != BBM_TOO_SOFT)
+    if (status != BBM_NOT_FINITE && (status < BBM_NOT_POSITIVE_DEFINITE || status > BBM_TOO_SOFT))
         return status;
     if (take_long_step(m, &far) || !(find_loose(m, p) > FREE * far))
         return status;

@@ -705,7 +705,7 @@ START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
     bbm_add_load(m, 3, 100, -1000);
     ck_ok(bbm_prepare(m), m);
     for (int k = 0; k < 6; k++)
-        bbm_interpolation(&m->element[k / 3], &m->vertex[3 * (k / 3)], 0, k % 3, P[k / 3][k % 3]);
+        bbm_interpolation(&m->element[k / 3], &m->vertex[3 * (k / 3)], k % 3, P[k / 3][k % 3]);
     ck_ok(bbm_step(m), m);
     ck_assert_int_eq(bbm_matrix_coarse(m->K, 4, first, node[0]), BBM_OK);
     for (int k = 0; k < 6; k++)
@@ -770,7 +770,7 @@ static void corners(int n, bbm_element *e, bbm_vertex v[5])
 START_TEST(linear_displacements_of_the_corners_are_those_of_the_element)
 {
     static const double D[6] = { 0.3, -0.7, 0.2, 1.1, -0.4, 0.9 };
-    const int n = 3 + _i / 2;
+    const int n = 3 + _i;
     double sum[6] = { 0 }, T[2][6], P[6][2];
     bbm_vertex v[5];
     bbm_element e;
@@ -778,7 +778,7 @@ START_TEST(linear_displacements_of_the_corners_are_those_of_the_element)
     corners(n, &e, v);
     for (int a = 0; a < n; a++) {
         bbm_mode_matrix(&e, v[a].x, v[a].y, T);
-        bbm_interpolation(&e, v, _i % 2 ? BBM_MIDDLES : BBM_CORNERS, a, P);
+        bbm_interpolation(&e, v, a, P);
         for (int i = 0; i < 6; i++)
             sum[i] += P[i][0] * inner_product(6, T[0], D) + P[i][1] * inner_product(6, T[1], D);
     }
@@ -795,7 +795,7 @@ START_TEST(corner_of_a_triangle_moves_without_the_others)
     corners(3, &e, v);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
-            bbm_interpolation(&e, v, 0, a, P);
+            bbm_interpolation(&e, v, a, P);
             bbm_mode_matrix(&e, v[b].x, v[b].y, T);
             for (int k = 0; k < 4; k++) {
                 double u = 0;
@@ -807,11 +807,11 @@ START_TEST(corner_of_a_triangle_moves_without_the_others)
 }
 END_TEST
 
-/* T^T (T D - u), summed over the corners or the middles of the sides, is zero where |T D - u|^2 is
+/* T^T (T D - u), summed over the middles of the sides, is zero where |T D - u|^2 is
  * least. */
 START_TEST(interpolation_is_the_nearest_linear_displacement)
 {
-    const int n = 3 + _i / 2, middles = _i % 2;
+    const int n = 3 + _i;
     double u[5][2], D[6] = { 0 }, sum[6] = { 0 }, T[2][6], P[6][2];
     unsigned seed = 48;
     bbm_vertex v[5];
@@ -819,7 +819,7 @@ START_TEST(interpolation_is_the_nearest_linear_displacement)
 
     corners(n, &e, v);
     for (int a = 0; a < n; a++) {
-        bbm_interpolation(&e, v, middles ? BBM_MIDDLES : BBM_CORNERS, a, P);
+        bbm_interpolation(&e, v, a, P);
         for (int k = 0; k < 2; k++) {
             u[a][k] = random_entry(&seed);
             for (int i = 0; i < 6; i++)
@@ -827,7 +827,7 @@ START_TEST(interpolation_is_the_nearest_linear_displacement)
         }
     }
     for (int a = 0; a < n; a++) {
-        const int b = middles ? (a + 1) % n : a;
+        const int b = (a + 1) % n;
         bbm_mode_matrix(&e, (v[a].x + v[b].x) / 2, (v[a].y + v[b].y) / 2, T);
         for (int k = 0; k < 2; k++)
             for (int i = 0; i < 6; i++)
@@ -866,9 +866,9 @@ Suite *coarse_suite(void)
         { one_level_is_used_where_two_do_not_pay, 6 },
     };
     const loop_test interpolation[] = {
-        { linear_displacements_of_the_corners_are_those_of_the_element, 6 },
+        { linear_displacements_of_the_corners_are_those_of_the_element, 3 },
         { corner_of_a_triangle_moves_without_the_others, 1 },
-        { interpolation_is_the_nearest_linear_displacement, 6 },
+        { interpolation_is_the_nearest_linear_displacement, 3 },
     };
 
     add_case(s, "two levels", two_levels, COUNT(two_levels));
