@@ -501,7 +501,7 @@ bbm_status bbm_detect(bbm_model *m, int *other)
     if (m->detections > 0 && !bbm_moved_too_far(m))
         return BBM_OK;
     if (m->detections++ == BBM_MAX_DETECTIONS)
-        return bbm_unsettled(m);
+        return bbm_say_what_failed(m, BBM_OPEN_CLOSE);
     bbm_status status = bbm_detect_contacts(m, &same);
     bbm_count_time(m, BBM_DETECT, start);
     if (status || same)
@@ -515,10 +515,10 @@ bbm_status bbm_detect(bbm_model *m, int *other)
 /* Solves K D = F, Eq. (5), section 4. */
 static bbm_status solve(bbm_model *m)
 {
-    if (m->monitor && m->monitor(m, m->monitor_context))
-        return bbm_fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
     if (m->hook->before_solution)
         m->hook->before_solution(m);
+    if (m->monitor && m->monitor(m, m->monitor_context))
+        return bbm_fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
     return bbm_note_solution(m, bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg));
 }
 
@@ -529,7 +529,7 @@ static bbm_status open_close(bbm_model *m, int *changed)
 
     bbm_matrix_keep(m->K, pass == BBM_PASS_SAME_K);
     *changed = pass == BBM_PASS_SAME_K || (pass == BBM_PASS_AGAIN && !bbm_is_spent(m));
-    return pass == BBM_PASS_DONE || *changed ? BBM_OK : bbm_unsettled(m);
+    return pass == BBM_PASS_DONE || *changed ? BBM_OK : bbm_say_what_failed(m, BBM_OPEN_CLOSE);
 }
 
 /* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
@@ -614,20 +614,17 @@ static bbm_status try_step(bbm_model *m)
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 
-/* One part of a step, of length h. If it fails it is done in two halves, down to dt/1024; in statics
- * it is tried in two other ways, see base/step.c. */
-static bbm_status take_part(bbm_model *m, double h, int halvings)
+/* One part of a step, of length h. If it fails it is tried otherwise, see base/step.c: in two
+ * halves, or in statics once more as it is. */
+static bbm_status take_part(bbm_model *m, double h, int tries)
 {
-    bbm_status status;
-
     m->h = h;
-    do
-        status = try_step(m);
-    while (bbm_has_another_way(m, status));
-    if (!bbm_may_be_halved(m, status, halvings))
-        return status;
-    status = take_part(m, h / 2, halvings + 1);
-    return status ? status : take_part(m, h / 2, halvings + 1);
+    bbm_status status = try_step(m);
+    const int parts = bbm_parts_to_try(m, status, tries);
+
+    for (int k = 0; k < parts && (k == 0 || !status); k++)
+        status = take_part(m, h / parts, tries + 1);
+    return status;
 }
 
 /* One time step. One that fails leaves the model as its last part left it. */

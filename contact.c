@@ -197,7 +197,8 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
     c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
-/* What a contact can carry in this step: friction by the angle of the model, or what a hook says. */
+/* What a contact can carry in this step: friction by the angle of the model, or what a hook says.
+ * */
 static void find_strength(const bbm_model *m, bbm_contact *c)
 {
     c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
@@ -220,13 +221,13 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     c->time_left = 1;
     c->N_of_friction = c->N;
     c->closings = 0;
-    find_strength(m, c);
-    if (c->touches)
-        c->state = is_strong(c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
     if (c->has_left) {
         c->state = BBM_OPEN;
         c->N = c->T = c->slip = c->was_closed = c->inside = 0;
     }
+    find_strength(m, c);
+    if (c->touches && !c->has_left)
+        c->state = is_strong(c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
     if (!c->carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_motion_of(m) ? fmin(0, c->d_n0 + c->N / m->par.p_n) : 0;

@@ -119,7 +119,8 @@ typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.
 /* Trials of a static step: as ever; friction as a load in any case; one change of state a pass. */
 enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
 
-/* The most passes that change states or renew the vectors of the step, and detections in one part. */
+/* The most passes that change states or renew the vectors of the step, and detections in one part.
+ * */
 enum { BBM_MAX_PASSES = 40, BBM_MAX_DETECTIONS = 8 };
 
 /* What comes after a pass of the open-close iteration; with the same K: F alone is new. */
@@ -242,11 +243,10 @@ bbm_status bbm_out_of_memory(bbm_model *m);
 void      *bbm_append(void **array, int *count, size_t size);   /* NULL: out of memory          */
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters         */
-int        bbm_has_another_way(bbm_model *m, bbm_status status);
-int        bbm_may_be_halved(bbm_model *m, bbm_status status, int halvings);
+int        bbm_parts_to_try(bbm_model *m, bbm_status status, int tries);
 bbm_status bbm_end_step(bbm_model *m, bbm_status status);
 int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
-bbm_status bbm_unsettled(bbm_model *m);
+bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status);
 bbm_status bbm_note_solution(bbm_model *m, bbm_status status);
 void       bbm_count_time(bbm_model *m, int phase, clock_t since);
 bbm_status bbm_lay_out_matrix(bbm_model *m);                    /* for the gaps and contacts    */

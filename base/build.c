@@ -30,16 +30,13 @@ static void *append(bbm_model *m, void **array, int *count, size_t size, int *in
 /* A model with the defaults of statics in one step. */
 bbm_status bbm_model_new(bbm_model **out)
 {
-    bbm_model *m = calloc(1, sizeof *m);
+    struct { bbm_model model; bbm_hooks hook; } *both = calloc(1, sizeof *both);
+    bbm_model *m = both ? &both->model : NULL;
 
-    *out = NULL;
-    if (m)
-        m->hook = calloc(1, sizeof *m->hook);
-    if (!m || !m->hook) {
-        free(m);
-        return BBM_NO_MEMORY;
-    }
     *out = m;
+    if (!m)
+        return BBM_NO_MEMORY;
+    m->hook = &both->hook;
     m->par = (bbm_parameters){
         .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
         .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 },
@@ -70,7 +67,6 @@ void bbm_model_free(bbm_model *m)
     free_prepared(m);
     if (m->hook->release)
         m->hook->release(m);
-    free(m->hook);
     free(m->node);
     free(m->element);
     free(m->vertex);
@@ -170,7 +166,8 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
     bbm_element *to = append(m, (void **)&m->element, &m->elements, sizeof *to, index);
     if (!to)
         return m->status;
-    *to = (bbm_element){ .block = block, .material = m->material[material], .first = first, .n = n };
+    *to = (bbm_element){ .block = block, .first = first, .n = n };
+    to->material = m->material[material];
     bbm_element_geometry(to, &m->vertex[first]);
     to->A0 = to->A;
     return BBM_OK;

@@ -103,19 +103,15 @@ int bbm_is_spent(const bbm_model *m)
     return m->info.passes >= SOLUTIONS || m->info.iterations / ITERATIONS >= m->par.pcg.iterations;
 }
 
-/* The contacts have not settled. */
-bbm_status bbm_unsettled(bbm_model *m)
-{
-    return bbm_fail(m, BBM_OPEN_CLOSE, "step %d at t = %g, dt cut to %g, %d passes, %d contacts",
-                    m->info.step + 1, m->info.t, m->h, m->info.passes, m->scratch->contacts);
-}
-
-/* What went wrong in a solution becomes a sentence with the numbers. */
-static bbm_status describe_failure(bbm_model *m, bbm_status status)
+/* What went wrong in a solution, or in the open-close iteration, becomes a sentence with numbers. */
+bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
 {
     const bbm_pcg_info *i = &m->info.pcg;
     const int step = m->info.step + 1;
 
+    if (status == BBM_OPEN_CLOSE)
+        return bbm_fail(m, status, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", step,
+                        m->info.t, m->h, m->info.passes, m->scratch->contacts);
     if (status == BBM_NOT_FINITE)
         return bbm_fail(m, status, "step %d, a load, velocity, stress or stiffness is too large",
                         step);
@@ -136,7 +132,7 @@ bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
     m->info.iterations += i->iterations;
     m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
     m->info.seconds[BBM_ITERATE] += i->seconds[1];
-    return status ? describe_failure(m, status) : BBM_OK;
+    return status ? bbm_say_what_failed(m, status) : BBM_OK;
 }
 
 /* ------------------------------------------------------------------- K for the contacts in hand */
@@ -160,13 +156,10 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
         link[n][1] = m->gap[g].j;
         n += m->gap[g].j >= 0;
     }
-    if (m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0) {
+    const int same = m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0;
+    if (same || bbm_matrix_new(m->elements, n, link, &K)) {
         free(link);
-        return BBM_OK;
-    }
-    if (bbm_matrix_new(m->elements, n, link, &K)) {
-        free(link);
-        return BBM_NO_MEMORY;
+        return same ? BBM_OK : BBM_NO_MEMORY;
     }
     bbm_matrix_free(m->K);
     free(m->link);
@@ -220,31 +213,27 @@ bbm_status bbm_check_step(bbm_model *m)
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
-/* Whether a part may go well when it is done otherwise: its equations, or the states of its
- * contacts, had no end, it makes energy, or something in it goes too far. */
-static int may_go_otherwise(bbm_status s)
+/* In how many parts, 1 or 2, a part that has ended with `status` is tried again: in two halves, or
+ * in statics in another way. 0: it is done, or there is no way left. What may go well otherwise:
+ * the equations, or the states of the contacts, had no end, it makes energy, or something goes too
+ * far. */
+int bbm_parts_to_try(bbm_model *m, bbm_status status, int tries)
 {
-    return s == BBM_NOT_POSITIVE_DEFINITE || s == BBM_NOT_CONVERGED || s == BBM_NOT_FINITE
-        || s == BBM_OPEN_CLOSE || s == BBM_ENERGY || s == BBM_STEP_TOO_LONG;
-}
+    const int may = status == BBM_NOT_POSITIVE_DEFINITE || status == BBM_NOT_CONVERGED
+                 || status == BBM_NOT_FINITE || status == BBM_OPEN_CLOSE || status == BBM_ENERGY
+                 || status == BBM_STEP_TOO_LONG;
 
-/* In statics: whether there is another way to try the step; takes it. */
-int bbm_has_another_way(bbm_model *m, bbm_status status)
-{
-    if (!bbm_is_static(m) || !may_go_otherwise(status) || m->trial == BBM_ONE_BY_ONE)
+    if (!may || tries == (bbm_is_static(m) ? BBM_ONE_BY_ONE : HALVINGS))
         return 0;
-    m->trial++;
-    return 1;
-}
-
-/* In dynamics: whether the part that has failed may be done in two halves; counts the cut. */
-int bbm_may_be_halved(bbm_model *m, bbm_status status, int halvings)
-{
-    if (bbm_is_static(m) || !may_go_otherwise(status) || halvings == HALVINGS || bbm_is_spent(m))
+    if (bbm_is_static(m)) {
+        m->trial = tries + 1;
+        return 1;
+    }
+    if (bbm_is_spent(m))
         return 0;
     m->info.cuts++;
     m->message[0] = '\0';
-    return 1;
+    return 2;
 }
 
 /* Counts the step, or says why it failed. */
