@@ -475,7 +475,6 @@ void bbm_assemble(bbm_model *m)
 
 /* Geometry of the elements, and a first guess at D for the detection: by velocity and gravity, or
  * in statics the D of the last step. */
-
 bbm_status bbm_begin_step(bbm_model *m)
 {
     bbm_status status = BBM_OK;
@@ -526,7 +525,6 @@ static bbm_status solve(bbm_model *m)
 
 /* One pass of the open-close iteration. `changed`: K or F will be new, so solve again. A step that
  * has taken too much work ends as one that does not settle. */
-
 static bbm_status open_close(bbm_model *m, int *changed)
 {
     const bbm_pass pass = bbm_open_close(m);
