@@ -1,6 +1,6 @@
-/* bbm.c - the bonding block model: sections 2 and 3.1 to 3.6 of the paper in their order, then the
- * time step, and results. Contacts, 3.7 and 3.8, are in contact.c, K D = F, section 4, in solver.c;
- * how a model is built, in base/build.c.
+/* bbm.c - the bonding block model: sections 2 and 3.1 to 3.6 of the paper in their order, then
+ * assembly (5), the time step (Fig. 8) and results. Sections 3.7 and 3.8, contacts, are in
+ * contact.c. Section 4, the solution of K D = F, is in solver.c. base/build.c builds a model.
  *
  * Sun, Chen, Feng, Wang 2015, doi:10.1155/2015/723263. Read it with the paper open: each formula is
  * a function of its own, with the number of its equation above it.
@@ -10,16 +10,16 @@
  *     3.1  elastic submatrices         (6)-(10)    3.5  loads along a line (38)-(43)
  *     3.2  inertia submatrices         (11)-(17)   3.6  volume force       (44)-(47)
  *
- * Every submatrix comes from one recipe. A source of potential energy Pi(D) is at most quadratic in
- * the unknowns; its second derivative goes to the left of K D = F, Eq. (5), and minus its first
- * derivative at D = 0 to the right. With a gap d = d0 + T D and an energy k/2 d.d that is
- * K += k T^T T and F -= k T^T d0: bonding springs, fixed points and contacts are this one line with
- * different d.
+ * Every submatrix comes from one recipe. A potential energy Pi(D) is at most quadratic in the
+ * unknowns. Its second derivative is added to K of K D = F, Eq. (5), and minus its first derivative
+ * at D = 0 is added to F. A spring k over a gap d = d0 + T D has the energy k/2 d.d, so that
+ * K += k T^T T and F -= k T^T d0. Bonding springs, fixed points and contacts differ in d alone.
  *
- * Statics has no inertia, Eq. (16), (17): one step is one iteration of Newton-Raphson on the moved
- * geometry.
+ * Statics is without inertia, Eq. (16), (17): each step is one iteration of Newton-Raphson on the
+ * geometry that the last step left.
  *
- * What the paper does not have comes in through m->hook, see bbm_hooks in base/base.h.
+ * What the paper does not have is called through m->hook. A reader of the paper may pass over it:
+ * each hook is NULL then, and so are `middle` and bbm_motion_of.
  */
 #include <string.h>
 
@@ -31,8 +31,8 @@
  * over its edges of the signed triangles (origin, a, b) with twice the area c = xa yb - xb ya,
  *     A = sum c/2,   int x dA = sum c/6 (xa + xb),   int x^2 dA = sum c/12 (xa^2 + xa xb + xb^2),
  *     int x y dA = sum c/24 (xa yb + 2 xa ya + 2 xb yb + xb ya).
- * Convex or not, the signs take care of it. The origin is first vertex 0, then the barycentre, so
- * that nothing cancels far from (0, 0). */
+ * The signs make it right for polygons that are not convex, too. The origin is vertex 0 for the
+ * barycentre, and the barycentre for the second moments: far from (0, 0) nothing cancels then. */
 void bbm_element_geometry(bbm_element *e, const bbm_vertex v[])
 {
     double A = 0, mx = 0, my = 0, sxx = 0, syy = 0, sxy = 0;
@@ -75,7 +75,7 @@ void bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6])
     memcpy(T, t, sizeof t);
 }
 
-/* Displacement u = T D at (x, y), a point given before the step, Eq. (1). */
+/* Displacement u = T D of the point that lies at (x, y) before the step, Eq. (1). */
 void bbm_displacement(const bbm_element *e, const double D[6], double x, double y, double u[2])
 {
     double T[2][6];
@@ -94,9 +94,9 @@ static double shear_modulus(const bbm_material *m) { return m->E / (2 * (1 + m->
 
 /* Stiffness [N/m] of the bonding springs between two elements, Eq. (4),
  *     k = alpha G t max(A)/min(A),
- * with G and t the means of the two. Starting areas, so that a spring keeps its stiffness and its
- * energy. The paper's text names alpha, G and the areas; that they enter as this ratio is our
- * choice: k then has the dimension of G t, is symmetric, and alpha G t on a uniform mesh. */
+ * with G and t the means of the two. The areas are those at the start: k stays constant. The
+ * paper's text names alpha, G and the areas. That they enter as this ratio is our choice: k then
+ * has the dimension of G t, is symmetric, and is alpha G t on a uniform mesh. */
 double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_element *j)
 {
     const double G = (shear_modulus(&i->material) + shear_modulus(&j->material)) / 2;
@@ -107,8 +107,8 @@ double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_eleme
 
 /* -------------------------------------------------------------- 3.1 Elastic submatrices */
 
-/* Hooke's law in plane stress, Eq. (7): stress = E e + stress0, e = (ex, ey, gxy) the last three
- * of D, Eq. (8). */
+/* Hooke's law in plane stress, Eq. (7): stress = E e + stress0. The strain e = (ex, ey, gxy) is the
+ * last three of D, Eq. (8). */
 void bbm_elastic_matrix(const bbm_material *m, double E[3][3])
 {
     const double c = m->E / (1 - m->nu * m->nu), G = shear_modulus(m);
@@ -138,8 +138,8 @@ void bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s)
 
 /* -------------------------------------------------------------- 3.2 Inertia submatrices */
 
-/* Mass per present area, M of Eq. (11). The mass of an element stays density x thickness x starting
- * area, so that a strained element neither gains nor loses momentum. */
+/* Mass per present area, M of Eq. (11). The mass of an element is density x thickness x starting
+ * area at all times, so that its momentum does not change by its strain. */
 double bbm_mass_per_area(const bbm_element *e)
 {
     return e->material.density * e->material.thickness * e->A0 / e->A;
@@ -165,7 +165,8 @@ void bbm_mode_integral(const bbm_element *e, double M[6][6])
 /* Pi_i = int u.M u'' dA with the acceleration at the end of the step, u'' = 2/dt^2 D - 2/dt V,
  * Eq. (11)-(13) (Newmark, beta = 1/2, gamma = 1)
  *     ->   K_ii += 2 M/dt^2 int T^T T dA, Eq. (16),  F_i += 2 M/dt (int T^T T dA) V, Eq. (17).
- * The force of inertia is a load: Eq. (15) is varied by the D of u alone, not by the D of u''. */
+ * The inertia force M u'' counts as a given load: Eq. (15) is differentiated by the D of u alone,
+ * not by the D of u''. */
 void bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s)
 {
     const double M = bbm_mass_per_area(e);
@@ -179,7 +180,7 @@ void bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s)
         }
 }
 
-/* Velocity at the end of the step, V = 2/dt D - V, Eq. (14), times the share of it that goes on. */
+/* Velocity for the next step: V = 2/dt D - V, Eq. (14), times the velocity factor. */
 void bbm_newmark_velocity(bbm_element *e, double dt, double factor)
 {
     for (int a = 0; a < 6; a++)
@@ -188,8 +189,7 @@ void bbm_newmark_velocity(bbm_element *e, double dt, double factor)
 
 /* -------------------------------------------------------------- 3.3 Bonding submatrices */
 
-/* T for the gaps and forces of a step, Eq. (2); or a hook's, which belongs to another moment of it.
- * */
+/* T in gaps and loads: that of Eq. (2), or a hook's, taken at another moment of the step. */
 void bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6])
 {
     if (e->middle)
@@ -198,10 +198,10 @@ void bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6])
         bbm_mode_matrix(e, x, y, T);
 }
 
-/* A spring k between the vertices P of element i and Q of element j, one point at the start. Its
- * elongation at the end of the step is |d|,
+/* A spring k between the vertices P of element i and Q of element j, which were one point at the
+ * start of the run. Its elongation at the end of the step is |d|,
  *     d = d0 + Ti(P) Di - Tj(Q) Dj,  d0 = P - Q,  Eq. (18)-(23);   Pi_b = k/2 d.d,  Eq. (24)-(26).
- * d0 is the difference of the displacements: coordinates would add their round-off. */
+ * d0 is computed from displacements: the difference of coordinates has more round-off. */
 void bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
                      const bbm_vertex *Q, double k, bbm_gap *g)
 {
@@ -231,8 +231,8 @@ void bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s)
 
 /* ---------------------------------------------- 3.4 Bonding submatrices at fixed points */
 
-/* Stiffness [N/m] of the spring at a fixed point, Eq. (29): k = alpha G t, (4) with the wall like
- * the element. */
+/* Stiffness [N/m] of the spring at a fixed point, Eq. (29): k = alpha G t. That is (4) with a wall
+ * element of the same material and area, which is our choice. */
 double bbm_fixed_stiffness(double alpha, const bbm_element *e)
 {
     return alpha * shear_modulus(&e->material) * e->material.thickness;
@@ -240,7 +240,7 @@ double bbm_fixed_stiffness(double alpha, const bbm_element *e)
 
 /* A spring k between the vertex P and the wall point W, d = d0 + T(P) D, d0 = P - W, Eq. (30)-(36)
  *     ->   K_ii += k T^T T,  F_i -= k T^T d0,  Eq. (37): (27), (28) with T_j = 0.
- * A point held in one direction alone, as on a line of symmetry, has a k in that one only. */
+ * A point held in one direction alone, as on a line of symmetry, has k = 0 in the other. */
 void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k,
                    bbm_gap *g)
 {
@@ -255,7 +255,7 @@ void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
 
 /* --------------------------------------------------------- 3.5 Line loading submatrices */
 
-/* F += T^T f: what a force f at a point does to the unknowns. */
+/* F += T^T f: a force f at the point to which T belongs. */
 static void add_force(double T[2][6], const double f[2], double F[6])
 {
     for (int a = 0; a < 6; a++)
@@ -271,7 +271,7 @@ void bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2]
     add_force(T, f, F);
 }
 
-/* Point and weight g of Gauss and Legendre on 0 <= s <= 1, for Eq. (38) and (42). */
+/* Gauss point g and its weight on 0 <= s <= 1, for Eq. (38) and (42). */
 void bbm_gauss_point(int g, double *s, double *weight)
 {
     const double inner = 3.0 / 7 - 2.0 / 7 * sqrt(6.0 / 5);
@@ -282,8 +282,8 @@ void bbm_gauss_point(int g, double *s, double *weight)
     *weight = (18 + (g == 0 || g == 3 ? -1 : 1) * sqrt(30)) / 72;
 }
 
-/* A load f(s) [N/m] that varies from a to b, x(s) = xa + (xb - xa) s, Eq. (38)-(41), given at the
- * Gauss points: F_i += int_0^1 T^T(x(s), y(s)) f(s) l ds, Eq. (42). */
+/* A load f(s) [N/m] that varies along x(s) = xa + (xb - xa) s, y(s) likewise, Eq. (38)-(41):
+ * F_i += int_0^1 T^T(x(s), y(s)) f(s) l ds, Eq. (42). `f` has its values at the Gauss points. */
 void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
                                 const double f[BBM_GAUSS][2], double F[6])
 {
@@ -300,7 +300,7 @@ void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const
 
 /* A constant load f [N/m] from a to b: F_i += l T^T f
  *     = l (fx, fy, -Y fx + X fy, X fx, Y fy, (Y fx + X fy)/2),  Eq. (39), (43),
- * with T at (X, Y), the middle of the line seen from the barycentre. */
+ * with T and (X, Y) at the middle of the line; X and Y count from the barycentre. */
 void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
                                  const double f[2], double F[6])
 {
@@ -314,8 +314,8 @@ void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, cons
 /* ------------------------------------------------------------ 3.6 Volume force submatrix */
 
 /* A volume force f(x, y) [N/m^2] that varies: F_i += int T^T f dA, Eq. (44)-(46). Each edge and the
- * barycentre make a signed triangle of area c/2, integrated by the midpoints of its sides: exact
- * for f linear in x and y. */
+ * barycentre make a signed triangle of area c/2. The midpoints of its sides integrate it exactly if
+ * f is linear in x and y. */
 void bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex v[], bbm_field *f,
                                   const void *context, double F[6])
 {
@@ -341,7 +341,7 @@ void bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6])
     F[1] += e->A * f[1];
 }
 
-/* The weight of an element, Eq. (47) with f = M g, g the acceleration of gravity [m/s^2]. */
+/* The weight of an element: Eq. (47) with f = M g, g the acceleration of gravity [m/s^2]. */
 void bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6])
 {
     const double M = bbm_mass_per_area(e), f[2] = { M * g[0], M * g[1] };
@@ -351,8 +351,8 @@ void bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6])
 
 /* ------------------------------------------------------------------- assembly, Eq. (5) */
 
-/* The next gap of the list, between the elements i and j; what a hook had there in the last list
- * stays. There is room for two of each bond and three of each vertex (allocate). */
+/* The next gap of the list, between the elements i and j. A hook's `own` stays from list to list.
+ * bbm_prepare has made room for two gaps at each bond and three at each vertex. */
 bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 {
     bbm_gap *g = &m->gap[m->gaps++];
@@ -381,7 +381,7 @@ void bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W)
                       bbm_add_gap(m, P->element, -1));
 }
 
-/* Lists what glues, with T of the step: in the paper bonds and fixed points. */
+/* Lists the gaps of bonds and fixed points, or those of a hook. */
 void bbm_list_gaps(bbm_model *m)
 {
     m->gaps = 0;
@@ -395,8 +395,8 @@ void bbm_list_gaps(bbm_model *m)
         bbm_list_fixed_point(m, v, &m->node[m->vertex[v].node]);
 }
 
-/* The part of F that comes from outside: gravity, 3.5, 3.6. A load at a node is shared by the
- * elements that meet there. */
+/* The part of F that comes from outside: gravity (3.6), loads at nodes and along lines (3.5). The
+ * elements that meet at a node share its load equally. */
 static void gather_loads(bbm_model *m)
 {
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
@@ -455,7 +455,7 @@ static void assemble_gap(bbm_model *m, const bbm_gap *g)
     bbm_add_submatrices(m, g->i, g->j, &s);
 }
 
-/* K and F of the present geometry, Eq. (5). */
+/* K and F, Eq. (5), for the positions at the start of the step and the present contact states. */
 void bbm_assemble(bbm_model *m)
 {
     const clock_t start = clock();
@@ -473,7 +473,8 @@ void bbm_assemble(bbm_model *m)
 
 /* ------------------------------------------------------------- the parts of a time step */
 
-/* The elements as they are now, and for D what their velocities foretell of the step. */
+/* Geometry of the elements, and a first guess at D for the detection: by velocity and gravity, or
+ * in statics the D of the last step. */
 bbm_status bbm_begin_step(bbm_model *m)
 {
     bbm_status status = BBM_OK;
@@ -489,9 +490,9 @@ bbm_status bbm_begin_step(bbm_model *m)
     return status;
 }
 
-/* Lists the contacts that may close in the step, and lays out K for them: first by what the
- * velocities foretell, then again if the solution moves further than that. `other`: they are other
- * ones, the solution is void. */
+/* Lists the contacts that may close in the step, and lays out K for them: at first for the guess at
+ * D, later for a solution that moves further than the list allows. `other`: the list has changed,
+ * so the solution does not count. */
 bbm_status bbm_detect(bbm_model *m, int *other)
 {
     const clock_t start = clock();
@@ -522,7 +523,8 @@ static bbm_status solve(bbm_model *m)
     return bbm_note_solution(m, bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg));
 }
 
-/* One pass of the open-close iteration, 3.8. `changed`: K or F is new, so solve again. */
+/* One pass of the open-close iteration. `changed`: K or F will be new, so solve again. A step that
+ * has taken too much work ends as one that does not settle. */
 static bbm_status open_close(bbm_model *m, int *changed)
 {
     const bbm_pass pass = bbm_open_close(m);
@@ -560,7 +562,7 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         bbm_motion_of(m)->turn(&start, e, vertex);
 }
 
-/* Moves the elements and vertices of the model, or of a copy, each by its place in D, Eq. (3). */
+/* Moves the elements and vertices of the model, or of a copy, by the D of the model, Eq. (3). */
 void bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[])
 {
     for (int i = 0; i < m->elements; i++) {
@@ -569,8 +571,8 @@ void bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex ver
     }
 }
 
-/* The model moves by the six unknowns of its elements, Eq. (3), unless a hook finds the solution
- * wrong. How small the step was against all so far, Eq. (71), goes to info.change. */
+/* Moves the model by its D, Eq. (3), unless a hook refuses the solution. info.change becomes the
+ * left side of Eq. (71) over the right side without its tolerance. */
 static bbm_status update(bbm_model *m)
 {
     const bbm_status status = m->hook->accept ? m->hook->accept(m) : BBM_OK;
@@ -591,7 +593,7 @@ static bbm_status update(bbm_model *m)
 
 /* --------------------------------------------------------------- the time step, Fig. 8 */
 
-/* Fig. 8 once, with the step m->h. Nothing moves before all has gone well. */
+/* Fig. 8 once, with the step m->h. The model moves in `update` alone, when all has settled. */
 static bbm_status try_step(bbm_model *m)
 {
     bbm_status status = bbm_begin_step(m);
@@ -609,13 +611,13 @@ static bbm_status try_step(bbm_model *m)
                 status = open_close(m, &changed);   /* 3.8: do the contacts fit the solution?   */
         } while (!status && changed);
         if (!status)
-            status = bbm_detect(m, &other);         /* has it moved too far for them?           */
+            status = bbm_detect(m, &other);         /* too far for the list of contacts?        */
     } while (!status && other);
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 
-/* One part of a step, of length h. If it fails it is tried otherwise, see base/step.c: in two
- * halves, or in statics once more as it is. */
+/* One part of a step, of length h. If it fails it is done again as two halves, down to dt/1024. A
+ * static step has no halves: it is tried in two other ways, see base/step.c. */
 static bbm_status take_part(bbm_model *m, double h, int tries)
 {
     m->h = h;
@@ -627,7 +629,7 @@ static bbm_status take_part(bbm_model *m, double h, int tries)
     return status;
 }
 
-/* One time step. One that fails leaves the model as its last part left it. */
+/* One time step, Fig. 8. If it fails, the model stays as the last part that went well left it. */
 bbm_status bbm_step(bbm_model *m)
 {
     const bbm_status status = bbm_check_step(m);
@@ -635,8 +637,9 @@ bbm_status bbm_step(bbm_model *m)
     return bbm_end_step(m, status ? status : take_part(m, m->par.dt, 0));
 }
 
-/* All time steps. With a tolerance they end when the step has become small against the sum of all,
- * Eq. (71): sqrt(sum |step_i|^2) <= tolerance sqrt(sum |total_i|^2) over the barycentres i. */
+/* All time steps. With a tolerance they end when the last step is small against the sum of all
+ * steps, Eq. (71): sqrt(sum |step_i|^2) <= tolerance sqrt(sum |total_i|^2), over the barycentres i.
+ * `update` computes the two sides. */
 bbm_status bbm_run(bbm_model *m)
 {
     const int last = m->info.step + m->par.steps;
@@ -656,7 +659,7 @@ bbm_status bbm_run(bbm_model *m)
 
 /* ------------------------------------------------------------------ results, section 4 */
 
-/* szz: none in plane stress. */
+/* Stress out of the plane, 0 in plane stress. */
 double bbm_stress_out_of_plane(const bbm_element *e)
 {
     return e->out_of_plane * (e->stress[0] + e->stress[1]);
@@ -669,8 +672,8 @@ double bbm_mises(const double s[3], double szz)
                 + szz * (szz - s[0] - s[1]));
 }
 
-/* Displacement and stress at a grid point: the mean over the elements of a block (-1: of all) that
- * meet there. */
+/* Displacement and nodal stress: the mean over the elements that meet at a node, those of one block
+ * or of all (-1). */
 bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r)
 {
     int count = 0;

@@ -22,9 +22,9 @@
  *     bbm_nodal_result(m, 2, -1, &result);
  *     bbm_model_free(m);
  *
- * Read the structs from small to large, then the functions in tiers: run a model, build one, single
- * formulas; those of bonds and contacts, and what the files of the library share, are in
- * base/base.h. SI units, plane stress, indices from 0, elements counter-clockwise. What can fail
+ * Read the structs from small to large, then the functions in three groups: run a model, build one,
+ * single formulas. The structs and formulas of bonds and contacts are in base/base.h. Units are SI,
+ * indices begin at 0, vertices run counter-clockwise, stress is plane. A function that can fail
  * returns a bbm_status.
  */
 #ifndef BBM_H
@@ -39,7 +39,7 @@
 enum { BBM_GAUSS = 4 };                     /* Gauss points of a line load: exact to degree 7   */
 enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };  /* directions in which a point is held; they add up */
 
-/* What a call returns; bbm_message() says it in a sentence, with where and what was expected. */
+/* What a call returns. bbm_message() says what failed, where, and what was expected. */
 typedef enum {
     BBM_OK, BBM_NO_MEMORY,
     /* --- the model is wrong --- */
@@ -53,8 +53,9 @@ typedef enum {
 
 /* ------------------------------------------------------------------------------------ the data */
 
-/* Of base/base.h: a bond, the gap of a bond or fixed point, a load along an edge (3.3 to 3.5); a
- * boundary edge, a contact (3.7); K; and what the paper does not have. */
+/* Defined in base/base.h: a bond, the gap of a bond or fixed point, a load along an edge (3.3 to
+ * 3.5); a boundary edge, a contact (3.7); the matrix K. The paper has nothing of bbm_method,
+ * bbm_hooks, bbm_beyond, bbm_motion and bbm_middle. */
 typedef struct bbm_bond bbm_bond;       typedef struct bbm_gap bbm_gap;
 typedef struct bbm_edge bbm_edge;       typedef struct bbm_contact bbm_contact;
 typedef struct bbm_matrix bbm_matrix;   typedef struct bbm_contact_scratch bbm_contact_scratch;
@@ -70,19 +71,20 @@ typedef struct {
     double thickness;           /* m        out of the plane                 */
 } bbm_material;
 
-typedef struct {                /* a grid point; the elements that meet there have a vertex each */
+typedef struct {                /* a grid point; each element that meets there has a vertex on it */
     double x, y;                /* m        starting position                */
     int    held;                /* BBM_X, BBM_Y or both: a fixed point       */
-    double wall[2];             /* m        displacement of the wall point W that it is held to */
+    double wall[2];             /* m        displacement of its wall point W */
     double load[2];             /* N        concentrated load                */
 } bbm_node;
 
-typedef struct {                /* a corner of one element                                      */
+typedef struct {                /* of one element, on one node                                  */
     int    node, element;
     double x, y;                /* m        present position                 */
     double u, v;                /* m        displacement since the start: x = node.x + u        */
-    int    edge;                /* the boundary edge that starts here, or -1 - w, where w is    */
-                                /*          the vertex across the bond; by bbm_prepare          */
+    int    edge;                /* the boundary edge that starts here; -1 - w, if an internal   */
+                                /*          edge does: w is the vertex of the other element     */
+                                /*          that coincides with this one; by bbm_prepare        */
 } bbm_vertex;
 
 typedef struct {                /* triangle, quadrilateral, simple polygon, or a whole block    */
@@ -96,15 +98,15 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre         */
     /* --- state --- */
     double A0;                  /* m^2      starting area: mass = density * thickness * A0      */
-    double V[6];                /* D/s      velocity of D                    */
+    double V[6];                /* D/s      velocity: the time derivative of D                  */
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step              */
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
     double D[6];                /* of the last step: u0, v0 [m], r0 [rad], ex, ey, gxy [-]      */
     double out_of_plane;        /* -        szz/(sx + sy); 0: plane stress                      */
-    const bbm_middle *middle;   /* T of the step, of a hook; NULL: (2)                          */
+    const bbm_middle *middle;   /* NULL: T is (2); else the T of a hook                         */
 } bbm_element;
 
-/* A load that varies from place to place: writes f(x, y) [N/m or N/m^2] into f. */
+/* A load that varies from place to place. The function writes f(x, y) [N/m or N/m^2] into f. */
 typedef void bbm_field(double x, double y, const void *context, double f[2]);
 
 /* What one element adds to K and F. */
@@ -112,50 +114,50 @@ typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 
 typedef struct {
     double omega;               /* -        relaxation factor of SSOR, in (0, 2)                */
-    double tolerance;           /* -        of the residual, in the preconditioner's norm       */
-    int    iterations;          /* at most; both for each connected component of K by itself    */
+    double tolerance;           /* -        of sqrt(r.M^-1 r), against its first value          */
+    int    iterations;          /* at most, in each connected component of K                    */
     const bbm_method *method;   /* NULL: the paper's                                            */
 } bbm_pcg;
 
 typedef struct {                /* what a solve did                                             */
-    int    iterations;          /* of the connected component of K that took most               */
-    double residual;            /* -        |F - K D|/|F|, computed afresh at the end; of the   */
-                                /*          component where it is largest, if its F is not 0    */
-    int    element;             /* block row where K is not positive definite, else -1          */
+    int    iterations;          /* of the component of K that took most                         */
+    double residual;            /* -        |F - K D|/|F|, computed afresh at the end; the      */
+                                /*          largest of all components where F is not 0          */
+    int    element;             /* whose block row is not positive definite, else -1            */
     double seconds[2];          /* s        CPU time of the preconditioner and of the iteration */
 } bbm_pcg_info;
 
-typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;        /* of the table in 3.8 */
+typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;   /* the figure in contact.c  */
 
-/* What CPU time is counted for. */
+/* The phases whose CPU time is counted. */
 enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
-typedef struct {
-    double dt;                  /* s        time step; INFINITY: statics, without inertia        */
-    int    steps;               /* time steps; in statics load steps (Newton-Raphson iterations) */
-    double tolerance;           /* -        of (71), ends the steps; 0: do all steps            */
-    double velocity_factor;     /* -        share of V with which the next step begins: 1       */
-                                /*          dynamics, 0 a step from rest                        */
-    double alpha;               /* -        of the bonding stiffness, (4) and (29)              */
+typedef struct {                /* defaults: bbm_model_new; their reasons: doc/choices.md       */
+    double dt;                  /* s        time step; INFINITY: statics, without inertia       */
+    int    steps;               /* in statics: iterations of Newton-Raphson                     */
+    double tolerance;           /* -        of (71), which ends the run; 0: do all steps        */
+    double velocity_factor;     /* -        share of V that the next step begins with: 1 in     */
+                                /*          dynamics, 0: each step begins at rest               */
+    double alpha;               /* -        factor of the bonding stiffness, (4), (29)          */
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
     double friction;            /* degree   friction angle                                      */
-    int    faces;               /* 1: grid points inside a straight side touch other blocks,    */
-                                /* too: a deformable block rests on its whole side; 0: on its   */
-                                /* two corners, as a bridge                                     */
+    int    faces;               /* 0: a block touches others with its corners alone; 1: also    */
+                                /* with the grid points inside its straight sides, so that a    */
+                                /* deformable block lies on its whole side                      */
     bbm_pcg pcg;
 } bbm_parameters;
 
 typedef struct {                /* what the last step did                                       */
     int    step;                /* steps done                                                   */
     double t;                   /* s        time at their end; statics takes none                */
-    double change;              /* -        left side of (71) over its right side / tolerance   */
+    double change;              /* -        (71) asks that this is at most the tolerance        */
     bbm_pcg_info pcg;
     int    passes;              /* solutions of the open-close iteration                        */
     int    cuts;                /* how often dt was halved                                      */
     int    candidates;          /* pairs of a vertex and an edge that the detection compared    */
-    int    contacts;            /* closed                                                       */
-    double penetration;         /* m        the deepest                                         */
+    int    contacts;            /* that are closed at its end                                   */
+    double penetration;         /* m        the deepest of them                                 */
     int    iterations;          /* of SSOR-PCG, in all solutions of the step                    */
     double seconds[BBM_PHASES]; /* s        CPU time, in all steps                              */
 } bbm_info;
@@ -182,16 +184,17 @@ struct bbm_model {
     bbm_matrix *K;
     int links, (*link)[2];      /* the two elements of each contact and bond in K               */
     double *F, *D, *load;       /* [6 elements]; load: the part of F from outside               */
-    /* --- the step in hand --- */
+    /* --- the present step --- */
     double h;                   /* s        dt, or a part of it                                 */
     double acceleration[2];     /* m/s^2    of gravity                                          */
-    int detections, trial;      /* of contacts; of a static step                                */
+    int detections, trial;      /* how often its contacts were listed; BBM_AS_EVER, ... of      */
+                                /* base/base.h                                                  */
     /* --- results --- */
     bbm_info info;
     bbm_status status;          /* the first error while building                               */
     char message[200];          /* what the last error was about                                */
     int  blamed[2];             /* elements that it names; -1: none                             */
-    /* --- called before each solution, to see K and F, or to stop: by a result that is not 0 --- */
+    /* --- called before each solution, to see K and F; a result other than 0 stops the run --- */
     int (*monitor)(const bbm_model *m, void *context);
     void *monitor_context;
     /* --- what the paper does not have --- */
@@ -210,7 +213,7 @@ typedef struct {                /* at a grid point                              
 
 bbm_status  bbm_run(bbm_model *m);                          /* all steps                        */
 bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8                 */
-/* The mean over the elements of a block (-1: of all) at a node. */
+/* The mean over the elements that meet at a node: those of one block, or of all (-1). */
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
 void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
                              double u[2]);                  /* (1)                              */
@@ -220,8 +223,8 @@ const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */
 
 /* --------------------------------------------------------------------------- 2. build a model
- * Every bbm_add and bbm_set returns the status of the first one that failed and then does nothing
- * more, so that a program may check bbm_prepare alone. The index goes through the last pointer,
+ * Once a bbm_add or bbm_fix has failed, the later calls do nothing and return its status. So a
+ * program may check bbm_prepare alone. The index of what was added goes through the last pointer,
  * which may be NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);
@@ -238,7 +241,7 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
 bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
 
 /* ---------------------------------------------------------------- 3. single formulas, each alone
- * A submatrix function adds to what it is given. Those of bonds and contacts are in base/base.h. */
+ * A submatrix function adds to what it is given. For bonds and contacts see base/base.h. */
 
 /* 2.1, 2.2 */
 void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]);         /* n vertices   */

@@ -1,4 +1,4 @@
-/* contact.c - contacts between blocks: sections 3.7 and 3.8 of the paper, the open-close
+/* contact.c - contacts between blocks: sections 3.7 and 3.8 of the paper, then the open-close
  * iteration.
  *
  * Blocks touch where a vertex P1 of one meets an edge P2 P3 of another. A stiff spring p_n then
@@ -11,46 +11,49 @@
  *       '------'  <-------------  '------'  <---------------------------  '-------'
  *           ^     N < -tension A               s T < N tan(phi) + c A         |
  *           '-----------------------------------------------------------------'
- *                                       N < 0
+ *                                  N < -tension A
  *
- * N = -p_n d_n is the normal force, T = p_s d_s what the shear spring carries or would carry, s
- * the sign of the slip, A the contact's share of the area of an unbroken joint: 0, or a hook's.
- * d_s counts from the anchor P0, a point of the edge's material: where P1 hit, and there it stays
- * while the contact is locked; while it slides, the anchor follows so that the spring would just
- * carry the friction force of the last step. What is left of s T above the bound is slip; when it
- * turns against the friction, s T falls below the bound and the contact locks with the force it
+ * N = -p_n d_n is the normal force. T = p_s d_s is what the shear spring carries, or would carry. s
+ * is the sign of the slip. c and tension are the cohesion and the tensile strength of an unbroken
+ * joint, A is the contact's share of its area: in the paper all 0.
+ *
+ * d_s counts from the anchor P0, a point of the edge's material. P0 is where P1 hit, and stays
+ * there while the contact is locked. While it slides, P0 follows at such a distance that the spring
+ * would carry the friction force of the last step. Then what s T has above the bound is new slip.
+ * When the slip turns round, s T falls below the bound and the contact locks with the force that it
  * had.
  *
- * The iteration. N of a sliding contact depends on its friction and the friction on N: solve with
- * the friction of the last N until they agree; a hook may need fewer solutions. Only then are the
- * states judged, on forces that belong to them, and all that do not fit change. When a set of
- * states comes back that has been there before, the iteration would cycle: for as many passes as
- * there have been, only the contact that fits worst changes in each. A contact that closes outside
- * its cone of friction, or for a second time, starts as SLIDE. Nothing of the model moves before
- * all has settled: a step that does not settle is done again with half the time step, without a
- * trace of the first trial.
+ * The iteration. N of a sliding contact depends on its friction, and the friction on N. So solve
+ * with the friction of the last N until both agree; a hook may need fewer solutions. Only then look
+ * at the states: all that do not fit their forces change, and a new solution follows. If a set of
+ * states comes back, the iteration would cycle. Then, for as many passes as there have been, only
+ * the contact that fits worst changes. A contact that closes with more shear than friction can
+ * hold, or for the second time in the step, starts as SLIDE. Without friction and cohesion a
+ * contact never stays locked.
  *
- * Which corners may touch which edges is in base/detect.c.
+ * Nothing moves before all contacts fit. If they never do, the step is done again as if it had not
+ * been tried: in halves, or in statics in another way.
+ *
+ * base/detect.c finds which corners may touch which edges.
  */
 #include <string.h>
 
 #include "base/base.h"
 
-/* AGREE [-]  forces that differ by less, against the largest force of what K connects, agree: what
- *            the solver can tell */
+/* AGREE [-]  forces agree if they differ by less than this share of the largest force in their
+ *            component of K: the solver is not more exact */
 #define AGREE 1e-9
 
-/* Passes that change friction forces between two that change states. */
+/* The most passes in a row that change friction forces alone. */
 enum { FRICTION_PASSES = 100 };
 
 /* --------------------------------------------------------------------- 3.7.1 Normal submatrices */
 
-/* The normal distance of P1 from P2 P3, positive outside. With the three points moved by T D,
- * Eq. (48)-(50), and the terms of second order dropped, d_n = S/l = S0/l + e.D_i + g.D_j,
- * Eq. (52)-(57), (59):
+/* The normal distance of P1 from P2 P3, positive outside. The points move by T D, Eq. (48)-(50),
+ * and the terms of second order are dropped: d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * A hook may have other e and g. */
+ * A hook has its own e and g. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
@@ -72,8 +75,8 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
     }
 }
 
-/* A spring p over d = d0 + e.D_i + g.D_j, Pi = p/2 d^2, Eq. (51): K_ii += p e e^T, K_ij += p e g^T,
- * K_jj += p g g^T, F_i -= p d0 e, F_j -= p d0 g, Eq. (58), (63). */
+/* A spring p over d = d0 + e.D_i + g.D_j: Pi = p/2 d^2, Eq. (51)   ->   Eq. (58), (63):
+ *     K_ii += p e e^T,  K_ij += p e g^T,  K_jj += p g g^T,  F_i -= p d0 e,  F_j -= p d0 g. */
 static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
 {
     for (int a = 0; a < 6; a++) {
@@ -87,8 +90,8 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
     }
 }
 
-/* Pi_n = p_n/2 d_n^2, Eq. (51)   ->   Eq. (58)-(59), (58a-f). Deviation: it counts from `rest`, see
- * bbm_contact. */
+/* Pi_n = p_n/2 d_n^2, Eq. (51)   ->   Eq. (58)-(59), (58a-f). Deviation: d_n counts from `rest`,
+ * which is 0 in the paper; see bbm_contact. */
 void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 {
     bbm_spring n;
@@ -100,11 +103,10 @@ void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 
 /* ---------------------------------------------------------------------- 3.7.2 Shear submatrices */
 
-/* The displacement of P1 along the edge against its anchor P0, d_s = S1 + e.D_i + g.D_j,
- * Eq. (48)-(50), (53), (60)-(62),
- *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m,
- * Eq. (64), (67), (68). The anchor is the point P0 = P3 + anchor (P2 - P3) of the edge's material.
- * A hook may have other e and g. */
+/* The displacement of P1 along the edge against the anchor P0 = P3 + anchor (P2 - P3), a point of
+ * the edge's material: d_s = S1 + e.D_i + g.D_j, Eq. (48)-(50), (53), (60)-(62), (64), (67), (68):
+ *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m.
+ * A hook has its own e and g. */
 void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
 {
     const bbm_vertex *P1 = c->P1, *P2 = c->P2, *P3 = c->P3;
@@ -137,8 +139,8 @@ void bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s, bbm_su
 
 /* --------------------------------------------------------------------- 3.8 Friction submatrices */
 
-/* The friction force Fr, positive when P1 slips towards P3, Eq. (65): F_i -= Fr e, F_j -= Fr g,
- * Eq. (66)-(69). */
+/* The friction force Fr of Eq. (65), positive when P1 slips towards P3, is a load on both sides:
+ * F_i -= Fr e, F_j -= Fr g, Eq. (66)-(69). */
 void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s)
 {
     bbm_spring v;
@@ -152,15 +154,15 @@ void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_
 
 double bbm_tangent(double degrees) { return tan(degrees * acos(-1) / 180); }
 
-/* Mohr and Coulomb: the largest shear force under the normal force N, Eq. (65), with the cohesion
- * of an unbroken joint. Under tension such a joint has what is left of its cohesion. */
+/* Mohr and Coulomb: the largest shear force under the normal force N, N tan(phi), Eq. (65), and the
+ * cohesion of an unbroken joint. Tension, N < 0, takes away from it, down to 0. */
 double bbm_shear_strength(const bbm_strength *s, double N)
 {
     return fmax(0, N * s->tan_phi + s->shear);
 }
 
-/* The transfer table of the figure above: the state that follows from d_n, N and T. Forces that
- * differ by less than the tolerance agree. An opening contact has none: it would be a hidden
+/* The figure on top as a table: the state that follows from d_n, N and T. Forces that differ by
+ * less than the tolerance agree. A closed contact opens without a tolerance: it would be a hidden
  * tensile strength. */
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance)
 {
@@ -188,8 +190,7 @@ static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
                         bbm_start_of(m, c->edge), c->rest };
 }
 
-/* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s, m from P2 to
- * P3. */
+/* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s. */
 static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
 {
     const double s = bbm_way_along(m, c->corner, c->edge);
@@ -197,8 +198,7 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
     c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
-/* What a contact can carry in this step: friction by the angle of the model, or what a hook says.
- * */
+/* What a contact can carry in this step: friction by the model's angle, or what a hook says. */
 static void find_strength(const bbm_model *m, bbm_contact *c)
 {
     c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
@@ -206,16 +206,17 @@ static void find_strength(const bbm_model *m, bbm_contact *c)
         m->hook->strength(m, c);
 }
 
-/* Whether a contact is an unbroken joint that holds by more than friction. */
+/* Whether a contact is of an unbroken joint with cohesion or tensile strength. */
 static int is_strong(const bbm_contact *c)
 {
     return c->strength.shear > 0 || c->strength.tension > 0;
 }
 
-/* The state with which a contact begins the step. One that is new and touches at the first step is
- * closed from the start in statics, or if the joint has a strength. An anchor is placed anew where
- * the edge is another one. Where one state changes in each pass, a contact that slid begins as
- * locked by the force that its friction had. */
+/* The state with which a contact begins the step: that of its last step. But one that touches when
+ * the run begins is closed in statics, or if its joint has a strength. One that P1 has left past
+ * the end of the edge is open. The anchor is placed anew if the contact is open or its edge is
+ * another one. In the trial BBM_ONE_BY_ONE a contact that slid begins as locked, with the force
+ * that its friction had. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     c->time_left = 1;
@@ -236,8 +237,8 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
         c->state = BBM_LOCK;
 }
 
-/* The contacts that may be closed in this step, each with the state with which it begins. `same`:
- * the step had them already. */
+/* Lists the contacts that may be closed in this step, each with the state with which it begins.
+ * `same`: the list of this step was the same already, and stays. */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same)
 {
     bbm_contact_scratch *w = m->scratch;
@@ -252,15 +253,15 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
     return BBM_OK;
 }
 
-/* Whether a strong joint under N has no shear strength left. */
+/* Whether tension N has taken all shear strength from a strong joint. */
 static int is_strengthless(const bbm_contact *c, double N)
 {
     return is_strong(c) && bbm_shear_strength(&c->strength, N) == 0;
 }
 
-/* The friction of a sliding contact under the N that is taken for it, Eq. (65). It goes on below
- * N = 0, where the strength ends, unless the joint is strong and may be in tension: such a contact
- * opens when it is judged, and until then N depends on N without a kink. */
+/* Friction of a sliding contact, Eq. (65), with N_of_friction for N. While the N are still changing
+ * one may be negative. Its friction is, too: each N then depends linearly on the last. A strong
+ * joint may stay in tension, so it has its strength instead. */
 static double friction_force(const bbm_contact *c)
 {
     const double N = c->N_of_friction;
@@ -268,7 +269,7 @@ static double friction_force(const bbm_contact *c)
     return c->sign * (is_strong(c) ? bbm_shear_strength(&c->strength, N) : N * c->strength.tan_phi);
 }
 
-/* Friction as a load under the N of the last solution, Eq. (65), (69), or as a hook has it. */
+/* Friction as a load with the N of the last solution, Eq. (65), (69), or what a hook adds. */
 static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
 {
     c->friction_in_K = m->hook->friction && !is_strengthless(c, c->N_of_friction)
@@ -277,8 +278,8 @@ static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_s
         bbm_friction_submatrices(t, c->anchor, friction_force(c), s);
 }
 
-/* Adds the springs of the closed contacts, Eq. (58) and (63), or spring and friction, Eq. (65),
- * (69), to K and F. */
+/* Adds the closed contacts to K and F. LOCK: the normal and the shear spring, Eq. (58) and (63).
+ * SLIDE: the normal spring and friction, Eq. (65), (69). */
 void bbm_assemble_contacts(bbm_model *m)
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
@@ -309,8 +310,8 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
     return d;
 }
 
-/* d_n, d_s, N and T of the solution. An open contact has its anchor at P3, so that -d_s is the way
- * along the edge from there; that from P2 is the d_s of an anchor in P2. */
+/* d_n, d_s, N and T of the solution. An open contact has its anchor at P3: -d_s is how far P1 lies
+ * from P3 along the edge. With an anchor at P2, d_s is how far it lies from P2. */
 static void measure(const bbm_model *m, bbm_contact *c)
 {
     const bbm_touch t = touch_of(m, c);
@@ -334,15 +335,15 @@ static void measure(const bbm_model *m, bbm_contact *c)
     }
 }
 
-/* The largest force in the component of K that an element belongs to. */
+/* The entry of `force` for the component of K to which an element belongs. */
 static double *force_around(const bbm_model *m, int element)
 {
     return &m->scratch->force[bbm_component_of(m->K, element)];
 }
 
-/* The force tolerance of each contact: a share of the largest force in its component of K, on an
- * element, inertia included, or in a contact. What the solver leaves as its residual, and so in
- * every N, is small against this and nothing else. */
+/* The force tolerance of each contact: a share of the largest force in its component of K. That is
+ * the force on an element, inertia included, or in a contact. The solver's residual, and with it
+ * the error of every N, is small against this force alone. */
 static void find_tolerances(const bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
@@ -362,7 +363,7 @@ static void find_tolerances(const bbm_model *m)
     }
 }
 
-/* Whether every friction force belongs to its N. */
+/* Whether each N is the one that its friction was taken for. */
 static int forces_agree(const bbm_model *m)
 {
     int agree = 1;
@@ -375,7 +376,7 @@ static int forces_agree(const bbm_model *m)
     return agree;
 }
 
-/* Takes the N of the solution for the friction of the next one. */
+/* Takes the N of this solution for the friction of the next one. */
 static void renew_friction(bbm_contact_scratch *w)
 {
     for (int k = 0; k < w->contacts; k++)
@@ -385,11 +386,11 @@ static void renew_friction(bbm_contact_scratch *w)
 
 /* ------------------------------------------------------------- the open-close iteration: states */
 
-/* A contact closes when P1 hits: at the fraction d0/(d0 - d_n) of the step, at which the distance
- * d0 has closed. It is anchored where it stood at the start, and its shear spring feels the share
- * of the slip that is left, so that it never pushes along. It starts as SLIDE where its springs
- * would be outside the cone of friction as P1 comes in, or when it closes for a second time in the
- * step: the shear spring of its first trial has opened it, and need not be there. */
+/* Gives a contact its next state. When it closes, P1 hits at the fraction d0/(d0 - d_n) of the
+ * step, d0 the distance at the start. Until the end of the step the anchor is where P1 stood at the
+ * start, and the shear spring feels the share of the slip after the hit: so it never drives the
+ * slip. The contact starts as SLIDE if its shear spring would carry more than friction can hold, or
+ * if it closes for the second time in the step: the shear spring had opened it. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
     const double d0 = fmax(0, c->d_n0), s = bbm_way_along(m, c->corner, c->edge);
@@ -411,10 +412,10 @@ static void change_state(const bbm_model *m, bbm_contact *c)
     c->state = c->next_state;
 }
 
-/* The state that a contact takes in the next pass. What is blocked stays open. A locked contact in
- * tension may have been pulled open by its shear spring: if that carries more than friction would
- * under as much pressure, the contact first slides, which takes the spring away - but not where
- * friction is a load of a static step: it would push the wrong way. */
+/* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
+ * may have been pulled open by its shear spring. If that carries more than friction would hold
+ * under as much pressure, the contact slides first, which removes the spring. Not so in a static
+ * step with friction as a load: this load would push the wrong way. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->force_tolerance);
@@ -428,7 +429,7 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
     return next;
 }
 
-/* By how much force the state of a contact does not fit the solution. */
+/* The force by which a state fails to fit the solution. */
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
@@ -438,8 +439,8 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Changes the states that do not fit the solution, all or the one that fits worst, which is the
- * same in any order of the blocks; the number of changes. */
+/* Changes all states that do not fit the solution, or only the one that fits worst. The worst
+ * is the same in any order of the blocks, but for a tie. Returns the number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
@@ -463,9 +464,8 @@ static int change_states(bbm_model *m)
     return changes;
 }
 
-/* Notes the states of this pass as one number (FNV-1a); if they have been there before, the
- * iteration cycles - but not if they are those of the last pass, after which only the vectors of
- * the step were renewed. */
+/* Notes the states of this pass as one number, a hash (FNV-1a). If an earlier pass had the same
+ * states, the iteration cycles, unless that was the last pass: then only T of the step was new. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;
@@ -480,8 +480,8 @@ static void note_states(bbm_contact_scratch *w)
     w->seen[w->passes] = hash;
 }
 
-/* One look at the solution: whether the friction forces belong to their N, then the states to the
- * forces; and a hook may find more to do. */
+/* Checks a solution: first whether the friction forces agree with their N, then whether the states
+ * fit the forces. A hook may find more to do. */
 bbm_pass bbm_open_close(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
@@ -505,9 +505,9 @@ bbm_pass bbm_open_close(bbm_model *m)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* After the positions have moved: the anchor of a sliding contact follows, so that its spring
- * would carry the friction force, and by as much it has slid; a joint that has opened, or slid
- * against a shear strength, is broken. */
+/* When the model has moved: the anchor of a sliding contact follows, so that a shear spring would
+ * carry the friction force. It has slid by as much as the anchor moved. A joint that has opened, or
+ * slid against a shear strength, is broken. */
 static void store_contact(bbm_model *m, bbm_contact *c)
 {
     const double strength = bbm_shear_strength(&c->strength, c->N);
@@ -527,7 +527,7 @@ static void store_contact(bbm_model *m, bbm_contact *c)
     }
 }
 
-/* The step is done and the model has moved. */
+/* Ends the step: its contacts become those of the model, which has moved. */
 void bbm_store_contacts(bbm_model *m)
 {
     m->info.contacts = 0;

@@ -1,12 +1,13 @@
-/* solver.c - the linear solver of section 4: K D = F by conjugate gradients preconditioned with
- * SSOR.
+/* solver.c - the linear solver of section 4, SSOR-PCG: K D = F by conjugate gradients with SSOR as
+ * the preconditioner.
  *
  * K is symmetric and consists of 6x6 blocks, a block row for each element. Write
  *
  *     K = L + D + L^T,      D: the diagonal blocks,  L: the blocks left of them.
  *
- * Only D and those blocks of L that are not zero are stored, in the order of base/order.c. The
- * iteration, SSOR-PCG, has a relaxation factor w, 0 < w < 2:
+ * The D of the equations, the unknowns, is x below. Only the diagonal blocks and those of L that
+ * are not zero are stored, row by row. The rows are in reverse Cuthill-McKee order, which
+ * base/order.c makes. With a relaxation factor w, 0 < w < 2, the iteration is:
  *
  *     M = (D/w + L) (D/w)^-1 (D/w + L)^T
  *
@@ -17,29 +18,28 @@
  *         u = M^-1 r
  *         p = u + (r.u / its last value) p
  *
- * M is never formed. M^-1 r takes two sweeps over the rows of L, forward for y, then backward:
+ * M is never formed. u = M^-1 r takes two sweeps over the rows of L, forward for y, backward for u:
  *
  *     (D/w + L) y = r,      (D/w + L)^T u = (D/w) y
  *
- * The factor 1/(2-w) that M often has is left out: it changes neither x nor the end of the
- * iteration.
+ * M often has a factor 1/(2-w). It is left out, for it changes neither x nor the number of
+ * iterations.
  *
- * Components. Elements that no bond and no contact joins, however indirectly, belong to different
- * components of K. Each component is solved by itself, with its own scale of F and its own end of
- * the iteration: its rows are `from` to `to` - 1, and its D is the same to the last bit whatever
- * else there is. In one iteration for all, the forces of a stone that flies past would be the
- * scale, and the small forces in a pile at rest would remain unsolved.
+ * Components. Elements that bonds and contacts join, directly or through others, make a component
+ * of K. Each component is solved by itself: its rows are `from` to `to` - 1, it has its own scale
+ * of F and its own end of the iteration, and no other component changes a bit of its x. If all were
+ * one iteration, the forces of a stone that flies past would set the scale, and the small forces in
+ * a pile at rest would stay unsolved.
  *
- * What a tolerance can mean. The residual of the recurrence, r, shrinks as far as one likes, but
- * F - K D cannot become smaller than about eps |K| |D|, in a stiff body 1e-10 |F| or more (eps =
- * 2e-16). A tolerance much below 1e-10 buys iterations and nothing else. Therefore bbm_solve stops
- * on r and then reports the true residual, computed afresh.
+ * What a tolerance can mean. The r of the iteration becomes as small as one likes. But F - K x does
+ * not become smaller than about eps |K| |x|, eps = 2e-16; in a stiff body that is 1e-10 |F| or
+ * more. So a tolerance much below 1e-10 costs iterations and gains nothing. bbm_solve stops by r,
+ * and then reports the residual F - K x, computed afresh.
  *
  * Denormals. When a single element is loaded, a sweep carries the load from element to element and
- * weakens it each time, down to numbers below 1e-308, on which many processors take ten or a
- * hundred times longer. Therefore F is scaled to a largest entry near 1, and its zeros become
- * NEGLIGIBLE: no number fades below that, squares of such numbers are still far from 1e-308, and
- * nothing that matters changes.
+ * weakens it each time, down to numbers below 1e-308. Many processors take ten or a hundred times
+ * longer on these. Therefore F is scaled to a largest entry near 1, and its zeros become
+ * NEGLIGIBLE. That is too small to change a result, and its square is still far above 1e-308.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -48,7 +48,7 @@
 
 #include "base/base.h"
 
-/* Against the largest entry of F. */
+/* [-] in place of a zero of F, against its largest entry */
 #define NEGLIGIBLE 1e-100
 
 /* ----------------------------------------------------------------------------------- the matrix */
@@ -63,8 +63,8 @@ void bbm_matrix_clear(bbm_matrix *K)
     K->ready = K->terms = K->lacks = 0;
 }
 
-/* Where K_ij, or K_ji if i comes before j, is stored; NULL: nowhere. A row has one to three blocks
- * left of the diagonal: look at each. */
+/* Where K_ij is stored, or K_ji if row i comes before row j; NULL: nowhere. Most rows have one to
+ * three blocks left of the diagonal, so that all are looked at. */
 static double (*find_block(const bbm_matrix *K, int i, int j))[6]
 {
     if (i < 0 || i >= K->n || j < 0 || j >= K->n)
@@ -77,7 +77,7 @@ static double (*find_block(const bbm_matrix *K, int i, int j))[6]
     return left == 0 ? K->D[row] : NULL;
 }
 
-/* K_ij += B */
+/* K_ij += B; if K_ji is stored, K_ji += B^T. */
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 {
     double (*to)[6] = find_block(K, i, j);
@@ -96,9 +96,9 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 }
 
 /* ----------------------------------------------------------------------------- products of blocks
- * Written so that a compiler can do two entries at a time without changing the order of a sum. */
+ * These loops let a compiler do two entries at a time without a change in the order of a sum. */
 
-/* y += c B x, each row in two partial sums: of the even and of the odd columns. */
+/* y += c B x, each row as the sum of its even columns plus that of its odd ones. */
 static void multiply_add(double c, double B[6][6], const double *restrict x, double *restrict y)
 {
     double s[6][2];
@@ -128,7 +128,7 @@ static void multiply_symmetric(double B[6][6], const double *restrict x, double 
              + (B[4][b] * x[4] + B[5][b] * x[5]);
 }
 
-/* --------------------------------------------------------- products with K, of the rows in hand */
+/* ---------------------------------------------- products with K, in the rows of one component */
 
 /* y += L x */
 void bbm_add_lower(const bbm_matrix *K, const double *x, double *y)
@@ -146,7 +146,7 @@ void bbm_add_upper(const bbm_matrix *K, const double *x, double *y)
             multiply_add_transposed(1, K->L[k], x + 6 * i, y + 6 * (i - K->back[k]));
 }
 
-/* q = K p = D p + L p + L^T p, and what a hook adds. */
+/* q = K p = D p + L p + L^T p, and the terms of a hook. */
 void bbm_multiply(const bbm_matrix *K, const double *p, double *q)
 {
     for (int i = K->from; i < K->to; i++)
@@ -177,7 +177,7 @@ void bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y
 
 /* ------------------------------------------------------------------------------------- SSOR-PCG */
 
-/* (D/w + L) y = r, and f = (D/w) y = r - L y. */
+/* Solves (D/w + L) y = r for y, and leaves f = r - L y = (D/w) y. */
 static void sweep_forward(const bbm_matrix *K, const double *r, double *y, double *f)
 {
     for (int i = K->from; i < K->to; i++) {
@@ -188,7 +188,7 @@ static void sweep_forward(const bbm_matrix *K, const double *r, double *y, doubl
     }
 }
 
-/* (D/w + L)^T u = f, with u in place of f. */
+/* Solves (D/w + L)^T u = f for u. On entry `u` holds f. */
 static void sweep_backward(const bbm_matrix *K, double *u)
 {
     for (int i = K->to - 1; i >= K->from; i--) {
@@ -200,7 +200,7 @@ static void sweep_backward(const bbm_matrix *K, double *u)
     }
 }
 
-/* u = M^-1 r */
+/* u = M^-1 r. A method may change f between the sweeps. */
 void bbm_precondition(const bbm_matrix *K, const double *r, double *u)
 {
     sweep_forward(K, r, K->y, u);
@@ -209,8 +209,8 @@ void bbm_precondition(const bbm_matrix *K, const double *r, double *u)
     sweep_backward(K, u);
 }
 
-/* Counts an iteration, unless the limit is reached or p.Kp, perhaps a NaN, shows that K is not
- * positive definite. */
+/* Counts an iteration. Refuses it if the limit is reached, or if p.K p is not positive: then K is
+ * not positive definite, or p.K p is NaN. */
 bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     if (info->iterations == pcg->iterations)
@@ -221,7 +221,7 @@ bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *inf
     return BBM_OK;
 }
 
-/* From x = 0 and r = F to x. */
+/* SSOR-PCG, the iteration on top of this file. On entry x = 0, p = 0, r = F. */
 static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     double *x = K->x, *r = K->r, *u = K->u, *p = K->p, *q = K->q, b = 0;
@@ -255,8 +255,8 @@ static int all_finite(size_t count, const double *x)
     return 1;
 }
 
-/* B = (D/w)^-1 by Gauss-Jordan elimination; -B stays symmetric. Returns 0 if D is not positive
- * definite. */
+/* B = (D/w)^-1. Gauss-Jordan elimination turns B from D into -D^-1, symmetric in each step; then B
+ * is multiplied by -w. Returns 0 if D is not positive definite. */
 static int invert(double w, double D[6][6], double B[6][6])
 {
     memcpy(B, D, 36 * sizeof **B);
@@ -278,7 +278,7 @@ static int invert(double w, double D[6][6], double B[6][6])
     return 1;
 }
 
-/* If a D_i is not positive definite, info->element says which row that is. */
+/* Inverts all D_i. If one is not positive definite, info->element is its row. */
 static bbm_status invert_diagonal(bbm_matrix *K, bbm_pcg_info *info)
 {
     for (int i = 0; i < K->n; i++)
@@ -289,8 +289,8 @@ static bbm_status invert_diagonal(bbm_matrix *K, bbm_pcg_info *info)
     return BBM_OK;
 }
 
-/* Checks what is given, and makes of K what the solution needs; further solutions with the same K
- * find it ready. */
+/* Checks K, F and the parameters, then inverts the diagonal blocks. Further solutions with the same
+ * K find this done. */
 static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
                              bbm_pcg_info *info)
 {
@@ -315,7 +315,7 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
     return status;
 }
 
-/* The power of two below the largest entry of F in the rows in hand: to divide by it rounds
+/* The power of two at or below the largest entry of F in the component: division by it rounds
  * nothing. */
 static double magnitude(const bbm_matrix *K, const double *F)
 {
@@ -328,7 +328,7 @@ static double magnitude(const bbm_matrix *K, const double *F)
     return m == 0 ? 0 : ldexp(1, exponent - 1);
 }
 
-/* The rows of D in hand. Where the iteration ends early, they are those of its last iterate. */
+/* Solves one component. If its iteration fails, its rows of the solution D are the last x. */
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                                   bbm_pcg_info *info)
 {
@@ -356,8 +356,8 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, con
     return status;
 }
 
-/* If the iteration did not begin, D is 0, iterations 0 and residual 1. One component that fails
- * does not keep the others from being solved. */
+/* K D = F, component by component. A component that fails does not stop the others. If no iteration
+ * could begin, D is 0, and info has 0 iterations and residual 1. */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *wanted,
                      bbm_pcg_info *info)
 {

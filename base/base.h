@@ -1,10 +1,10 @@
 /* base.h - the data of 3.3 and 3.7, and what the files of the library share.
  *
- * A reader of the paper finds here what its formulas take: the gap of a bond or fixed point (3.3,
- * 3.4), a boundary edge, a contact and its three points (3.7). Then come the hooks, for what the
- * paper does not have, the functions that the files of the library share, from the bottom up, and
- * the matrix. A program that looks at bonds, edges, contacts or K includes this file in place of
- * bbm.h.
+ * The first part is what the paper's formulas take: the gap of a bond or fixed point (3.3, 3.4), a
+ * boundary edge, a contact and its three points (3.7). A reader of the paper may stop at the hooks,
+ * which are for what the paper does not have. After them come the functions that the files of the
+ * library share, from the bottom up, and the matrix K. A program that looks at bonds, edges,
+ * contacts or K includes this file in place of bbm.h.
  */
 #ifndef BBM_BASE_H
 #define BBM_BASE_H
@@ -17,35 +17,35 @@
 
 /* --------------------------------------------------------------------- the data of 3.3 and 3.4 */
 
-struct bbm_bond {               /* an internal edge: two bonding springs, elements i and j      */
-    int i, j;
+struct bbm_bond {               /* an internal edge: two bonding springs                        */
+    int i, j;                   /* the elements that share it                                   */
     int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j      */
 };
 
 /* What two elements add to K and F; K_ji = K_ij^T. */
 typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
 
-/* Of a hook: the energy 1/2 d.W d + f.d in place of k/2 d.d. */
+/* A hook may give a gap the energy 1/2 d.W d + f.d in place of k/2 d.d. */
 typedef struct {
     int    penalty;             /* 1: W stands for a rigid joint; 0: it is a stiffness          */
     double W[2][2];             /* N/m                                                          */
-    double f[2];                /* N        multiplier: what it carries besides W d             */
-    double f_before[2];         /* N        the same at the end of the last step                */
+    double f[2];                /* N        multiplier: the force besides W d                   */
+    double f_before[2];         /* N        f at the end of the last step                       */
 } bbm_weight;
 
-struct bbm_gap {                /* of a spring: d = d0 + T_i D_i - T_j D_j, Eq. (18)            */
+struct bbm_gap {                /* of a spring: d = d0 + T_i D_i - T_j D_j, Eq. (22)            */
     int    i, j;                /* elements; j = -1: the wall, which does not move: T_j = 0     */
-    int    node[2];             /* j = -1: the grid points that are held, half each             */
-    double k[2];                /* N/m      in x and y; 0: not held there                       */
-    double d0[2];               /* m        at the start of the step                            */
+    int    node[2];             /* at the wall: the held node, twice; a hook may name two       */
+    double k[2];                /* N/m      in x and y; 0: not held in that direction           */
+    double d0[2];               /* m        d at the start of the step                          */
     double Ti[2][6], Tj[2][6];
-    bbm_weight own;             /* of a hook, which keeps it from list to list                  */
+    bbm_weight own;             /* of a hook; stays when the gaps are listed anew               */
 };
 
 struct bbm_line_load {          /* a load along a boundary edge                                 */
     int    node[2];             /* its ends                                                     */
-    int    constant;            /* then f[0] is all of it, Eq. (43)                             */
-    double f[BBM_GAUSS][2];     /* N/m      at the Gauss points from node[0] to [1], Eq. (42)   */
+    int    constant;            /* 1: the load is f[0] all along, Eq. (43)                      */
+    double f[BBM_GAUSS][2];     /* N/m      0: at the Gauss points from node[0] on, Eq. (42)    */
     int    a, b;                /* the vertices at its ends, by bbm_prepare                     */
 };
 
@@ -53,7 +53,7 @@ struct bbm_line_load {          /* a load along a boundary edge                 
 
 typedef struct {                /* Mohr and Coulomb: abs(T) <= N tan_phi + shear, -N <= tension */
     double tan_phi;             /* -        of the friction angle                               */
-    double shear, tension;      /* N        of an unbroken joint; 0: the paper                  */
+    double shear, tension;      /* N        of an unbroken joint; in the paper 0                */
 } bbm_strength;
 
 typedef struct { double x, y, length; } bbm_direction;          /* unit vector; m               */
@@ -61,51 +61,51 @@ typedef struct { double x, y, length; } bbm_direction;          /* unit vector; 
 struct bbm_edge {               /* a boundary edge from vertex a to b, its element on the left  */
     int element, a, b, block;
     /* --- detect.c --- */
-    int    first;               /* one of the elements of its block, for all of them            */
+    int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
     int    side;                /* the first edge of the straight side that it belongs to       */
-    double span;                /* m        length of that side at the start, of its first edge */
-    bbm_direction along;        /* of the present positions                                     */
-    int    contact, pair;       /* the first ones of the corner a in model.contact and in the   */
-                                /* pairs that may touch                                         */
+    double span;                /* m        set in that first edge: the side's starting length  */
+    bbm_direction along;        /* from a to b, at present                                      */
+    int    contact, pair;       /* where those of the corner a begin: in model.contact, and in  */
+                                /* the list of pairs                                            */
 };
 
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
-    /* --- identity: boundary edges; P1 starts `corner`, P2 ends `edge`, P3 starts it --- */
+    /* --- identity: two boundary edges. P1 starts `corner`; P3 starts `edge`, P2 ends it --- */
     int    corner, edge;
     /* --- state, carried from step to step --- */
     bbm_contact_state state;
     double sign;                /* of the slip while it slides: 1 towards P3                    */
-    double anchor;              /* -        P0 = P3 + anchor (P2 - P3)                          */
-    double rest;                /* m        d_n at which the normal spring carries nothing: 0,  */
-                                /*          or where it was when it closed inside, so that no   */
-                                /*          spring starts loaded                                */
+    double anchor;              /* -        where P0 is: P0 = P3 + anchor (P2 - P3)             */
+    double rest;                /* m        d_n at which the normal spring carries nothing; in  */
+                                /*          the paper 0; with bbm_motion less, if it closed     */
+                                /*          with P1 inside: its spring then starts unloaded     */
     double N, T;                /* N        normal force; what the shear spring carries or      */
                                 /*          would carry                                         */
-    double slip;                /* m        how far it has slid since it closed, in all steps   */
-    double area;                /* m^2      that P1 stands for of an unbroken joint, or 0       */
-    int    inside;              /* opened with P1 still inside, where it had closed, see rest   */
+    double slip;                /* m        how far it has slid in all steps since it closed    */
+    double area;                /* m^2      its share of an unbroken joint, or 0                */
+    int    inside;              /* it is open, but P1 is inside since it was closed             */
     /* --- of the step --- */
     bbm_strength strength;
     /* --- of the step, by detect.c --- */
-    int    carried;             /* it was in the list of the last step, with this edge          */
-    int    touches;             /* it does at the start of the first step                       */
+    int    carried;             /* the last step had it, with this edge                         */
+    int    touches;             /* P1 lies on the edge when the run begins                      */
     int    has_left;            /* P1 was on the edge and has gone past its end                 */
     int    was_closed;          /* at the start                                                 */
-    int    beyond_end;          /* the projection of P1 is not on the edge at the start         */
-    int    entrance[4];         /* the other entrance lines, contacts in the list or -1: two    */
-                                /*          at P3, two at P2                                    */
+    int    beyond_end;          /* at the start the projection of P1 is not on the edge         */
+    int    entrance[4];         /* the other entrance lines, two at P3 and two at P2: places in */
+                                /*          the list of contacts, or -1                         */
     double d_n0;                /* m        d_n at the start                                    */
     /* --- of the step, by the open-close iteration --- */
-    double time_left;           /* -        of the step when P1 hit, on which the shear spring  */
-                                /*          acts                                                */
+    double time_left;           /* -        share of the step after P1 hit: the slip of this    */
+                                /*          share loads the shear spring                        */
     double d_n, d_s;            /* m        normal distance and slip at the end                 */
     int    is_on_edge;          /* the projection of P1, at the start or at the end             */
     double N_of_friction;       /* N        the N that friction is taken for                    */
-    int    friction_in_K;       /* that is the N of the solution itself                         */
+    int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
-    bbm_contact_state next_state;
-    int    closings;
+    bbm_contact_state next_state;               /* in the next pass                             */
+    int    closings;            /* how often it has closed in the step                          */
 };
 
 typedef struct {                /* what the formulas of 3.7 take                                */
@@ -116,14 +116,15 @@ typedef struct {                /* what the formulas of 3.7 take                
 
 typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.D_i + g.D_j     */
 
-/* Trials of a static step: as ever; friction as a load in any case; one change of state a pass. */
+/* The trials of a static step: the usual way; all friction as a load; one change in each pass. */
 enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
 
 /* The most passes that change states or renew the vectors of the step, and detections in one part.
  * */
 enum { BBM_MAX_PASSES = 40, BBM_MAX_DETECTIONS = 8 };
 
-/* What comes after a pass of the open-close iteration; with the same K: F alone is new. */
+/* What follows a pass of the open-close iteration: nothing, for all fits; a solution with a new K
+ * and F; a solution with a new F alone; the end of this trial. */
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP } bbm_pass;
 
 struct bbm_contact_scratch {
@@ -133,18 +134,18 @@ struct bbm_contact_scratch {
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- contact.c: the iteration --- */
     int passes, friction_passes;
-    int one_until;              /* the pass until which one contact changes its state in each   */
-    uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass                      */
-    double *force;              /* [elements] the largest one in each component of K, N         */
+    int one_until;              /* before this pass one contact alone changes its state in each */
+    uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
+    double *force;              /* [elements] N: the largest force in each component of K       */
     /* --- detect.c --- */
     int pairs;
-    struct bbm_pair *pair;      /* [pairs]    that may touch, by corner and edge                */
-    struct bbm_reach *reach;    /* [elements] of blocks                                         */
+    struct bbm_pair *pair;      /* [pairs]    a corner and an edge that may touch, sorted       */
+    struct bbm_reach *reach;    /* [elements] how far a block may move, at its element `first`  */
 };
 
 /* ----------------------------------------------------------------------------------- the hooks */
 
-/* How points move in a step, in place of u = T D. */
+/* A hook's way to move points, in place of u = T D. */
 struct bbm_motion {
     void (*matrix)(const bbm_element *e, double x, double y, double T[2][6]);
                                                             /* T at the point (x, y)            */
@@ -152,15 +153,15 @@ struct bbm_motion {
                                                             /* e and g; n or s may be NULL      */
     void (*move)(const double D[6], double X, double Y, double u[2]);
     void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
-                                                            /* an element that has moved        */
+                                                            /* stress and V of one that moved   */
 };
 
-struct bbm_middle {             /* of an element: T of the step belongs to the middle of D      */
+struct bbm_middle {             /* of an element, whose T is taken in the middle of the step    */
     const bbm_motion *motion;
     double D[6];
 };
 
-/* Where what the paper does not have comes in; NULL: the paper's way. */
+/* Functions that do a part of the step in another way than the paper. NULL: the paper's way. */
 struct bbm_hooks {
     /* --- building --- */
     void (*release)(bbm_model *m);                          /* frees m->beyond                  */
@@ -192,7 +193,7 @@ struct bbm_hooks {
 
 static inline int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
 
-/* How points move in the step in hand; NULL: the paper's way. */
+/* How points move in the present step; NULL: the paper's way. */
 static inline const bbm_motion *bbm_motion_of(const bbm_model *m)
 {
     return m->hook->motion ? m->hook->motion(m) : NULL;
