@@ -22,12 +22,12 @@
  * positive definite by its form. On triangles some 15 iterations suffice on a mesh of any fineness.
  * What the nodes of a model are, and P, is in interpolation.c.
  *
- * Kc is factored by Cholesky in its envelope. The nodes are numbered by the last row that has them, so that
- * the envelope is narrow as the band of K is. Displacements of the nodes that move no element (the
- * hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left, some eps of
- * what was summed up before it cancelled. A pivot below VANISHING of that is struck out with its
- * row: the coarse space is then a little smaller, and the preconditioner as positive definite as
- * before.
+ * Kc is factored by Cholesky in its envelope. The nodes are numbered by the last row that has them,
+ * so that the envelope is narrow as the band of K is. Displacements of the nodes that move no
+ * element (the hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left,
+ * some eps of what was summed up before it cancelled. A pivot below VANISHING of that is struck out
+ * with its row: the coarse space is then a little smaller, and the preconditioner as positive
+ * definite as before.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -230,7 +230,8 @@ static void add_block(const coarse_space *c, double f, double P[6][2], int i, do
             sum[k / 2][k % 2] += P[b][k / 2] * Y[b][k % 2];
     for (int k = 0; k < 4; k++) {
         const int p = 2 * i + k / 2, q = 2 * j + k % 2;
-        *bbm_entry(&c->Kc, p > q ? p : q, p > q ? q : p) += (p == q ? 2 : 1) * f * sum[k / 2][k % 2];
+        *bbm_entry(&c->Kc, p > q ? p : q, p > q ? q : p)
+            += (p == q ? 2 : 1) * f * sum[k / 2][k % 2];
     }
 }
 

@@ -2,8 +2,8 @@
  *
  * A contact keeps a corner out of an edge that it comes to from outside. Blocks that overlap have
  * no such history: the corner is behind the edge, no spring pushes it out, and the blocks go
- * through each other. Both checks ask how deep a point lies in what a boundary encloses: its distance from
- * the boundary, if that goes round it.
+ * through each other. Both checks ask how deep a point lies in what a boundary encloses: its
+ * distance from the boundary, if that goes round it.
  *
  * At the start, elements of different blocks or of one block overlap if one of these points lies in
  * the other element: a corner; the middle of a part of a side between two sides of the other

@@ -82,8 +82,8 @@ static void step_matrix(const bbm_element *e, double x, double y, double T[2][6]
 }
 
 /* (59) with points and T of the middle of the step; only the change of l is dropped. (64) likewise,
- * and with what (60) drops, the turning of m: (T3 - T2)^T (P1 - P0)/l in g. Without it friction does
- * not keep angular momentum. */
+ * and with what (60) drops, the turning of m: (T3 - T2)^T (P1 - P0)/l in g. Without it friction
+ * does not keep angular momentum. */
 static void find_vectors(const bbm_touch *c, double anchor, bbm_spring *n, bbm_spring *s)
 {
     const bbm_vertex *P1 = c->P1, *P2 = c->P2, *P3 = c->P3;
