@@ -41,10 +41,8 @@
  * longer on these. Therefore F is scaled to a largest entry near 1, and its zeros become
  * NEGLIGIBLE. That is too small to change a result, and its square is still far above 1e-308.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/base.h"
 
@@ -52,8 +50,6 @@
 #define NEGLIGIBLE 1e-100
 
 /* ----------------------------------------------------------------------------------- the matrix */
-
-void bbm_matrix_keep(bbm_matrix *K, int keep) { K->is_kept = keep; }
 
 void bbm_matrix_clear(bbm_matrix *K)
 {
@@ -146,13 +142,17 @@ void bbm_add_upper(const bbm_matrix *K, const double *x, double *y)
             multiply_add_transposed(1, K->L[k], x + 6 * i, y + 6 * (i - K->back[k]));
 }
 
-/* q = K p = D p + L p + L^T p, and the terms of a hook. */
+/* q = K p = D p + L p + L^T p in one pass over L, and the terms of a hook. */
 void bbm_multiply(const bbm_matrix *K, const double *p, double *q)
 {
-    for (int i = K->from; i < K->to; i++)
+    for (int i = K->from; i < K->to; i++) {
         multiply_symmetric(K->D[i], p + 6 * i, q + 6 * i);
-    bbm_add_lower(K, p, q);
-    bbm_add_upper(K, p, q);
+        for (int k = K->first[i]; k < K->first[i + 1]; k++) {
+            const int j = i - K->back[k];
+            multiply_add(1, K->L[k], p + 6 * j, q + 6 * i);
+            multiply_add_transposed(1, K->L[k], p + 6 * i, q + 6 * j);
+        }
+    }
     if (K->terms > 0)
         K->add_terms(K, p, q);
 }
@@ -303,7 +303,6 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
         return BBM_NOT_FINITE;
     if (K->ready && K->method == pcg->method && K->omega == pcg->omega)
         return BBM_OK;
-    K->ready = 0;
     K->method = pcg->method;
     K->omega = pcg->omega;
     if (!all_finite(36 * (size_t)(K->n + K->first[K->n]), **K->D))

@@ -13,20 +13,6 @@
 
 /* ----------------------------------------------------------------------------- building a model */
 
-/* A new entry at the end of an array of the model. Its index goes through the last pointer, which
- * may be NULL. NULL: out of memory. */
-static void *append(bbm_model *m, void **array, int *count, size_t size, int *index)
-{
-    const int n = *count;
-    void *to = bbm_append(array, count, size);
-
-    if (!to)
-        m->status = bbm_out_of_memory(m);
-    else if (index)
-        *index = n;
-    return to;
-}
-
 /* A model with the defaults of statics in one step. */
 bbm_status bbm_model_new(bbm_model **out)
 {
@@ -78,6 +64,10 @@ void bbm_model_free(bbm_model *m)
 /* Remembers the first error of building, and says what it is. */
 #define REFUSE(m, ...) ((m)->status = bbm_fail(m, __VA_ARGS__))
 
+/* Puts a copy of an entry at the end of an array of the model, counts it, and gives its index. */
+#define APPEND(m, array, count, entry, index) \
+    ((m)->status = bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index))
+
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {
     const struct { const char *name; double value; } positive[3] = {
@@ -94,10 +84,7 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
                           positive[k].name, positive[k].value);
     if (a->nu <= -1 || a->nu >= 0.5)
         return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
-    bbm_material *to = append(m, (void **)&m->material, &m->materials, sizeof *to, index);
-    if (to)
-        *to = *a;
-    return m->status;
+    return APPEND(m, m->material, m->materials, a, index);
 }
 
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
@@ -106,10 +93,7 @@ bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
         return m->status;
     if (!isfinite(x) || !isfinite(y))
         return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
-    bbm_node *to = append(m, (void **)&m->node, &m->nodes, sizeof *to, index);
-    if (to)
-        *to = (bbm_node){ .x = x, .y = y };
-    return m->status;
+    return APPEND(m, m->node, m->nodes, (&(bbm_node){ .x = x, .y = y }), index);
 }
 
 static int is_node(const bbm_model *m, int node) { return node >= 0 && node < m->nodes; }
@@ -158,19 +142,14 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
         return m->status = BBM_SELF_CROSSING;
     for (int i = 0; i < n; i++) {
         const int at = node[area > 0 ? i : n - 1 - i];
-        bbm_vertex *v = append(m, (void **)&m->vertex, &m->vertices, sizeof *v, NULL);
-        if (!v)
+        const bbm_vertex v = { .node = at, .element = e, .x = m->node[at].x, .y = m->node[at].y };
+        if (APPEND(m, m->vertex, m->vertices, &v, NULL))
             return m->status;
-        *v = (bbm_vertex){ .node = at, .element = e, .x = m->node[at].x, .y = m->node[at].y };
     }
-    bbm_element *to = append(m, (void **)&m->element, &m->elements, sizeof *to, index);
-    if (!to)
-        return m->status;
-    *to = (bbm_element){ .block = block, .first = first, .n = n };
-    to->material = m->material[material];
-    bbm_element_geometry(to, &m->vertex[first]);
-    to->A0 = to->A;
-    return BBM_OK;
+    bbm_element new = { .block = block, .material = m->material[material], .first = first, .n = n };
+    bbm_element_geometry(&new, &m->vertex[first]);
+    new.A0 = new.A;
+    return APPEND(m, m->element, m->elements, &new, index);
 }
 
 /* Holds a node in the given directions to a wall point displaced by (u, v). */
@@ -205,49 +184,40 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
     return BBM_OK;
 }
 
-/* Adds a line load with everything but its vertices, which bbm_prepare finds. */
-static bbm_status add_line(bbm_model *m, const bbm_line_load *load)
+/* Adds a line load with everything but its vertices, which bbm_prepare finds. With f it varies, and
+ * is taken at the Gauss points of the starting geometry. */
+static bbm_status add_line(bbm_model *m, bbm_line_load load, bbm_field *f, const void *context)
 {
-    for (int g = 0; g < BBM_GAUSS; g++)
-        if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
-            return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0],
-                          load->node[1]);
-    bbm_line_load *to = append(m, (void **)&m->line_load, &m->line_loads, sizeof *to, NULL);
-    if (to)
-        *to = *load;
-    return m->status;
-}
+    const int p = load.node[0], q = load.node[1];
 
-static bbm_status check_line(bbm_model *m, int node1, int node2)
-{
-    if (!m->status && (!is_node(m, node1) || !is_node(m, node2)))
-        return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", node1, node2, m->nodes);
-    return m->status;
+    if (m->status)
+        return m->status;
+    if (!is_node(m, p) || !is_node(m, q))
+        return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", p, q, m->nodes);
+    const bbm_node *a = &m->node[p], *b = &m->node[q];
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, weight;
+        bbm_gauss_point(g, &s, &weight);
+        if (f)
+            f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
+        if (!isfinite(load.f[g][0]) || !isfinite(load.f[g][1]))
+            return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", p, q);
+    }
+    return APPEND(m, m->line_load, m->line_loads, &load, NULL);
 }
 
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy)
 {
     const bbm_line_load load = { .node = { node1, node2 }, .constant = 1, .f = { { fx, fy } } };
 
-    return check_line(m, node1, node2) ? m->status : add_line(m, &load);
+    return add_line(m, load, NULL, NULL);
 }
 
-/* The load f(x, y) [N/m] on the edge between two nodes, taken at the Gauss points of the starting
- * geometry. */
+/* A load f(x, y) [N/m] on the edge between two nodes. */
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
                                      const void *context)
 {
-    bbm_line_load load = { .node = { node1, node2 } };
-
-    if (check_line(m, node1, node2))
-        return m->status;
-    const bbm_node *a = &m->node[node1], *b = &m->node[node2];
-    for (int g = 0; g < BBM_GAUSS; g++) {
-        double s, weight;
-        bbm_gauss_point(g, &s, &weight);
-        f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
-    }
-    return add_line(m, &load);
+    return add_line(m, (bbm_line_load){ .node = { node1, node2 } }, f, context);
 }
 
 /* ------------------------------------------------------ preparing: 2.2, the edges, and K */
@@ -263,12 +233,11 @@ static bbm_status list_adjacent_vertices(bbm_model *m)
     m->adjacent = first + m->nodes + 1;
     for (int v = 0; v < m->vertices; v++)
         first[m->vertex[v].node]++;
-    for (int n = 0, sum = 0; n <= m->nodes; n++) {
+    for (int n = 0; n <= m->nodes; n++) {
         if (n < m->nodes && first[n] == 0)
             return bbm_fail(m, BBM_UNUSED_NODE, "node %d at (%g, %g)", n, m->node[n].x,
                             m->node[n].y);
-        sum += first[n];
-        first[n] = sum;
+        first[n] += n > 0 ? first[n - 1] : 0;
     }
     for (int v = m->vertices - 1; v >= 0; v--)
         m->adjacent[--first[m->vertex[v].node]] = v;

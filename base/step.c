@@ -73,9 +73,10 @@ bbm_status bbm_out_of_memory(bbm_model *m)
     return bbm_fail(m, BBM_NO_MEMORY, "%d elements, %d nodes", m->elements, m->nodes);
 }
 
-/* A new entry at the end of an array of *count entries, whose room is the next power of two; NULL:
- * out of memory. */
-void *bbm_append(void **array, int *count, size_t size)
+/* Puts a copy of an entry at the end of an array of *count entries, whose room is the next power of
+ * two. Its index goes through the last pointer, which may be NULL. */
+bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const void *entry,
+                      int *index)
 {
     const size_t n = (size_t)*count;
     void *room = *array;
@@ -83,10 +84,13 @@ void *bbm_append(void **array, int *count, size_t size)
     if (n == 0 || (n >= 16 && (n & (n - 1)) == 0))
         room = realloc(*array, (n == 0 ? 16 : 2 * n) * size);
     if (!room)
-        return NULL;
+        return bbm_out_of_memory(m);
     *array = room;
+    memcpy((char *)room + n * size, entry, size);
     ++*count;
-    return (char *)room + n * size;
+    if (index)
+        *index = (int)n;
+    return BBM_OK;
 }
 
 /* ------------------------------------------------------------------------- what a step counts */
@@ -223,18 +227,14 @@ int bbm_parts_to_try(bbm_model *m, bbm_status status, int tries)
     const int may = status == BBM_NOT_POSITIVE_DEFINITE || status == BBM_NOT_CONVERGED
                  || status == BBM_NOT_FINITE || status == BBM_OPEN_CLOSE || status == BBM_ENERGY
                  || status == BBM_STEP_TOO_LONG;
+    const int still = bbm_is_static(m);
 
-    if (!may || tries == (bbm_is_static(m) ? BBM_ONE_BY_ONE : HALVINGS))
+    if (!may || tries == (still ? BBM_ONE_BY_ONE : HALVINGS) || (!still && bbm_is_spent(m)))
         return 0;
-    if (bbm_is_static(m)) {
-        m->trial = tries + 1;
-        return 1;
-    }
-    if (bbm_is_spent(m))
-        return 0;
-    m->info.cuts++;
     m->message[0] = '\0';
-    return 2;
+    m->trial = still ? tries + 1 : BBM_AS_EVER;
+    m->info.cuts += !still;
+    return still ? 1 : 2;
 }
 
 /* Counts the step, or says why it failed. */

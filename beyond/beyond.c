@@ -1,5 +1,4 @@
 /* beyond.c - a model with all that stands beside the paper: what is hooked in where. */
-#include <math.h>
 #include <stdlib.h>
 
 #include "beyond.h"

@@ -4,7 +4,6 @@
  * it, or whose contacts are too soft to keep blocks apart is not a step: it ends in a message, and
  * the model stays as it was.
  */
-#include <math.h>
 
 #include "beyond.h"
 

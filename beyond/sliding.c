@@ -35,7 +35,6 @@
  * has no L U; but every x above is made of products with K, and no force asks for that motion:
  * where there is an equilibrium it is found.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

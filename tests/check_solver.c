@@ -146,9 +146,6 @@ START_TEST(pattern_with_a_row_that_does_not_exist_is_refused)
         ck_assert_int_eq(bbm_matrix_new(3, 2, wrong[k], &K), BBM_BAD_INDEX);
         ck_assert_ptr_null(K);
     }
-    ck_assert_int_eq(bbm_matrix_new(0, 0, NULL, &K), BBM_NO_ELEMENT);
-    ck_assert_ptr_null(K);
-    bbm_matrix_free(K);
 }
 END_TEST
 
