@@ -77,28 +77,6 @@ static double *read_matrix(int *size)
     return A;
 }
 
-/* Solves A x = b by Cholesky's A = L L^T; x takes the place of b. */
-static void solve_dense(int n, double *A, double *b)
-{
-    for (int j = 0; j < n; j++) {
-        for (int i = j; i < n; i++) {
-            double s = A[i * n + j];
-            for (int k = 0; k < j; k++)
-                s -= A[i * n + k] * A[j * n + k];
-            ck_assert(i > j || s > 0);
-            A[i * n + j] = i == j ? sqrt(s) : s / A[j * n + j];
-        }
-        for (int k = 0; k < j; k++)
-            b[j] -= A[j * n + k] * b[k];
-        b[j] /= A[j * n + j];
-    }
-    for (int j = n - 1; j >= 0; j--) {
-        for (int k = j + 1; k < n; k++)
-            b[j] -= A[k * n + j] * b[k];
-        b[j] /= A[j * n + j];
-    }
-}
-
 /* Two rows of two squares that touch: the lower one is a block and held, the upper one another and
  * pressed on it. */
 static const char touching[] = STEEL
@@ -135,7 +113,7 @@ START_TEST(the_matrix_leads_to_the_displacements_that_the_program_writes)
     if (strcmp(name, "touching") == 0)
         ck_assert_double_eq(cell("matrix", "summary.csv", "1,", "contacts"), 3);
     if (matrices[_i].only) {
-        solve_dense(n, A, x);
+        eliminate(n, A, x);
         FILE *f = fopen("out/model/matrix/elements.csv", "r");
         ck_assert(f && fgets(line, sizeof line, f));
         for (int k = 0; k < n; k++)
