@@ -148,9 +148,8 @@ void bbm_multiply(const bbm_matrix *K, const double *p, double *q)
     for (int i = K->from; i < K->to; i++) {
         multiply_symmetric(K->D[i], p + 6 * i, q + 6 * i);
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
-            const int j = i - K->back[k];
-            multiply_add(1, K->L[k], p + 6 * j, q + 6 * i);
-            multiply_add_transposed(1, K->L[k], p + 6 * i, q + 6 * j);
+            multiply_add(1, K->L[k], p + 6 * (i - K->back[k]), q + 6 * i);
+            multiply_add_transposed(1, K->L[k], p + 6 * i, q + 6 * (i - K->back[k]));
         }
     }
     if (K->terms > 0)
