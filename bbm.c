@@ -463,6 +463,7 @@ void bbm_assemble(bbm_model *m)
         assemble_element(m, i);
     for (int g = 0; g < m->gaps; g++)
         assemble_gap(m, &m->gap[g]);
+    bbm_matrix_measure(m->K, m->F);
     bbm_assemble_contacts(m);
     bbm_count_time(m, BBM_ASSEMBLE, start);
 }

@@ -114,7 +114,8 @@ typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 
 typedef struct {
     double omega;               /* -        relaxation factor of SSOR, in (0, 2)                */
-    double tolerance;           /* -        of sqrt(r.M^-1 r), against its first value          */
+    double tolerance;           /* -        of sqrt(r.M^-1 r), against its first value, or less: */
+                                /*          see bbm_matrix_measure                              */
     int    iterations;          /* at most, in each connected component of K                    */
     const bbm_method *method;   /* NULL: the paper's                                            */
 } bbm_pcg;

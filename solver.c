@@ -326,22 +326,36 @@ static double magnitude(const bbm_matrix *K, const double *F)
     return m == 0 ? 0 : ldexp(1, exponent - 1);
 }
 
+/* Notes the largest entry of F in each component. The tolerance is a share of these forces where
+ * the F of bbm_solve is larger. A spring that has to close a gap begins with a force far above the
+ * one that it carries in the end, and what is lost of the first may be all of the second. */
+void bbm_matrix_measure(bbm_matrix *K, const double *F)
+{
+    for (int c = 0; c < K->components; c++) {
+        K->from = K->start[c];
+        K->to = K->start[c + 1];
+        K->forces[c] = magnitude(K, F);
+    }
+}
+
 /* Solves one component. If its iteration fails, its rows of the solution D are the last x. */
-static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
-                                  bbm_pcg_info *info)
+static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, double forces,
+                                  bbm_pcg pcg, bbm_pcg_info *info)
 {
     const double scale = magnitude(K, F);
     double rr = 0, ff = 0;
 
     if (scale == 0)
         return BBM_OK;
+    if (forces > 0 && forces < scale)
+        pcg.tolerance *= forces / scale;
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         const double f = F[6 * K->caller[i / 6] + i % 6] / scale;
         K->r[i] = f == 0 ? NEGLIGIBLE : f;
         K->x[i] = K->p[i] = K->q[i] = 0;
     }
     const int has_terms = K->terms > 0 && K->add_terms(K, K->x, K->q);
-    const bbm_status status = (has_terms ? K->solve_terms : iterate)(K, pcg, info);
+    const bbm_status status = (has_terms ? K->solve_terms : iterate)(K, &pcg, info);
     bbm_multiply(K, K->x, K->q);
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         const int row = 6 * K->caller[i / 6] + i % 6;
@@ -376,7 +390,7 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
         bbm_pcg_info one = { .element = -1 };
         K->from = K->start[c];
         K->to = K->start[c + 1];
-        const bbm_status s = solve_component(K, F, D, &pcg, &one);
+        const bbm_status s = solve_component(K, F, D, K->forces[c], pcg, &one);
         info->element = status ? info->element : one.element;
         status = status ? status : s;
         info->iterations = one.iterations > info->iterations ? one.iterations : info->iterations;

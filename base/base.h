@@ -322,6 +322,7 @@ struct bbm_matrix {
     int *component;             /* [n]       of a caller's row: 0 .. components-1               */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
     int is_kept;                /* 1: clear and add leave K as it is                            */
+    double *forces;             /* [n]       of each component, see bbm_matrix_measure; 0: none */
     int lacks;                  /* what was added to a block that the pattern does not have     */
     /* --- scratch of bbm_solve --- */
     int from, to;               /* the rows of the component in hand: from .. to-1              */
@@ -360,6 +361,7 @@ void       bbm_matrix_clear(bbm_matrix *K);
 static inline void bbm_matrix_keep(bbm_matrix *K, int keep) { K->is_kept = keep; }
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
                                    what the pattern does not have fails here and in bbm_solve   */
+void       bbm_matrix_measure(bbm_matrix *K, const double *F);
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                      bbm_pcg_info *info);
 

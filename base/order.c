@@ -135,7 +135,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->n = K->to = g->n;
     K->place = calloc(5 * n + 2 + blocks, sizeof *K->place);
     K->D = calloc(2 * n + blocks, sizeof *K->D);
-    K->x = calloc(6 * 6 * n, sizeof *K->x);
+    K->x = calloc(37 * n, sizeof *K->x);
     if (!K->place || !K->D || !K->x)
         return BBM_NO_MEMORY;
     K->caller = K->place + n;
@@ -150,6 +150,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->p = K->u + 6 * n;
     K->q = K->p + 6 * n;
     K->y = K->q + 6 * n;
+    K->forces = K->y + 6 * n;
     return BBM_OK;
 }
 
