@@ -78,6 +78,15 @@ void bbm_model_free(bbm_model *m)
 /* Remembers the first error of building, and says what it is. */
 #define REFUSE(m, ...) ((m)->status = bbm_fail(m, __VA_ARGS__))
 
+/* What bbm_prepare has found stands for the nodes, elements and line loads that there are. */
+static bbm_status may_add(bbm_model *m)
+{
+    if (!m->status && m->K)
+        return REFUSE(m, BBM_BAD_PARAMETER, "all nodes, elements and line loads come before "
+                      "bbm_prepare");
+    return m->status;
+}
+
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {
     const struct { const char *name; double value; } positive[3] = {
@@ -102,7 +111,7 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
 {
-    if (m->status)
+    if (may_add(m))
         return m->status;
     if (!isfinite(x) || !isfinite(y))
         return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
@@ -141,7 +150,7 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
     const int e = m->elements, first = m->vertices;
     int flat;
 
-    if (m->status)
+    if (may_add(m))
         return m->status;
     if (material < 0 || material >= m->materials)
         return REFUSE(m, BBM_BAD_INDEX, "element %d has material %d of %d", e, material,
@@ -220,7 +229,7 @@ static bbm_status add_line(bbm_model *m, const bbm_line_load *load)
 
 static bbm_status check_line(bbm_model *m, int node1, int node2)
 {
-    if (!m->status && (!is_node(m, node1) || !is_node(m, node2)))
+    if (!may_add(m) && (!is_node(m, node1) || !is_node(m, node2)))
         return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", node1, node2, m->nodes);
     return m->status;
 }
@@ -309,8 +318,8 @@ static bbm_status connect_elements(bbm_model *m)
         if (same || partners > 1) {
             m->blamed[0] = i > m->vertex[w].element ? i : m->vertex[w].element;
             m->blamed[1] = i + m->vertex[w].element - m->blamed[0];
-            return bbm_fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d",
-                            m->blamed[1], m->blamed[0], p, q);
+            return bbm_fail(m, BBM_OVERLAP, "element %d and element %d on the same side, from node %d "
+                            "to node %d", m->blamed[1], m->blamed[0], p, q);
         }
         const int across = partners == 0 ? 0
                          : bbm_next_vertex(&m->element[m->vertex[w].element], w);

@@ -256,8 +256,9 @@ START_TEST(elements_of_one_block_on_the_same_side_of_an_edge_are_named)
     bbm_model *m = fan(2, top, (int[]){ 0, 0 }), *n = fan(3, top, (int[]){ 6, 6, 6 });
     bbm_model *o = fan(2, top, (int[]){ 0, 1 }), *p = fan(2, top + 1, (int[]){ 0, 0 });
 
-    check_error(m, bbm_prepare(m), BBM_OVERLAP, "elements 0 and 1 on the same side of nodes 0, 1");
-    check_error(n, bbm_prepare(n), BBM_OVERLAP, "elements 0 and 1 on the same side of nodes 0, 1");
+    const char *const said = "element 0 and element 1 on the same side, from node 0 to node 1";
+    check_error(m, bbm_prepare(m), BBM_OVERLAP, said);
+    check_error(n, bbm_prepare(n), BBM_OVERLAP, said);
     check_error(o, bbm_prepare(o), BBM_BLOCKS_OVERLAP,
                 "0.25 m deep at (0.75, 0.25): block 0 with element 0, "
                 "block 1 with element 1");
@@ -533,6 +534,23 @@ START_TEST(a_step_before_bbm_prepare_is_refused)
 }
 END_TEST
 
+/* In place of a step without them, or one that writes beyond its arrays. */
+START_TEST(what_is_added_after_bbm_prepare_is_refused_and_so_are_the_steps_after_it)
+{
+    bbm_model *m = unit_square(&SOLID);
+
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_add_load(m, 2, 1, 1), m);
+    ck_assert_int_eq(_i == 0 ? bbm_add_node(m, 9, 9, NULL)
+                   : _i == 1 ? bbm_add_element(m, 1, 0, 3, (int[]){ 0, 1, 2 }, NULL)
+                   : _i == 2 ? bbm_add_line_load(m, 0, 1, 0, 1)
+                   : bbm_add_varying_line_load(m, 0, 1, rising_load, NULL), BBM_BAD_PARAMETER);
+    ck_assert(m->nodes == 4 && m->elements == 1 && m->line_loads == 0);
+    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "before bbm_prepare");
+    bbm_model_free(m);
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------ steps that fail */
 
 START_TEST(a_negative_stiffness_is_found)
@@ -708,6 +726,7 @@ Suite *input_suite(void)
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_step_before_bbm_prepare_is_refused, 1 },
+        { what_is_added_after_bbm_prepare_is_refused_and_so_are_the_steps_after_it, 4 },
     };
     const loop_test failing_steps[] = {
         { a_negative_stiffness_is_found, 1 },
