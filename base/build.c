@@ -13,13 +13,14 @@
 
 /* ----------------------------------------------------------------------------- building a model */
 
-/* A new entry at the end of an array of the model. Its index goes through the last pointer, which
- * may be NULL. NULL: out of memory. */
+/* A new entry at the end of an array of the model, which is to be prepared anew. Its index goes
+ * through the last pointer, which may be NULL. NULL: out of memory. */
 static void *append(bbm_model *m, void **array, int *count, size_t size, int *index)
 {
     const int n = *count;
     void *to = bbm_append(array, count, size);
 
+    m->is_prepared = 0;
     if (!to)
         m->status = bbm_out_of_memory(m);
     else if (index)
@@ -44,7 +45,7 @@ bbm_status bbm_model_new(bbm_model **out)
     return BBM_OK;
 }
 
-/* What bbm_prepare made, the members from `bonds` up to `h`. */
+/* What bbm_prepare made, the members from `is_prepared` up to `h`. */
 static void free_prepared(bbm_model *m)
 {
     free(m->bond);
@@ -56,8 +57,8 @@ static void free_prepared(bbm_model *m)
     free(m->contact);
     bbm_matrix_free(m->K);
     bbm_detect_free(m->scratch);
-    memset((char *)m + offsetof(bbm_model, bonds), 0,
-           offsetof(bbm_model, h) - offsetof(bbm_model, bonds));
+    memset((char *)m + offsetof(bbm_model, is_prepared), 0,
+           offsetof(bbm_model, h) - offsetof(bbm_model, is_prepared));
 }
 
 void bbm_model_free(bbm_model *m)
@@ -77,15 +78,6 @@ void bbm_model_free(bbm_model *m)
 
 /* Remembers the first error of building, and says what it is. */
 #define REFUSE(m, ...) ((m)->status = bbm_fail(m, __VA_ARGS__))
-
-/* What bbm_prepare has found stands for the nodes, elements and line loads that there are. */
-static bbm_status may_add(bbm_model *m)
-{
-    if (!m->status && m->K)
-        return REFUSE(m, BBM_BAD_PARAMETER, "all nodes, elements and line loads come before "
-                      "bbm_prepare");
-    return m->status;
-}
 
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {
@@ -111,7 +103,7 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
 {
-    if (may_add(m))
+    if (m->status)
         return m->status;
     if (!isfinite(x) || !isfinite(y))
         return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
@@ -150,7 +142,7 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
     const int e = m->elements, first = m->vertices;
     int flat;
 
-    if (may_add(m))
+    if (m->status)
         return m->status;
     if (material < 0 || material >= m->materials)
         return REFUSE(m, BBM_BAD_INDEX, "element %d has material %d of %d", e, material,
@@ -229,7 +221,7 @@ static bbm_status add_line(bbm_model *m, const bbm_line_load *load)
 
 static bbm_status check_line(bbm_model *m, int node1, int node2)
 {
-    if (!may_add(m) && (!is_node(m, node1) || !is_node(m, node2)))
+    if (!m->status && (!is_node(m, node1) || !is_node(m, node2)))
         return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", node1, node2, m->nodes);
     return m->status;
 }
@@ -382,5 +374,6 @@ bbm_status bbm_prepare(bbm_model *m)
         return bbm_fail(m, BBM_NO_ELEMENT, "%d nodes", m->nodes);
     for (size_t k = 0; k < sizeof part / sizeof *part && !status; k++)
         status = part[k] ? part[k](m) : BBM_OK;
+    m->is_prepared = !status;
     return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }

@@ -210,8 +210,9 @@ bbm_status bbm_check_step(bbm_model *m)
     m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
     if (m->status)
         return m->status;
-    if (!m->K)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
+    if (!m->is_prepared)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again after "
+                        "what is added");
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
