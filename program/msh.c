@@ -466,7 +466,6 @@ static int read_sections(mesh *m)
 int model_read_mesh(model_reader *r, const char *path, model_place statement)
 {
     mesh m = { .r = r, .at = { path, 1 }, .statement = statement, .line = 1 };
-    const int before = r->elements;
     size_t size;
     int good = 0;
 
@@ -474,7 +473,7 @@ int model_read_mesh(model_reader *r, const char *path, model_place statement)
     if (m.text) {
         m.end = m.text + size;
         good = read_sections(&m);
-        if (good && r->elements == before)
+        if (good && r->elements == 0)
             good = model_fail(r, m.at, "no triangle or quadrilateral, expected a mesh of surfaces: "
                               "gmsh -2");
     }

@@ -57,11 +57,10 @@ int output_keep(output *o)
     return !o->why;
 }
 
-static void give_up(const output *o, int why)
+static void give_up(const output *o)
 {
     if (!o->direct)
         remove(o->temporary);
-    errno = why;
 }
 
 void output_drop(output *o)
@@ -70,9 +69,10 @@ void output_drop(output *o)
 
     if (o->file) {
         fclose(o->file);
-        give_up(o, why);
+        give_up(o);
     }
     o->file = NULL;
+    errno = why;
 }
 
 /* Replaces a file of that name. */
@@ -94,9 +94,9 @@ int output_close(output *o)
         return 0;
     note(o, !fflush(file) && !ferror(file));
     note(o, !fclose(file));
-    const int keeps = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
-    if (!keeps || (!o->direct && !note(o, give_name(o->temporary, o->path))))
-        give_up(o, o->why);
+    const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
+    if (!keep || !(o->direct || give_name(o->temporary, o->path) || note(o, 0)))
+        give_up(o);
     errno = o->why;
     return !o->why;
 }

@@ -11,7 +11,6 @@
  *     MODEL            the rest, on the library's model, which is built and prepared: build.c
  *     MONITORS         expect                     needs monitors */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -441,15 +440,12 @@ static int read_grid(model_reader *r)
     if ((double)n[0] * n[1] > MOST_CELLS)
         return model_blame(r, "a grid of %d x %d cells, expected at most %d", n[0], n[1],
                            MOST_CELLS);
-    const double bytes = (double)ELEMENT_BYTES * (kind == CELL_CROSSED ? 4 : 1) * n[0] * n[1];
-    void *room = bytes < (double)SIZE_MAX ? malloc((size_t)bytes) : NULL;
+    const int elements = n[0] * n[1] * (kind == CELL_QUADS ? 1 : kind == CELL_CROSSED ? 4 : 2);
+    void *room = calloc((size_t)elements, ELEMENT_BYTES);      /* nobody writes there */
     free(room);
-    if (!room) {
-        model_blame(r, "out of memory: a grid of %d x %d cells takes %.2g GB and more", n[0], n[1],
-                    bytes / 1e9);
-        r->p->status = 1;
-        return 0;
-    }
+    if (!room)
+        return model_blame(r, "out of memory: a grid of %d x %d cells takes %.2g GB and more", n[0],
+                           n[1], 1e-9 * ELEMENT_BYTES * elements), r->p->status = 1, 0;
     for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && good; k++) {
         const double s = (double)(k % (n[0] + 1)) / n[0], t = (double)(k / (n[0] + 1)) / n[1];
         good = add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);

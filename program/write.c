@@ -425,7 +425,6 @@ static int leave_folder(write_results *w)
 
     if (w->lock)
         output_unlock(w->lock, path_of(w, LOCK, path));
-    w->lock = NULL;
     return !w->status;
 }
 
@@ -459,9 +458,8 @@ int write_open(write_results *w)
     char path[LONGEST];
 
     if (!open_folder(w) || !empty_folder(w)
-        || !open_file(w, &w->history, path_of(w, "history.csv", path)))
-        return leave_folder(w);
-    if (!open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
+        || !open_file(w, &w->history, path_of(w, "history.csv", path))
+        || !open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
         output_drop(&w->history);
         return leave_folder(w);
     }
