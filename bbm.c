@@ -673,7 +673,7 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
     int count = 0;
 
     *r = (bbm_result){ 0 };
-    if (!m->K || node < 0 || node >= m->nodes)
+    if (!m->is_prepared || node < 0 || node >= m->nodes)
         return BBM_BAD_INDEX;
     for (int a = m->adjacent_first[node]; a < m->adjacent_first[node + 1]; a++) {
         const bbm_vertex *v = &m->vertex[m->adjacent[a]];

@@ -173,6 +173,7 @@ struct bbm_model {
     bbm_line_load *line_load;   /* [line_loads]                                                 */
     bbm_material  *material;    /* [materials]                                                  */
     /* --- made by bbm_prepare --- */
+    int is_prepared;            /* 0 again when something is added                              */
     int bonds, edges, gaps, contacts;
     bbm_bond *bond;             /* [bonds]   the internal edges                                 */
     bbm_edge *edge;             /* [edges]   the boundary edges                                 */
@@ -225,7 +226,8 @@ const char *bbm_message(const bbm_model *m);                /* the last error in
 
 /* --------------------------------------------------------------------------- 2. build a model
  * Once a bbm_add or bbm_fix has failed, the later calls do nothing and return its status. So a
- * program may check bbm_prepare alone. The index of what was added goes through the last pointer,
+ * program may check bbm_prepare alone. What is added after it needs it again, but for fixed nodes and
+ * loads of nodes. The index of what was added goes through the last pointer,
  * which may be NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);

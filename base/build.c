@@ -30,7 +30,7 @@ bbm_status bbm_model_new(bbm_model **out)
     return BBM_OK;
 }
 
-/* What bbm_prepare made, the members from `bonds` up to `h`. */
+/* What bbm_prepare made, the members from `is_prepared` up to `h`. */
 static void free_prepared(bbm_model *m)
 {
     free(m->bond);
@@ -42,8 +42,8 @@ static void free_prepared(bbm_model *m)
     free(m->contact);
     bbm_matrix_free(m->K);
     bbm_detect_free(m->scratch);
-    memset((char *)m + offsetof(bbm_model, bonds), 0,
-           offsetof(bbm_model, h) - offsetof(bbm_model, bonds));
+    memset((char *)m + offsetof(bbm_model, is_prepared), 0,
+           offsetof(bbm_model, h) - offsetof(bbm_model, is_prepared));
 }
 
 void bbm_model_free(bbm_model *m)
@@ -64,9 +64,11 @@ void bbm_model_free(bbm_model *m)
 /* Remembers the first error of building, and says what it is. */
 #define REFUSE(m, ...) ((m)->status = bbm_fail(m, __VA_ARGS__))
 
-/* Puts a copy of an entry at the end of an array of the model, counts it, and gives its index. */
+/* Puts a copy of an entry at the end of an array of the model, which is to be prepared anew, counts
+ * it, and gives its index. */
 #define APPEND(m, array, count, entry, index) \
-    ((m)->status = bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index))
+    ((m)->is_prepared = 0, \
+     (m)->status = bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index))
 
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {
@@ -278,8 +280,8 @@ static bbm_status connect_elements(bbm_model *m)
         if (same || partners > 1) {
             m->blamed[0] = i > m->vertex[w].element ? i : m->vertex[w].element;
             m->blamed[1] = i + m->vertex[w].element - m->blamed[0];
-            return bbm_fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d",
-                            m->blamed[1], m->blamed[0], p, q);
+            return bbm_fail(m, BBM_OVERLAP, "element %d and element %d on the same side, from node %d "
+                            "to node %d", m->blamed[1], m->blamed[0], p, q);
         }
         const int across = partners == 0 ? 0
                          : bbm_next_vertex(&m->element[m->vertex[w].element], w);
@@ -342,5 +344,6 @@ bbm_status bbm_prepare(bbm_model *m)
         return bbm_fail(m, BBM_NO_ELEMENT, "%d nodes", m->nodes);
     for (size_t k = 0; k < sizeof part / sizeof *part && !status; k++)
         status = part[k] ? part[k](m) : BBM_OK;
+    m->is_prepared = !status;
     return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }

@@ -36,7 +36,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_BAD_ELEMENT] = "an element is no polygon",
         [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
         [BBM_OVERLAP] = "elements of one block overlap",
-        [BBM_BLOCKS_OVERLAP] = "blocks overlap at the start",
+        [BBM_BLOCKS_OVERLAP] = "blocks overlap",
         [BBM_UNUSED_NODE] = "a node belongs to no element",
         [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
         [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
@@ -212,9 +212,11 @@ bbm_status bbm_check_step(bbm_model *m)
     };
 
     m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
-    if (!m->K)
-        return m->status ? m->status
-                         : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
+    if (m->status)
+        return m->status;
+    if (!m->is_prepared)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again after "
+                        "what is added");
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 

@@ -279,7 +279,7 @@ bbm_status bbm_check_passed(bbm_model *m)
         return BBM_OK;
     const bbm_vertex *P = &m->vertex[m->edge[corner].a];
     return bbm_fail(m, BBM_BLOCKS_OVERLAP, "step %d: a corner of block %d passed into block %d at "
-                    "(%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
-                    m->edge[corner].block, m->edge[edge].block, P->x, P->y,
+                    "(%g, %g), %.2g m deep; a smaller dt, or stiffer contacts and materials help",
+                    m->info.step + 1, m->edge[corner].block, m->edge[edge].block, P->x, P->y,
                     bbm_depth_passed(m, corner, edge));
 }

@@ -58,7 +58,7 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    char **word;                            /* [words] */
+    char **word, **given;                   /* [words]      $NAME replaced; as the file gives them */
     model_statement *statement;             /* [statements] */
     model_node *node;
     model_element *element;
@@ -85,6 +85,8 @@ int   model_fail(model_reader *r, model_place at, const char *format, ...);
 int   model_blame(model_reader *r, const char *format, ...);
 int   model_out_of_memory(model_reader *r);
 int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
+void  model_clean(char *text);                          /* of what a terminal would obey */
+const char *model_hint(const char *word);               /* what it may mean; or "" */
 /* One more item at the end of an array of `count`; 0: no memory. */
 int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
 void *model_room(model_reader *r, int count, size_t size);      /* zeros, and one more; or NULL */

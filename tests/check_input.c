@@ -248,8 +248,9 @@ START_TEST(elements_of_one_block_on_the_same_side_of_an_edge_are_named)
     bbm_model *m = fan(2, top, (int[]){ 0, 0 }), *n = fan(3, top, (int[]){ 6, 6, 6 });
     bbm_model *o = fan(2, top, (int[]){ 0, 1 }), *p = fan(2, top + 1, (int[]){ 0, 0 });
 
-    check_error(m, bbm_prepare(m), BBM_OVERLAP, "elements 0 and 1 on the same side of nodes 0, 1");
-    check_error(n, bbm_prepare(n), BBM_OVERLAP, "elements 0 and 1 on the same side of nodes 0, 1");
+    const char *const said = "element 0 and element 1 on the same side, from node 0 to node 1";
+    check_error(m, bbm_prepare(m), BBM_OVERLAP, said);
+    check_error(n, bbm_prepare(n), BBM_OVERLAP, said);
     check_error(o, bbm_prepare(o), BBM_BLOCKS_OVERLAP,
                 "0.25 m deep at (0.75, 0.25): block 0 with element 0, "
                 "block 1 with element 1");
@@ -521,6 +522,22 @@ START_TEST(a_step_before_bbm_prepare_is_refused)
 }
 END_TEST
 
+/* Not a step without it, or one that writes beyond its arrays. */
+START_TEST(what_is_added_after_bbm_prepare_needs_it_again)
+{
+    bbm_model *m = unit_square(&SOLID);
+    bbm_result r;
+
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(_i == 0 ? bbm_add_node(m, 9, 9, NULL)
+        : _i == 1 ? bbm_add_element(m, 1, 0, 3, (int[]){ 0, 1, 2 }, NULL)
+        : bbm_add_line_load(m, 0, 1, 0, 1), m);
+    ck_assert_int_eq(bbm_nodal_result(m, m->nodes - 1, -1, &r), BBM_BAD_INDEX);
+    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again");
+    bbm_model_free(m);
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------ steps that fail */
 
 START_TEST(a_negative_stiffness_is_found)
@@ -654,6 +671,7 @@ Suite *input_suite(void)
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_step_before_bbm_prepare_is_refused, 1 },
+        { what_is_added_after_bbm_prepare_needs_it_again, 3 },
     };
     const loop_test failing_steps[] = {
         { a_negative_stiffness_is_found, 1 },
