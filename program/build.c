@@ -113,8 +113,8 @@ static int add_element(model_reader *r, const model_element *e)
         return model_fail(r, e->at, "element %s of block '%s' has no area, or one too large, "
                           "expected a polygon", e->id, r->block[e->block].name);
     r->p->element[index] = e->id;
-    r->p->centre[index][0] = b->x;
-    r->p->centre[index][1] = b->y;
+    r->p->centre[index][0] = b->x + r->p->m->origin[0];
+    r->p->centre[index][1] = b->y + r->p->m->origin[1];
     return 1;
 }
 
@@ -145,7 +145,8 @@ static int report_overlap(model_reader *r)
                       "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
                       "%g %g, expected blocks that touch at most",
                       p->element[o.j], r->block[r->element[o.j].block].name, o.depth,
-                      p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
+                      p->element[o.i], r->block[r->element[o.i].block].name,
+                      o.x + p->m->origin[0], o.y + p->m->origin[1]);
 }
 
 int model_build(model_reader *r)

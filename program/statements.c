@@ -162,9 +162,9 @@ static int read_material(model_reader *r)
     const char *word = model_name(r);
     bbm_material m = { .thickness = 1 };
     model_option o[] = {
-        ABOVE_ZERO("E", &m.E), ABOVE_ZERO("density", &m.density),
+        NORMAL("E", &m.E), NORMAL("density", &m.density),
         RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
-        ABOVE_ZERO("thickness", &m.thickness),
+        NORMAL("thickness", &m.thickness),
     };
 
     o[0].needed = o[1].needed = o[2].needed = 1;
@@ -259,7 +259,7 @@ static int read_pcg(model_reader *r)
     int coarse = 0;
     model_option o[] = {
         RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
-        RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1"),
+        RANGE("tolerance", &p->tolerance, 0, 1e-6, "(]", "more than 0, at most 1e-6"),
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 
