@@ -160,31 +160,26 @@ static void list_edge(bbm_model *m, int i, int j, const bbm_gap end[2], int dire
     }
 }
 
-/* A vertex of the shape to which M belongs: where steps are exact the starting one. M is constant
- * then, and its forces have a potential. */
-static bbm_vertex shape_at(const bbm_model *m, int v)
+/* The moment M that a quadrilateral asks for on its edge from vertex v on; returns n.M n with the
+ * normal n of the edge. Where steps are exact M belongs to the starting shape: it is constant then,
+ * and its forces have a potential. */
+static double own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
 {
-    bbm_vertex p = m->vertex[v];
-
-    if (m->element[p.element].middle) {
-        p.x -= p.u;
-        p.y -= p.v;
-    }
-    return p;
-}
-
-/* The moment M that a quadrilateral asks for on its edge from vertex v on. */
-static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
-{
+    const int edge = v - e->first, exact = e->middle != NULL;
     bbm_element shape = *e;
-    bbm_vertex at[4];
+    bbm_vertex at[5];
     double own[2][2][2];
 
-    shape.A = e->middle ? e->A0 : e->A;
-    for (int k = 0; k < 4; k++)
-        at[k] = shape_at(m, e->first + k);
+    shape.A = exact ? e->A0 : e->A;
+    for (int k = 0; k < 5; k++) {
+        at[k] = m->vertex[e->first + k % 4];
+        at[k].x -= exact * at[k].u;
+        at[k].y -= exact * at[k].v;
+    }
     bbm_bending_moments(&shape, at, own);
-    memcpy(M, own[(v - e->first) % 2], 4 * sizeof M[0][0]);
+    memcpy(M, own[edge % 2], 4 * sizeof M[0][0]);
+    const double nx = at[edge + 1].y - at[edge].y, ny = at[edge].x - at[edge + 1].x;
+    return nx * nx * M[0][0] + nx * ny * (M[0][1] + M[1][0]) + ny * ny * M[1][1];
 }
 
 /* The moment M of a bond. The halves of its two elements bend one after the other, so their
@@ -195,15 +190,11 @@ static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M
  * whose n.M n is the harmonic mean. */
 static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
 {
-    const bbm_vertex P = shape_at(m, b->p[0]), R = shape_at(m, b->p[1]);
-    const double nx = R.y - P.y, ny = P.x - R.x;
     double Mi[2][2], Mj[2][2];
-
-    own_moment(m, &m->element[b->i], b->p[0], Mi);
-    own_moment(m, &m->element[b->j], b->q[1], Mj);      /* the edge runs the other way in j */
-    const double mi = nx * nx * Mi[0][0] + nx * ny * (Mi[0][1] + Mi[1][0]) + ny * ny * Mi[1][1];
-    const double mj = nx * nx * Mj[0][0] + nx * ny * (Mj[0][1] + Mj[1][0]) + ny * ny * Mj[1][1];
+    const double mi = own_moment(m, &m->element[b->i], b->p[0], Mi);
+    const double mj = own_moment(m, &m->element[b->j], b->q[1], Mj);    /* it runs the other way */
     const double sum = mi + mj, series = sum > 0 ? 4 * (mi / sum) * (mj / sum) : 0;
+
     for (int a = 0; a < 4; a++)
         M[a / 2][a % 2] = series * (Mi[a / 2][a % 2] + Mj[a / 2][a % 2]) / 2;
 }

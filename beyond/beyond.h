@@ -105,7 +105,7 @@ typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 void       bbm_energies(const bbm_model *m, bbm_energy *e);
 void       bbm_note_springs(bbm_model *m, int when);     /* of the solution in hand             */
 bbm_model  bbm_end_of_step(const bbm_model *m);
-bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, int *worst);
+bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end);
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
 /* rotation.c */

@@ -179,22 +179,24 @@ static void balance(bbm_model *m, const bbm_model *end)
 /* The energy that the part of a step from m to `end` makes beyond the work of its loads, for each
  * component by itself, as a share of what is there: the energy at the start, the work of each load
  * without sign, and what rounding may make. The largest shares of all parts of a step add up. Too
- * much is BBM_ENERGY, in the component `worst`; if not, m->beyond notes it. */
-bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, int *worst)
+ * much is refused; if not, m->beyond notes it. */
+bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
 {
     bbm_beyond *b = m->beyond;
+    const bbm_account *worst = b->account;
     double share = 0, gained = 0, work = 0;
 
     balance(m, end);
-    for (int c = 0; c < m->K->components; c++) {
-        const bbm_account *a = &b->account[c];
-        *worst = a->gain > share * a->there ? c : *worst;
-        share = a->gain > share * a->there ? a->gain / a->there : share;
+    for (const bbm_account *a = b->account; a < b->account + m->K->components; a++) {
+        worst = a->gain > share * a->there ? a : worst;
+        share = fmax(0, worst->gain / worst->there);
         gained += fmax(0, a->gain);
         work += a->work;
     }
     if (bbm_motion_of(m) && b->made + share > GAIN)
-        return BBM_ENERGY;
+        return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: %g J more than its loads' "
+                        "work, of %g J", m->info.step + 1, m->info.t, m->h, worst->gain,
+                        worst->there);
     for (int i = 0; i < m->elements; i++)
         b->account[i].springs[0] = b->account[i].springs[1];
     b->work += work;
