@@ -97,9 +97,8 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
         return REFUSE(m, BBM_NOT_FINITE, "material %d", n);
     for (int k = 0; k < 3; k++)
         if (!(positive[k].value >= LEAST && positive[k].value <= 1 / LEAST))
-            return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more "
-                          "than 0, from %g to %g", n, positive[k].name, positive[k].value, LEAST,
-                          1 / LEAST);
+            return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0, "
+                          "from %g to %g", n, positive[k].name, positive[k].value, LEAST, 1 / LEAST);
     if (a->nu <= -1 || a->nu >= 0.5)
         return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
     bbm_material *to = append(m, (void **)&m->material, &m->materials, sizeof *to, index);

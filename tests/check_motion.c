@@ -441,25 +441,24 @@ END_TEST
 /* A block slides on a slab, at the origin and 1e11 m from it, where the last digit of a position is 1.5e-5 m. */
 START_TEST(a_model_far_from_the_origin_moves_as_one_at_it)
 {
-    bbm_model *m[2];
+    double u[2], v[2];
 
     for (int k = 0; k < 2; k++) {
         const double far = k * 1e11;
-        m[k] = new_model(1e9, 0.001);
-        add_box(m[k], 0, &(box){ far, -far, 4, 1, 0, 1, 1, 0 });
-        hold_block(m[k], 0);
-        add_box(m[k], 1, &(box){ far + 1, 1 - far, 1, 1, 0, 1, 1, 0 });
-        m[k]->par.gravity[0] = 3;
-        m[k]->par.gravity[1] = -9.81;
-        ck_ok(bbm_prepare(m[k]), m[k]);
-        run_steps(m[k], 100);
+        bbm_model *m = new_model(1e9, 0.001);
+        add_box(m, 0, &(box){ far, -far, 4, 1, 0, 1, 1, 0 });
+        hold_block(m, 0);
+        add_box(m, 1, &(box){ far + 1, 1 - far, 1, 1, 0, 1, 1, 0 });
+        m->par.gravity[0] = 3;
+        m->par.gravity[1] = -9.81;
+        ck_ok(bbm_prepare(m), m);
+        run_steps(m, 100);
+        u[k] = m->vertex[4].u;
+        v[k] = m->vertex[4].v;
+        bbm_model_free(m);
     }
-    for (int v = 0; v < m[0]->vertices; v++) {
-        ck_near(m[1]->vertex[v].u, m[0]->vertex[v].u, 0.015, 1e-9);
-        ck_near(m[1]->vertex[v].v, m[0]->vertex[v].v, 0.015, 1e-9);
-    }
-    bbm_model_free(m[0]);
-    bbm_model_free(m[1]);
+    ck_near(u[1], u[0], 0.015, 1e-9);
+    ck_near(v[1], v[0], 0.015, 1e-9);
 }
 END_TEST
 
