@@ -173,8 +173,8 @@ static double own_moment(const bbm_model *m, const bbm_element *e, int v, double
     shape.A = exact ? e->A0 : e->A;
     for (int k = 0; k < 5; k++) {
         at[k] = m->vertex[e->first + k % 4];
-        at[k].x -= exact * at[k].u;
-        at[k].y -= exact * at[k].v;
+        at[k].x = exact ? m->node[at[k].node].x - m->origin[0] : at[k].x;
+        at[k].y = exact ? m->node[at[k].node].y - m->origin[1] : at[k].y;
     }
     bbm_bending_moments(&shape, at, own);
     memcpy(M, own[edge % 2], 4 * sizeof M[0][0]);

@@ -54,8 +54,8 @@ static double kinetic_energy(const bbm_model *m, const bbm_element *e)
     return bbm_inertia_form(&now, V) / 2;
 }
 
-/* 1/2 t A0 s.E^-1 s with Hooke's law (7) and s the stress on the starting area, A/A0 stress: without
- * strain s.E^-1 s is what is left, with the other sign, of [0 s; s E]. */
+/* 1/2 t A0 s.E^-1 s with Hooke's law (7) and s the stress, where steps are exact on the starting
+ * area: without strain s.E^-1 s is what is left, with the other sign, of [0 s; s E]. */
 static double elastic_energy(const bbm_model *m, const bbm_element *e)
 {
     double E[3][3], W[4][4] = { { 0 } };
@@ -66,7 +66,7 @@ static double elastic_energy(const bbm_model *m, const bbm_element *e)
     for (int a = 0; a < 9; a++)
         W[1 + a / 3][1 + a % 3] = E[a / 3][a % 3];
     for (int a = 0; a < 3; a++)
-        W[0][1 + a] = W[1 + a][0] = now.A / e->A0 * e->stress[a];
+        W[0][1 + a] = W[1 + a][0] = (e->middle ? now.A / e->A0 : 1) * e->stress[a];
     bbm_condense(4, 1, W);
     return -e->material.thickness * e->A0 * W[0][0] / 2;
 }
