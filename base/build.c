@@ -14,8 +14,9 @@
 /* What a material may have: products of three or their squares are still numbers then. */
 #define LEAST 1e-100
 
-/* A model that lies more sizes of its first element than this away from (0, 0) gets an origin of its
- * own. Else the last digit of a coordinate, times p_n, would be a force that counts. */
+/* A model that lies more than half as many sizes of its first element away from (0, 0) gets an
+ * origin of its own. Else the last digit of a coordinate, times p_n, would be a force that
+ * counts. */
 #define FAR 1024
 
 /* ----------------------------------------------------------------------------- building a model */
@@ -98,7 +99,7 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
     for (int k = 0; k < 3; k++)
         if (!(positive[k].value >= LEAST && positive[k].value <= 1 / LEAST))
             return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0, "
-                          "from %g to %g", n, positive[k].name, positive[k].value, LEAST, 1 / LEAST);
+                          "from 1e-100 to 1e+100", n, positive[k].name, positive[k].value);
     if (a->nu <= -1 || a->nu >= 0.5)
         return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
     bbm_material *to = append(m, (void **)&m->material, &m->materials, sizeof *to, index);
