@@ -122,17 +122,19 @@ void bbm_elastic_matrix(const bbm_material *m, double E[3][3])
 }
 
 /* Pi_e = t A (1/2 e.E e + e.stress0), Eq. (6)-(9)
- *     ->   K_ii += t A E, F_i -= t A stress0, Eq. (10). */
+ *     ->   K_ii += t A E, F_i -= t A stress0, Eq. (10).
+ * Deviation: with bbm_motion the A of K_ii is the starting area. The forces of Hooke's law have a
+ * potential then: a body that is strained and comes back makes no energy. */
 void bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s)
 {
-    const double tA = e->material.thickness * e->A;
+    const double t = e->material.thickness, tA = t * (e->middle ? e->A0 : e->A);
     double E[3][3];
 
     bbm_elastic_matrix(&e->material, E);
     for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++)
             s->K[3 + a][3 + b] += tA * E[a][b];
-        s->F[3 + a] -= tA * e->stress[a];
+        s->F[3 + a] -= t * e->A * e->stress[a];
     }
 }
 
@@ -539,8 +541,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         bbm_move(m, e, e->D, p->x, p->y, u);
         p->u += u[0];
         p->v += u[1];
-        p->x = m->node[p->node].x + p->u;
-        p->y = m->node[p->node].y + p->v;
+        p->x = m->node[p->node].x - m->origin[0] + p->u;
+        p->y = m->node[p->node].y - m->origin[1] + p->v;
     }
     bbm_elastic_matrix(&e->material, E);
     for (int a = 0; a < 3; a++) {

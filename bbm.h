@@ -80,8 +80,8 @@ typedef struct {                /* a grid point; each element that meets there h
 
 typedef struct {                /* of one element, on one node                                  */
     int    node, element;
-    double x, y;                /* m        present position                 */
-    double u, v;                /* m        displacement since the start: x = node.x + u        */
+    double x, y;                /* m        present position from model.origin                  */
+    double u, v;                /* m        displacement since the start                        */
     int    edge;                /* the boundary edge that starts here; -1 - w, if an internal   */
                                 /*          edge does: w is the vertex of the other element     */
                                 /*          that coincides with this one; by bbm_prepare        */
@@ -93,7 +93,7 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     int    first, n;            /* its vertices are model.vertex[first .. first+n-1]            */
     bbm_material material;
     /* --- geometry of the step, by bbm_element_geometry --- */
-    double x, y;                /* m        barycentre                       */
+    double x, y;                /* m        barycentre, from model.origin    */
     double A;                   /* m^2      area                             */
     double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre         */
     /* --- state --- */
@@ -172,6 +172,7 @@ struct bbm_model {
     bbm_vertex    *vertex;      /* [vertices], element by element                               */
     bbm_line_load *line_load;   /* [line_loads]                                                 */
     bbm_material  *material;    /* [materials]                                                  */
+    double origin[2];           /* m        0, or near a model that is far from (0, 0)          */
     /* --- made by bbm_prepare --- */
     int is_prepared;            /* 0 again when something is added                              */
     int bonds, edges, gaps, contacts;

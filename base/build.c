@@ -11,6 +11,14 @@
  * decide the sign of its area. */
 #define FLAT 1e-12
 
+/* What a material may have: products of three or their squares are still numbers then. */
+#define LEAST 1e-100
+
+/* A model that lies more than half as many sizes of its first element away from (0, 0) gets an
+ * origin of its own. Else the last digit of a coordinate, times p_n, would be a force that
+ * counts. */
+#define FAR 1024
+
 /* ----------------------------------------------------------------------------- building a model */
 
 /* A model with the defaults of statics in one step. */
@@ -81,9 +89,9 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
     if (!isfinite(a->E) || !isfinite(a->nu) || !isfinite(a->density) || !isfinite(a->thickness))
         return REFUSE(m, BBM_NOT_FINITE, "material %d", n);
     for (int k = 0; k < 3; k++)
-        if (positive[k].value <= 0)
-            return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0", n,
-                          positive[k].name, positive[k].value);
+        if (!(positive[k].value >= LEAST && positive[k].value <= 1 / LEAST))
+            return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0, "
+                          "from 1e-100 to 1e+100", n, positive[k].name, positive[k].value);
     if (a->nu <= -1 || a->nu >= 0.5)
         return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
     return APPEND(m, m->material, m->materials, a, index);
@@ -142,9 +150,15 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
         return REFUSE(m, BBM_BAD_ELEMENT, "element %d has no area, %g m^2", e, area);
     if (m->hook->check_polygon && m->hook->check_polygon(m, n, node))
         return m->status = BBM_SELF_CROSSING;
+    if (e == 0) {
+        const double grid = FAR * sqrt(fabs(area));
+        m->origin[0] = grid * rint(m->node[node[0]].x / grid);
+        m->origin[1] = grid * rint(m->node[node[0]].y / grid);
+    }
     for (int i = 0; i < n; i++) {
         const int at = node[area > 0 ? i : n - 1 - i];
-        const bbm_vertex v = { .node = at, .element = e, .x = m->node[at].x, .y = m->node[at].y };
+        const bbm_vertex v = { .node = at, .element = e, .x = m->node[at].x - m->origin[0],
+                               .y = m->node[at].y - m->origin[1] };
         if (APPEND(m, m->vertex, m->vertices, &v, NULL))
             return m->status;
     }

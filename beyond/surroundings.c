@@ -94,7 +94,7 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
         return status;
     bbm_edge_load *load = &m->beyond->edge_load[m->beyond->edge_loads - 1];
     load->pressure = 0;
-    load->level = level;
+    load->level = level - m->origin[1];
     load->weight = weight;
     find_load(m, load);
     return BBM_OK;

@@ -113,8 +113,8 @@ static int add_element(model_reader *r, const model_element *e)
         return model_fail(r, e->at, "element %.60s of block '%.60s' has no area, or one too large, "
                           "expected a polygon", e->id, r->block[e->block].name);
     r->p->element[index] = e->id;
-    r->p->centre[index][0] = b->x;
-    r->p->centre[index][1] = b->y;
+    r->p->centre[index][0] = b->x + r->p->m->origin[0];
+    r->p->centre[index][1] = b->y + r->p->m->origin[1];
     return 1;
 }
 

@@ -136,6 +136,8 @@ int   model_options(model_reader *r, int n, model_option o[]);
 #define RANGE(text, where, from, to, rims, words) \
     { .name = text, .x = where, .low = from, .high = to, .rim = rims, .expected = words }
 #define ABOVE_ZERO(text, where) RANGE(text, where, 0, INFINITY, "()", "more than 0")
+#define NORMAL(text, where) \
+    RANGE(text, where, 1e-100, 1e100, "[]", "more than 0, from 1e-100 to 1e100")
 #define FROM_ZERO(text, where) RANGE(text, where, 0, INFINITY, "[)", "0 or more")
 #define ANGLE(text, where) RANGE(text, where, 0, 90, "[)", "0 to less than 90 degrees")
 #define COUNT(t_text, t_where, t_least) { .name = t_text, .n = t_where, .least = t_least }

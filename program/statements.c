@@ -169,9 +169,9 @@ static int read_material(model_reader *r)
     bbm_material m = { .thickness = 1 };
     enum { E, DENSITY, NU, THICKNESS };
     model_option o[] = {
-        [E] = ABOVE_ZERO("E", &m.E), [DENSITY] = ABOVE_ZERO("density", &m.density),
+        [E] = NORMAL("E", &m.E), [DENSITY] = NORMAL("density", &m.density),
         [NU] = RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
-        [THICKNESS] = ABOVE_ZERO("thickness", &m.thickness),
+        [THICKNESS] = NORMAL("thickness", &m.thickness),
     };
 
     o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
@@ -267,7 +267,7 @@ static int read_pcg(model_reader *r)
     int coarse = 0;
     model_option o[] = {
         RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
-        RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1"),
+        RANGE("tolerance", &p->tolerance, 0, 1e-6, "(]", "more than 0, at most 1e-6"),
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 

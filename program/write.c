@@ -127,7 +127,7 @@ static void put_contacts(FILE *f, const write_results *w)
         if (c->state == BBM_OPEN)
             continue;
         fprintf(f, "%s,%s", p->block[m->edge[c->corner].block], p->block[m->edge[c->edge].block]);
-        put_numbers(f, 2, (double[]){ P1->x, P1->y });
+        put_numbers(f, 2, (double[]){ m->node[P1->node].x + P1->u, m->node[P1->node].y + P1->v });
         fprintf(f, ",%s", state_name[c->state]);
         put_numbers(f, 3, (double[]){ c->N, c->T, c->d_n });
         fputc('\n', f);

@@ -27,6 +27,7 @@ BAD_MATERIALS[] = {
     { { 1, 0.3, 1, -INFINITY }, BBM_NOT_FINITE, "material 1" },
     { { 0, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has E = 0" },
     { { -5, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has E = -5" },
+    { { 1e-200, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "E = 1e-200, expected more than 0, from 1e-100 to 1e+100" },
     { { 1, -1, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = -1" },
     { { 1, 0.5, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = 0.5" },
     { { 1, 0.6, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = 0.6" },
@@ -49,8 +50,8 @@ END_TEST
 
 START_TEST(materials_up_to_the_limits_are_taken)
 {
-    const bbm_material limit[] = { { 1e-300, 0.499, 1e-300, 1e-300 }, { 1, -0.999, 1, 1 },
-                                   { 1e12, 0, 1e5, 1e5 } };
+    const bbm_material limit[] = { { 1e-100, 0.499, 1e-100, 1e-100 }, { 1, -0.999, 1, 1 },
+                                   { 1e100, 0, 1e100, 1e100 } };
     bbm_model *m = new_model(&SOLID);
 
     for (int i = 0; i < COUNT(limit); i++)
@@ -418,7 +419,7 @@ static const struct { size_t offset; double value; const char *name; } PARAMETER
     PARAMETER(pcg.omega, 2),
     PARAMETER(pcg.omega, NAN),
     PARAMETER(pcg.tolerance, 0),
-    PARAMETER(pcg.tolerance, 1),
+    PARAMETER(pcg.tolerance, 2e-6),
     PARAMETER(pcg.tolerance, NAN),
 };
 
@@ -502,7 +503,7 @@ START_TEST(parameters_at_the_ends_of_their_range_are_taken)
     m->par.steps = 1;
     ck_ok(bbm_run(m), m);
     m->par.pcg.omega = 1.99;
-    m->par.pcg.tolerance = 0.5;
+    m->par.pcg.tolerance = 1e-6;
     ck_ok(bbm_run(m), m);
     m->par.friction = m->beyond->cohesion = m->beyond->tension = 0;
     m->par.p_n = m->par.p_s = 1e-3;
