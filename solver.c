@@ -313,28 +313,29 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
     return status;
 }
 
-/* The power of two at or below the largest entry of F in the component: division by it rounds
- * nothing. */
-static double magnitude(const bbm_matrix *K, const double *F)
+/* The power of two at or below the largest entry of F in the component, of the first so many of
+ * each six: division by it rounds nothing. */
+static double magnitude(const bbm_matrix *K, const double *F, int entries)
 {
     double m = 0;
     int exponent;
 
-    for (int i = 6 * K->from; i < 6 * K->to; i++)
-        m = fmax(m, fabs(F[6 * K->caller[i / 6] + i % 6]));
+    for (int i = K->from; i < K->to; i++)
+        for (int a = 0; a < entries; a++)
+            m = fmax(m, fabs(F[6 * K->caller[i] + a]));
     (void)frexp(m, &exponent);
     return m == 0 ? 0 : ldexp(1, exponent - 1);
 }
 
-/* Notes the largest entry of F in each component. The tolerance is a share of these forces where
- * the F of bbm_solve is larger. A spring that has to close a gap begins with a force far above the
+/* Notes the largest force in each component. The tolerance is a share of these where the F of
+ * bbm_solve is larger. A spring that has to close a gap begins with a force far above the
  * one that it carries in the end, and what is lost of the first may be all of the second. */
 void bbm_matrix_measure(bbm_matrix *K, const double *F)
 {
     for (int c = 0; c < K->components; c++) {
         K->from = K->start[c];
         K->to = K->start[c + 1];
-        K->forces[c] = magnitude(K, F);
+        K->forces[c] = magnitude(K, F, 2);
     }
 }
 
@@ -342,13 +343,13 @@ void bbm_matrix_measure(bbm_matrix *K, const double *F)
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, double forces,
                                   bbm_pcg pcg, bbm_pcg_info *info)
 {
-    const double scale = magnitude(K, F);
+    const double scale = magnitude(K, F, 6), now = magnitude(K, F, 2);
     double rr = 0, ff = 0;
 
     if (scale == 0)
         return BBM_OK;
-    if (forces > 0 && forces < scale)
-        pcg.tolerance *= forces / scale;
+    if (forces > 0 && forces < now)
+        pcg.tolerance *= forces / now;
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         const double f = F[6 * K->caller[i / 6] + i % 6] / scale;
         K->r[i] = f == 0 ? NEGLIGIBLE : f;
