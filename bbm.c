@@ -463,9 +463,9 @@ void bbm_assemble(bbm_model *m)
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     for (int i = 0; i < m->elements; i++)
         assemble_element(m, i);
+    bbm_matrix_measure(m->K, m->F);
     for (int g = 0; g < m->gaps; g++)
         assemble_gap(m, &m->gap[g]);
-    bbm_matrix_measure(m->K, m->F);
     bbm_assemble_contacts(m);
     bbm_count_time(m, BBM_ASSEMBLE, start);
 }

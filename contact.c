@@ -40,9 +40,12 @@
 
 #include "base/base.h"
 
-/* AGREE [-]  forces agree if they differ by less than this share of the largest force in their
- *            component of K: the solver is not more exact */
+/* AGREE [-]   forces agree if they differ by less than this share of the largest force in their
+ *             component of K: the solver is not more exact */
 #define AGREE 1e-9
+
+/* DIGITS [-]  the last digits of a position, after some sums */
+#define DIGITS 1e-15
 
 /* The most passes in a row that change friction forces alone. */
 enum { FRICTION_PASSES = 100 };
@@ -343,23 +346,22 @@ static double *force_around(const bbm_model *m, int element)
 
 /* The force tolerance of each contact: a share of the largest force in its component of K. That is
  * the force on an element, inertia included, or in a contact. The solver's residual, and with it
- * the error of every N, is small against this force alone. */
+ * the error of every N, is small against this force alone. What a spring makes of the last digits
+ * of a position is no force either. */
 static void find_tolerances(const bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
-    memset(w->force, 0, (size_t)m->elements * sizeof *w->force);
-    for (int i = 0; i < m->elements; i++) {
-        double *most = force_around(m, i);
-        *most = fmax(*most, hypot(m->F[6 * i], m->F[6 * i + 1]));
-    }
+    memcpy(w->force, m->K->forces, (size_t)m->K->components * sizeof *w->force);
     for (int k = 0; k < w->contacts; k++) {
         double *most = force_around(m, bbm_element_of(m, w->contact[k].corner));
         *most = fmax(*most, fabs(w->contact[k].N));
     }
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        c->force_tolerance = AGREE * *force_around(m, bbm_element_of(m, c->corner));
+        const bbm_vertex *P = bbm_start_of(m, c->corner);
+        c->force_tolerance = AGREE * *force_around(m, bbm_element_of(m, c->corner))
+                           + DIGITS * m->par.p_n * hypot(P->x, P->y);
     }
 }
 

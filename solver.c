@@ -313,18 +313,24 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
     return status;
 }
 
-/* The power of two at or below the largest entry of F in the component, of the first so many of
- * each six: division by it rounds nothing. */
-static double magnitude(const bbm_matrix *K, const double *F, int entries)
+/* The largest of the first so many entries of each six of F in the component. */
+static double largest(const bbm_matrix *K, const double *F, int entries)
 {
-    double m = 0;
-    int exponent;
+    double most = 0;
 
     for (int i = K->from; i < K->to; i++)
         for (int a = 0; a < entries; a++)
-            m = fmax(m, fabs(F[6 * K->caller[i] + a]));
-    (void)frexp(m, &exponent);
-    return m == 0 ? 0 : ldexp(1, exponent - 1);
+            most = fmax(most, fabs(F[6 * K->caller[i] + a]));
+    return most;
+}
+
+/* The power of two at or below x: division by it rounds nothing. */
+static double magnitude(double x)
+{
+    int exponent;
+
+    (void)frexp(x, &exponent);
+    return x == 0 ? 0 : ldexp(1, exponent - 1);
 }
 
 /* Notes the largest force in each component. The tolerance is a share of these where the F of
@@ -335,15 +341,17 @@ void bbm_matrix_measure(bbm_matrix *K, const double *F)
     for (int c = 0; c < K->components; c++) {
         K->from = K->start[c];
         K->to = K->start[c + 1];
-        K->forces[c] = magnitude(K, F, 2);
+        K->forces[c] = largest(K, F, 2);
     }
+    K->from = 0;
+    K->to = K->n;
 }
 
 /* Solves one component. If its iteration fails, its rows of the solution D are the last x. */
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, double forces,
                                   bbm_pcg pcg, bbm_pcg_info *info)
 {
-    const double scale = magnitude(K, F, 6), now = magnitude(K, F, 2);
+    const double scale = magnitude(largest(K, F, 6)), now = largest(K, F, 2);
     double rr = 0, ff = 0;
 
     if (scale == 0)

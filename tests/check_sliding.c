@@ -546,6 +546,37 @@ START_TEST(a_block_that_slides_off_a_table_is_let_go)
 }
 END_TEST
 
+/* The springs that take a table along begin with far more than 10^9 times the weight of the block on
+ * it. No share of that may be taken for friction. */
+START_TEST(the_springs_of_a_support_that_moves_let_no_contact_leave_its_cone)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.friction = 30;
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    for (int v = 0; v < 4; v++)
+        bbm_move_support(m, m->vertex[v].node, 0.01, 0);
+    run_steps(m, 1);
+    ck_assert_int_eq(m->contacts, 2);
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++)
+        ck_assert(c->force_tolerance < 1e-6 * c->N);
+    bbm_model_free(m);
+}
+END_TEST
+
+/* The springs make 5e-3 N of the last digit of a metre, where N is 10^4 N. */
+START_TEST(a_block_on_very_stiff_springs_rests_on_a_slope)
+{
+    bbm_model *m = incline(40, 2.5e13, 1);
+
+    run_steps(m, 40);
+    ck_assert(slid(m, 1) < 1e-6);               /* of its weight on the springs */
+    bbm_model_free(m);
+}
+END_TEST
+
 Suite *sliding_suite(void)
 {
     Suite *s = suite_create("sliding");
@@ -561,6 +592,8 @@ Suite *sliding_suite(void)
         { a_block_on_a_slope_slides_or_topples_as_the_chart_says, COUNT(CHART) },
         { friction_may_drop_with_the_slip, 2 },
         { blocks_that_slide_on_floors_apart_slide_alike, 1 },
+        { the_springs_of_a_support_that_moves_let_no_contact_leave_its_cone, 1 },
+        { a_block_on_very_stiff_springs_rests_on_a_slope, 1 },
     };
     const loop_test anchors[] = {
         { a_locked_contact_keeps_its_anchor, 1 },
