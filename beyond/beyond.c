@@ -76,6 +76,8 @@ static bbm_status listed(bbm_model *m)
  * over what the springs carry. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
+    if (bbm_turns_over(m))
+        return BBM_PASS_GIVE_UP;
     if (!m->K->is_kept && bbm_renew_middle(m))
         return BBM_PASS_AGAIN;
     return next == BBM_PASS_DONE && bbm_take_over(m) ? BBM_PASS_SAME_K : next;

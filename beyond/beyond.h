@@ -108,6 +108,8 @@ void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 int        bbm_renew_middle(bbm_model *m);
+int        bbm_turns_over(const bbm_model *m);
+#define BBM_FAR_TURN 1.0
 
 /* bending.c */
 void       bbm_condense(int n, int rows, double W[n][n]);

@@ -19,6 +19,7 @@
 #define UNSOLVED 1e-3
 #define FAR_STRAIN 0.5
 #define FAR_TURN 1.0
+#define CURVE 0.01
 #define DEEP 0.1
 
 /* Refuses settings that mean nothing. */
@@ -38,6 +39,24 @@ bbm_status bbm_check_settings(bbm_model *m)
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
+/* The element of an open contact that turns so far on its way that the corner, as seen from the edge,
+ * is off the straight way by more than CURVE, or -1: where it crosses the edge would not be known. */
+static int curving_element(const bbm_model *m)
+{
+    const bbm_contact *c = m->scratch->contact;
+    int far = -1;
+
+    for (int k = 0; k < m->scratch->contacts && far < 0; k++) {
+        const double size = fmin(bbm_girth(m, c[k].corner), bbm_girth(m, c[k].edge)) / 4;
+        const double along = bbm_way_along(m, c[k].corner, c[k].edge) + c[k].past[0];
+        const double ri = fabs(bbm_D_of(m, c[k].corner)[2]), rj = fabs(bbm_D_of(m, c[k].edge)[2]);
+        if (c[k].state == BBM_OPEN
+            && hypot(c[k].d_n - c[k].d_n0, along) * (ri + rj) / 8 > CURVE * size)
+            far = bbm_element_of(m, ri > rj ? c[k].corner : c[k].edge);
+    }
+    return far;
+}
+
 /* Whether the solution solves the equations, and turns and strains no element too far; a comparison
  * with NaN is false. */
 bbm_status bbm_check_solution(bbm_model *m)
@@ -50,10 +69,11 @@ bbm_status bbm_check_solution(bbm_model *m)
         for (int a = 3; a < 6; a++)
             if (!(fabs(m->D[6 * i + a]) < most))
                 far = i;
-    for (int b = 0; b < m->bonds && !bbm_is_static(m); b++)
-        if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN)
-            || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
-            far = m->bond[b].i;
+    for (int i = 0; i < m->elements && !bbm_is_static(m); i++)
+        if (!(fabs(m->D[6 * i + 2]) <= FAR_TURN))
+            far = i;
+    if (far < 0 && bbm_motion_of(m))
+        far = curving_element(m);
     if (far < 0 && (m->par.pcg.tolerance > UNSOLVED || pcg->residual <= UNSOLVED))
         return BBM_OK;
     if (far < 0)
