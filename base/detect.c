@@ -454,7 +454,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double beside = fabs(f.s - (end ? t.length : 0));
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     if (most > touch_between(m, p.corner, p.edge))
-        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
+        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
+            && f.d <= touch_between(m, p.corner, p.edge);
     const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
     const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
     return here != there ? there : !faces_up(t, u);
@@ -611,7 +612,8 @@ static int admits(const bbm_model *m, const bbm_contact *c)
 
     if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
-    return (c->was_closed || beyond_at(m, c, t) <= touch_between(m, c->corner, c->edge)) && enters_at(m, c, t);
+    return (c->was_closed || beyond_at(m, c, t) <= touch_between(m, c->corner, c->edge))
+        && (enters_at(m, c, t) || enters_at(m, c, 1));
 }
 
 /* The sine by which a line is steep; one that rises to the right passes for flatter. */
