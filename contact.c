@@ -310,8 +310,20 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
     return d;
 }
 
-/* d_n and d_s, from an anchor, where the solution moves the points, Eq. (52), (53); l alone is the
- * start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
+/* d_n and d_s, from an anchor, by the vectors of the step. */
+static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
+{
+    const bbm_touch t = touch_of(m, c);
+    bbm_spring n, s;
+
+    bbm_normal_vectors(&t, &n);
+    bbm_shear_vectors(&t, anchor, &s);
+    d[0] = spring_length(m, c, &n);
+    d[1] = spring_length(m, c, &s);
+}
+
+/* The same, Eq. (52), (53), where a hook's motion puts the points; l alone is the start's.
+ * Differences first: springs are so stiff that the last bit of a coordinate counts. */
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const bbm_touch t = touch_of(m, c);
@@ -321,6 +333,10 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
     const double l = hypot(P3->x - P2->x, P3->y - P2->y);
     double u1[2], u2[2], u3[2], u0[2];
 
+    if (!bbm_motion_of(m)) {
+        vector_distances(m, c, anchor, d);
+        return;
+    }
     bbm_move(m, t.i, Di, P1->x, P1->y, u1);
     bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
     bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
@@ -331,32 +347,27 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
     d[1] = ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
 }
 
-/* d_n, d_s, N and T of the solution. An open contact is measured where the points move. It has its
+/* d_n, d_s, N and T of the solution. An open contact is measured where it puts the points, with the
  * anchor at P3: -d_s is how far P1 lies from P3 along the edge. With an anchor at P2, d_s is how far
  * it lies from P2. */
 static void measure(const bbm_model *m, bbm_contact *c)
 {
-    const bbm_touch t = touch_of(m, c);
     const int open = c->state == BBM_OPEN;
     double d[2];
-    bbm_spring n, s;
 
     if (open) {
         bbm_end_distances(m, c, 1, d);
         c->past[1] = -d[1];
         bbm_end_distances(m, c, 0, d);
-        c->past[0] = c->d_s = d[1];
-        c->d_n = d[0];
-        c->N = c->T = c->anchor = 0;
+        c->past[0] = d[1];
         c->time_left = 1;
-        return;
-    }
-    bbm_normal_vectors(&t, &n);
-    bbm_shear_vectors(&t, c->anchor, &s);
-    c->d_n = spring_length(m, c, &n);
-    c->d_s = c->time_left * spring_length(m, c, &s);
-    c->N = -m->par.p_n * (c->d_n - c->rest);
-    c->T = m->par.p_s * c->d_s;
+    } else
+        vector_distances(m, c, c->anchor, d);
+    c->anchor = open ? 0 : c->anchor;
+    c->d_n = d[0];
+    c->d_s = c->time_left * d[1];
+    c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
+    c->T = open ? 0 : m->par.p_s * c->d_s;
     if (c->friction_in_K && !is_strengthless(c, c->N))
         c->N_of_friction = c->N;
 }

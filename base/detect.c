@@ -587,12 +587,12 @@ static double crossed_at(const bbm_model *m, const bbm_contact *c)
     return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
 }
 
-/* Whether the corner, as it is turned at the fraction t of the step, can enter there. */
-static int enters_at(const bbm_model *m, const bbm_contact *c, double t)
+/* Whether the corner, as it is turned at the end of the step, can enter there. */
+static int enters_at_end(const bbm_model *m, const bbm_contact *c)
 {
     const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
 
-    return can_enter(m, c->corner, c->edge, t * (Di[2] - Dj[2]), PARALLEL);
+    return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
 }
 
 /* How far the projection of P is beyond the ends of its edge at the fraction t of the step. */
@@ -603,9 +603,8 @@ static double beyond_at(const bbm_model *m, const bbm_contact *c, double t)
     return fmax(-s + t * (c->past[0] + s), s - l + t * (c->past[1] - s + l));
 }
 
-/* Whether P may come in over its line, if it crosses it: not from behind the edge. As P crosses the
- * line, its projection is on the edge, or the contact was closed, and the corner can enter there.
- * */
+/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where its
+ * projection is beyond the end of the edge as it crosses the line, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
     const double t = crossed_at(m, c);
@@ -613,7 +612,7 @@ static int admits(const bbm_model *m, const bbm_contact *c)
     if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
     return (c->was_closed || beyond_at(m, c, t) <= touch_between(m, c->corner, c->edge))
-        && (enters_at(m, c, t) || enters_at(m, c, 1));
+        && enters_at_end(m, c);
 }
 
 /* The sine by which a line is steep; one that rises to the right passes for flatter. */
@@ -633,7 +632,7 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return r->d_n0 + crossed_at(m, c) * (r->d_n - r->d_n0) >= 0 && enters_at(m, r, 1);
+        return r->d_n0 + crossed_at(m, c) * (r->d_n - r->d_n0) >= 0 && enters_at_end(m, r);
     if (fabs(later) > TIE)
         return later > 0 && admits(m, r);
     if (r->was_closed != c->was_closed)
