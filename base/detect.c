@@ -454,8 +454,7 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double beside = fabs(f.s - (end ? t.length : 0));
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     if (most > touch_between(m, p.corner, p.edge))
-        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
-            && f.d <= touch_between(m, p.corner, p.edge);
+        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
     const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
     const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
     return here != there ? there : !faces_up(t, u);
@@ -595,24 +594,23 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
     return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
 }
 
-/* How far the projection of P is beyond the ends of its edge at the fraction t of the step. */
-static double beyond_at(const bbm_model *m, const bbm_contact *c, double t)
+/* Whether the projection of P is on the edge at the fraction t of the step. */
+static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
 {
     const double s = project(m, c->corner, c->edge).s, l = m->edge[c->edge].along.length;
 
-    return fmax(-s + t * (c->past[0] + s), s - l + t * (c->past[1] - s + l));
+    return (1 - t) * s - t * c->past[0] >= 0 && (1 - t) * (l - s) - t * c->past[1] >= 0;
 }
 
 /* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where its
- * projection is beyond the end of the edge as it crosses the line, unless the contact was closed. */
+ * projection is beyond the end of the edge at the start of the step, as it crosses the line and at
+ * the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    const double t = crossed_at(m, c);
-
     if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
-    return (c->was_closed || beyond_at(m, c, t) <= touch_between(m, c->corner, c->edge))
-        && enters_at_end(m, c);
+    return (c->was_closed || !c->beyond_end || is_on_edge(m, c, crossed_at(m, c))
+            || is_on_edge(m, c, 1)) && enters_at_end(m, c);
 }
 
 /* The sine by which a line is steep; one that rises to the right passes for flatter. */
@@ -621,10 +619,10 @@ static double steepness(bbm_direction p)
     return fabs(p.y) - ((p.x > 0) == (p.y > 0) ? PARALLEL : 0);
 }
 
-/* Whether an entrance line r of an open contact c counts in its place: r is closed, is not crossed,
- * or is crossed later, for P comes in over the line that it crosses last. Of two lines crossed at
- * the same time the one counts that was closed at the start of the step, or else the flatter one.
- * */
+/* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
+ * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
+ * crosses last. Of two lines crossed at the same time the one counts that was closed at the start of
+ * the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
