@@ -19,7 +19,7 @@
 #define UNSOLVED 1e-3
 #define FAR_STRAIN 0.5
 #define FAR_TURN 1.0
-#define CURVE 0.01
+#define CURVE 0.05
 #define DEEP 0.1
 
 /* Refuses settings that mean nothing. */
