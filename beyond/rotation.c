@@ -226,16 +226,3 @@ int bbm_renew_middle(bbm_model *m)
     bbm_list_gaps(m);
     return 1;
 }
-
-/* Whether a closed contact turns an element so far that the vectors of the step mean nothing. */
-int bbm_turns_over(const bbm_model *m)
-{
-    const bbm_contact *c = m->scratch->contact;
-    int over = 0;
-
-    for (int k = 0; k < m->scratch->contacts && !over; k++) {
-        const double r = fmax(fabs(bbm_D_of(m, c[k].corner)[2]), fabs(bbm_D_of(m, c[k].edge)[2]));
-        over = c[k].state != BBM_OPEN && r > BBM_FAR_TURN && bbm_motion_of(m);
-    }
-    return over;
-}
