@@ -22,9 +22,12 @@
 
 /* TOUCH [-]  overlaps up to this, in mean boundary edges of all blocks, are rounding of a model
  *            file
- * ENDS [-]   a side that ends on another one, up to this share of either, cuts it: rounding */
+ * ENDS [-]   a side that ends on another one, up to this share of either, cuts it: rounding
+ * DEEPER [-] a corner that is this many times as deep as the contacts of its block with another one
+ *            is held by none of them; edges that turn in the step change the depths by less */
 #define TOUCH 1e-6
 #define ENDS 1e-9
+#define DEEPER 1.1
 
 typedef struct { double x, y; } point;
 
@@ -292,8 +295,8 @@ static double depth_between(const bbm_model *m, int i, int j)
     return depth;
 }
 
-/* Refuses a solution that lets a corner pass: it has not closed its contact, and ends deeper in the
- * block of the edge than the contacts of the two blocks are. */
+/* Refuses a solution that lets a corner pass: its contact is not closed, nor was it, and it ends
+ * deeper in the block of the edge than the contacts of the two blocks. */
 bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
 {
     const bbm_contact *c = m->scratch->contact;
@@ -305,7 +308,7 @@ bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
         if (c[k].state != BBM_OPEN || c[k].d_n >= 0 || c[k].was_closed || c[k].inside)
             continue;
         const double depth = depth_behind(end, c[k].corner, c[k].edge, &nearest);
-        if (depth > depth_between(m, own, other))
+        if (depth > DEEPER * depth_between(m, own, other))
             return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: a corner of block %d passes into block "
                             "%d at (%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
                             own, other, P->x, P->y, depth);
