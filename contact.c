@@ -322,8 +322,8 @@ static void vector_distances(const bbm_model *m, const bbm_contact *c, double an
     d[1] = spring_length(m, c, &s);
 }
 
-/* The same, Eq. (52), (53), where a hook's motion puts the points; l alone is the start's.
- * Differences first: springs are so stiff that the last bit of a coordinate counts. */
+/* The same, Eq. (52), (53), where the solution puts the points; l alone is the start's. Differences
+ * first: springs are so stiff that the last bit of a coordinate counts. */
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const bbm_touch t = touch_of(m, c);
@@ -333,10 +333,6 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
     const double l = hypot(P3->x - P2->x, P3->y - P2->y);
     double u1[2], u2[2], u3[2], u0[2];
 
-    if (!bbm_motion_of(m)) {
-        vector_distances(m, c, anchor, d);
-        return;
-    }
     bbm_move(m, t.i, Di, P1->x, P1->y, u1);
     bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
     bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
@@ -347,23 +343,24 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
     d[1] = ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
 }
 
-/* d_n, d_s, N and T of the solution. An open contact is measured where it puts the points, with the
- * anchor at P3: -d_s is how far P1 lies from P3 along the edge. With an anchor at P2, d_s is how far
- * it lies from P2. */
+/* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
+ * points. Its anchor is P3: -d_s is how far P1 lies from P3 along the edge. With an anchor at P2,
+ * d_s is how far it lies from P2. */
 static void measure(const bbm_model *m, bbm_contact *c)
 {
-    const int open = c->state == BBM_OPEN;
+    const int open = c->state == BBM_OPEN, moved = open && bbm_motion_of(m);
+    void (*distances)(const bbm_model *, const bbm_contact *, double, double [2]) =
+        moved ? bbm_end_distances : vector_distances;
     double d[2];
 
     if (open) {
-        bbm_end_distances(m, c, 1, d);
+        distances(m, c, 1, d);
         c->past[1] = -d[1];
-        bbm_end_distances(m, c, 0, d);
-        c->past[0] = d[1];
+        c->anchor = 0;
         c->time_left = 1;
-    } else
-        vector_distances(m, c, c->anchor, d);
-    c->anchor = open ? 0 : c->anchor;
+    }
+    distances(m, c, c->anchor, d);
+    c->past[0] = d[1];
     c->d_n = d[0];
     c->d_s = c->time_left * d[1];
     c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);

@@ -602,9 +602,9 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
     return (1 - t) * s - t * c->past[0] >= 0 && (1 - t) * (l - s) - t * c->past[1] >= 0;
 }
 
-/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where its
- * projection is beyond the end of the edge at the start of the step, as it crosses the line and at
- * the end of the step, unless the contact was closed. */
+/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where
+ * its projection is beyond the end of the edge at the start of the step, as it crosses the line and
+ * at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
     if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
@@ -621,8 +621,8 @@ static double steepness(bbm_direction p)
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
- * crosses last. Of two lines crossed at the same time the one counts that was closed at the start of
- * the step, or else the flatter one. */
+ * crosses last. Of two lines crossed at the same time the one counts that was closed at the start
+ * of the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);

@@ -72,8 +72,8 @@ static bbm_status listed(bbm_model *m)
     return status ? status : bbm_check_supports(m);
 }
 
-/* After a pass: if it turns a block over, no further one will do; T of the step is renewed, unless K
- * is kept; when all has settled, multipliers take over what the springs carry. */
+/* After a pass: if it turns a block too far, no further one will do; T of the step is renewed,
+ * unless K is kept; when all has settled, multipliers take over what the springs carry. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
     if (bbm_contact_turns_over(m))
