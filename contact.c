@@ -313,29 +313,63 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
     return d;
 }
 
-/* d_n, d_s, N and T of the solution. An open contact has its anchor at P3: -d_s is how far P1 lies
- * from P3 along the edge. With an anchor at P2, d_s is how far it lies from P2. */
-static void measure(const bbm_model *m, bbm_contact *c)
+/* d_n and d_s, from an anchor, by the vectors of the step. */
+static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const bbm_touch t = touch_of(m, c);
-    const int open = c->state == BBM_OPEN;
     bbm_spring n, s;
 
-    c->anchor = open ? 0 : c->anchor;
-    c->time_left = open ? 1 : c->time_left;
     bbm_normal_vectors(&t, &n);
-    bbm_shear_vectors(&t, c->anchor, &s);
-    c->d_n = spring_length(m, c, &n);
-    c->d_s = c->time_left * spring_length(m, c, &s);
+    bbm_shear_vectors(&t, anchor, &s);
+    d[0] = spring_length(m, c, &n);
+    d[1] = spring_length(m, c, &s);
+}
+
+/* The same, Eq. (52), (53), where the solution puts the points; l alone is the start's. Differences
+ * first: springs are so stiff that the last bit of a coordinate counts. */
+void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
+{
+    const bbm_touch t = touch_of(m, c);
+    const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3;
+    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
+    const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
+    double u1[2], u2[2], u3[2], u0[2];
+
+    bbm_move(m, t.i, Di, P1->x, P1->y, u1);
+    bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
+    bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
+    bbm_move(m, t.j, Dj, x0, y0, u0);
+    const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
+    const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
+    d[0] = (x * py - y * px) / l;
+    d[1] = ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
+}
+
+/* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
+ * points. Its anchor is P3: -d_s is how far P1 lies from P3 along the edge. With an anchor at P2,
+ * d_s is how far it lies from P2. */
+static void measure(const bbm_model *m, bbm_contact *c)
+{
+    const int open = c->state == BBM_OPEN, moved = open && bbm_motion_of(m);
+    void (*distances)(const bbm_model *, const bbm_contact *, double, double [2]) =
+        moved ? bbm_end_distances : vector_distances;
+    double d[2];
+
+    if (open) {
+        distances(m, c, 1, d);
+        c->past[1] = -d[1];
+        c->anchor = 0;
+        c->time_left = 1;
+    }
+    distances(m, c, c->anchor, d);
+    c->past[0] = d[1];
+    c->d_n = d[0];
+    c->d_s = c->time_left * d[1];
     c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
     c->T = open ? 0 : m->par.p_s * c->d_s;
     if (c->friction_in_K && !is_strengthless(c, c->N))
         c->N_of_friction = c->N;
-    c->is_on_edge = !c->beyond_end;
-    if (open && c->beyond_end) {
-        bbm_shear_vectors(&t, 1, &s);
-        c->is_on_edge = c->d_s <= 0 && spring_length(m, c, &s) >= 0;
-    }
 }
 
 /* The entry of `force` for the component of K to which an element belongs. */

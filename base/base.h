@@ -100,7 +100,7 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double time_left;           /* -        share of the step after P1 hit: the slip of this    */
                                 /*          share loads the shear spring                        */
     double d_n, d_s;            /* m        normal distance and slip at the end                 */
-    int    is_on_edge;          /* the projection of P1, at the start or at the end             */
+    double past[2];             /* m        how far P1 is past P3 and P2 at the end, if open    */
     double N_of_friction;       /* N        the N that friction is taken for                    */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
@@ -281,6 +281,7 @@ double     bbm_shear_strength(const bbm_strength *s, double N);                 
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
+void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
 bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 

@@ -575,24 +575,6 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
 
 /* ----------------------------------------------------- where a corner comes in, of the solution */
 
-/* Whether the corner, as it is turned at the end of the step, can enter there. */
-static int enters_at_end(const bbm_model *m, const bbm_contact *c)
-{
-    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
-
-    return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
-}
-
-/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where
- * its projection is beyond the end of the edge both at the start and at the end of the step, unless
- * the contact was closed. */
-static int admits(const bbm_model *m, const bbm_contact *c)
-{
-    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
-        return 0;
-    return (c->was_closed || c->is_on_edge) && enters_at_end(m, c);
-}
-
 /* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
  * contacts are. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
@@ -602,16 +584,43 @@ static double crossed_at(const bbm_model *m, const bbm_contact *c)
     return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
 }
 
+/* Whether the corner, as it is turned at the end of the step, can enter there. */
+static int enters_at_end(const bbm_model *m, const bbm_contact *c)
+{
+    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
+
+    return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
+}
+
+/* Whether the projection of P is on the edge at the fraction t of the step. */
+static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
+{
+    const double s = project(m, c->corner, c->edge).s, l = m->edge[c->edge].along.length;
+
+    return (1 - t) * s - t * c->past[0] >= 0 && (1 - t) * (l - s) - t * c->past[1] >= 0;
+}
+
+/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where
+ * its projection is beyond the end of the edge at the start of the step, as it crosses the line and
+ * at the end of the step, unless the contact was closed. */
+static int admits(const bbm_model *m, const bbm_contact *c)
+{
+    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
+        return 0;
+    return (c->was_closed || !c->beyond_end || is_on_edge(m, c, crossed_at(m, c))
+            || is_on_edge(m, c, 1)) && enters_at_end(m, c);
+}
+
 /* The sine by which a line is steep; one that rises to the right passes for flatter. */
 static double steepness(bbm_direction p)
 {
     return fabs(p.y) - ((p.x > 0) == (p.y > 0) ? PARALLEL : 0);
 }
 
-/* Whether an entrance line r of an open contact c counts in its place: r is closed, is not crossed,
- * or is crossed later, for P comes in over the line that it crosses last. Of two lines crossed at
- * the same time the one counts that was closed at the start of the step, or else the flatter one.
- * */
+/* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
+ * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
+ * crosses last. Of two lines crossed at the same time the one counts that was closed at the start
+ * of the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
@@ -619,7 +628,7 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return enters_at_end(m, r);
+        return r->d_n0 + crossed_at(m, c) * (r->d_n - r->d_n0) >= 0 && enters_at_end(m, r);
     if (fabs(later) > TIE)
         return later > 0 && admits(m, r);
     if (r->was_closed != c->was_closed)

@@ -75,16 +75,18 @@ static bbm_status listed(bbm_model *m)
     return status ? status : bbm_check_supports(m);
 }
 
-/* After a pass: T of the step is renewed, unless K is kept; when all has settled, multipliers take
- * over what the springs carry. */
+/* After a pass: if it turns a block too far, no further one will do; T of the step is renewed,
+ * unless K is kept; when all has settled, multipliers take over what the springs carry. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
+    if (bbm_contact_turns_over(m))
+        return BBM_PASS_GIVE_UP;
     if (!m->K->is_kept && bbm_renew_middle(m))
         return BBM_PASS_AGAIN;
     return next == BBM_PASS_DONE && bbm_take_over(m) ? BBM_PASS_SAME_K : next;
 }
 
-/* A step that went well: right as far as one can tell, and without energy from nowhere. */
+/* A step that went well: right as far as one can tell, no corner passed, no energy from nowhere. */
 static bbm_status accept(bbm_model *m)
 {
     bbm_status status = bbm_check_solution(m);
@@ -95,6 +97,9 @@ static bbm_status accept(bbm_model *m)
         return status;
     bbm_find_reactions(m);
     const bbm_model end = bbm_end_of_step(m);
+    status = bbm_check_passing(m, &end);
+    if (status)
+        return status;
     status = bbm_check_balance(m, &end);
     if (!status) {
         bbm_store_multipliers(m);

@@ -152,6 +152,7 @@ void       bbm_set_plane_strain(bbm_model *m);
 
 /* refuse.c, statics.c */
 bbm_status bbm_check_settings(bbm_model *m);
+int        bbm_contact_turns_over(const bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
@@ -169,6 +170,7 @@ bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
 double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
 bbm_status bbm_check_passed(bbm_model *m);              /* of all that the sweep has met        */
+bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end);   /* in the step in hand      */
 
 /* mesh.c */
 bbm_status bbm_check_polygon(bbm_model *m, int n, const int node[]);

@@ -22,9 +22,12 @@
 
 /* TOUCH [-]  overlaps up to this, in mean boundary edges of all blocks, are rounding of a model
  *            file
- * ENDS [-]   a side that ends on another one, up to this share of either, cuts it: rounding */
+ * ENDS [-]   a side that ends on another one, up to this share of either, cuts it: rounding
+ * DEEPER [-] a corner that is this many times as deep as the contacts of its block with another one
+ *            is held by none of them; edges that turn in the step change the depths by less */
 #define TOUCH 1e-6
 #define ENDS 1e-9
+#define DEEPER 1.1
 
 typedef struct { double x, y; } point;
 
@@ -251,24 +254,67 @@ static int moves_out(const bbm_model *m, int corner, int edge)
     return (vi[0] - vj[0]) * t.y - (vi[1] - vj[1]) * t.x > 0;
 }
 
-/* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are,
- * where no contact of the two blocks accounts for it: the last step let it pass. Else 0, and where
- * it is on its way out. */
-double bbm_depth_passed(const bbm_model *m, int corner, int edge)
+/* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are, and
+ * the edge that it is nearest to; else 0. */
+static double depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 {
     const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, edge);
-    const bbm_direction t = m->edge[edge].along;
-    const double x = P->x - a->x, y = P->y - a->y, s = x * t.x + y * t.y;
-    const int own = m->edge[corner].block, other = m->edge[edge].block;
+    const bbm_vertex *b = bbm_end_of(m, edge);
+    const double x = P->x - a->x, y = P->y - a->y, u = b->x - a->x, v = b->y - a->y;
+    const double s = x * u + y * v;
 
-    if (own == other || m->edge[corner].side != corner)
+    if (m->edge[corner].block == m->edge[edge].block || m->edge[corner].side != corner)
         return 0;
-    if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length)
+    if (x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
         return 0;
+    return depth_in_block(m, (point){ P->x, P->y }, edge, bbm_allowed_depth(m, corner, edge),
+                          nearest);
+}
+
+/* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.
+ * Else 0, and where it is on its way out. */
+double bbm_depth_passed(const bbm_model *m, int corner, int edge)
+{
     int nearest = edge;
-    const double allowed = bbm_allowed_depth(m, corner, edge);
-    const double depth = depth_in_block(m, (point){ P->x, P->y }, edge, allowed, &nearest);
-    return depth == 0 || moves_out(m, corner, nearest) || are_in_contact(m, own, other) ? 0 : depth;
+    const double depth = depth_behind(m, corner, edge, &nearest);
+
+    return depth == 0 || moves_out(m, corner, nearest)
+        || are_in_contact(m, m->edge[corner].block, m->edge[edge].block) ? 0 : depth;
+}
+
+/* The depth of the deepest closed contact of blocks i and j in the solution. */
+static double depth_between(const bbm_model *m, int i, int j)
+{
+    double depth = 0;
+
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        const bbm_contact *c = &m->scratch->contact[k];
+        const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
+        if (c->state != BBM_OPEN && ((p == i && q == j) || (p == j && q == i)))
+            depth = fmax(depth, -c->d_n);
+    }
+    return depth;
+}
+
+/* Refuses a solution that lets a corner pass: its contact is not closed, nor was it, and it ends
+ * deeper in the block of the edge than the contacts of the two blocks. */
+bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
+{
+    const bbm_contact *c = m->scratch->contact;
+
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        const int own = m->edge[c[k].corner].block, other = m->edge[c[k].edge].block;
+        const bbm_vertex *P = bbm_start_of(end, c[k].corner);
+        int nearest = c[k].edge;
+        if (c[k].state != BBM_OPEN || c[k].d_n >= 0 || c[k].was_closed || c[k].inside)
+            continue;
+        const double depth = depth_behind(end, c[k].corner, c[k].edge, &nearest);
+        if (depth > DEEPER * depth_between(m, own, other))
+            return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: a corner of block %d passes into block "
+                            "%d at (%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
+                            own, other, P->x + m->origin[0], P->y + m->origin[1], depth);
+    }
+    return BBM_OK;
 }
 
 /* Refuses a step that starts so. */

@@ -11,13 +11,18 @@
  *                 stiffnesses too far apart for doubles
  * FAR_STRAIN [-]  what an element may strain in a step of dynamics; in a static step, which is
  *                 linear elasticity for loads of any size, it is 1: the element has turned over
- * FAR_TURN [rad]  what a bonded element may turn in a step of dynamics: T of the middle of a step
- *                 grows without bound towards half a turn
+ * FAR_TURN [rad]  what an element may turn in a step of dynamics: T of the middle of a step grows
+ *                 without bound towards half a turn, and the detection takes the way of a corner
+ *                 for that from its start to its end
+ * CURVE [-]       how far off the straight way from start to end a corner may be, as seen from an
+ *                 edge that it may touch, against the smaller block: where it crosses the edge is
+ *                 taken from the straight way
  * DEEP [-]        depth of a contact against the size of its smaller block at which its springs do
  *                 not keep the blocks apart any more */
 #define UNSOLVED 1e-3
 #define FAR_STRAIN 0.5
 #define FAR_TURN 1.0
+#define CURVE 0.05
 #define DEEP 0.1
 
 /* Refuses settings that mean nothing. */
@@ -37,22 +42,50 @@ bbm_status bbm_check_settings(bbm_model *m)
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
+/* Whether a closed contact turns an element too far. Its vectors mean nothing then, and what they
+ * would close or open in the next pass does not either. */
+int bbm_contact_turns_over(const bbm_model *m)
+{
+    const bbm_contact *c = m->scratch->contact;
+    int over = 0;
+
+    for (int k = 0; k < m->scratch->contacts && bbm_motion_of(m); k++)
+        over |= c[k].state != BBM_OPEN && !(fabs(bbm_D_of(m, c[k].corner)[2]) <= FAR_TURN
+                                            && fabs(bbm_D_of(m, c[k].edge)[2]) <= FAR_TURN);
+    return over;
+}
+
+/* An element that turns while a corner of it, or one at an edge of it, goes a way that is too far
+ * off the straight one, by 1/8 of way times turn; or -1. */
+static int curving_element(const bbm_model *m)
+{
+    const bbm_contact *c = m->scratch->contact;
+    int far = -1;
+
+    for (int k = 0; k < m->scratch->contacts && far < 0 && bbm_motion_of(m); k++) {
+        const double size = fmin(bbm_girth(m, c[k].corner), bbm_girth(m, c[k].edge)) / 4;
+        const double along = bbm_way_along(m, c[k].corner, c[k].edge) + c[k].past[0];
+        const double way = hypot(c[k].d_n - c[k].d_n0, along);
+        const double ri = fabs(bbm_D_of(m, c[k].corner)[2]), rj = fabs(bbm_D_of(m, c[k].edge)[2]);
+        if (c[k].state == BBM_OPEN && way * (ri + rj) / 8 > CURVE * size)
+            far = bbm_element_of(m, ri > rj ? c[k].corner : c[k].edge);
+    }
+    return far;
+}
+
 /* Whether the solution solves the equations, and turns and strains no element too far; a comparison
  * with NaN is false. */
 bbm_status bbm_check_solution(bbm_model *m)
 {
     const bbm_pcg_info *pcg = &m->info.pcg;
     const double most = bbm_is_static(m) ? 1 : FAR_STRAIN;
-    int far = -1;
+    const double turn = bbm_is_static(m) ? INFINITY : FAR_TURN;
+    int far = curving_element(m);
 
     for (int i = 0; i < m->elements; i++)
-        for (int a = 3; a < 6; a++)
-            if (!(fabs(m->D[6 * i + a]) < most))
+        for (int a = 2; a < 6; a++)
+            if (!(fabs(m->D[6 * i + a]) < (a == 2 ? turn : most)))
                 far = i;
-    for (int b = 0; b < m->bonds && !bbm_is_static(m); b++)
-        if (!(fabs(m->D[6 * m->bond[b].i + 2]) <= FAR_TURN)
-            || !(fabs(m->D[6 * m->bond[b].j + 2]) <= FAR_TURN))
-            far = m->bond[b].i;
     if (far < 0 && pcg->residual <= UNSOLVED)
         return BBM_OK;
     if (far < 0)

@@ -174,34 +174,10 @@ static int is_off(const bbm_model *m, int i)
     return off * (fabs(r) + off) > TURN;
 }
 
-/* d_n and d_s at the end of the step, Eq. (52), (53), as the update will move the points; l alone
- * is the start's. Differences first: springs are so stiff that the last bit of a coordinate
- * counts. */
-static void exact_distances(const bbm_model *m, const bbm_contact *c, double d[2])
+/* Whether the force of a closed contact on element i has another direction. */
+static int turns_otherwise(const bbm_model *m, int i)
 {
-    const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
-    const bbm_element *ei = &m->element[i], *ej = &m->element[j];
-    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
-    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
-    const double x0 = P3->x + c->anchor * (P2->x - P3->x), y0 = P3->y + c->anchor * (P2->y - P3->y);
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    double u1[2], u2[2], u3[2], u0[2];
-
-    bbm_move(m, ei, &m->D[6 * i], P1->x, P1->y, u1);
-    bbm_move(m, ej, &m->D[6 * j], P2->x, P2->y, u2);
-    bbm_move(m, ej, &m->D[6 * j], P3->x, P3->y, u3);
-    bbm_move(m, ej, &m->D[6 * j], x0, y0, u0);
-    const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
-    const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
-    d[0] = (x * py - y * px) / l;
-    d[1] = c->time_left * ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
-}
-
-/* Whether the force of a contact on element i, closed as it is, has another direction. */
-static int turns_otherwise(const bbm_model *m, const bbm_contact *c, int i)
-{
-    return c->state != BBM_OPEN && bbm_motion_of(m)
-        && fabs(m->D[6 * i + 2] - m->beyond->middle[i].D[2]) > DIRECTION;
+    return bbm_motion_of(m) && fabs(m->D[6 * i + 2] - m->beyond->middle[i].D[2]) > DIRECTION;
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
@@ -219,11 +195,12 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
         const double Fj = hypot(m->F[6 * j], m->F[6 * j + 1]);
         const double bound = fmax(share * fmax(fabs(c->N), fmax(Fi, Fj)), c->force_tolerance);
         double d[2];
-        exact_distances(m, c, d);
-        off = turns_otherwise(m, c, i) || turns_otherwise(m, c, j);
-        off |= m->par.p_n * fabs(d[0] - c->d_n) > bound
-            && (c->state != BBM_OPEN || (d[0] < 0) != (c->d_n < 0));
-        off |= m->par.p_s * fabs(d[1] - c->d_s) > bound && c->state == BBM_LOCK;
+        if (c->state == BBM_OPEN)
+            continue;
+        bbm_end_distances(m, c, c->anchor, d);
+        off = turns_otherwise(m, i) || turns_otherwise(m, j)
+           || m->par.p_n * fabs(d[0] - c->d_n) > bound
+           || (m->par.p_s * fabs(c->time_left * d[1] - c->d_s) > bound && c->state == BBM_LOCK);
     }
     return off;
 }
