@@ -349,21 +349,16 @@ static bbm_status run_steps(write_results *w, progress *s)
                                                                            : status;
 }
 
-/* Statics without equilibrium, by the names of the file. */
+/* Who falls, by the names of the file. */
 static void report_loose(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
     const int i = m->blamed[0], j = m->blamed[1];
 
-    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path,
-            m->info.step + 1, p->block[m->element[i].block], p->element[i]);
-    if (j >= 0)
-        fprintf(stderr,
-                "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix "
-                "it, or use dynamic\n",
-                p->block[m->element[j].block], p->element[j]);
-    else
-        fprintf(stderr, "is free to move; fix it, or use dynamic\n");
+    fprintf(stderr, "%s: step %d: %s: block '%s' (element %s) %s block '%s' (element %s), and "
+            "goes on\n", path,
+            m->info.step + 1, bbm_status_text(BBM_NO_EQUILIBRIUM), p->block[m->element[i].block],
+            p->element[i], m->beyond->how, p->block[m->element[j].block], p->element[j]);
 }
 
 /* The message of a run that failed; `when`: in which part of it. The library's own message may

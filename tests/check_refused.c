@@ -324,34 +324,6 @@ END_TEST
 
 /* ------------------------------------------------------------------------------- runs that fail */
 
-/* A clamped bar of 40 thin squares under its weight; a small one far from it that nothing holds,
- * with and without weight. */
-START_TEST(what_is_loose_in_a_static_step_that_failed_is_named)
-{
-    bbm_model *m = new_rock();
-
-    m->material[0].thickness = 0.1;
-    const int bar = add_rows(m, 3, 0, 0, 20, 0.5, 40, 1, 0);
-    if (_i)
-        add_rows(m, 4, 0, 50, 0.1, 0.1, 1, 1, 0);
-    ck_ok(bbm_fix_node(m, bar, BBM_XY, 0, 0), m);
-    ck_ok(bbm_fix_node(m, bar + 41, BBM_XY, 0, 0), m);
-    ck_ok(bbm_prepare(m), m);
-    m->h = INFINITY;
-    m->acceleration[1] = _i < 2 ? -9.81 : 0;
-    bbm_assemble(m);
-    ck_assert_int_eq(bbm_explain(m, BBM_STOPPED), BBM_STOPPED);
-    ck_assert_int_eq(bbm_explain(m, BBM_NOT_CONVERGED),
-                     _i ? BBM_NO_EQUILIBRIUM : BBM_NOT_CONVERGED);
-    if (_i) {
-        ck_assert_int_eq(m->blamed[0], 40);
-        ck_assert_int_eq(m->blamed[1], -1);
-        ck_assert_ptr_nonnull(strstr(bbm_message(m), "block 4 (element 40) is free to move"));
-    }
-    bbm_model_free(m);
-}
-END_TEST
-
 /* A block of 2 x 2 elements on a fixed base, both turned about the origin: which begins to slide at
  * tan(angle) = tan(friction), if statics is asked. */
 static bbm_model *block_on_slope(double angle, double friction)
@@ -667,7 +639,6 @@ Suite *refused_suite(void)
     suite_add_tcase(s, holds);
     TCase *failing = tcase_create("failing");
     tcase_set_timeout(failing, 10);         /* s: the disc takes half a second, 5 with sanitizers */
-    tcase_add_loop_test(failing, what_is_loose_in_a_static_step_that_failed_is_named, 0, 3);
     tcase_add_loop_test(failing, of_blocks_that_go_together_the_one_that_parts_is_named, 0, 4);
     tcase_add_loop_test(failing, a_block_that_slides_in_statics_is_named_with_what_it_slides_on,
                         0, 10);
