@@ -354,7 +354,7 @@ START_TEST(a_block_that_slides_in_statics_is_named_with_what_it_slides_on)
     if (status) {
         ck_assert_int_eq(m->element[m->blamed[0]].block, 1);
         ck_assert_int_eq(m->element[m->blamed[1]].block, 0);
-        ck_assert_ptr_nonnull(strstr(bbm_message(m), "raise the friction"));
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "slides on"));
     }
     ck_assert_ptr_null(strstr(bbm_message(m), "inf"));
     ck_assert_ptr_null(strstr(bbm_message(m), "element -1"));
@@ -384,8 +384,8 @@ START_TEST(of_blocks_that_go_together_the_one_that_parts_is_named)
     ck_assert_int_eq(bbm_run(m), BBM_NO_EQUILIBRIUM);
     ck_assert_int_eq(m->element[m->blamed[0]].block, 1);
     ck_assert_int_eq(m->element[m->blamed[1]].block, 0);
-    snprintf(expected, sizeof expected, "block 1 (element %d) slides, rolls, tips on or leaves "
-             "block 0 (element %d)", m->blamed[0], m->blamed[1]);
+    snprintf(expected, sizeof expected, "block 1 (element %d) %s block 0 (element %d)",
+             m->blamed[0], _i < 2 ? "slides on" : "tips on", m->blamed[1]);
     ck_assert_ptr_nonnull(strstr(bbm_message(m), expected));
     bbm_model_free(m);
 }
@@ -399,8 +399,8 @@ START_TEST(a_block_that_lifts_off_or_tips_in_statics_is_named)
     m->par.gravity[1] = _i ? -9.81 : 9.81;
     m->par.gravity[0] = _i ? 9.81 * 3 : 0;                      /* more than 2, width over height */
     const bbm_status status = bbm_step(m);
-    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1, "%s",
-                  bbm_message(m));
+    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1
+                  && strcmp(m->beyond->how, _i ? "tips on" : "leaves") == 0, "%s", bbm_message(m));
     bbm_model_free(m);
 }
 END_TEST
@@ -490,7 +490,7 @@ START_TEST(a_disc_that_may_roll_is_named)
     const bbm_status status = bbm_run(m);
 
     ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1 &&
-                  m->element[m->blamed[1]].block == 0,
+                  m->element[m->blamed[1]].block == 0 && strcmp(m->beyond->how, "rolls on") == 0,
                   "%d %s", status, bbm_message(m));
     bbm_model_free(m);
 }

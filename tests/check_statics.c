@@ -157,12 +157,13 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
 }
 END_TEST
 
-/* Three by four bricks, tilted by eight angles: sooner or later friction would wedge one in. */
+/* Three by four bricks, tilted by six angles: sooner or later friction would wedge one in. */
 START_TEST(a_contact_that_no_friction_holds_opens)
 {
-    static const double g[] = { 1, 2, 4, 6, 8, 9.81, 10.3, 10.791 };
+    static const double g[] = { 8, 8.5, 9.4, 9.81, 10.3, 11.5 };
     bbm_model *m = new_scene(50);
 
+    m->material[ROCK] = (bbm_material){ 1e11, 0.2, 2000, 1 };
     for (int row = 0, b = 1; row < 4; row++)
         for (int k = 0; k < 3 + row % 2; k++, b++) {
             const double x = row % 2 ? fmax(0, 0.4 * k - 0.2) : 0.4 * k;
@@ -170,11 +171,11 @@ START_TEST(a_contact_that_no_friction_holds_opens)
             add_rectangle(m, b, ROCK, (rectangle){ .x = x, .y = 0.2 * row, .w = end - x, .h = 0.2 });
         }
     m->par.dt = 0.01;
-    m->par.p_n = 1e9;
-    m->par.p_s = 4e8;
+    m->par.p_n = 5e12;
+    m->par.p_s = 2e12;
     m->par.gravity[0] = -g[_i];
     ck_ok(bbm_prepare(m), m);
-    run_steps(m, 5);
+    run_steps(m, 2);
     bbm_model_free(m);
 }
 END_TEST
@@ -185,7 +186,7 @@ Suite *statics_suite(void)
     const loop_test e[] = {
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
-        { a_contact_that_no_friction_holds_opens, 8 },
+        { a_contact_that_no_friction_holds_opens, 6 },
     };
 
     add_case(s, "statics", e, COUNT(e));
