@@ -22,7 +22,7 @@
 
 /* LOOSE [-]    a pivot of the matrix of what holds a body is zero if less than this share of it is
  *              left: about 1e-5 rad of free turning
- * STRIDE [-]   how far blocks may part, against the size of the smaller one, in a step from rest, and
+ * STRIDE [-]   how far blocks may part, against the smaller one's size, in a step from rest and
  *              in the static step from there: contacts and directions are those of its start
  * FAR [-]      how far they have parted in all when that is no elastic way
  * BALANCED [-] what forces may lack of balance, against the largest: a state of contacts is no more
@@ -119,7 +119,8 @@ static double size_at(const bbm_model *m, const bbm_contact *c)
 
 /* How far the corner of a contact and the point of the edge below it have parted on the way from
  * one model to another, against the size of the smaller block; a turn counts in radians. u: the way
- * of the corner, m, and turn, rad: that of its element, both against the edge. */
+ * of the corner, m, without what it has sunk in; turn: that of its element, both against the edge.
+ */
 static double find_parting(const bbm_model *from, const bbm_model *to, const bbm_contact *c,
                            double u[2], double *turn)
 {
@@ -136,6 +137,9 @@ static double find_parting(const bbm_model *from, const bbm_model *to, const bbm
         u[1] += part[k] * (end->v - start->v);
         *turn += part[k] * (to->element[i].sum[2] - from->element[i].sum[2]);
     }
+    const double in = fmax(0, u[1] * q->along.x - u[0] * q->along.y);
+    u[0] += in * q->along.y;
+    u[1] -= in * q->along.x;
     return hypot(u[0], u[1]) / size_at(to, c) + fabs(*turn);
 }
 
@@ -291,7 +295,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         failed /= DRIFT;
         h *= 4 * h < failed ? 2 : 1;
     }
-    if (tried == 0 && status != BBM_OPEN_CLOSE)
+    if (tried == 0 && status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG)
         return status;
     return bbm_fail(m, BBM_OPEN_CLOSE, "step %d: no equilibrium was found, nor that there is none; "
                     "after %d solutions forces lack %.1g of balance, and blocks have parted by "

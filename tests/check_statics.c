@@ -20,8 +20,8 @@ static bbm_model *new_scene(double friction)
     return m;
 }
 
-/* Two piers and a lintel, pushed at its top. They turn about their right feet and lift the lintel on
- * their left corners: H 2 r = W_lintel r/2 + 2 W_pier r/4. */
+/* Two piers and a lintel, pushed at its top. They turn about their right feet and lift the lintel
+ * on their left corners: H 2 r = W_lintel r/2 + 2 W_pier r/4. */
 static bbm_model *portal(double f)
 {
     bbm_model *m = new_scene(35);
@@ -89,7 +89,7 @@ static bbm_model *bar(double f)
     return m;
 }
 
-/* A stone that slides towards a stop which is three of its sizes away: farther than statics looks. */
+/* A stone that slides towards a stop, three of its sizes away: farther than statics looks. */
 static bbm_model *stop(double f)
 {
     bbm_model *m = flat(f);
@@ -166,9 +166,9 @@ START_TEST(a_contact_that_no_friction_holds_opens)
     m->material[ROCK] = (bbm_material){ 1e11, 0.2, 2000, 1 };
     for (int row = 0, b = 1; row < 4; row++)
         for (int k = 0; k < 3 + row % 2; k++, b++) {
-            const double x = row % 2 ? fmax(0, 0.4 * k - 0.2) : 0.4 * k;
-            const double end = row % 2 ? fmin(1.2, 0.4 * k + 0.2) : 0.4 * k + 0.4;
-            add_rectangle(m, b, ROCK, (rectangle){ .x = x, .y = 0.2 * row, .w = end - x, .h = 0.2 });
+            const double left = 0.4 * k - row % 2 * 0.2, x = fmax(0, left);
+            const double end = fmin(1.2, left + 0.4);
+            add_rectangle(m, b, ROCK, (rectangle){ x, 0.2 * row, end - x, 0.2, 0 });
         }
     m->par.dt = 0.01;
     m->par.p_n = 5e12;
