@@ -228,7 +228,7 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     }
     find_strength(m, c);
     if (c->touches && !c->has_left)
-        c->state = is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
+        c->state = is_strong(c) || bbm_is_static(m) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
     if (!c->carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_motion_of(m) ? fmin(0, c->d_n0 + c->N / m->par.p_n) : 0;

@@ -291,7 +291,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         status = lacks <= BALANCED ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
         if (is_final(status))
             return status;
-        tried = DRIFT * fmax(tried, h);
+        tried = DRIFT * (h > tried ? 2 * h : tried);
         failed /= DRIFT;
         h *= 4 * h < failed ? 2 : 1;
     }

@@ -168,7 +168,8 @@ START_TEST(a_contact_that_no_friction_holds_opens)
         for (int k = 0; k < 3 + row % 2; k++, b++) {
             const double left = 0.4 * k - row % 2 * 0.2, x = fmax(0, left);
             const double end = fmin(1.2, left + 0.4);
-            add_rectangle(m, b, ROCK, (rectangle){ x, 0.2 * row, end - x, 0.2, 0 });
+            const rectangle brick = { .x = x, .y = 0.2 * row, .w = end - x, .h = 0.2 };
+            add_rectangle(m, b, ROCK, brick);
         }
     m->par.dt = 0.01;
     m->par.p_n = 5e12;
