@@ -590,7 +590,7 @@ static bbm_status update(bbm_model *m)
 /* --------------------------------------------------------------- the time step, Fig. 8 */
 
 /* Fig. 8 once, with the step m->h. The model moves in `update` alone, when all has settled. */
-static bbm_status try_step(bbm_model *m)
+bbm_status bbm_try_step(bbm_model *m)
 {
     bbm_status status = bbm_begin_step(m);
     int other = 0, changed = 0;
@@ -613,11 +613,11 @@ static bbm_status try_step(bbm_model *m)
 }
 
 /* One part of a step, of length h. If it fails it is done again as two halves, down to dt/1024. A
- * static step has no halves: it is tried in two other ways, see base/step.c. */
+ * static step has no halves. */
 static bbm_status take_part(bbm_model *m, double h, int tries)
 {
     m->h = h;
-    bbm_status status = try_step(m);
+    bbm_status status = bbm_try_step(m);
     const int parts = bbm_parts_to_try(m, status, tries);
 
     for (int k = 0; k < parts && (k == 0 || !status); k++)

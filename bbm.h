@@ -190,8 +190,7 @@ struct bbm_model {
     /* --- the present step --- */
     double h;                   /* s        dt, or a part of it                                 */
     double acceleration[2];     /* m/s^2    of gravity                                          */
-    int detections, trial;      /* how often its contacts were listed; BBM_AS_EVER, ... of      */
-                                /* base/base.h                                                  */
+    int detections;             /* how often its contacts were listed                           */
     /* --- results --- */
     bbm_info info;
     bbm_status status;          /* the first error while building                               */

@@ -218,12 +218,12 @@ static int is_strong(const bbm_contact *c)
 /* The state with which a contact begins the step: that of its last step. But one that touches when
  * the run begins is closed in statics, or if its joint has a strength. One that P1 has left past
  * the end of the edge is open. The anchor is placed anew if the contact is open or its edge is
- * another one. In the trial BBM_ONE_BY_ONE a contact that slid begins as locked, with the force
- * that its friction had. */
+ * another one. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     c->time_left = 1;
     c->N_of_friction = c->N;
+    c->N_locked = c->T_locked = 0;
     c->closings = 0;
     if (c->has_left) {
         c->state = BBM_OPEN;
@@ -231,13 +231,11 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     }
     find_strength(m, c);
     if (c->touches && !c->has_left)
-        c->state = is_strong(c) || bbm_is_static(m) ? BBM_LOCK : BBM_OPEN;
+        c->state = is_strong(c) || bbm_is_static(m) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
     if (!c->carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_motion_of(m) ? fmin(0, c->d_n0 + c->N / m->par.p_n) : 0;
     }
-    if (m->trial == BBM_ONE_BY_ONE && c->state == BBM_SLIDE)
-        c->state = BBM_LOCK;
 }
 
 /* Lists the contacts that may be closed in this step, each with the state with which it begins.
@@ -251,8 +249,7 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
         return status;
     for (int k = 0; k < w->contacts; k++)
         begin_contact(m, &w->contact[k]);
-    w->passes = w->friction_passes = 0;
-    w->one_until = m->trial == BBM_ONE_BY_ONE ? BBM_MAX_PASSES + 1 : 0;
+    w->passes = w->friction_passes = w->one_until = 0;
     return BBM_OK;
 }
 
@@ -323,27 +320,6 @@ static void vector_distances(const bbm_model *m, const bbm_contact *c, double an
     bbm_shear_vectors(&t, anchor, &s);
     d[0] = spring_length(m, c, &n);
     d[1] = spring_length(m, c, &s);
-}
-
-/* The same, Eq. (52), (53), where the solution puts the points; l alone is the start's. Differences
- * first: springs are so stiff that the last bit of a coordinate counts. */
-void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
-{
-    const bbm_touch t = touch_of(m, c);
-    const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3;
-    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
-    const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    double u1[2], u2[2], u3[2], u0[2];
-
-    bbm_move(m, t.i, Di, P1->x, P1->y, u1);
-    bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
-    bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
-    bbm_move(m, t.j, Dj, x0, y0, u0);
-    const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
-    const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
-    d[0] = (x * py - y * px) / l;
-    d[1] = ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
 }
 
 /* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
@@ -444,14 +420,28 @@ static void change_state(const bbm_model *m, bbm_contact *c)
     if (c->next_state == BBM_SLIDE) {
         c->sign = copysign(1, slip);
         c->N_of_friction = c->N;
+        c->N_locked = closes ? 0 : c->N;
+        c->T_locked = closes ? 0 : fabs(c->T);
     }
     c->state = c->next_state;
 }
 
+/* Whether friction would wedge in a contact that was locked, slides, and would lock again. As long
+ * as no other state changes N is linear in the shear force, which was T_locked and is the strength
+ * now. If N rises faster than tan(phi) lets the strength follow, the force is too large for the one
+ * state and too small for the other: none of the two fits. On that line N without friction is
+ * tension, so the contact opens. */
+static int is_wedge(const bbm_contact *c)
+{
+    const double more = bbm_shear_strength(&c->strength, c->N) - c->T_locked;
+
+    return c->T_locked > 0 && more > c->force_tolerance && !is_strong(c)
+        && c->N_locked * more < c->T_locked * (c->N - c->N_locked);
+}
+
 /* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
  * may have been pulled open by its shear spring. If that carries more than friction would hold
- * under as much pressure, the contact slides first, which removes the spring. Not so in a static
- * step with friction as a load: this load would push the wrong way. */
+ * under as much pressure, the contact slides first, which removes the spring. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->force_tolerance);
@@ -459,9 +449,11 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
 
     if (c->state == BBM_OPEN && next != BBM_OPEN && bbm_is_blocked(m, c))
         return BBM_OPEN;
-    if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0
-        && m->trial != BBM_FRICTION_A_LOAD)
+    if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0)
         return BBM_SLIDE;
+    if (c->state == BBM_SLIDE && next == BBM_LOCK && is_wedge(c)
+        && m->scratch->passes < m->scratch->one_until)
+        return BBM_OPEN;
     return next;
 }
 
@@ -470,7 +462,7 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
         return m->par.p_n * (c->rest - c->d_n);
-    if (c->next_state == BBM_OPEN)
+    if (c->next_state == BBM_OPEN && c->N < 0)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }

@@ -102,6 +102,7 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double d_n, d_s;            /* m        normal distance and slip at the end                 */
     double past[2];             /* m        how far P1 is past P3 and P2 at the end, if open    */
     double N_of_friction;       /* N        the N that friction is taken for                    */
+    double N_locked, T_locked;  /* N        N and |T| when it went from LOCK to SLIDE, or 0     */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
     bbm_contact_state next_state;               /* in the next pass                             */
@@ -116,15 +117,12 @@ typedef struct {                /* what the formulas of 3.7 take                
 
 typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.D_i + g.D_j     */
 
-/* The trials of a static step: the usual way; all friction as a load; one change in each pass. */
-enum { BBM_AS_EVER, BBM_FRICTION_A_LOAD, BBM_ONE_BY_ONE };
-
 /* The most passes that change states or renew the vectors of the step, and detections in one part.
  * */
 enum { BBM_MAX_PASSES = 40, BBM_MAX_DETECTIONS = 8 };
 
 /* What follows a pass of the open-close iteration: nothing, for all fits; a solution with a new K
- * and F; a solution with a new F alone; the end of this trial. */
+ * and F; a solution with a new F alone; the end of this attempt. */
 typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP } bbm_pass;
 
 struct bbm_contact_scratch {
@@ -186,7 +184,7 @@ struct bbm_hooks {
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*accept)(bbm_model *m);                     /* before the model moves           */
-    bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
+    bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */
 };
 
 /* --------------------------------------------- what the files of the library share, bottom up */
@@ -265,6 +263,7 @@ double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at th
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
+void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
 void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
 
@@ -281,7 +280,6 @@ double     bbm_shear_strength(const bbm_strength *s, double N);                 
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
-void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
 bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 
@@ -302,6 +300,7 @@ void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. 
 void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[]);
 bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *other);                /* and K for the contacts       */
+bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, with m->h       */
 
 /* ------------------------------------------------------------------ the matrix and the solver
  * K has n block rows of six. Block rows are numbered in two ways: by the caller, and by their place

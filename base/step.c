@@ -3,10 +3,7 @@
  *
  * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
  * half of dt, down to dt/1024, as long as that takes no more than some solutions. The nominal step
- * is completed in parts, which grow again. A static step has three trials instead. In the second
- * one friction is a load in any case: K stays symmetric. All contacts of a block may begin to slide
- * in one pass, and nothing holds it then, though not all would have to: the third lets one contact
- * change in each pass, so that the others can take over.
+ * is completed in parts, which grow again. A static step has no parts; a hook may know another way.
  */
 #include <stdarg.h>
 #include <stdio.h>
@@ -43,7 +40,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
         [BBM_NOT_CONVERGED] = "the equations were not solved",
         [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
-        [BBM_NO_EQUILIBRIUM] = "statics finds no equilibrium",
+        [BBM_NO_EQUILIBRIUM] = "it falls",
         [BBM_STEP_TOO_LONG] = "the step is too long",
         [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
         [BBM_TOO_SOFT] = "the contacts are too soft",
@@ -114,6 +111,9 @@ bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
     const bbm_pcg_info *i = &m->info.pcg;
     const int step = m->info.step + 1;
 
+    if (status == BBM_OPEN_CLOSE && bbm_is_static(m))
+        return bbm_fail(m, status, "step %d, %d passes, %d contacts", step, m->info.passes,
+                        m->scratch->contacts);
     if (status == BBM_OPEN_CLOSE)
         return bbm_fail(m, status, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", step,
                         m->info.t, m->h, m->info.passes, m->scratch->contacts);
@@ -211,7 +211,7 @@ bbm_status bbm_check_step(bbm_model *m)
         { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
     };
 
-    m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
+    m->info.passes = m->info.cuts = m->info.iterations = 0;
     if (m->status)
         return m->status;
     if (!m->is_prepared)
@@ -220,30 +220,27 @@ bbm_status bbm_check_step(bbm_model *m)
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
-/* In how many parts, 1 or 2, a part that has ended with `status` is tried again: in two halves, or
- * in statics in another way. 0: it is done, or there is no way left. What may go well otherwise:
- * the equations, or the states of the contacts, had no end, it makes energy, or something goes too
- * far. */
+/* In how many parts a part that has ended with `status` is tried again: 2, or 0 if it is done, or
+ * as short as it may be, or static. What may go well otherwise: the equations, or the states of the
+ * contacts, had no end, it makes energy, or something goes too far. */
 int bbm_parts_to_try(bbm_model *m, bbm_status status, int tries)
 {
     const int may = status == BBM_NOT_POSITIVE_DEFINITE || status == BBM_NOT_CONVERGED
                  || status == BBM_NOT_FINITE || status == BBM_OPEN_CLOSE || status == BBM_ENERGY
                  || status == BBM_STEP_TOO_LONG;
-    const int still = bbm_is_static(m);
 
-    if (!may || tries == (still ? BBM_ONE_BY_ONE : HALVINGS) || (!still && bbm_is_spent(m)))
+    if (!may || tries == HALVINGS || bbm_is_static(m) || bbm_is_spent(m))
         return 0;
+    m->info.cuts++;
     m->message[0] = '\0';
-    m->trial = still ? tries + 1 : BBM_AS_EVER;
-    m->info.cuts += !still;
-    return still ? 1 : 2;
+    return 2;
 }
 
-/* Counts the step, or says why it failed. */
+/* Counts the step, or says why it failed, if no hook finds another way. */
 bbm_status bbm_end_step(bbm_model *m, bbm_status status)
 {
-    if (status && m->K && m->hook->explain)
-        status = m->hook->explain(m, status);
+    if (status && m->K && m->hook->failed)
+        status = m->hook->failed(m, status);
     m->info.step += !status;
     return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }

@@ -48,7 +48,8 @@ static bbm_status check(bbm_model *m)
 static bbm_status begin(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;
-    const double swing = bbm_is_static(m) ? 0 : sin(b->shake_omega * (m->info.t + m->h));
+    const int at_rest = isinf(m->par.dt) || bbm_is_static(m);
+    const double swing = at_rest ? 0 : sin(b->shake_omega * (m->info.t + m->h));
 
     if (bbm_check_settings(m))
         return BBM_BAD_PARAMETER;
@@ -97,10 +98,11 @@ static bbm_status accept(bbm_model *m)
         return status;
     bbm_find_reactions(m);
     const bbm_model end = bbm_end_of_step(m);
-    status = bbm_check_passing(m, &end);
-    if (status)
-        return status;
-    status = bbm_check_balance(m, &end);
+    status = bbm_check_reach(m, &end);
+    if (!status)
+        status = bbm_check_passing(m, &end);
+    if (!status)
+        status = bbm_check_balance(m, &end);
     if (!status) {
         bbm_store_multipliers(m);
         bbm_stop_supports(m);
@@ -122,6 +124,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         return BBM_NO_MEMORY;
     }
     m->par.pcg.method = &bbm_two_level;
+    m->beyond->reach = INFINITY;
     *m->hook = (bbm_hooks){
         .release = release,
         .check_polygon = bbm_check_polygon,
@@ -139,7 +142,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .before_solution = bbm_interpolate_elements,
         .renew = renew,
         .accept = accept,
-        .explain = bbm_explain,
+        .failed = bbm_try_otherwise,
     };
     return BBM_OK;
 }

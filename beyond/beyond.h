@@ -50,6 +50,7 @@ struct bbm_beyond {
     int multiplier_rounds;      /* multipliers.c: further solutions of a step; 0: the paper     */
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
+    double reach;               /* -        statics.c: how far blocks may part in a static step */
     int rounds_done;            /* in this step                                                 */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
@@ -67,6 +68,7 @@ struct bbm_beyond {
     double gained;              /* J        what dynamic steps have made beyond the balance     */
     double gain;                /* -        the most that one made, against what was there      */
     double made;                /* -        the same of the step in hand, so far                */
+    const char *how;            /* statics.c: how the first blamed block parts from the second  */
 };
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
@@ -158,7 +160,8 @@ double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
 bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */
-bbm_status bbm_explain(bbm_model *m, bbm_status s);
+bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end);
+bbm_status bbm_try_otherwise(bbm_model *m, bbm_status s);
 
 /* overlap.c */
 typedef struct {                /* elements i < j that overlap                                  */

@@ -45,34 +45,6 @@
 /* Block rows up to which LU is faster, measured on walls. */
 #define SMALL 100
 
-/* Adds the friction of a sliding contact for the N of the solution; 0: there is none. */
-int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
-                          bbm_submatrices *f)
-{
-    const double p = -c->sign * c->strength.tan_phi * m->par.p_n;
-    bbm_term *k = &m->K->term[m->K->terms];
-    bbm_spring n, s;
-
-    if (p == 0 || m->trial == BBM_FRICTION_A_LOAD)
-        return 0;
-    bbm_normal_vectors(t, &n);
-    bbm_shear_vectors(t, c->anchor, &s);
-    bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
-                             + c->sign * c->strength.shear, f);
-    if (m->K->is_kept)
-        return 1;
-    k->row[0] = m->K->place[m->edge[c->corner].element];
-    k->row[1] = m->K->place[m->edge[c->edge].element];
-    for (int a = 0; a < 6; a++) {
-        k->u[0][a] = p * s.e[a];
-        k->u[1][a] = p * s.g[a];
-        k->v[0][a] = n.e[a];
-        k->v[1][a] = n.g[a];
-    }
-    m->K->terms++;
-    return 1;
-}
-
 static int is_in_hand(const bbm_matrix *K, const bbm_term *t)
 {
     return t->row[0] >= K->from && t->row[0] < K->to;
@@ -273,11 +245,40 @@ static bbm_status solve_regular(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info 
     return status;
 }
 
+/* Adds the friction of a sliding contact for the N of the solution; 0: there is none. */
+int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
+                          bbm_submatrices *f)
+{
+    const double p = -c->sign * c->strength.tan_phi * m->par.p_n;
+    bbm_term *k = &m->K->term[m->K->terms];
+    bbm_spring n, s;
+
+    if (p == 0)
+        return 0;
+    m->K->solve_terms = bbm_is_static(m) ? iterate : solve_regular;
+    bbm_normal_vectors(t, &n);
+    bbm_shear_vectors(t, c->anchor, &s);
+    bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
+                             + c->sign * c->strength.shear, f);
+    if (m->K->is_kept)
+        return 1;
+    k->row[0] = m->K->place[m->edge[c->corner].element];
+    k->row[1] = m->K->place[m->edge[c->edge].element];
+    for (int a = 0; a < 6; a++) {
+        k->u[0][a] = p * s.e[a];
+        k->u[1][a] = p * s.g[a];
+        k->v[0][a] = n.e[a];
+        k->v[1][a] = n.g[a];
+    }
+    m->K->terms++;
+    return 1;
+}
+
 /* Room for the friction of all contacts of a new K. */
 bbm_status bbm_lay_out_sliding(bbm_model *m)
 {
     m->K->term = calloc((size_t)m->links + 1, sizeof *m->K->term);
     m->K->add_terms = add_terms;
-    m->K->solve_terms = bbm_is_static(m) ? iterate : solve_regular;
+    m->K->solve_terms = solve_regular;
     return m->K->term ? BBM_OK : BBM_NO_MEMORY;
 }

@@ -1,30 +1,42 @@
-/* statics.c - what holds a body, and which block goes when statics finds no equilibrium.
+/* statics.c - what holds a body; static steps whose contacts find no end; and which block falls.
  *
  * Before a step in statics the gaps between a body and the wall, fixed points in the main, must
  * hold it against rigid motion; a body is what gaps and contacts join. That a block slides, tips
- * or falls shows later: K is singular then, or the open-close iteration without an end, and the
- * solver cannot tell why. So the failed step is solved once more with inertia, in a step so long
- * that inertia is nothing against stiffness: what is held hardly notices, and what is not goes
- * far. A push on all elements moves what rolls or slides but has no load that way, too. The
- * element that goes furthest is of the block to blame; where it parts from a neighbour at a
- * contact, the neighbour is what it slides on or tips over.
+ * or falls shows later.
+ *
+ * A static step asks for the states of all contacts at once, and each that slides or opens takes
+ * away what held others. K may be singular long before the states are right, though there is an
+ * equilibrium. So a step that fails is done in another way: in steps from rest, as those with
+ * par.velocity_factor = 0. Inertia, 2 M/h^2, holds each block where it is, and the shorter h is the
+ * less do contacts feel of each other. Where it settles h grows, and the model creeps towards the
+ * equilibrium with what slides sliding. As soon as a static step from there finds it, near by, that
+ * is the end: it stands. If two blocks part by more than FAR, they have done so in the attempt: it
+ * falls, and these are named. Else nothing was found, which is said as well; and the model is what
+ * it was.
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "beyond.h"
 
-/* LOOSE [-]  a pivot of the matrix of what holds a body is zero if less than this share of it is
- *            left: about 1e-5 rad of free turning
- * SLOW [-]   elastic over inertial stiffness of an element in the long step, so that the solver
- *            still sees both
- * FREE [-]   share of the way of a free element that a loose one goes at least; the end of a
- *            clamped bar of n elements goes about n^4/(4 SLOW) of it
- * PARTS [-]  relative motion at a contact, against the largest motion, that is no strain */
+/* LOOSE [-]    a pivot of the matrix of what holds a body is zero if less than this share of it is
+ *              left: about 1e-5 rad of free turning
+ * STRIDE [-]   how far blocks may part, against the smaller one's size, in a step from rest and
+ *              in the static step from there: contacts and directions are those of its start
+ * FAR [-]      how far they have parted in all when that is no elastic way
+ * BALANCED [-] what forces may lack of balance, against the largest: a state of contacts is no more
+ *              exact
+ * LONG [-]     the first step against a swing on a contact spring; the shortest is the inverse
+ * DRIFT [-]    by which, in each step, what was tried is forgotten
+ * BLUNT [-]    the cosine by which a corner's sides turn less than 45 degrees */
 #define LOOSE 1e-10
-#define SLOW 1e9
-#define FREE 2e-3
-#define PARTS 0.1
+#define STRIDE 1e-3
+#define FAR 0.02
+#define BALANCED 1e-9
+#define LONG 1e3
+#define DRIFT 0.9
+#define BLUNT 0.7
 
 /* ------------------------------------------------------------------------- what holds a body */
 
@@ -98,93 +110,282 @@ bbm_status bbm_check_held(bbm_model *m)
     return status ? status : bbm_detect(m, &other);
 }
 
-/* --------------------------------------------------------------------- which block goes */
+/* ----------------------------------------------------------------------- who parts from whom */
 
-/* Solves the step once more, so long that it shows what is loose, with a push as large as all
- * loads (1 N, if there are none) on all elements by their mass, one way, askew to most slopes, and
- * without the friction in K, which could hold or drive what slides.
- * A free element would go *far under the loads. */
-static bbm_status take_long_step(bbm_model *m, double *far)
+/* A quarter of the boundary of the smaller of two blocks in contact. */
+static double size_at(const bbm_model *m, const bbm_contact *c)
 {
-    double load = 0, mass = 0, h2 = 0;
-    bbm_pcg pcg = m->par.pcg;
-    bbm_pcg_info info;
+    return fmin(bbm_girth(m, c->corner), bbm_girth(m, c->edge)) / 4;
+}
 
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        load += hypot(m->load[6 * i], m->load[6 * i + 1]);
-        mass += e->material.density * e->material.thickness * e->A0;
-        h2 = fmax(h2, 2 * SLOW * e->material.density * e->A0 / e->material.E);
+/* How far the corner of a contact and the point of the edge below it have parted on the way from
+ * one model to another, against the size of the smaller block; a turn counts in radians. u: the way
+ * of the corner, m, without what it has sunk in; turn: that of its element, both against the edge.
+ */
+static double find_parting(const bbm_model *from, const bbm_model *to, const bbm_contact *c,
+                           double u[2], double *turn)
+{
+    const bbm_edge *p = &to->edge[c->corner], *q = &to->edge[c->edge];
+    const double share = fmin(1, fmax(0, bbm_way_along(to, c->corner, c->edge) / q->along.length));
+    const double part[3] = { 1, share - 1, -share };
+    const int vertex[3] = { p->a, q->a, q->b };
+
+    u[0] = u[1] = *turn = 0;
+    for (int k = 0; k < 3; k++) {
+        const bbm_vertex *start = &from->vertex[vertex[k]], *end = &to->vertex[vertex[k]];
+        const int i = end->element;
+        u[0] += part[k] * (end->u - start->u);
+        u[1] += part[k] * (end->v - start->v);
+        *turn += part[k] * (to->element[i].sum[2] - from->element[i].sum[2]);
     }
-    const double a = (load > 0 ? load : 1) / mass, push[2] = { a * cos(1), a * sin(1) };
-    *far = load / mass * h2 / 2;
-    m->h = sqrt(h2);
-    bbm_matrix_keep(m->K, 0);
-    bbm_assemble(m);
-    m->h = INFINITY;
-    m->K->terms = 0;
-    for (int i = 0; i < m->elements; i++)
-        bbm_gravity_submatrix(&m->element[i], push, &m->F[6 * i]);
-    pcg.method = NULL;
-    return bbm_solve(m->K, m->F, m->D, &pcg, &info);
+    const double in = fmax(0, u[1] * q->along.x - u[0] * q->along.y);
+    u[0] += in * q->along.y;
+    u[1] -= in * q->along.x;
+    return hypot(u[0], u[1]) / size_at(to, c) + fabs(*turn);
 }
 
-static double way(const bbm_model *m, int i) { return hypot(m->D[6 * i], m->D[6 * i + 1]); }
-
-/* How far two motions of elements lie apart, seen from the first. */
-static double distance(const bbm_model *m, int i, int j)
+/* How far blocks have parted at most: at a contact in the list that is closed or was so when the
+ * step began, or at `worst`, which becomes that contact; its edge is -1 before the first. */
+static double find_most_parted(const bbm_model *from, const bbm_model *to, const bbm_contact *list,
+                               int n, bbm_contact *worst)
 {
-    const bbm_element *a = &m->element[i], *b = &m->element[j];
-    const double *p = &m->D[6 * i], *q = &m->D[6 * j], X = a->x - b->x, Y = a->y - b->y;
+    double u[2], turn, most = worst->edge < 0 ? 0 : find_parting(from, to, worst, u, &turn);
 
-    return hypot(p[0] - q[0] + q[2] * Y, p[1] - q[1] - q[2] * X) + fabs(p[2] - q[2]) * sqrt(a->A0);
-}
-
-/* How far the element goes that goes furthest; and this one, or the two at the contact where
- * blocks part most, the one that goes further first. The second is -1 if no blocks part. */
-static double find_loose(const bbm_model *m, int pair[2])
-{
-    const bbm_contact *list = m->scratch->contact;
-
-    pair[0] = 0;
-    pair[1] = -1;
-    for (int i = 1; i < m->elements; i++)
-        if (way(m, i) > way(m, pair[0]))
-            pair[0] = i;
-    const double furthest = way(m, pair[0]);
-    double most = PARTS * furthest;
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        const int c[2] = { m->edge[list[k].corner].element, m->edge[list[k].edge].element };
-        const double apart = distance(m, c[0], c[1]);
-        if (apart > most) {
-            most = apart;
-            pair[0] = c[way(m, c[0]) < way(m, c[1])];
-            pair[1] = c[0] + c[1] - pair[0];
+    for (const bbm_contact *c = list; c < list + n; c++) {
+        const double parted = find_parting(from, to, c, u, &turn);
+        if ((c->state != BBM_OPEN || c->was_closed || c->touches) && parted > most) {
+            most = parted;
+            *worst = *c;
         }
     }
-    return furthest;
+    return most;
 }
 
-/* Statics that fails because a block is loose says so, and who; a dynamic step whose contacts do
- * not settle because the solution goes too far says that. */
-bbm_status bbm_explain(bbm_model *m, bbm_status status)
+/* Refuses a static step in which blocks part by more than their size, and any that goes further
+ * than `reach`. */
+bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end)
 {
-    double far;
-    int p[2];
+    bbm_contact worst = { .edge = -1 };
+    const double most = find_most_parted(m, end, m->scratch->contact, m->scratch->contacts, &worst);
 
+    if (most <= (bbm_is_static(m) ? fmin(1, m->beyond->reach) : m->beyond->reach))
+        return BBM_OK;
+    return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: blocks %d and %d part by %.2g of their size",
+                    m->info.step + 1, m->edge[worst.corner].block, m->edge[worst.edge].block, most);
+}
+
+/* What two blocks that have parted at a contact do, from where they touch now and parted least: if
+ * the turn takes them further apart than that, they tip, or over a blunt corner roll. */
+static const char *find_how(const bbm_model *from, const bbm_model *m, const bbm_contact *worst)
+{
+    const int i = m->edge[worst->corner].block, j = m->edge[worst->edge].block;
+    double u[2], turn, least = INFINITY;
+    const bbm_contact *stays = worst;
+
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+        const int k = m->edge[c->corner].block, l = m->edge[c->edge].block;
+        const double parted = find_parting(from, m, c, u, &turn);
+        if (c->state != BBM_OPEN && parted < least && ((k == i && l == j) || (k == j && l == i))) {
+            least = parted;
+            stays = c;
+        }
+    }
+    if (isinf(least))
+        return "leaves";
+    find_parting(from, m, stays, u, &turn);
+    const bbm_direction before = m->edge[m->edge[stays->corner].before].along;
+    const bbm_direction after = m->edge[stays->corner].along;
+    if (fabs(turn) * size_at(m, stays) < hypot(u[0], u[1]))
+        return "slides on";
+    return before.x * after.x + before.y * after.y > BLUNT ? "rolls on" : "tips on";
+}
+
+static double way_of(const bbm_model *from, const bbm_model *m, int i)
+{
+    const double *a = from->element[i].sum, *b = m->element[i].sum;
+
+    return hypot(b[0] - a[0], b[1] - a[1]);
+}
+
+/* Says which two blocks have parted; the first is the one that has gone further. */
+static bbm_status blame(bbm_model *m, const bbm_model *from, const bbm_contact *c)
+{
+    const int p[2] = { m->edge[c->corner].element, m->edge[c->edge].element };
+    const int k = way_of(from, m, p[1]) > way_of(from, m, p[0]);
+    const int i = m->blamed[0] = p[k], j = m->blamed[1] = p[!k];
+
+    m->beyond->how = find_how(from, m, c);
+    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d (element %d) %s block %d (element "
+                    "%d), and goes on", from->info.step + 1, m->element[i].block, i,
+                    m->beyond->how, m->element[j].block, j);
+}
+
+/* ------------------------------------------------------------------------ steps from rest */
+
+/* The time in which the lightest element swings on a contact spring. */
+static double find_swing(const bbm_model *m)
+{
+    double least = INFINITY;
+
+    for (int i = 0; i < m->elements; i++)
+        least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
+    return sqrt(2 * least / m->par.p_n);
+}
+
+/* The largest force of inertia in a step from rest, 2 M D/h^2, against the largest force. */
+static double find_imbalance(const bbm_model *m, double h)
+{
+    double most = 0, force = 0;
+
+    for (int k = 0; k < m->contacts; k++)
+        force = fmax(force, m->contact[k].N);
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        const double mass = bbm_mass_per_area(e) * e->A0;
+        most = fmax(most, 2 * mass / (h * h)
+                          * (hypot(e->D[0], e->D[1]) + fabs(e->D[2]) * sqrt(e->A0)));
+        force = fmax(force, hypot(m->load[6 * i], m->load[6 * i + 1]));
+    }
+    return most / force;
+}
+
+/* Statics from where the model is now: it has to find the equilibrium near by, and soon. */
+static bbm_status try_statics(bbm_model *m)
+{
+    const int most = m->par.pcg.iterations, few = 6 * m->elements + 100, done = m->info.iterations;
+
+    m->h = INFINITY;
+    m->par.pcg.iterations = few < most ? few : most;
+    m->info.iterations = 0;
+    const bbm_status status = bbm_try_step(m);
+    m->par.pcg.iterations = most;
+    m->info.iterations += done;
+    return status;
+}
+
+static int is_final(bbm_status s) { return !s || s == BBM_NO_MEMORY || s == BBM_STOPPED; }
+
+/* Steps from rest, each as long as it settles without that blocks part far in it, until statics
+ * finds an equilibrium from where they are, nothing lacks balance, or blocks have parted. A length
+ * that failed, or after which statics did, is not tried again for some steps. */
+static bbm_status creep(bbm_model *m, const bbm_model *from)
+{
+    const double swing = find_swing(m);
+    double h = LONG * swing, failed = INFINITY, tried = 0, parted = 0, lacks = 1;
+    bbm_contact worst = { .edge = -1 };
+    bbm_status status = BBM_OPEN_CLOSE;
+
+    while (h > swing / LONG && !bbm_is_spent(m)) {
+        m->h = h;
+        status = bbm_try_step(m);
+        if (status && is_final(status))
+            return status;
+        if (status) {
+            failed = h;
+            h /= 4;
+            continue;
+        }
+        parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
+        lacks = find_imbalance(m, h);
+        if (parted > FAR)
+            return blame(m, from, &worst);
+        status = lacks <= BALANCED ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
+        if (is_final(status))
+            return status;
+        tried = DRIFT * (h > tried ? 2 * h : tried);
+        failed /= DRIFT;
+        h *= 4 * h < failed ? 2 : 1;
+    }
+    if (tried == 0 && status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG)
+        return status;
+    return bbm_fail(m, BBM_OPEN_CLOSE, "step %d: no equilibrium was found, nor that there is none; "
+                    "after %d solutions forces lack %.1g of balance, and blocks have parted by "
+                    "%.1g of their size; try dynamics", from->info.step + 1, m->info.passes, lacks,
+                    parted);
+}
+
+/* What steps change, in pieces of memory; the last are the contacts. */
+enum { PIECES = 7 };
+
+typedef struct { void *at, *copy; size_t bytes; } piece;
+
+/* Copies them into `from`, which shares the rest. Returns 0 without memory. */
+static int copy_model(const bbm_model *m, piece p[PIECES], bbm_model *from)
+{
+    int done = 1;
+
+    memcpy(p, (piece[PIECES]){
+        { m->element, NULL, (size_t)m->elements * sizeof *m->element },
+        { m->vertex, NULL, (size_t)m->vertices * sizeof *m->vertex },
+        { m->gap, NULL, (size_t)m->gaps * sizeof *m->gap },
+        { m->beyond->support, NULL, (size_t)m->nodes * sizeof *m->beyond->support },
+        { m->beyond->account, NULL, (size_t)m->elements * sizeof *m->beyond->account },
+        { m->beyond, NULL, sizeof *m->beyond },
+        { m->contact, NULL, (size_t)m->contacts * sizeof *m->contact },
+    }, PIECES * sizeof *p);
+    for (int k = 0; k < PIECES; k++) {
+        p[k].copy = malloc(p[k].bytes + 1);
+        if (p[k].copy && p[k].bytes > 0)
+            memcpy(p[k].copy, p[k].at, p[k].bytes);
+        done &= p[k].copy != NULL;
+    }
+    *from = *m;
+    from->element = p[0].copy;
+    from->vertex = p[1].copy;
+    return done;
+}
+
+/* Makes the model what it was, but for its message. */
+static void restore(bbm_model *m, piece p[PIECES], const bbm_model *from)
+{
+    const char *how = m->beyond->how;
+    bbm_contact *list = m->scratch->contact;
+
+    for (int k = 0; k < PIECES - 1; k++)
+        if (p[k].bytes > 0)
+            memcpy(p[k].at, p[k].copy, p[k].bytes);
+    m->beyond->how = how;
+    m->scratch->contact = p[PIECES - 1].copy;
+    m->scratch->contacts = from->contacts;
+    p[PIECES - 1].copy = list;
+    bbm_keep_contacts(m);
+    m->info = from->info;
+}
+
+/* A static step that failed where blocks touch is tried in steps from rest. What fails leaves the
+ * model as it was. */
+static bbm_status settle(bbm_model *m)
+{
+    bbm_status status = BBM_NO_MEMORY;
+    piece p[PIECES];
+    bbm_model from;
+
+    if (copy_model(m, p, &from)) {
+        m->beyond->reach = STRIDE;
+        m->par.velocity_factor = 0;
+        status = creep(m, &from);
+        m->h = INFINITY;
+        m->par = from.par;
+        m->info.t = from.info.t;
+        m->beyond->reach = INFINITY;
+        if (status)
+            restore(m, p, &from);
+        else
+            m->message[0] = '\0';
+    }
+    for (int k = 0; k < PIECES; k++)
+        free(p[k].copy);
+    return status;
+}
+
+/* A static step that failed is tried otherwise; a dynamic step whose contacts do not settle because
+ * the solution goes too far says that. */
+bbm_status bbm_try_otherwise(bbm_model *m, bbm_status status)
+{
     if (!bbm_is_static(m))
         return status == BBM_OPEN_CLOSE && bbm_check_solution(m) == BBM_STEP_TOO_LONG
              ? BBM_STEP_TOO_LONG : status;
-    if (status != BBM_NOT_FINITE && (status < BBM_NOT_POSITIVE_DEFINITE || status > BBM_TOO_SOFT))
-        return status;
-    if (take_long_step(m, &far) || !(find_loose(m, p) > FREE * far))
-        return status;
-    m->blamed[0] = p[0];
-    m->blamed[1] = p[1];
-    if (p[1] < 0)
-        return bbm_fail(m, BBM_NO_EQUILIBRIUM, "block %d (element %d) is free to move; hold it, or "
-                        "use dynamics", m->element[p[0]].block, p[0]);
-    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "block %d (element %d) slides, rolls, tips on or leaves "
-                    "block %d (element %d); raise the friction, hold it, or use dynamics",
-                    m->element[p[0]].block, p[0], m->element[p[1]].block, p[1]);
+    const int lost = status == BBM_NOT_FINITE
+                  || (status >= BBM_NOT_POSITIVE_DEFINITE && status <= BBM_TOO_SOFT);
+    return lost && m->scratch->contacts > 0 ? settle(m) : status;
 }

@@ -65,6 +65,7 @@ Suite *beyond_suite(void);
 Suite *motion_suite(void);
 Suite *bars_suite(void);
 Suite *limits_suite(void);
+Suite *statics_suite(void);
 Suite *refused_suite(void);
 Suite *theory_suite(void);
 Suite *equations_suite(void);

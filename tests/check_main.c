@@ -51,7 +51,7 @@ static Suite *(*const SUITES[])(void) = {
     detection_suite, corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite,
     blocks_suite, repeat_suite,
     solver_suite, coarse_suite,
-    beyond_suite, motion_suite, bars_suite, limits_suite, refused_suite,
+    beyond_suite, motion_suite, bars_suite, limits_suite, statics_suite, refused_suite,
     theory_suite, equations_suite, run_suite,
 #endif
 #ifdef CASES

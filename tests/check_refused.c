@@ -324,34 +324,6 @@ END_TEST
 
 /* ------------------------------------------------------------------------------- runs that fail */
 
-/* A clamped bar of 40 thin squares under its weight; a small one far from it that nothing holds,
- * with and without weight. */
-START_TEST(what_is_loose_in_a_static_step_that_failed_is_named)
-{
-    bbm_model *m = new_rock();
-
-    m->material[0].thickness = 0.1;
-    const int bar = add_rows(m, 3, 0, 0, 20, 0.5, 40, 1, 0);
-    if (_i)
-        add_rows(m, 4, 0, 50, 0.1, 0.1, 1, 1, 0);
-    ck_ok(bbm_fix_node(m, bar, BBM_XY, 0, 0), m);
-    ck_ok(bbm_fix_node(m, bar + 41, BBM_XY, 0, 0), m);
-    ck_ok(bbm_prepare(m), m);
-    m->h = INFINITY;
-    m->acceleration[1] = _i < 2 ? -9.81 : 0;
-    bbm_assemble(m);
-    ck_assert_int_eq(bbm_explain(m, BBM_STOPPED), BBM_STOPPED);
-    ck_assert_int_eq(bbm_explain(m, BBM_NOT_CONVERGED),
-                     _i ? BBM_NO_EQUILIBRIUM : BBM_NOT_CONVERGED);
-    if (_i) {
-        ck_assert_int_eq(m->blamed[0], 40);
-        ck_assert_int_eq(m->blamed[1], -1);
-        ck_assert_ptr_nonnull(strstr(bbm_message(m), "block 4 (element 40) is free to move"));
-    }
-    bbm_model_free(m);
-}
-END_TEST
-
 /* A block of 2 x 2 elements on a fixed base, both turned about the origin: which begins to slide at
  * tan(angle) = tan(friction), if statics is asked. */
 static bbm_model *block_on_slope(double angle, double friction)
@@ -382,7 +354,7 @@ START_TEST(a_block_that_slides_in_statics_is_named_with_what_it_slides_on)
     if (status) {
         ck_assert_int_eq(m->element[m->blamed[0]].block, 1);
         ck_assert_int_eq(m->element[m->blamed[1]].block, 0);
-        ck_assert_ptr_nonnull(strstr(bbm_message(m), "raise the friction"));
+        ck_assert_ptr_nonnull(strstr(bbm_message(m), "slides on"));
     }
     ck_assert_ptr_null(strstr(bbm_message(m), "inf"));
     ck_assert_ptr_null(strstr(bbm_message(m), "element -1"));
@@ -412,8 +384,8 @@ START_TEST(of_blocks_that_go_together_the_one_that_parts_is_named)
     ck_assert_int_eq(bbm_run(m), BBM_NO_EQUILIBRIUM);
     ck_assert_int_eq(m->element[m->blamed[0]].block, 1);
     ck_assert_int_eq(m->element[m->blamed[1]].block, 0);
-    snprintf(expected, sizeof expected, "block 1 (element %d) slides, rolls, tips on or leaves "
-             "block 0 (element %d)", m->blamed[0], m->blamed[1]);
+    snprintf(expected, sizeof expected, "block 1 (element %d) %s block 0 (element %d)",
+             m->blamed[0], _i < 2 ? "slides on" : "tips on", m->blamed[1]);
     ck_assert_ptr_nonnull(strstr(bbm_message(m), expected));
     bbm_model_free(m);
 }
@@ -427,8 +399,8 @@ START_TEST(a_block_that_lifts_off_or_tips_in_statics_is_named)
     m->par.gravity[1] = _i ? -9.81 : 9.81;
     m->par.gravity[0] = _i ? 9.81 * 3 : 0;                      /* more than 2, width over height */
     const bbm_status status = bbm_step(m);
-    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1, "%s",
-                  bbm_message(m));
+    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1
+                  && strcmp(m->beyond->how, _i ? "tips on" : "leaves") == 0, "%s", bbm_message(m));
     bbm_model_free(m);
 }
 END_TEST
@@ -518,7 +490,7 @@ START_TEST(a_disc_that_may_roll_is_named)
     const bbm_status status = bbm_run(m);
 
     ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1 &&
-                  m->element[m->blamed[1]].block == 0,
+                  m->element[m->blamed[1]].block == 0 && strcmp(m->beyond->how, "rolls on") == 0,
                   "%d %s", status, bbm_message(m));
     bbm_model_free(m);
 }
@@ -667,7 +639,6 @@ Suite *refused_suite(void)
     suite_add_tcase(s, holds);
     TCase *failing = tcase_create("failing");
     tcase_set_timeout(failing, 10);         /* s: the disc takes half a second, 5 with sanitizers */
-    tcase_add_loop_test(failing, what_is_loose_in_a_static_step_that_failed_is_named, 0, 3);
     tcase_add_loop_test(failing, of_blocks_that_go_together_the_one_that_parts_is_named, 0, 4);
     tcase_add_loop_test(failing, a_block_that_slides_in_statics_is_named_with_what_it_slides_on,
                         0, 10);
