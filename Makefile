@@ -22,7 +22,7 @@ PAPER    = bbm contact solver
 BASE     = build detect order step
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse energy envelope interpolation joints mesh multipliers overlap refuse rotation sliding statics \
+BEYOND   = beyond bending coarse energy envelope impact interpolation joints mesh multipliers overlap refuse rotation sliding statics \
            surroundings sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch

@@ -186,6 +186,7 @@ struct bbm_hooks {
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*accept)(bbm_model *m);                     /* before the model moves           */
+    void (*moved)(bbm_model *m);                            /* it has: may change velocities    */
     bbm_status (*explain)(bbm_model *m, bbm_status s);      /* why the step failed              */
 };
 

@@ -1,6 +1,7 @@
 /* beyond.c - a model with all that stands beside the paper: what is hooked in where. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "beyond.h"
 
@@ -45,11 +46,14 @@ static bbm_status check(bbm_model *m)
  */
 static bbm_status begin(bbm_model *m)
 {
-    const bbm_beyond *b = m->beyond;
+    bbm_beyond *b = m->beyond;
     const double swing = bbm_is_static(m) ? 0 : sin(b->shake_omega * (m->info.t + m->h));
 
     if (bbm_check_settings(m))
         return BBM_BAD_PARAMETER;
+    b->left = m->info.passes == 0 ? 1 : b->left;
+    b->share = bbm_is_static(m) ? 1 : m->h / m->par.dt / b->left;
+    bbm_place_supports(m);
     for (int a = 0; a < 2; a++)
         m->acceleration[a] -= b->shake[a] * swing;
     return BBM_OK;
@@ -92,8 +96,10 @@ static bbm_status accept(bbm_model *m)
     if (status)
         return status;
     bbm_find_reactions(m);
-    const bbm_model end = bbm_end_of_step(m);
-    status = bbm_check_balance(m, &end, &gain, &there);
+    bbm_model end = bbm_end_of_step(m);
+    status = bbm_jump(m, &end);
+    if (!status)
+        status = bbm_check_balance(m, &end, &gain, &there);
     if (status == BBM_ENERGY)
         return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: %g J more than its loads' "
                         "work, of %g J", m->info.step + 1, m->info.t, m->h, gain, there);
@@ -102,6 +108,13 @@ static bbm_status accept(bbm_model *m)
         bbm_stop_supports(m);
     }
     return status;
+}
+
+/* The model has moved: with the velocities after the jump. */
+static void moved(bbm_model *m)
+{
+    for (int i = 0; i < m->elements; i++)
+        memcpy(m->element[i].V, m->beyond->end_element[i].V, sizeof m->element[i].V);
 }
 
 bbm_status bbm_beyond_new(bbm_model **out)
@@ -118,6 +131,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         return BBM_NO_MEMORY;
     }
     m->par.pcg.method = &bbm_two_level;
+    m->beyond->restitution = -1;
     *m->hook = (bbm_hooks){
         .release = release,
         .check_polygon = bbm_check_polygon,
@@ -135,6 +149,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .before_solution = bbm_interpolate_elements,
         .renew = renew,
         .accept = accept,
+        .moved = moved,
         .explain = bbm_explain,
     };
     return BBM_OK;

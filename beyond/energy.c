@@ -124,44 +124,55 @@ bbm_model bbm_end_of_step(const bbm_model *m)
     return end;
 }
 
-/* The energy that the step from m to `end` makes beyond the work of its loads: `gain`, J. It is
- * compared with what is `there`, J: the energy at the start, the work of each load without sign,
- * and what rounding may make. Too much is BBM_ENERGY; if not, m->beyond notes it. */
-bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there)
+/* The energy that the step from m to `end` makes beyond the work of its loads and supports, `gain`,
+ * and what is `there`: the energy at the start, the work of each load without sign, and what
+ * rounding may make. A step that does not keep velocities whole has none. */
+bbm_balance bbm_find_balance(const bbm_model *m, const bbm_model *end)
 {
-    bbm_beyond *b = m->beyond;
+    const bbm_beyond *b = m->beyond;
     bbm_model now = *end;               /* its gaps take the place of those of the step */
     bbm_energy before, after;
-    double work = 0;
 
     bbm_list_gaps(&now);
-    const double springs = bbm_spring_energy(&now);
     bbm_energies(m, &before);
     bbm_energies(end, &after);
-    *there = before.kinetic + before.elastic + before.springs;
-    *gain = after.kinetic + after.elastic + springs - *there;
+    bbm_balance s = { .work = b->jump_work, .springs = bbm_spring_energy(&now) };
+    const double had = before.kinetic + before.elastic + before.springs;
+    s.there = had + fabs(b->jump_work);
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         const double *F = &m->F[6 * i], *load = &m->load[6 * i];
-        *there += ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * hypot(e->x, e->y);
+        s.there += ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * hypot(e->x, e->y);
         for (int a = 6 * i; a < 6 * i + 6; a++) {
-            work += m->load[a] * m->D[a];
-            *there += fabs(m->load[a] * m->D[a]);
+            s.work += m->load[a] * m->D[a];
+            s.there += fabs(m->load[a] * m->D[a]);
         }
     }
     for (int n = 0; n < m->nodes; n++)
         for (int a = 0; a < 2; a++) {
-            work += b->support[n].force[a] * b->support[n].moved[a];
-            *there += fabs(b->support[n].force[a] * b->support[n].moved[a]);
+            const double work = b->support[n].force[a] * b->share * b->support[n].moved[a];
+            s.work += work;
+            s.there += fabs(work);
         }
-    *gain -= work;
+    s.gain = after.kinetic + after.elastic + s.springs - had - s.work;
     if (bbm_is_static(m) || m->par.velocity_factor < 1)
-        *gain = *there = 0;
-    if (bbm_motion_of(m) && *gain > GAIN * *there)
+        s.gain = s.there = 0;
+    return s;
+}
+
+/* Too much gain is BBM_ENERGY; if not, m->beyond notes the balance. */
+bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there)
+{
+    const bbm_balance s = bbm_find_balance(m, end);
+    bbm_beyond *b = m->beyond;
+
+    *gain = s.gain;
+    *there = s.there;
+    if (bbm_motion_of(m) && s.gain > GAIN * s.there)
         return BBM_ENERGY;
-    b->work += work;
-    b->springs = springs;
-    b->gained += fmax(0, *gain);
-    b->gain = *there > 0 ? fmax(b->gain, *gain / *there) : b->gain;
+    b->work += s.work;
+    b->springs = s.springs;
+    b->gained += fmax(0, s.gain);
+    b->gain = s.there > 0 ? fmax(b->gain, s.gain / s.there) : b->gain;
     return BBM_OK;
 }

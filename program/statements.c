@@ -197,6 +197,7 @@ static int read_contact(model_reader *r)
         FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &b->cohesion),
         FROM_ZERO("tension", &b->tension),
         ANGLE("friction", &p->friction),
+        RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
     };
 
     return model_options(r, LENGTH(o), o);
