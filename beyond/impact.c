@@ -129,19 +129,19 @@ static void start_elements(jump *u, const bbm_model *end, double keep)
 
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
-        const int moves = u->moves[bbm_component_of(m->K, i)];
+        const int moved = u->moves[bbm_component_of(m->K, i)];
         *e = end->element[i];
         e->middle = NULL;
         bbm_element_geometry(e, &m->vertex[e->first]);
         bbm_elastic_matrix(&e->material, E);
         memset(e->stress, 0, sizeof e->stress);
         for (int a = 0; a < 6; a++) {
-            e->V[a] = moves ? end->element[i].V[a] / 2 : 0;
+            e->V[a] = moved ? end->element[i].V[a] / 2 : 0;
             m->D[6 * i + a] = m->h * e->V[a];
         }
         for (int a = 0; a < 9; a++)
             e->stress[a / 3] -= keep * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
-        if (mobility(m, i) > 0)
+        if (moved && mobility(m, i) > 0)
             heaviest = fmax(heaviest, 1 / mobility(m, i));
     }
     m->par.p_n = m->par.p_s = fmax(end->par.p_n, STIFF * 2 * heaviest / (m->h * m->h));
@@ -173,12 +173,14 @@ static void start_contacts(jump *u, double keep)
 
     for (int k = 0; k < u->scratch.contacts; k++) {
         bbm_contact *c = &u->scratch.contact[k];
+        *c = u->step.contact[k];
         const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
         const double came = u->came[k];
+        const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         bbm_spring n, s;
-        *c = m->beyond->jump_of->contact[k];
-        c->anchor = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
+        c->anchor = 0;
         find_vectors(m, c, &n, &s);
+        c->anchor = -s.d / hypot(P3->x - P2->x, P3->y - P2->y);
         const double asked = !has_closed(c) ? 0 : E < 0 ? along(&n, &m->D[6 * i], &m->D[6 * j])
                            : came < -slow ? -E * came : 0;
         c->rest = n.d + keep * asked;
