@@ -85,6 +85,7 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double slip;                /* m        how far it has slid in all steps since it closed    */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
+    int    hit;                 /* a hook has given it an impulse in place of its spring's      */
     /* --- of the step --- */
     bbm_strength strength;
     /* --- of the step, by detect.c --- */

@@ -279,6 +279,7 @@ static void take(const jump *u, bbm_model *step, bbm_model *end)
         *c = u->step.contact[k];
         if (isinf(now->rest) || (!hit && now->state != BBM_OPEN))
             continue;
+        c->hit = 1;
         c->area = 0;
         c->rest = fmin(0, c->d_n);
         c->N = c->T = c->time_left = 0;
