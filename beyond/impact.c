@@ -44,7 +44,7 @@ typedef struct {
     bbm_hooks hook;
     bbm_beyond beyond;
     bbm_contact_scratch scratch, step;          /* its contacts, and those of the step          */
-    int *moves;                 /* [elements] whether the component, by its number, has a cause */
+    double *moves;              /* [elements] whether the component, by its number, has a cause */
     double *came;               /* [contacts] m: h/2 times the velocity with which P1 came      */
 } jump;
 
@@ -129,7 +129,7 @@ static void start_elements(jump *u, const bbm_model *end, double keep)
 
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
-        const int moved = u->moves[bbm_component_of(m->K, i)];
+        const int moved = u->moves[bbm_component_of(m->K, i)] > 0;
         *e = end->element[i];
         e->middle = NULL;
         bbm_element_geometry(e, &m->vertex[e->first]);
@@ -184,7 +184,7 @@ static void start_contacts(jump *u, double keep)
         const double asked = !has_closed(c) ? 0 : E < 0 ? along(&n, &m->D[6 * i], &m->D[6 * j])
                            : came < -slow ? -E * came : 0;
         c->rest = n.d + keep * asked;
-        if (c->state == BBM_OPEN || !u->moves[bbm_component_of(m->K, i)]) {
+        if (c->state == BBM_OPEN || u->moves[bbm_component_of(m->K, i)] == 0) {
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
         }
@@ -219,52 +219,51 @@ static bbm_status solve(jump *u, const bbm_model *end, double keep)
 
 /* ----------------------------------------------------------------------------- around the jump */
 
-static int moves(const bbm_support *s)
+/* Whether the wall point of a node moves, or has moved in the step before. */
+static int moves(const bbm_model *m, int node)
 {
-    return s->moved[0] != 0 || s->moved[1] != 0 || s->rate[0] != 0 || s->rate[1] != 0;
+    const bbm_support *s = &m->beyond->support[node];
+    const int now = s->moved[0] != 0 || s->moved[1] != 0;
+
+    return m->beyond->h_before > 0 && (now || s->rate[0] != 0 || s->rate[1] != 0);
 }
 
-/* Which components have a hit with a restitution or a support that moves; the number of causes. */
+/* Which components have a hit with a restitution or a support that moves; whether any has. */
 static int find_causes(const bbm_model *m, jump *u)
 {
-    int causes = 0;
+    double causes = 0;
 
     for (int k = 0; k < u->step.contacts && m->beyond->restitution >= 0; k++)
-        if (has_closed(&u->step.contact[k])) {
+        if (has_closed(&u->step.contact[k]))
             u->moves[bbm_component_of(m->K, bbm_element_of(m, u->step.contact[k].corner))] = 1;
-            causes++;
-        }
     for (int v = 0; v < m->vertices; v++)
-        if (moves(&m->beyond->support[m->vertex[v].node])) {
+        if (moves(m, m->vertex[v].node))
             u->moves[bbm_component_of(m->K, m->vertex[v].element)] = 1;
-            causes++;
-        }
-    return causes;
+    for (int c = 0; c < m->elements; c++)
+        causes += u->moves[c];
+    return causes > 0;
 }
 
 /* The work of the supports that move: each force on h times the mean of V' and V''. */
-static double find_work(const jump *u, const bbm_model *end)
+static double find_work(jump *u, const bbm_model *end)
 {
-    const bbm_model *m = &u->m;
-    double work = 0, d[2];
+    bbm_model *m = &u->m;
+    double work = 0, v[2];
 
-    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
-        if (g->j >= 0 || !moves(&m->beyond->support[g->node[0]]))
-            continue;
-        bbm_gap_length(m, g, d);
-        for (int r = 0; r < 2; r++) {
-            double way = d[r] - g->d0[r];
-            for (int a = 0; a < 6; a++)
-                way += m->h / 2 * g->Ti[r][a] * end->element[g->i].V[a];
-            work -= (g->own.W[r][0] * d[0] + g->own.W[r][1] * d[1]) * way;
-        }
+    bbm_find_reactions(m);
+    for (int n = 0; n < m->nodes; n++) {
+        const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
+        const bbm_element *e = &end->element[P->element];
+        bbm_displacement(&m->element[P->element], e->V, P->x, P->y, v);
+        for (int a = 0; a < 2 && moves(m, n); a++)
+            work += m->beyond->support[n].jump[a] * m->h / 2 * (v[a] + support_velocity(m, n, a));
     }
     return work;
 }
 
 /* The elements at the end of the step take their velocities. The spring of a contact that has had
  * its impulse starts unloaded. */
-static void take(const jump *u, bbm_model *step, bbm_model *end)
+static void take(jump *u, bbm_model *step, bbm_model *end)
 {
     const bbm_model *m = &u->m;
 
@@ -312,36 +311,21 @@ static bbm_status choose(jump *u, bbm_model *m, bbm_model *end)
     bbm_status status = solve(u, end, 1);
 
     take(u, m, end);
-    bbm_balance b = bbm_find_balance(m, end);
+    const bbm_balance b = bbm_find_balance(m, end);
     if (status || b.gain > GAIN * b.there) {
         *end = bbm_end_of_step(m);
         status = solve(u, end, 0);
         take(u, m, end);
     }
-    bbm_find_reactions(&u->m);
-    for (int n = 0; n < m->nodes; n++)
-        memcpy(m->beyond->support[n].jump, u->beyond.support[n].force,
-               sizeof m->beyond->support[n].jump);
     return status ? bbm_say_what_failed(m, status) : BBM_OK;
-}
-
-static void release(jump *u)
-{
-    free(u->m.element);
-    free(u->m.gap);
-    free(u->m.F);
-    free(u->scratch.contact);
-    free(u->beyond.support);
-    free(u->moves);
 }
 
 /* The model of the jump: that at the end of the step, with lists of its own. */
 static bbm_status prepare(const bbm_model *m, const bbm_model *end, jump *u)
 {
     const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
-    const size_t gaps = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices;
 
-    *u = (jump){ .m = *end, .hook = *m->hook, .beyond = *m->beyond, .scratch = *m->scratch };
+    *u = (jump){ *end, *m->hook, *m->beyond, *m->scratch, *m->scratch, NULL, NULL };
     u->hook.motion = NULL;
     u->hook.renew = NULL;
     u->hook.load = take_back;
@@ -350,23 +334,20 @@ static bbm_status prepare(const bbm_model *m, const bbm_model *end, jump *u)
     u->m.beyond = &u->beyond;
     u->m.scratch = &u->scratch;
     u->m.element = calloc(n, sizeof *u->m.element);
-    u->m.gap = calloc(gaps, sizeof *u->m.gap);
-    u->m.F = calloc(18 * n + contacts, sizeof *u->m.F);
+    u->m.gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *u->m.gap);
+    u->m.F = calloc(19 * n + contacts, sizeof *u->m.F);
     u->scratch.contact = calloc(2 * contacts + 1, sizeof *u->scratch.contact);
-    u->beyond.support = calloc((size_t)m->nodes, sizeof *u->beyond.support);
-    u->moves = calloc(n, sizeof *u->moves);
-    if (!u->m.element || !u->m.gap || !u->m.F || !u->scratch.contact || !u->beyond.support
-        || !u->moves)
+    if (!u->m.element || !u->m.gap || !u->m.F || !u->scratch.contact)
         return BBM_NO_MEMORY;
     u->m.D = u->m.F + 6 * n;
     u->m.load = u->m.D + 6 * n;
-    u->came = u->m.load + 6 * n;
-    u->step = *m->scratch;
+    u->moves = u->m.load + 6 * n;
+    u->came = u->moves + n;
     u->step.contact = u->scratch.contact + contacts;
-    memcpy(u->step.contact, m->scratch->contact, contacts * sizeof *u->step.contact);
-    memcpy(u->beyond.support, m->beyond->support, (size_t)m->nodes * sizeof *u->beyond.support);
-    for (size_t k = 0; k < contacts; k++)
+    for (size_t k = 0; k < contacts; k++) {
+        u->step.contact[k] = m->scratch->contact[k];
         u->came[k] = approach(m, &u->step.contact[k]);
+    }
     return BBM_OK;
 }
 
@@ -374,26 +355,22 @@ static bbm_status prepare(const bbm_model *m, const bbm_model *end, jump *u)
  * those of (14). */
 bbm_status bbm_jump(bbm_model *m, bbm_model *end)
 {
-    int hits = 0, causes = 0;
-    bbm_status status = BBM_OK;
     jump u;
 
     m->beyond->jump_work = 0;
-    for (int n = 0; n < m->nodes; n++) {
+    for (int n = 0; n < m->nodes; n++)
         memset(m->beyond->support[n].jump, 0, sizeof m->beyond->support[n].jump);
-        causes += moves(&m->beyond->support[n]);
-    }
-    for (int k = 0; k < m->scratch->contacts; k++)
-        hits += has_closed(&m->scratch->contact[k]);
-    if (bbm_is_static(m) || m->par.velocity_factor < 1 || hits + causes == 0)
+    if (bbm_is_static(m) || m->par.velocity_factor < 1)
         return BBM_OK;
-    status = prepare(m, end, &u);
+    bbm_status status = prepare(m, end, &u);
     if (!status) {
         start_elements(&u, end, 0);
-        if (find_causes(m, &u) > 0)
-            status = choose(&u, m, end);
+        status = find_causes(m, &u) ? choose(&u, m, end) : BBM_OK;
         note_hits(&u, m, end);
     }
-    release(&u);
+    free(u.m.element);
+    free(u.m.gap);
+    free(u.m.F);
+    free(u.scratch.contact);
     return status;
 }

@@ -147,12 +147,19 @@ void bbm_place_supports(bbm_model *m)
         }
 }
 
+/* The force of a support on its node, in the step or in the jump. */
+static double *force_of(const bbm_model *m, int node)
+{
+    bbm_support *s = &m->beyond->support[node];
+    return m->beyond->jump_of ? s->jump : s->force;
+}
+
 /* The forces of the supports on their nodes, of the solution. The gap of an edge is the mean of
  * those of its ends, (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
 void bbm_find_reactions(bbm_model *m)
 {
     for (int n = 0; n < m->nodes; n++)
-        memset(m->beyond->support[n].force, 0, sizeof m->beyond->support[n].force);
+        memset(force_of(m, n), 0, 2 * sizeof *force_of(m, n));
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         double d[2];
@@ -161,8 +168,8 @@ void bbm_find_reactions(bbm_model *m)
         bbm_gap_length(m, g, d);
         for (int a = 0; a < 2; a++) {
             const double half = (g->own.f[a] + g->own.W[a][0] * d[0] + g->own.W[a][1] * d[1]) / 2;
-            m->beyond->support[g->node[0]].force[a] -= half;
-            m->beyond->support[g->node[1]].force[a] -= g->own.penalty ? half : -half;
+            force_of(m, g->node[0])[a] -= half;
+            force_of(m, g->node[1])[a] -= g->own.penalty ? half : -half;
         }
     }
 }

@@ -549,7 +549,8 @@ static const struct kind {
     { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, 1 },
     { "shake", "shake AX AY OMEGA", read_shake, NOTHING_NEEDED, 1 },
     { "contact",
-      "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
+      "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
+      "[restitution E]",
       read_contact, NOTHING_NEEDED, 1 },
     { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
     { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",

@@ -33,7 +33,8 @@ START_TEST(a_block_rebounds_at_the_velocity_asked_for_whatever_the_step)
         add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 1e-3 + _i / 9 * 3e-3, .w = 2, .h = 1 });
         ck_ok(bbm_prepare(m), m);
         set_velocity(m, 1, 2, -3);
-        run_steps(m, 3);
+        for (int step = 0; step < 3 && m->info.contacts == 0; step++)
+            run_steps(m, 1);
         ck_near(m->element[1].V[1], 3 * E, 3, 0.01);
         ck_near(m->element[1].V[0], fmax(left[2], 2 - tan_phi * (1 + E) * 3), 3, 0.01);
         ck_assert(m->beyond->gain < 1e-9);                      /* the solution's rounding      */
