@@ -94,10 +94,24 @@ static bbm_pass refuse_long(bbm_model *m, bbm_pass next)
     return m->h < m->par.dt ? next : BBM_PASS_GIVE_UP;
 }
 
+/* A step in which the first four nodes, all that are held, move to x; the force on them. */
+static double pull_to(bbm_model *m, double x)
+{
+    double force = 0;
+
+    for (int n = 0; n < 4; n++)
+        bbm_move_support(m, n, x, 0);
+    run_steps(m, 1);
+    for (int n = 0; n < 4; n++)
+        force += m->beyond->support[n].force[0];
+    return force;
+}
+
 /* A belt that is moved at 1 m/s carries a stone: after 0.5 s both have that velocity to 1e-3, and no
  * force is left along it, to 1e-2 of the weight. In steps that are cut the motion is shared. */
 START_TEST(what_a_support_moves_evenly_moves_evenly)
 {
+    const double weight = 0.5 * DENSITY * GRAVITY;
     bbm_model *m = hard_blocks(-1, 40);
 
     m->par.dt = 5e-3;
@@ -106,18 +120,13 @@ START_TEST(what_a_support_moves_evenly_moves_evenly)
     add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 0.5 });
     ck_ok(bbm_prepare(m), m);
     for (int k = 1; k <= 100; k++) {
-        double force = 0, shear = 0;
-        for (int n = 0; n < 4; n++)
-            bbm_move_support(m, n, k * m->par.dt, 0);
-        run_steps(m, 1);
-        for (int n = 0; n < 4; n++)
-            force += m->beyond->support[n].force[0];
+        const double force = pull_to(m, k * m->par.dt);
+        double shear = 0;
         for (int c = 0; c < m->contacts; c++)
-            shear += m->contact[c].state == BBM_OPEN ? 0 : m->contact[c].T;
-        ck_near(m->element[0].V[0], 1, 1, k < 3 ? 1 : 1e-3);
+            shear += m->contact[c].T;
+        ck_near(m->element[0].V[0], 1, 1, k < 3 ? 1.1 : 1e-3);
         ck_near(m->element[1].V[0], 1, 1, k < 50 ? 1 : 1e-3);
-        ck_near(force, 0, 0.5 * DENSITY * GRAVITY, k < 50 ? INFINITY : 1e-2);
-        ck_near(shear, 0, 0.5 * DENSITY * GRAVITY, k < 50 ? INFINITY : 1e-2);
+        ck_near(hypot(force, shear), 0, weight, k < 50 ? INFINITY : 1e-2);
     }
     bbm_model_free(m);
 }
@@ -127,24 +136,16 @@ END_TEST
  * of the step. Right to second order in w dt = 0.005. */
 START_TEST(a_support_that_swings_pulls_with_mass_times_acceleration)
 {
-    const double w = 5, M = DENSITY;
+    const double w = 5, dt = 1e-3, most = 0.1 * DENSITY * w * w;
     bbm_model *m = hard_blocks(-1, 0);
 
-    m->par.dt = 1e-3;
-    m->par.gravity[1] = 0;
+    m->par.dt = dt;
     add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1, .fixed = 1 });
     ck_ok(bbm_prepare(m), m);
-    for (int k = 1; k <= 1000; k++) {
-        const double t = (k - 0.5) * m->par.dt;
-        double force = 0;
-        for (int n = 0; n < 4; n++)
-            bbm_move_support(m, n, 0.1 * sin(w * k * m->par.dt), 0);
-        run_steps(m, 1);
-        for (int n = 0; n < 4; n++)
-            force += m->beyond->support[n].force[0];
-        ck_near(force, -0.1 * M * w * w * sin(w * t), 0.1 * M * w * w, k < 5 ? INFINITY : 1e-3);
-    }
-    ck_relative(m->beyond->work, M / 2 * pow(m->element[0].V[0], 2), 1e-3);
+    for (int k = 1; k <= 1000; k++)
+        ck_near(pull_to(m, 0.1 * sin(w * k * dt)), -most * sin(w * (k - 0.5) * dt), most,
+                k < 5 ? INFINITY : 1e-3);
+    ck_relative(m->beyond->work, DENSITY / 2 * pow(m->element[0].V[0], 2), 1e-3);
     bbm_model_free(m);
 }
 END_TEST
