@@ -25,7 +25,7 @@
  * of contacts, elements and bonds. This takes energy from any motion: K X.X = M V'.V''/2.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
- * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order.
+ * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -90,13 +90,13 @@ static double mobility(const bbm_model *m, int i)
     return bbm_is_held_all_round(m, e) ? 0 : 1 / (bbm_mass_per_area(e) * e->A);
 }
 
-/* The velocity of a support at the end of the step. */
+/* The velocity of a support at the end of the step. One that stands has none. */
 static double support_velocity(const bbm_model *m, int node, int a)
 {
     const bbm_support *s = &m->beyond->support[node];
     const double r = m->beyond->share * s->moved[a] / m->h;
 
-    return r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
+    return r == 0 ? 0 : r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
 }
 
 /* F takes back the contact forces of the step. */
