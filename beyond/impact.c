@@ -22,7 +22,7 @@
  * A contact that has closed, or that the jump opens, has had its impulse: its spring starts
  * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
  * where several points hit together or rub. Such a jump is done again with 0 for all that is asked
- * of contacts, elements and bonds. This takes energy from any motion: K X.X = M V'.V''/2.
+ * of contacts, elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.

@@ -30,7 +30,7 @@ START_TEST(a_block_rebounds_at_the_velocity_asked_for_whatever_the_step)
         m->par.p_n = Ws[k] * 5000 / (m->par.dt * m->par.dt);
         m->par.p_s = 0.4 * m->par.p_n;
         add_table(m, 0);
-        add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 1e-3 + _i / 9 * 3e-3, .w = 2, .h = 1 });
+        add_rectangle(m, 1, ROCK, (rectangle){ -1, 1e-3 + _i / 9 * 3e-3, 2, 1, .fixed = 0 });
         ck_ok(bbm_prepare(m), m);
         set_velocity(m, 1, 2, -3);
         for (int step = 0; step < 3 && m->info.contacts == 0; step++)
@@ -68,8 +68,7 @@ START_TEST(a_rocking_block_loses_what_housner_says)
 }
 END_TEST
 
-/* Two free squares hit corner on edge, with friction: momentum stays, energy is not made. The sum
- * of the angular momentum is that of the step, see torture. */
+/* Two free squares hit corner on edge, with friction: momentum stays, energy is not made. */
 START_TEST(blocks_that_hit_keep_their_momentum)
 {
     bbm_model *m = hard_blocks(_i / 2.0, 20);
@@ -107,8 +106,8 @@ static double pull_to(bbm_model *m, double x)
     return force;
 }
 
-/* A belt that is moved at 1 m/s carries a stone: after 0.5 s both have that velocity to 1e-3, and no
- * force is left along it, to 1e-2 of the weight. In steps that are cut the motion is shared. */
+/* A belt that is moved at 1 m/s carries a stone: after 0.5 s both have that velocity to 1e-3, and
+ * no force is left along it, to 1e-2 of the weight. In cut steps the motion is shared. */
 START_TEST(what_a_support_moves_evenly_moves_evenly)
 {
     const double weight = 0.5 * DENSITY * GRAVITY;
