@@ -122,17 +122,19 @@ void bbm_elastic_matrix(const bbm_material *m, double E[3][3])
 }
 
 /* Pi_e = t A (1/2 e.E e + e.stress0), Eq. (6)-(9)
- *     ->   K_ii += t A E, F_i -= t A stress0, Eq. (10). */
+ *     ->   K_ii += t A E, F_i -= t A stress0, Eq. (10).
+ * Deviation: with bbm_motion the A of K_ii is the starting area. The forces of Hooke's law have a
+ * potential then: a body that is strained and comes back makes no energy. */
 void bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s)
 {
-    const double tA = e->material.thickness * e->A;
+    const double t = e->material.thickness, tA = t * (e->middle ? e->A0 : e->A);
     double E[3][3];
 
     bbm_elastic_matrix(&e->material, E);
     for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++)
             s->K[3 + a][3 + b] += tA * E[a][b];
-        s->F[3 + a] -= tA * e->stress[a];
+        s->F[3 + a] -= t * e->A * e->stress[a];
     }
 }
 
@@ -255,9 +257,12 @@ void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
 
 /* --------------------------------------------------------- 3.5 Line loading submatrices */
 
-/* F += T^T f: a force f at the point to which T belongs. */
-static void add_force(double T[2][6], const double f[2], double F[6])
+/* F += T^T(x, y) f: a force f [N] at the point (x, y). */
+static void add_force(const bbm_element *e, double x, double y, const double f[2], double F[6])
 {
+    double T[2][6];
+
+    bbm_step_matrix(e, x, y, T);
     for (int a = 0; a < 6; a++)
         F[a] += T[0][a] * f[0] + T[1][a] * f[1];
 }
@@ -265,10 +270,7 @@ static void add_force(double T[2][6], const double f[2], double F[6])
 /* A concentrated load f [N] at the vertex P: F_i += T^T(P) f. */
 void bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6])
 {
-    double T[2][6];
-
-    bbm_step_matrix(e, P->x, P->y, T);
-    add_force(T, f, F);
+    add_force(e, P->x, P->y, f, F);
 }
 
 /* Gauss point g and its weight on 0 <= s <= 1, for Eq. (38) and (42). */
@@ -290,11 +292,10 @@ void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const
     const double l = hypot(b->x - a->x, b->y - a->y);
 
     for (int g = 0; g < BBM_GAUSS; g++) {
-        double s, w, T[2][6];
+        double s, w;
         bbm_gauss_point(g, &s, &w);
         const double wlf[2] = { w * l * f[g][0], w * l * f[g][1] };
-        bbm_step_matrix(e, a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, T);
-        add_force(T, wlf, F);
+        add_force(e, a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, wlf, F);
     }
 }
 
@@ -305,10 +306,8 @@ void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, cons
                                  const double f[2], double F[6])
 {
     const double l = hypot(b->x - a->x, b->y - a->y), lf[2] = { l * f[0], l * f[1] };
-    double T[2][6];
 
-    bbm_step_matrix(e, (a->x + b->x) / 2, (a->y + b->y) / 2, T);
-    add_force(T, lf, F);
+    add_force(e, (a->x + b->x) / 2, (a->y + b->y) / 2, lf, F);
 }
 
 /* ------------------------------------------------------------ 3.6 Volume force submatrix */
@@ -325,11 +324,10 @@ void bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex v[], bb
         const double x[3] = { (p->x + q->x) / 2, (p->x + e->x) / 2, (q->x + e->x) / 2 };
         const double y[3] = { (p->y + q->y) / 2, (p->y + e->y) / 2, (q->y + e->y) / 2 };
         for (int g = 0; g < 3; g++) {
-            double T[2][6], here[2];
+            double here[2];
             f(x[g], y[g], context, here);
             const double wf[2] = { c / 6 * here[0], c / 6 * here[1] };
-            bbm_mode_matrix(e, x[g], y[g], T);
-            add_force(T, wf, F);
+            add_force(e, x[g], y[g], wf, F);
         }
     }
 }
@@ -467,6 +465,7 @@ void bbm_assemble(bbm_model *m)
         assemble_element(m, i);
     for (int g = 0; g < m->gaps; g++)
         assemble_gap(m, &m->gap[g]);
+    bbm_matrix_measure(m->K, m->F);
     bbm_assemble_contacts(m);
     bbm_count_time(m, BBM_ASSEMBLE, start);
 }
@@ -477,15 +476,12 @@ void bbm_assemble(bbm_model *m)
  * in statics the D of the last step. */
 bbm_status bbm_begin_step(bbm_model *m)
 {
-    bbm_status status = BBM_OK;
-
     m->detections = 0;
     bbm_matrix_keep(m->K, 0);
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
-    if (m->hook->begin)
-        status = m->hook->begin(m);
+    const bbm_status status = m->hook->begin ? m->hook->begin(m) : BBM_OK;
     bbm_foresee_step(m);
     return status;
 }
@@ -545,8 +541,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         bbm_move(m, e, e->D, p->x, p->y, u);
         p->u += u[0];
         p->v += u[1];
-        p->x = m->node[p->node].x + p->u;
-        p->y = m->node[p->node].y + p->v;
+        p->x = m->node[p->node].x - m->origin[0] + p->u;
+        p->y = m->node[p->node].y - m->origin[1] + p->v;
     }
     bbm_elastic_matrix(&e->material, E);
     for (int a = 0; a < 3; a++) {
@@ -681,7 +677,7 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
     int count = 0;
 
     *r = (bbm_result){ 0 };
-    if (!m->K || node < 0 || node >= m->nodes)
+    if (!m->is_prepared || node < 0 || node >= m->nodes)
         return BBM_BAD_INDEX;
     for (int a = m->adjacent_first[node]; a < m->adjacent_first[node + 1]; a++) {
         const bbm_vertex *v = &m->vertex[m->adjacent[a]];

@@ -80,8 +80,8 @@ typedef struct {                /* a grid point; each element that meets there h
 
 typedef struct {                /* of one element, on one node                                  */
     int    node, element;
-    double x, y;                /* m        present position                 */
-    double u, v;                /* m        displacement since the start: x = node.x + u        */
+    double x, y;                /* m        present position from model.origin                  */
+    double u, v;                /* m        displacement since the start                        */
     int    edge;                /* the boundary edge that starts here; -1 - w, if an internal   */
                                 /*          edge does: w is the vertex of the other element     */
                                 /*          that coincides with this one; by bbm_prepare        */
@@ -93,7 +93,7 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     int    first, n;            /* its vertices are model.vertex[first .. first+n-1]            */
     bbm_material material;
     /* --- geometry of the step, by bbm_element_geometry --- */
-    double x, y;                /* m        barycentre                       */
+    double x, y;                /* m        barycentre, from model.origin    */
     double A;                   /* m^2      area                             */
     double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre         */
     /* --- state --- */
@@ -114,7 +114,8 @@ typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 
 typedef struct {
     double omega;               /* -        relaxation factor of SSOR, in (0, 2)                */
-    double tolerance;           /* -        of sqrt(r.M^-1 r), against its first value          */
+    double tolerance;           /* -        of sqrt(r.M^-1 r), against its first value, or less: */
+                                /*          see bbm_matrix_measure                              */
     int    iterations;          /* at most, in each connected component of K                    */
     const bbm_method *method;   /* NULL: the paper's                                            */
 } bbm_pcg;
@@ -171,7 +172,9 @@ struct bbm_model {
     bbm_vertex    *vertex;      /* [vertices], element by element                               */
     bbm_line_load *line_load;   /* [line_loads]                                                 */
     bbm_material  *material;    /* [materials]                                                  */
+    double origin[2];           /* m        0, or near a model that is far from (0, 0)          */
     /* --- made by bbm_prepare --- */
+    int is_prepared;            /* 0 again when something is added                              */
     int bonds, edges, gaps, contacts;
     bbm_bond *bond;             /* [bonds]   the internal edges                                 */
     bbm_edge *edge;             /* [edges]   the boundary edges                                 */
@@ -224,7 +227,8 @@ const char *bbm_message(const bbm_model *m);                /* the last error in
 
 /* --------------------------------------------------------------------------- 2. build a model
  * Once a bbm_add or bbm_fix has failed, the later calls do nothing and return its status. So a
- * program may check bbm_prepare alone. The index of what was added goes through the last pointer,
+ * program may check bbm_prepare alone. What is added after it needs it again, but for fixed nodes and
+ * loads of nodes. The index of what was added goes through the last pointer,
  * which may be NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);

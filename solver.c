@@ -41,10 +41,8 @@
  * longer on these. Therefore F is scaled to a largest entry near 1, and its zeros become
  * NEGLIGIBLE. That is too small to change a result, and its square is still far above 1e-308.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/base.h"
 
@@ -52,8 +50,6 @@
 #define NEGLIGIBLE 1e-100
 
 /* ----------------------------------------------------------------------------------- the matrix */
-
-void bbm_matrix_keep(bbm_matrix *K, int keep) { K->is_kept = keep; }
 
 void bbm_matrix_clear(bbm_matrix *K)
 {
@@ -146,13 +142,16 @@ void bbm_add_upper(const bbm_matrix *K, const double *x, double *y)
             multiply_add_transposed(1, K->L[k], x + 6 * i, y + 6 * (i - K->back[k]));
 }
 
-/* q = K p = D p + L p + L^T p, and the terms of a hook. */
+/* q = K p = D p + L p + L^T p in one pass over L, and the terms of a hook. */
 void bbm_multiply(const bbm_matrix *K, const double *p, double *q)
 {
-    for (int i = K->from; i < K->to; i++)
+    for (int i = K->from; i < K->to; i++) {
         multiply_symmetric(K->D[i], p + 6 * i, q + 6 * i);
-    bbm_add_lower(K, p, q);
-    bbm_add_upper(K, p, q);
+        for (int k = K->first[i]; k < K->first[i + 1]; k++) {
+            multiply_add(1, K->L[k], p + 6 * (i - K->back[k]), q + 6 * i);
+            multiply_add_transposed(1, K->L[k], p + 6 * i, q + 6 * (i - K->back[k]));
+        }
+    }
     if (K->terms > 0)
         K->add_terms(K, p, q);
 }
@@ -303,7 +302,6 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
         return BBM_NOT_FINITE;
     if (K->ready && K->method == pcg->method && K->omega == pcg->omega)
         return BBM_OK;
-    K->ready = 0;
     K->method = pcg->method;
     K->omega = pcg->omega;
     if (!all_finite(36 * (size_t)(K->n + K->first[K->n]), **K->D))
@@ -315,35 +313,50 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
     return status;
 }
 
-/* The power of two at or below the largest entry of F in the component: division by it rounds
- * nothing. */
-static double magnitude(const bbm_matrix *K, const double *F)
+/* The power of two at or below the largest entry of F in the component, of the first so many of
+ * each six: division by it rounds nothing. */
+static double magnitude(const bbm_matrix *K, const double *F, int entries)
 {
     double m = 0;
     int exponent;
 
-    for (int i = 6 * K->from; i < 6 * K->to; i++)
-        m = fmax(m, fabs(F[6 * K->caller[i / 6] + i % 6]));
+    for (int i = K->from; i < K->to; i++)
+        for (int a = 0; a < entries; a++)
+            m = fmax(m, fabs(F[6 * K->caller[i] + a]));
     (void)frexp(m, &exponent);
     return m == 0 ? 0 : ldexp(1, exponent - 1);
 }
 
-/* Solves one component. If its iteration fails, its rows of the solution D are the last x. */
-static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
-                                  bbm_pcg_info *info)
+/* Notes the largest force in each component. The tolerance is a share of these where the F of
+ * bbm_solve is larger. A spring that has to close a gap begins with a force far above the
+ * one that it carries in the end, and what is lost of the first may be all of the second. */
+void bbm_matrix_measure(bbm_matrix *K, const double *F)
 {
-    const double scale = magnitude(K, F);
+    for (int c = 0; c < K->components; c++) {
+        K->from = K->start[c];
+        K->to = K->start[c + 1];
+        K->forces[c] = magnitude(K, F, 2);
+    }
+}
+
+/* Solves one component. If its iteration fails, its rows of the solution D are the last x. */
+static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, double forces,
+                                  bbm_pcg pcg, bbm_pcg_info *info)
+{
+    const double scale = magnitude(K, F, 6), now = magnitude(K, F, 2);
     double rr = 0, ff = 0;
 
     if (scale == 0)
         return BBM_OK;
+    if (forces > 0 && forces < now)
+        pcg.tolerance *= forces / now;
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         const double f = F[6 * K->caller[i / 6] + i % 6] / scale;
         K->r[i] = f == 0 ? NEGLIGIBLE : f;
         K->x[i] = K->p[i] = K->q[i] = 0;
     }
     const int has_terms = K->terms > 0 && K->add_terms(K, K->x, K->q);
-    const bbm_status status = (has_terms ? K->solve_terms : iterate)(K, pcg, info);
+    const bbm_status status = (has_terms ? K->solve_terms : iterate)(K, &pcg, info);
     bbm_multiply(K, K->x, K->q);
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         const int row = 6 * K->caller[i / 6] + i % 6;
@@ -378,7 +391,7 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
         bbm_pcg_info one = { .element = -1 };
         K->from = K->start[c];
         K->to = K->start[c + 1];
-        const bbm_status s = solve_component(K, F, D, &pcg, &one);
+        const bbm_status s = solve_component(K, F, D, K->forces[c], pcg, &one);
         info->element = status ? info->element : one.element;
         status = status ? status : s;
         info->iterations = one.iterations > info->iterations ? one.iterations : info->iterations;

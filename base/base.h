@@ -243,7 +243,8 @@ typedef struct {                /* of a parameter, low and high included        
 
 bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...);
 bbm_status bbm_out_of_memory(bbm_model *m);
-void      *bbm_append(void **array, int *count, size_t size);   /* NULL: out of memory          */
+bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const void *entry,
+                      int *index);
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters         */
 int        bbm_parts_to_try(bbm_model *m, bbm_status status, int tries);
@@ -320,9 +321,10 @@ struct bbm_matrix {
     int *first;                 /* [n+1]     row i of L: the blocks first[i] .. first[i+1]-1    */
     int *back;                  /* [blocks]  its row less its column                            */
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
-    int *component;             /* [n]       of a caller's row                                  */
+    int *component;             /* [n]       of a caller's row: 0 .. components-1               */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
-    int is_kept;                /* see bbm_matrix_keep                                          */
+    int is_kept;                /* 1: clear and add leave K as it is                            */
+    double *forces;             /* [n]       of each component, see bbm_matrix_measure; 0: none */
     int lacks;                  /* what was added to a block that the pattern does not have     */
     /* --- scratch of bbm_solve --- */
     int from, to;               /* the rows of the component in hand: from .. to-1              */
@@ -349,18 +351,19 @@ struct bbm_method {
     void (*correct)(const bbm_matrix *K, const double *y, double *f);   /* f, (D/w) y between   */
 };
 
-/* order.c: a new K. `link` lists the i, j whose submatrix K_ij is not zero, in any order, either
- * way round, repeats allowed. */
+/* order.c: a new K, of one row or more. `link` lists the i, j whose submatrix K_ij is not zero, in
+ * any order, either way round, repeats allowed. */
 bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                              /* takes NULL           */
-int        bbm_component_of(const bbm_matrix *K, int i);                /* 0 .. components-1    */
+static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
 
 /* solver.c: K D = F, section 4. Rows that no pairs connect, however indirectly, are solved apart:
  * neither changes a bit of the other's D. */
 void       bbm_matrix_clear(bbm_matrix *K);
-void       bbm_matrix_keep(bbm_matrix *K, int keep);    /* 1: clear and add leave K as it is    */
+static inline void bbm_matrix_keep(bbm_matrix *K, int keep) { K->is_kept = keep; }
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
                                    what the pattern does not have fails here and in bbm_solve   */
+void       bbm_matrix_measure(bbm_matrix *K, const double *F);
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
                      bbm_pcg_info *info);
 

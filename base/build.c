@@ -11,21 +11,15 @@
  * decide the sign of its area. */
 #define FLAT 1e-12
 
+/* What a material may have: products of three or their squares are still numbers then. */
+#define LEAST 1e-100
+
+/* A model that lies more than half as many sizes of its first element away from (0, 0) gets an
+ * origin of its own. Else the last digit of a coordinate, times p_n, would be a force that
+ * counts. */
+#define FAR 1024
+
 /* ----------------------------------------------------------------------------- building a model */
-
-/* A new entry at the end of an array of the model. Its index goes through the last pointer, which
- * may be NULL. NULL: out of memory. */
-static void *append(bbm_model *m, void **array, int *count, size_t size, int *index)
-{
-    const int n = *count;
-    void *to = bbm_append(array, count, size);
-
-    if (!to)
-        m->status = bbm_out_of_memory(m);
-    else if (index)
-        *index = n;
-    return to;
-}
 
 /* A model with the defaults of statics in one step. */
 bbm_status bbm_model_new(bbm_model **out)
@@ -44,7 +38,7 @@ bbm_status bbm_model_new(bbm_model **out)
     return BBM_OK;
 }
 
-/* What bbm_prepare made, the members from `bonds` up to `h`. */
+/* What bbm_prepare made, the members from `is_prepared` up to `h`. */
 static void free_prepared(bbm_model *m)
 {
     free(m->bond);
@@ -56,8 +50,8 @@ static void free_prepared(bbm_model *m)
     free(m->contact);
     bbm_matrix_free(m->K);
     bbm_detect_free(m->scratch);
-    memset((char *)m + offsetof(bbm_model, bonds), 0,
-           offsetof(bbm_model, h) - offsetof(bbm_model, bonds));
+    memset((char *)m + offsetof(bbm_model, is_prepared), 0,
+           offsetof(bbm_model, h) - offsetof(bbm_model, is_prepared));
 }
 
 void bbm_model_free(bbm_model *m)
@@ -78,6 +72,12 @@ void bbm_model_free(bbm_model *m)
 /* Remembers the first error of building, and says what it is. */
 #define REFUSE(m, ...) ((m)->status = bbm_fail(m, __VA_ARGS__))
 
+/* Puts a copy of an entry at the end of an array of the model, which is to be prepared anew, counts
+ * it, and gives its index. */
+#define APPEND(m, array, count, entry, index) \
+    ((m)->is_prepared = 0, \
+     (m)->status = bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index))
+
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {
     const struct { const char *name; double value; } positive[3] = {
@@ -89,15 +89,12 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
     if (!isfinite(a->E) || !isfinite(a->nu) || !isfinite(a->density) || !isfinite(a->thickness))
         return REFUSE(m, BBM_NOT_FINITE, "material %d", n);
     for (int k = 0; k < 3; k++)
-        if (positive[k].value <= 0)
-            return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0", n,
-                          positive[k].name, positive[k].value);
+        if (!(positive[k].value >= LEAST && positive[k].value <= 1 / LEAST))
+            return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0, "
+                          "from 1e-100 to 1e+100", n, positive[k].name, positive[k].value);
     if (a->nu <= -1 || a->nu >= 0.5)
         return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
-    bbm_material *to = append(m, (void **)&m->material, &m->materials, sizeof *to, index);
-    if (to)
-        *to = *a;
-    return m->status;
+    return APPEND(m, m->material, m->materials, a, index);
 }
 
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
@@ -106,10 +103,7 @@ bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
         return m->status;
     if (!isfinite(x) || !isfinite(y))
         return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
-    bbm_node *to = append(m, (void **)&m->node, &m->nodes, sizeof *to, index);
-    if (to)
-        *to = (bbm_node){ .x = x, .y = y };
-    return m->status;
+    return APPEND(m, m->node, m->nodes, (&(bbm_node){ .x = x, .y = y }), index);
 }
 
 static int is_node(const bbm_model *m, int node) { return node >= 0 && node < m->nodes; }
@@ -156,21 +150,22 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
         return REFUSE(m, BBM_BAD_ELEMENT, "element %d has no area, %g m^2", e, area);
     if (m->hook->check_polygon && m->hook->check_polygon(m, n, node))
         return m->status = BBM_SELF_CROSSING;
+    if (e == 0) {
+        const double grid = FAR * sqrt(fabs(area));
+        m->origin[0] = grid * rint(m->node[node[0]].x / grid);
+        m->origin[1] = grid * rint(m->node[node[0]].y / grid);
+    }
     for (int i = 0; i < n; i++) {
         const int at = node[area > 0 ? i : n - 1 - i];
-        bbm_vertex *v = append(m, (void **)&m->vertex, &m->vertices, sizeof *v, NULL);
-        if (!v)
+        const bbm_vertex v = { .node = at, .element = e, .x = m->node[at].x - m->origin[0],
+                               .y = m->node[at].y - m->origin[1] };
+        if (APPEND(m, m->vertex, m->vertices, &v, NULL))
             return m->status;
-        *v = (bbm_vertex){ .node = at, .element = e, .x = m->node[at].x, .y = m->node[at].y };
     }
-    bbm_element *to = append(m, (void **)&m->element, &m->elements, sizeof *to, index);
-    if (!to)
-        return m->status;
-    *to = (bbm_element){ .block = block, .first = first, .n = n };
-    to->material = m->material[material];
-    bbm_element_geometry(to, &m->vertex[first]);
-    to->A0 = to->A;
-    return BBM_OK;
+    bbm_element new = { .block = block, .material = m->material[material], .first = first, .n = n };
+    bbm_element_geometry(&new, &m->vertex[first]);
+    new.A0 = new.A;
+    return APPEND(m, m->element, m->elements, &new, index);
 }
 
 /* Holds a node in the given directions to a wall point displaced by (u, v). */
@@ -205,49 +200,40 @@ bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
     return BBM_OK;
 }
 
-/* Adds a line load with everything but its vertices, which bbm_prepare finds. */
-static bbm_status add_line(bbm_model *m, const bbm_line_load *load)
+/* Adds a line load with everything but its vertices, which bbm_prepare finds. With f it varies, and
+ * is taken at the Gauss points of the starting geometry. */
+static bbm_status add_line(bbm_model *m, bbm_line_load load, bbm_field *f, const void *context)
 {
-    for (int g = 0; g < BBM_GAUSS; g++)
-        if (!isfinite(load->f[g][0]) || !isfinite(load->f[g][1]))
-            return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", load->node[0],
-                          load->node[1]);
-    bbm_line_load *to = append(m, (void **)&m->line_load, &m->line_loads, sizeof *to, NULL);
-    if (to)
-        *to = *load;
-    return m->status;
-}
+    const int p = load.node[0], q = load.node[1];
 
-static bbm_status check_line(bbm_model *m, int node1, int node2)
-{
-    if (!m->status && (!is_node(m, node1) || !is_node(m, node2)))
-        return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", node1, node2, m->nodes);
-    return m->status;
+    if (m->status)
+        return m->status;
+    if (!is_node(m, p) || !is_node(m, q))
+        return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", p, q, m->nodes);
+    const bbm_node *a = &m->node[p], *b = &m->node[q];
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, weight;
+        bbm_gauss_point(g, &s, &weight);
+        if (f)
+            f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
+        if (!isfinite(load.f[g][0]) || !isfinite(load.f[g][1]))
+            return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", p, q);
+    }
+    return APPEND(m, m->line_load, m->line_loads, &load, NULL);
 }
 
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy)
 {
     const bbm_line_load load = { .node = { node1, node2 }, .constant = 1, .f = { { fx, fy } } };
 
-    return check_line(m, node1, node2) ? m->status : add_line(m, &load);
+    return add_line(m, load, NULL, NULL);
 }
 
-/* The load f(x, y) [N/m] on the edge between two nodes, taken at the Gauss points of the starting
- * geometry. */
+/* A load f(x, y) [N/m] on the edge between two nodes. */
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
                                      const void *context)
 {
-    bbm_line_load load = { .node = { node1, node2 } };
-
-    if (check_line(m, node1, node2))
-        return m->status;
-    const bbm_node *a = &m->node[node1], *b = &m->node[node2];
-    for (int g = 0; g < BBM_GAUSS; g++) {
-        double s, weight;
-        bbm_gauss_point(g, &s, &weight);
-        f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
-    }
-    return add_line(m, &load);
+    return add_line(m, (bbm_line_load){ .node = { node1, node2 } }, f, context);
 }
 
 /* ------------------------------------------------------ preparing: 2.2, the edges, and K */
@@ -263,12 +249,11 @@ static bbm_status list_adjacent_vertices(bbm_model *m)
     m->adjacent = first + m->nodes + 1;
     for (int v = 0; v < m->vertices; v++)
         first[m->vertex[v].node]++;
-    for (int n = 0, sum = 0; n <= m->nodes; n++) {
+    for (int n = 0; n <= m->nodes; n++) {
         if (n < m->nodes && first[n] == 0)
             return bbm_fail(m, BBM_UNUSED_NODE, "node %d at (%g, %g)", n, m->node[n].x,
                             m->node[n].y);
-        sum += first[n];
-        first[n] = sum;
+        first[n] += n > 0 ? first[n - 1] : 0;
     }
     for (int v = m->vertices - 1; v >= 0; v--)
         m->adjacent[--first[m->vertex[v].node]] = v;
@@ -309,8 +294,8 @@ static bbm_status connect_elements(bbm_model *m)
         if (same || partners > 1) {
             m->blamed[0] = i > m->vertex[w].element ? i : m->vertex[w].element;
             m->blamed[1] = i + m->vertex[w].element - m->blamed[0];
-            return bbm_fail(m, BBM_OVERLAP, "elements %d and %d on the same side of nodes %d, %d",
-                            m->blamed[1], m->blamed[0], p, q);
+            return bbm_fail(m, BBM_OVERLAP, "element %d and element %d on the same side, from node %d "
+                            "to node %d", m->blamed[1], m->blamed[0], p, q);
         }
         const int across = partners == 0 ? 0
                          : bbm_next_vertex(&m->element[m->vertex[w].element], w);
@@ -373,5 +358,6 @@ bbm_status bbm_prepare(bbm_model *m)
         return bbm_fail(m, BBM_NO_ELEMENT, "%d nodes", m->nodes);
     for (size_t k = 0; k < sizeof part / sizeof *part && !status; k++)
         status = part[k] ? part[k](m) : BBM_OK;
+    m->is_prepared = !status;
     return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }

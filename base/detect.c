@@ -375,10 +375,8 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
     m->info.candidates++;
     if (!may_touch(m, corner, edge))
         return BBM_OK;
-    pair *to = bbm_append((void **)&w->pair, &w->pairs, sizeof *to);
-    if (to)
-        *to = (pair){ corner, edge, 0 };
-    return to ? BBM_OK : BBM_NO_MEMORY;
+    const pair found = { corner, edge, 0 };
+    return bbm_append(m, (void **)&w->pair, &w->pairs, sizeof found, &found, NULL);
 }
 
 /* All pairs that may touch. The hook gets a search distance. Two blocks may approach each other,

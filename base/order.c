@@ -25,7 +25,6 @@ typedef struct {                /* who is a neighbour of whom, in the caller's n
     int n;
     int *first, (*end)[2];      /* [n+1]  of i: end[first[i] .. first[i+1]-1][1], ascending     */
     int *level;                 /* [n]    distance from the start of the search, -1: not found  */
-    int *order;                 /* [n]    as they are found                                     */
 } graph;
 
 static int compare_ends(const void *a, const void *b)
@@ -38,18 +37,15 @@ static int compare_ends(const void *a, const void *b)
 /* Sorts both ends of all links by the row and then by the neighbour, and drops what comes twice. */
 static bbm_status graph_new(graph *g, int n, int links, int (*link)[2])
 {
-    if (n < 1)
-        return BBM_NO_ELEMENT;
     for (int k = 0; k < 2 * links; k++)
         if (link[k / 2][k % 2] < 0 || link[k / 2][k % 2] >= n)
             return BBM_BAD_INDEX;
     g->n = n;
-    g->first = calloc(3 * (size_t)n + 1, sizeof *g->first);
+    g->first = calloc(2 * (size_t)n + 1, sizeof *g->first);
     g->end = calloc(2 * (size_t)links + 1, sizeof *g->end);
     if (!g->first || !g->end)
         return BBM_NO_MEMORY;
     g->level = g->first + n + 1;
-    g->order = g->level + n;
     for (int k = 0; k < 2 * links; k++) {
         g->end[k][0] = link[k / 2][k % 2];
         g->end[k][1] = link[k / 2][1 - k % 2];
@@ -116,16 +112,17 @@ static int order_component(graph *g, int start, int *order, int *rows)
     return count;
 }
 
-/* place[i] of row i: all components one after the other, then the whole order reversed. */
-static void reverse_cuthill_mckee(graph *g, int place[])
+/* place[i] of row i: all components one after the other, then the whole order reversed. `order`:
+ * scratch. */
+static void reverse_cuthill_mckee(graph *g, int order[], int place[])
 {
     int done = 0;
 
     for (int i = 0; i < g->n; i++)
         if (g->level[i] < 0)
-            done += order_component(g, i, g->order + done, place);
+            done += order_component(g, i, order + done, place);
     for (int i = 0; i < g->n; i++)
-        place[g->order[i]] = g->n - 1 - i;
+        place[order[i]] = g->n - 1 - i;
 }
 
 /* ----------------------------------------------------------------------------------- the matrix */
@@ -138,7 +135,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->n = K->to = g->n;
     K->place = calloc(5 * n + 2 + blocks, sizeof *K->place);
     K->D = calloc(2 * n + blocks, sizeof *K->D);
-    K->x = calloc(6 * 6 * n, sizeof *K->x);
+    K->x = calloc(37 * n, sizeof *K->x);
     if (!K->place || !K->D || !K->x)
         return BBM_NO_MEMORY;
     K->caller = K->place + n;
@@ -153,6 +150,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->p = K->u + 6 * n;
     K->q = K->p + 6 * n;
     K->y = K->q + 6 * n;
+    K->forces = K->y + 6 * n;
     return BBM_OK;
 }
 
@@ -185,7 +183,7 @@ bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **out)
     if (!status)
         status = allocate(K, &g);
     if (!status) {
-        reverse_cuthill_mckee(&g, K->place);
+        reverse_cuthill_mckee(&g, K->caller, K->place);
         lay_out_rows(K, &g);
     } else {
         bbm_matrix_free(K);
@@ -209,5 +207,3 @@ void bbm_matrix_free(bbm_matrix *K)
     free(K->term);
     free(K);
 }
-
-int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }

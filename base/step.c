@@ -36,7 +36,7 @@ const char *bbm_status_text(bbm_status s)
         [BBM_BAD_ELEMENT] = "an element is no polygon",
         [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
         [BBM_OVERLAP] = "elements of one block overlap",
-        [BBM_BLOCKS_OVERLAP] = "blocks overlap at the start",
+        [BBM_BLOCKS_OVERLAP] = "blocks overlap",
         [BBM_UNUSED_NODE] = "a node belongs to no element",
         [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
         [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
@@ -73,9 +73,10 @@ bbm_status bbm_out_of_memory(bbm_model *m)
     return bbm_fail(m, BBM_NO_MEMORY, "%d elements, %d nodes", m->elements, m->nodes);
 }
 
-/* A new entry at the end of an array of *count entries, whose room is the next power of two; NULL:
- * out of memory. */
-void *bbm_append(void **array, int *count, size_t size)
+/* Puts a copy of an entry at the end of an array of *count entries, whose room is the next power of
+ * two. Its index goes through the last pointer, which may be NULL. */
+bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const void *entry,
+                      int *index)
 {
     const size_t n = (size_t)*count;
     void *room = *array;
@@ -83,10 +84,13 @@ void *bbm_append(void **array, int *count, size_t size)
     if (n == 0 || (n >= 16 && (n & (n - 1)) == 0))
         room = realloc(*array, (n == 0 ? 16 : 2 * n) * size);
     if (!room)
-        return NULL;
+        return bbm_out_of_memory(m);
     *array = room;
+    memcpy((char *)room + n * size, entry, size);
     ++*count;
-    return (char *)room + n * size;
+    if (index)
+        *index = (int)n;
+    return BBM_OK;
 }
 
 /* ------------------------------------------------------------------------- what a step counts */
@@ -203,14 +207,16 @@ bbm_status bbm_check_step(bbm_model *m)
         { "p_s", p->p_s, over, most, "more than 0" },
         { "friction", p->friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
         { "pcg.omega", p->pcg.omega, over, nextafter(2, 0), "more than 0, less than 2" },
-        { "pcg.tolerance", p->pcg.tolerance, over, nextafter(1, 0), "more than 0, less than 1" },
+        { "pcg.tolerance", p->pcg.tolerance, over, 1e-6, "more than 0, at most 1e-6" },
         { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
     };
 
     m->info.passes = m->info.cuts = m->info.iterations = m->trial = 0;
-    if (!m->K)
-        return m->status ? m->status
-                         : bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps");
+    if (m->status)
+        return m->status;
+    if (!m->is_prepared)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again after "
+                        "what is added");
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
@@ -223,18 +229,14 @@ int bbm_parts_to_try(bbm_model *m, bbm_status status, int tries)
     const int may = status == BBM_NOT_POSITIVE_DEFINITE || status == BBM_NOT_CONVERGED
                  || status == BBM_NOT_FINITE || status == BBM_OPEN_CLOSE || status == BBM_ENERGY
                  || status == BBM_STEP_TOO_LONG;
+    const int still = bbm_is_static(m);
 
-    if (!may || tries == (bbm_is_static(m) ? BBM_ONE_BY_ONE : HALVINGS))
+    if (!may || tries == (still ? BBM_ONE_BY_ONE : HALVINGS) || (!still && bbm_is_spent(m)))
         return 0;
-    if (bbm_is_static(m)) {
-        m->trial = tries + 1;
-        return 1;
-    }
-    if (bbm_is_spent(m))
-        return 0;
-    m->info.cuts++;
     m->message[0] = '\0';
-    return 2;
+    m->trial = still ? tries + 1 : BBM_AS_EVER;
+    m->info.cuts += !still;
+    return still ? 1 : 2;
 }
 
 /* Counts the step, or says why it failed. */

@@ -160,13 +160,26 @@ static void list_edge(bbm_model *m, int i, int j, const bbm_gap end[2], int dire
     }
 }
 
-/* The moment M that a quadrilateral asks for on its edge from vertex v on. */
-static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
+/* The moment M that a quadrilateral asks for on its edge from vertex v on; returns n.M n with the
+ * normal n of the edge. Where steps are exact M belongs to the starting shape: it is constant then,
+ * and its forces have a potential. */
+static double own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
 {
+    const int edge = v - e->first, exact = e->middle != NULL;
+    bbm_element shape = *e;
+    bbm_vertex at[5];
     double own[2][2][2];
 
-    bbm_bending_moments(e, &m->vertex[e->first], own);
-    memcpy(M, own[(v - e->first) % 2], 4 * sizeof M[0][0]);
+    shape.A = exact ? e->A0 : e->A;
+    for (int k = 0; k < 5; k++) {
+        at[k] = m->vertex[e->first + k % 4];
+        at[k].x = exact ? m->node[at[k].node].x - m->origin[0] : at[k].x;
+        at[k].y = exact ? m->node[at[k].node].y - m->origin[1] : at[k].y;
+    }
+    bbm_bending_moments(&shape, at, own);
+    memcpy(M, own[edge % 2], 4 * sizeof M[0][0]);
+    const double nx = at[edge + 1].y - at[edge].y, ny = at[edge].x - at[edge + 1].x;
+    return nx * nx * M[0][0] + nx * ny * (M[0][1] + M[1][0]) + ny * ny * M[1][1];
 }
 
 /* The moment M of a bond. The halves of its two elements bend one after the other, so their
@@ -177,17 +190,41 @@ static void own_moment(const bbm_model *m, const bbm_element *e, int v, double M
  * whose n.M n is the harmonic mean. */
 static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
 {
-    const bbm_vertex *P = &m->vertex[b->p[0]], *R = &m->vertex[b->p[1]];
-    const double nx = R->y - P->y, ny = P->x - R->x;
     double Mi[2][2], Mj[2][2];
-
-    own_moment(m, &m->element[b->i], b->p[0], Mi);
-    own_moment(m, &m->element[b->j], b->q[1], Mj);      /* the edge runs the other way in j */
-    const double mi = nx * nx * Mi[0][0] + nx * ny * (Mi[0][1] + Mi[1][0]) + ny * ny * Mi[1][1];
-    const double mj = nx * nx * Mj[0][0] + nx * ny * (Mj[0][1] + Mj[1][0]) + ny * ny * Mj[1][1];
+    const double mi = own_moment(m, &m->element[b->i], b->p[0], Mi);
+    const double mj = own_moment(m, &m->element[b->j], b->q[1], Mj);    /* it runs the other way */
     const double sum = mi + mj, series = sum > 0 ? 4 * (mi / sum) * (mj / sum) : 0;
+
     for (int a = 0; a < 4; a++)
         M[a / 2][a % 2] = series * (Mi[a / 2][a % 2] + Mj[a / 2][a % 2]) / 2;
+}
+
+/* M turns with the edge, by the mean turn r of its elements, and the opening d is measured in a
+ * frame that does so. With R = R(r), t = tan(r/2) and dm the mean of d at the start and at the end
+ *
+ *     R^T d = d0 + H (Ti Di - Tj Dj - 2 t J dm),      H = (1 + R^T)/2 = [1 t; -t 1]/(1 + t^2),
+ *
+ * is linear in D as T_m is, see rotation.c. */
+static void turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
+{
+    const double *Di = i->middle->D, *Dj = j->middle->D;
+    const double r = (Di[2] + Dj[2]) / 2, t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
+    double d[2] = { g->d0[0], g->d0[1] }, (*W)[2] = g->own.W, M[3] = { W[0][0], W[1][1], W[0][1] };
+
+    bbm_turn_tensor(M, (i->sum[2] + j->sum[2]) / 2);
+    W[0][0] = M[0], W[1][1] = M[1], W[0][1] = W[1][0] = M[2];
+    for (int a = 0; a < 12; a++)
+        d[a / 6] += (g->Ti[a / 6][a % 6] * Di[a % 6] - g->Tj[a / 6][a % 6] * Dj[a % 6]) / 2;
+    for (int side = 0; side < 2; side++) {
+        double (*T)[6] = side ? g->Tj : g->Ti;
+        T[0][2] += (side ? -f : f) / 2 * d[1];
+        T[1][2] -= (side ? -f : f) / 2 * d[0];
+        for (int a = 0; a < 6; a++) {
+            const double x = T[0][a];
+            T[0][a] = (x + t * T[1][a]) / (1 + t * t);
+            T[1][a] = (T[1][a] - t * x) / (1 + t * t);
+        }
+    }
 }
 
 /* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. */
@@ -206,6 +243,8 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
         bbm_bonding_gap(i, &m->vertex[b->p[e]], j, &m->vertex[b->q[e]], k, &end[e]);
     bond_moment(m, b, M);
     list_edge(m, b->i, b->j, end, BBM_XY, k, M);
+    if (i->middle)
+        turn_opening(i, j, &m->gap[m->gaps - 1]);
 }
 
 /* The directions in which the edge of a quadrilateral from vertex v on is held: those of both its

@@ -23,8 +23,14 @@ typedef struct {                /* surroundings.c, of a node                    
     double moved[2];            /* m        its wall point, since that step                     */
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
-    double jump[2];             /* N        impact.c: the part of the force in the jump         */
+    double jump[2], jump_work;  /* N, J     impact.c: its force in the jump, and the work       */
 } bbm_support;
+
+typedef struct {                /* energy.c: of an element, and of the component of this number */
+    double springs[2];          /* J        in springs that count at the element: at the start, */
+                                /*          and in the solution in hand                         */
+    double gain, there, work;   /* J        of a component, in a part of a step                 */
+} bbm_account;
 
 typedef struct {                /* joints.c: a joint of its own strength                        */
     int    block[2];            /* -1: any                                                      */
@@ -58,7 +64,6 @@ struct bbm_beyond {
                                 /*          is in hand                                          */
     double h_before;            /* s        the last step                                       */
     const bbm_contact_scratch *jump_of;         /* impact.c: the step that ends with the jump   */
-    double jump_work;           /* J        of supports in the jump                             */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
@@ -66,10 +71,11 @@ struct bbm_beyond {
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
-    double springs;             /* J        in bonds, fixed points and closed contacts          */
+    bbm_account *account;       /* [elements]                                                   */
     double gained;              /* J        what dynamic steps have made beyond the balance     */
     double gain;                /* -        the most that one made, against what was there      */
     double hit[2];              /* J        impact.c: of contacts that closed, before and after */
+    double made;                /* -        the same of the step in hand, so far                */
 };
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
@@ -106,16 +112,16 @@ void       bbm_interpolate_elements(bbm_model *m);
 /* energy.c. The energies after the last step; kinetic: with the velocity before its factor. */
 typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 void       bbm_energies(const bbm_model *m, bbm_energy *e);
-double     bbm_spring_energy(const bbm_model *m);        /* J, of the solution in hand          */
+void       bbm_note_springs(bbm_model *m, int when);     /* of the solution in hand             */
 bbm_model  bbm_end_of_step(const bbm_model *m);
-typedef struct { double gain, there, work, springs; } bbm_balance;      /* J, of a step */
-bbm_balance bbm_find_balance(const bbm_model *m, const bbm_model *end);
-bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there);
+void       bbm_find_accounts(bbm_model *m, const bbm_model *end);
+bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end);
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
 /* rotation.c */
 const bbm_motion *bbm_find_motion(const bbm_model *m);
 void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);

@@ -29,7 +29,6 @@
  * with its row: the coarse space is then a little smaller, and the preconditioner as positive
  * definite as before.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -20,11 +20,11 @@
 
 #include "beyond.h"
 
-/* GAIN [-]      a step that makes more than this share of what is there is wrong; one that is right
- *               makes some 1e-5 at most, what the solution and the vectors of the step are off
+/* GAIN [-]      a step that makes more than this share of what is there, in all its parts together,
+ *               is wrong: it is what the solution and the vectors of the step may be off
  * ROUNDING [-]  of positions, in which forces do work: some dozens of the last digit of a
  *               coordinate */
-#define GAIN 1e-3
+#define GAIN 1e-5
 #define ROUNDING (64 * DBL_EPSILON)
 
 /* int u.M u dA of a field u = T V, for Eq. (11). */
@@ -54,17 +54,19 @@ static double kinetic_energy(const bbm_model *m, const bbm_element *e)
     return bbm_inertia_form(&now, V) / 2;
 }
 
-/* 1/2 int stress.strain dA = 1/2 t A s.E^-1 s with Hooke's law (7): without strain s.E^-1 s is what
- * is left, with the other sign, of [0 s; s E]. */
-static double elastic_energy(const bbm_element *e)
+/* 1/2 t A0 s.E^-1 s with Hooke's law (7) and s the stress, where steps are exact on the starting
+ * area: without strain s.E^-1 s is what is left, with the other sign, of [0 s; s E]. */
+static double elastic_energy(const bbm_model *m, const bbm_element *e)
 {
     double E[3][3], W[4][4] = { { 0 } };
+    bbm_element now = *e;
 
+    bbm_element_geometry(&now, &m->vertex[e->first]);
     bbm_elastic_matrix(&e->material, E);
     for (int a = 0; a < 9; a++)
         W[1 + a / 3][1 + a % 3] = E[a / 3][a % 3];
     for (int a = 0; a < 3; a++)
-        W[0][1 + a] = W[1 + a][0] = e->stress[a];
+        W[0][1 + a] = W[1 + a][0] = (e->middle ? now.A / e->A0 : 1) * e->stress[a];
     bbm_condense(4, 1, W);
     return -e->material.thickness * e->A0 * W[0][0] / 2;
 }
@@ -75,10 +77,10 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
     *energy = (bbm_energy){ 0, 0, 0 };
     if (!m->K)
         return;
-    energy->springs = m->beyond->springs;
     for (int i = 0; i < m->elements; i++) {
         energy->kinetic += kinetic_energy(m, &m->element[i]);
-        energy->elastic += elastic_energy(&m->element[i]);
+        energy->elastic += elastic_energy(m, &m->element[i]);
+        energy->springs += m->beyond->account[i].springs[0];
     }
 }
 
@@ -92,21 +94,24 @@ static double contact_energy(const bbm_model *m, const bbm_contact *c)
     return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
 }
 
-/* Energy of all springs: of the bonds and fixed points as they are listed, and of the contacts. */
-double bbm_spring_energy(const bbm_model *m)
+/* Notes at each element the energy of its springs, at the start (0) or the end of a step (1): of
+ * bonds and fixed points as they are listed, and of contacts. A spring counts at one of its
+ * elements. */
+void bbm_note_springs(bbm_model *m, int when)
 {
     const bbm_contact *c = m->scratch->contact;
-    double energy = 0;
+    bbm_account *a = m->beyond->account;
 
+    for (int i = 0; i < m->elements; i++)
+        a[i].springs[when] = 0;
     for (int k = 0; k < m->gaps; k++) {
         const bbm_gap *g = &m->gap[k];
         for (int r = 0; r < 2; r++)
-            energy += g->d0[r] / 2
+            a[g->i].springs[when] += g->d0[r] / 2
                     * (g->own.f[r] + g->own.W[r][0] * g->d0[0] + g->own.W[r][1] * g->d0[1]);
     }
     for (int k = 0; k < m->scratch->contacts; k++)
-        energy += contact_energy(m, &c[k]);
-    return energy;
+        a[bbm_element_of(m, c[k].corner)].springs[when] += contact_energy(m, &c[k]);
 }
 
 /* The model at the end of the step, before it moves: a second one, which shares all with the first
@@ -124,55 +129,80 @@ bbm_model bbm_end_of_step(const bbm_model *m)
     return end;
 }
 
-/* The energy that the step from m to `end` makes beyond the work of its loads and supports, `gain`,
- * and what is `there`: the energy at the start, the work of each load without sign, and what
- * rounding may make. A step that does not keep velocities whole has none. */
-bbm_balance bbm_find_balance(const bbm_model *m, const bbm_model *end)
+/* A load of the component does some work. */
+static void add_work(bbm_account *a, double work)
+{
+    a->work += work;
+    a->gain -= work;
+    a->there += fabs(work);
+}
+
+/* Adds an element, its loads and its springs to the account of its component. */
+static void add_element(const bbm_model *m, const bbm_model *end, int i, bbm_account *a)
+{
+    const bbm_element *e = &m->element[i], *f = &end->element[i];
+    const double *F = &m->F[6 * i], *load = &m->load[6 * i];
+    const bbm_account *own = &m->beyond->account[i];
+    const double before = kinetic_energy(m, e) + elastic_energy(m, e) + own->springs[0];
+
+    a->gain += kinetic_energy(end, f) + elastic_energy(end, f) + own->springs[1] - before;
+    a->there += before
+              + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * hypot(e->x, e->y);
+    for (int n = 0; n < 6; n++)
+        add_work(a, load[n] * m->D[6 * i + n]);
+}
+
+/* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
+ * touch, are near or are bonded. In statics, and where velocities are not kept, nothing is
+ * there. */
+void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
     const bbm_beyond *b = m->beyond;
     bbm_model now = *end;               /* its gaps take the place of those of the step */
-    bbm_energy before, after;
 
     bbm_list_gaps(&now);
-    bbm_energies(m, &before);
-    bbm_energies(end, &after);
-    bbm_balance s = { .work = b->jump_work, .springs = bbm_spring_energy(&now) };
-    const double had = before.kinetic + before.elastic + before.springs;
-    s.there = had + fabs(b->jump_work);
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        const double *F = &m->F[6 * i], *load = &m->load[6 * i];
-        s.there += ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * hypot(e->x, e->y);
-        for (int a = 6 * i; a < 6 * i + 6; a++) {
-            s.work += m->load[a] * m->D[a];
-            s.there += fabs(m->load[a] * m->D[a]);
-        }
+    bbm_note_springs(&now, 1);
+    for (int c = 0; c < m->elements; c++)
+        b->account[c].gain = b->account[c].there = b->account[c].work = 0;
+    for (int i = 0; i < m->elements; i++)
+        add_element(m, end, i, &b->account[bbm_component_of(m->K, i)]);
+    for (int n = 0; n < m->nodes; n++) {
+        const int i = m->vertex[m->adjacent[m->adjacent_first[n]]].element;
+        bbm_account *of = &b->account[bbm_component_of(m->K, i)];
+        for (int a = 0; a < 2; a++)
+            add_work(of, b->support[n].force[a] * b->share * b->support[n].moved[a]);
+        add_work(of, b->support[n].jump_work);
     }
-    for (int n = 0; n < m->nodes; n++)
-        for (int a = 0; a < 2; a++) {
-            const double work = b->support[n].force[a] * b->share * b->support[n].moved[a];
-            s.work += work;
-            s.there += fabs(work);
-        }
-    s.gain = after.kinetic + after.elastic + s.springs - had - s.work;
-    if (bbm_is_static(m) || m->par.velocity_factor < 1)
-        s.gain = s.there = 0;
-    return s;
+    for (int c = 0; c < m->elements && (bbm_is_static(m) || m->par.velocity_factor < 1); c++)
+        b->account[c].gain = b->account[c].there = 0;
 }
 
-/* Too much gain is BBM_ENERGY; if not, m->beyond notes the balance. */
-bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end, double *gain, double *there)
+/* The energy that the part of a step from m to `end` makes beyond the work of its loads, for each
+ * component by itself, as a share of what is there: the energy at the start, the work of each load
+ * without sign, and what rounding may make. The largest shares of all parts of a step add up. Too
+ * much is refused; if not, m->beyond notes it. */
+bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
 {
-    const bbm_balance s = bbm_find_balance(m, end);
     bbm_beyond *b = m->beyond;
+    const bbm_account *worst = b->account;
+    double share = 0, gained = 0, work = 0;
 
-    *gain = s.gain;
-    *there = s.there;
-    if (bbm_motion_of(m) && s.gain > GAIN * s.there)
-        return BBM_ENERGY;
-    b->work += s.work;
-    b->springs = s.springs;
-    b->gained += fmax(0, s.gain);
-    b->gain = s.there > 0 ? fmax(b->gain, s.gain / s.there) : b->gain;
+    bbm_find_accounts(m, end);
+    for (const bbm_account *a = b->account; a < b->account + m->K->components; a++) {
+        worst = a->gain > share * a->there ? a : worst;
+        share = fmax(0, worst->gain / worst->there);
+        gained += fmax(0, a->gain);
+        work += a->work;
+    }
+    if (bbm_motion_of(m) && b->made + share > GAIN)
+        return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: %g J more than its loads' "
+                        "work, of %g J", m->info.step + 1, m->info.t, m->h, worst->gain,
+                        worst->there);
+    for (int i = 0; i < m->elements; i++)
+        b->account[i].springs[0] = b->account[i].springs[1];
+    b->work += work;
+    b->gained += gained;
+    b->made += share;
+    b->gain = fmax(b->gain, b->made);
     return BBM_OK;
 }

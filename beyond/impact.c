@@ -44,7 +44,8 @@ typedef struct {
     bbm_hooks hook;
     bbm_beyond beyond;
     bbm_contact_scratch scratch, step;          /* its contacts, and those of the step          */
-    double *moves;              /* [elements] whether the component, by its number, has a cause */
+    double *moves;              /* [elements] the component of this number: 1: has a cause;     */
+                                /*          -1: and nothing is kept; 0: has none                */
     double *came;               /* [contacts] m: h/2 times the velocity with which P1 came      */
 } jump;
 
@@ -121,15 +122,18 @@ static void take_back(bbm_model *m)
     }
 }
 
-/* The elements at the end of the step. `keep`, 1 or 0: the share of what is asked for. */
-static void start_elements(jump *u, const bbm_model *end, double keep)
+/* Whether what is asked for in the component of an element is kept. */
+static int is_kept(const jump *u, int i) { return u->moves[bbm_component_of(u->m.K, i)] > 0; }
+
+/* The elements at the end of the step. */
+static void start_elements(jump *u, const bbm_model *end)
 {
     bbm_model *m = &u->m;
     double heaviest = 0, E[3][3];
 
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
-        const int moved = u->moves[bbm_component_of(m->K, i)] > 0;
+        const int moved = u->moves[bbm_component_of(m->K, i)] != 0;
         *e = end->element[i];
         e->middle = NULL;
         bbm_element_geometry(e, &m->vertex[e->first]);
@@ -140,14 +144,14 @@ static void start_elements(jump *u, const bbm_model *end, double keep)
             m->D[6 * i + a] = m->h * e->V[a];
         }
         for (int a = 0; a < 9; a++)
-            e->stress[a / 3] -= keep * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
+            e->stress[a / 3] -= is_kept(u, i) * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
         if (moved && mobility(m, i) > 0)
             heaviest = fmax(heaviest, 1 / mobility(m, i));
     }
     m->par.p_n = m->par.p_s = fmax(end->par.p_n, STIFF * 2 * heaviest / (m->h * m->h));
 }
 
-static void start_gaps(jump *u, double keep)
+static void start_gaps(jump *u)
 {
     bbm_model *m = &u->m;
     double d[2];
@@ -159,13 +163,13 @@ static void start_gaps(jump *u, double keep)
         for (int a = 0; a < 2; a++) {
             const double w0 = support_velocity(m, g->node[0], a);
             const double w1 = support_velocity(m, g->node[1], a);
-            g->d0[a] = g->j >= 0 ? -keep * d[a]
+            g->d0[a] = g->j >= 0 ? -is_kept(u, g->i) * d[a]
                      : -m->h / 4 * (g->own.penalty ? w0 + w1 : w0 - w1);
         }
     }
 }
 
-static void start_contacts(jump *u, double keep)
+static void start_contacts(jump *u)
 {
     bbm_model *m = &u->m;
     const double E = m->beyond->restitution;
@@ -183,7 +187,7 @@ static void start_contacts(jump *u, double keep)
         c->anchor = -s.d / hypot(P3->x - P2->x, P3->y - P2->y);
         const double asked = !has_closed(c) ? 0 : E < 0 ? along(&n, &m->D[6 * i], &m->D[6 * j])
                            : came < -slow ? -E * came : 0;
-        c->rest = n.d + keep * asked;
+        c->rest = n.d + is_kept(u, i) * asked;
         if (c->state == BBM_OPEN || u->moves[bbm_component_of(m->K, i)] == 0) {
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
@@ -197,16 +201,16 @@ static void start_contacts(jump *u, double keep)
 }
 
 /* Solves until all contacts fit. */
-static bbm_status solve(jump *u, const bbm_model *end, double keep)
+static bbm_status solve(jump *u, const bbm_model *end)
 {
     bbm_model *m = &u->m;
     bbm_status status = BBM_OK;
     bbm_pass pass = BBM_PASS_AGAIN;
 
     u->scratch.passes = u->scratch.friction_passes = u->scratch.one_until = 0;
-    start_elements(u, end, keep);
-    start_gaps(u, keep);
-    start_contacts(u, keep);
+    start_elements(u, end);
+    start_gaps(u);
+    start_contacts(u);
     bbm_matrix_keep(m->K, 0);
     while (!status && pass == BBM_PASS_AGAIN) {
         bbm_assemble(m);
@@ -244,21 +248,22 @@ static int find_causes(const bbm_model *m, jump *u)
     return causes > 0;
 }
 
-/* The work of the supports that move: each force on h times the mean of V' and V''. */
-static double find_work(jump *u, const bbm_model *end)
+/* The work of each support that moves: its force on h times the mean of V' and V''. */
+static void find_work(jump *u, const bbm_model *end)
 {
     bbm_model *m = &u->m;
-    double work = 0, v[2];
+    double v[2];
 
     bbm_find_reactions(m);
     for (int n = 0; n < m->nodes; n++) {
         const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
         const bbm_element *e = &end->element[P->element];
+        bbm_support *s = &m->beyond->support[n];
         bbm_displacement(&m->element[P->element], e->V, P->x, P->y, v);
+        s->jump_work = 0;
         for (int a = 0; a < 2 && moves(m, n); a++)
-            work += m->beyond->support[n].jump[a] * m->h / 2 * (v[a] + support_velocity(m, n, a));
+            s->jump_work += s->jump[a] * m->h / 2 * (v[a] + support_velocity(m, n, a));
     }
-    return work;
 }
 
 /* The elements at the end of the step take their velocities. The spring of a contact that has had
@@ -267,9 +272,9 @@ static void take(jump *u, bbm_model *step, bbm_model *end)
 {
     const bbm_model *m = &u->m;
 
-    step->beyond->jump_work = find_work(u, end);
+    find_work(u, end);
     for (int a = 0; a < 6 * m->elements; a++)
-        if (u->moves[bbm_component_of(m->K, a / 6)])
+        if (u->moves[bbm_component_of(m->K, a / 6)] != 0)
             end->element[a / 6].V[a % 6] = 2 / m->h * m->D[a];
     for (int k = 0; k < u->step.contacts; k++) {
         bbm_contact *c = &step->scratch->contact[k];
@@ -305,16 +310,23 @@ static void note_hits(const jump *u, bbm_model *step, const bbm_model *end)
     }
 }
 
-/* The jump that is asked for; if it makes energy, the one in which nothing is. */
+/* The jump that is asked for; where it makes energy, the one in which nothing is. */
 static bbm_status choose(jump *u, bbm_model *m, bbm_model *end)
 {
-    bbm_status status = solve(u, end, 1);
+    bbm_status status = solve(u, end);
+    int again = 0;
 
     take(u, m, end);
-    const bbm_balance b = bbm_find_balance(m, end);
-    if (status || b.gain > GAIN * b.there) {
+    bbm_find_accounts(m, end);
+    for (int c = 0; c < m->elements; c++) {
+        const bbm_account *of = &m->beyond->account[c];
+        const int wrong = u->moves[c] > 0 && (status || of->gain > GAIN * of->there);
+        u->moves[c] = wrong ? -1 : u->moves[c];
+        again |= wrong;
+    }
+    if (again) {
         *end = bbm_end_of_step(m);
-        status = solve(u, end, 0);
+        status = solve(u, end);
         take(u, m, end);
     }
     return status ? bbm_say_what_failed(m, status) : BBM_OK;
@@ -357,14 +369,15 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end)
 {
     jump u;
 
-    m->beyond->jump_work = 0;
-    for (int n = 0; n < m->nodes; n++)
-        memset(m->beyond->support[n].jump, 0, sizeof m->beyond->support[n].jump);
+    for (int n = 0; n < m->nodes; n++) {
+        bbm_support *s = &m->beyond->support[n];
+        s->jump[0] = s->jump[1] = s->jump_work = 0;
+    }
     if (bbm_is_static(m) || m->par.velocity_factor < 1)
         return BBM_OK;
     bbm_status status = prepare(m, end, &u);
     if (!status) {
-        start_elements(&u, end, 0);
+        start_elements(&u, end);
         status = find_causes(m, &u) ? choose(&u, m, end) : BBM_OK;
         note_hits(&u, m, end);
     }

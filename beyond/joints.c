@@ -9,8 +9,6 @@
  * The strengths are those of the model, unless a joint is given for the two blocks: the first one
  * that fits counts.
  */
-#include <math.h>
-#include <stdlib.h>
 
 #include "beyond.h"
 
@@ -65,12 +63,8 @@ bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, doub
         return bbm_fail(m, BBM_BAD_PARAMETER, "a joint with friction = %g, cohesion = %g, tension "
                         "= %g, expected 0 or more, and less than 90 degrees", friction, cohesion,
                         tension);
-    bbm_joint *more = realloc(b->joint, ((size_t)b->joints + 1) * sizeof *more);
-    if (!more)
-        return bbm_fail(m, BBM_NO_MEMORY, "%d joints", b->joints);
-    b->joint = more;
-    b->joint[b->joints++] = (bbm_joint){ { block[0], block[1] }, friction, cohesion, tension };
-    return BBM_OK;
+    const bbm_joint joint = { { block[0], block[1] }, friction, cohesion, tension };
+    return bbm_append(m, (void **)&b->joint, &b->joints, sizeof joint, &joint, NULL);
 }
 
 static int fits(const int block[2], int i, int j)

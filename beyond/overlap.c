@@ -186,7 +186,8 @@ bbm_status bbm_check_overlap(bbm_model *m)
     m->blamed[0] = o.j;
     m->blamed[1] = o.i;
     return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d "
-                    "with element %d, block %d with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
+                    "with element %d, block %d with element %d", o.depth,
+                    o.x + m->origin[0], o.y + m->origin[1], p, o.i, q, o.j);
 }
 
 /* ------------------------------------------------------------------------------------ in a step */
@@ -279,7 +280,7 @@ bbm_status bbm_check_passed(bbm_model *m)
         return BBM_OK;
     const bbm_vertex *P = &m->vertex[m->edge[corner].a];
     return bbm_fail(m, BBM_BLOCKS_OVERLAP, "step %d: a corner of block %d passed into block %d at "
-                    "(%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
-                    m->edge[corner].block, m->edge[edge].block, P->x, P->y,
-                    bbm_depth_passed(m, corner, edge));
+                    "(%g, %g), %.2g m deep; a smaller dt, or stiffer contacts and materials help",
+                    m->info.step + 1, m->edge[corner].block, m->edge[edge].block,
+                    P->x + m->origin[0], P->y + m->origin[1], bbm_depth_passed(m, corner, edge));
 }

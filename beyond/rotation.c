@@ -109,20 +109,20 @@ static void find_vectors(const bbm_touch *c, double anchor, bbm_spring *n, bbm_s
     }
 }
 
-/* A tensor (xx, yy, xy) turns with the element: R s R^T. */
-static void turn_tensor(double s[3], double r)
+/* A tensor (xx, yy, xy) turns with the element: R s R^T, with cos(2 r) - 1 = -2 sin(r)^2. */
+void bbm_turn_tensor(double s[3], double r)
 {
-    const double c = cos(2 * r), n = sin(2 * r), t = s[2];
-    const double mean = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2;
+    const double c1 = -2 * sin(r) * sin(r), n = sin(2 * r), half = (s[0] - s[1]) / 2, t = s[2];
 
-    s[0] = mean + half * c - t * n;
-    s[1] = mean - half * c + t * n;
-    s[2] = half * n + t * c;
+    s[0] += half * c1 - t * n;
+    s[1] -= half * c1 - t * n;
+    s[2] += half * n + t * c1;
 }
 
-/* Stress and strain rates turn with an element that has moved, and the change of its moments by
- * strain, which no force of the step knows of, changes no energy: turning and straining slow down
- * or speed up together. */
+/* Stress and strain rates turn with an element that has moved. The stress that the strain adds
+ * belongs to the starting area, as in (10): (A stress0 + A0 E e)/A', A' the area at the end. The
+ * change of its moments by strain, which no force of the step knows of, changes no energy: turning
+ * and straining slow down or speed up together. */
 static void turn(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
 {
     double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
@@ -130,10 +130,13 @@ static void turn(const bbm_element *start, bbm_element *e, const bbm_vertex vert
     bbm_element end = *e;
 
     const double before = bbm_inertia_form(start, turning);
-    turn_tensor(e->stress, e->D[2]);
-    turn_tensor(rate, e->D[2]);
-    turning[3] = rate[0], turning[4] = rate[1], turning[5] = 2 * rate[2];
     bbm_element_geometry(&end, vertex);
+    for (int a = 0; a < 3; a++)
+        e->stress[a] = (start->A * start->stress[a] + e->A0 * (e->stress[a] - start->stress[a]))
+                     / end.A;
+    bbm_turn_tensor(e->stress, e->D[2]);
+    bbm_turn_tensor(rate, e->D[2]);
+    turning[3] = rate[0], turning[4] = rate[1], turning[5] = 2 * rate[2];
     const double after = bbm_inertia_form(&end, turning);
     const double factor = after > 0 ? sqrt(before / after) : 1;
     for (int a = 2; a < 6; a++)

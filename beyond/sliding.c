@@ -35,7 +35,6 @@
  * has no L U; but every x above is made of products with K, and no force asks for that motion:
  * where there is an equilibrium it is found.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,7 +121,8 @@ static bbm_status lay_out(const bbm_matrix *K, factors *f)
     }
     const bbm_status status = bbm_envelope_lay_out(L, 2);
     f->U = *L;
-    f->U.A += status ? 0 : L->diagonal[L->n - 1] + 1;
+    if (!status)
+        f->U.A += L->diagonal[L->n - 1] + 1;
     return status;
 }
 

@@ -82,7 +82,8 @@ bbm_status bbm_check_supports(bbm_model *m)
         return status;
     m->blamed[0] = loose;
     return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
-                    e[loose].block, loose, e[loose].x, e[loose].y);
+                    e[loose].block, loose, e[loose].x + m->origin[0],
+                    e[loose].y + m->origin[1]);
 }
 
 /* Whether every body of a prepared model is held, by itself or through contacts. */

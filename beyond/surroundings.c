@@ -21,8 +21,6 @@
  * (Timoshenko and Goodier, Theory of Elasticity, chapter 2), G stays, and out of the plane there is
  * szz = nu (sx + sy), with n = nu/(1 - nu): nu = n/(1 + n).
  */
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "beyond.h"
@@ -40,13 +38,9 @@ bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pr
         return m->status = bbm_fail(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges);
     if (!isfinite(fx) || !isfinite(fy) || !isfinite(pressure))
         return m->status = bbm_fail(m, BBM_NOT_FINITE, "the load of edge %d", edge);
-    bbm_edge_load *larger = realloc(b->edge_load, ((size_t)b->edge_loads + 1) * sizeof *larger);
-    if (!larger)
-        return m->status = bbm_fail(m, BBM_NO_MEMORY, "%d loaded edges", b->edge_loads);
-    b->edge_load = larger;
-    larger[b->edge_loads++] = (bbm_edge_load){ .a = m->edge[edge].a, .f = { fx, fy },
-                                               .pressure = pressure };
-    return BBM_OK;
+    const bbm_edge_load load = { .a = m->edge[edge].a, .f = { fx, fy }, .pressure = pressure };
+    return m->status = bbm_append(m, (void **)&b->edge_load, &b->edge_loads, sizeof load, &load,
+                                  NULL);
 }
 
 /* p = c[0] + c[1] s for the depths below the level (negative: above it) at both ends. Along an edge
@@ -100,7 +94,7 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
         return status;
     bbm_edge_load *load = &m->beyond->edge_load[m->beyond->edge_loads - 1];
     load->pressure = 0;
-    load->level = level;
+    load->level = level - m->origin[1];
     load->weight = weight;
     find_load(m, load);
     return BBM_OK;

@@ -10,7 +10,6 @@
  * piled up along a line that falls by four to one is not, and is found all the same.
  */
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 
 #include "beyond.h"

@@ -47,8 +47,8 @@ static int give_materials(model_reader *r)
         if (el->material < 0)
             el->material = b->material >= 0 ? b->material : r->other_material;
         if (el->material < 0)
-            return model_fail(r, b->at, "block '%s' has no material, expected: use MATERIAL on %s",
-                              b->name, b->name);
+            return model_fail(r, b->at, "block '%.60s' has no material, expected: use MATERIAL on "
+                              "%.60s", b->name, b->name);
     }
     return 1;
 }
@@ -80,7 +80,7 @@ static int add_nodes(model_reader *r)
     for (int n = 0, now = 0; n < r->nodes && !p->status; n++) {
         model_node *a = &r->node[n];
         if (a->first < 0 && a->by_hand)
-            return model_fail(r, a->at, "no element has node %s, expected one", a->id);
+            return model_fail(r, a->at, "no element has node %.60s, expected one", a->id);
         for (int c = a->first; c >= 0; c = r->copy[c].next, now++) {
             r->copy[c].node = now;
             p->node[now] = a->id;
@@ -106,15 +106,15 @@ static int add_element(model_reader *r, const model_element *e)
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     if (status == BBM_SELF_CROSSING)
-        return model_fail(r, e->at, "the boundary of element %s of block '%s' meets itself, "
+        return model_fail(r, e->at, "the boundary of element %.60s of block '%.60s' meets itself, "
                           "expected a simple polygon", e->id, r->block[e->block].name);
     const bbm_element *b = status ? NULL : &r->p->m->element[index];
     if (!b || !(b->A > 0) || !isfinite(b->x * b->Sxx) || !isfinite(b->y * b->Syy))
-        return model_fail(r, e->at, "element %s of block '%s' has no area, or one too large, "
+        return model_fail(r, e->at, "element %.60s of block '%.60s' has no area, or one too large, "
                           "expected a polygon", e->id, r->block[e->block].name);
     r->p->element[index] = e->id;
-    r->p->centre[index][0] = b->x;
-    r->p->centre[index][1] = b->y;
+    r->p->centre[index][0] = b->x + r->p->m->origin[0];
+    r->p->centre[index][1] = b->y + r->p->m->origin[1];
     return 1;
 }
 
@@ -133,29 +133,14 @@ static void set_margin(model_reader *r)
     r->margin = NEAR * hypot(high[0] - low[0], high[1] - low[1]);
 }
 
-/* Names the blocks and the elements that lie in each other. */
-static int report_overlap(model_reader *r)
-{
-    const model *p = r->p;
-    bbm_overlap o;
-
-    if (bbm_find_overlap(p->m, &o))
-        return model_out_of_memory(r);
-    return model_fail(r, r->element[o.j].at,
-                      "element %s of block '%s' lies %g m deep in element %s of block '%s' at "
-                      "%g %g, expected blocks that touch at most",
-                      p->element[o.j], r->block[r->element[o.j].block].name, o.depth,
-                      p->element[o.i], r->block[r->element[o.i].block].name, o.x, o.y);
-}
-
 int model_build(model_reader *r)
 {
     model *p = r->p;
 
     if (r->elements == 0)
         return model_fail(r, (model_place){ r->path, 0 },
-                          "the model has no element, expected: element ..., or mesh "
-                          "FILE");
+                          "the model has no element, expected: block ..., grid ..., mesh FILE or "
+                          "element ...");
     if (!give_materials(r) || !copy_nodes(r) || !add_nodes(r))
         return 0;
     set_defaults(r);
@@ -163,18 +148,17 @@ int model_build(model_reader *r)
         bbm_add_material(p->m, &r->material[k], NULL);
     p->element = model_room(r, r->elements, sizeof *p->element);
     p->centre = model_room(r, r->elements, sizeof *p->centre);
+    p->block = model_room(r, r->blocks, sizeof *p->block);
+    for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
+        p->block[p->blocks] = r->block[p->blocks].name;
     for (int e = 0; e < r->elements && !p->status; e++)
         add_element(r, &r->element[e]);
     if (p->status)
         return 0;
     set_margin(r);
     const bbm_status status = bbm_prepare(p->m);
-    const model_element *e = &r->element[status == BBM_OVERLAP ? p->m->blamed[0] : 0];
-    if (status == BBM_OVERLAP)
-        return model_fail(r, e->at, "element %s lies on another one of its block, expected "
-                          "elements side by side", e->id);
     if (status)
-        return status == BBM_BLOCKS_OVERLAP ? report_overlap(r) : model_refused(r, status);
+        return model_refused(r, status);
     if (r->plane_strain)
         bbm_set_plane_strain(p->m);
     for (int b = 0; b < r->blocks; b++)         /* a block is a set, too: -2 - b */
@@ -218,30 +202,40 @@ static void choose(model_reader *r, const selection *w, int node)
             r->chosen_node[r->chosen++] = r->copy[c].node;
 }
 
-/* The first of the nearest nodes; that others lie there as well is said. */
-static void choose_nearest(model_reader *r, const selection *w)
+/* The first of the nearest nodes, and how many others lie there as well; -1: there is none. */
+static int find_nearest(const model_reader *r, const selection *w, int *others)
 {
     double best = INFINITY;
-    int found = -1, others = 0;
+    int found = -1;
 
+    *others = 0;
     for (int n = 0; n < r->nodes; n++) {
         const double d = has_node(r, w->block, n)
                              ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1])
                              : INFINITY;
         if (d < best - r->margin)
-            best = d, found = n, others = 0;
+            best = d, found = n, *others = 0;
         else if (isfinite(d) && d <= best + r->margin
                  && hypot(r->node[n].x - r->node[found].x, r->node[n].y - r->node[found].y)
                         <= r->margin)
-            others++;
+            ++*others;
     }
+    return found;
+}
+
+/* That others lie there as well is said. */
+static void choose_nearest(model_reader *r, const selection *w)
+{
+    int others;
+    const int found = find_nearest(r, w, &others);
+
     if (found < 0)
         return;
     choose(r, w, found);
     if (others > 0)
         fprintf(stderr,
-                "%s:%d: note: %d nodes lie there, node %s of block '%s' is taken; `of BLOCK` takes "
-                "another\n",
+                "%s:%d: note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
+                "takes another\n",
                 r->s->at.file, r->s->at.line, others + 1, r->node[found].id,
                 r->block[r->copy[r->node[found].first].block].name);
 }
@@ -298,6 +292,18 @@ static int read_selection(model_reader *r, selection *w)
     return !model_skip(r, "of") || (w->block = model_next_block(r)) >= 0;
 }
 
+static int blame_nowhere(model_reader *r, const selection *w)
+{
+    const int n = w->kind == BY_AT ? find_nearest(r, w, &(int){ 0 }) : -1;
+    const char *of = w->block >= 0 ? " of block " : "",
+               *name = w->block >= 0 ? r->block[w->block].name : "";
+
+    if (n < 0)
+        return model_blame(r, "no node there%s%.60s, expected a place that names one", of, name);
+    return model_blame(r, "no node there%s%.60s, the nearest is node %.60s at %.9g %.9g", of, name,
+                       r->node[n].id, r->node[n].x, r->node[n].y);
+}
+
 /* WHERE: the nodes that it names, at least one, in r->chosen_node. `nearest`: at X Y is the
  * nearest node, however far. */
 static int where(model_reader *r, int nearest)
@@ -318,11 +324,7 @@ static int where(model_reader *r, int nearest)
         for (int n = 0; n < r->nodes; n++)
             if (w.kind == BY_SET ? has_node(r, w.whole, n) : is_there(r, &w, &r->node[n]))
                 choose(r, &w, n);
-    if (r->chosen == 0)
-        return model_blame(r, "no node there%s%.60s, expected a place that names one",
-                           w.block >= 0 ? " of block " : "",
-                           w.block >= 0 ? r->block[w.block].name : "");
-    return 1;
+    return r->chosen > 0 ? 1 : blame_nowhere(r, &w);
 }
 
 /* --------------------------------------------------------------- statements that need the model */
@@ -353,7 +355,7 @@ int model_fix(model_reader *r)
         const int n = r->chosen_node[k];
         for (int a = 0; a < 2; a++) {
             if (directions & p->m->node[n].held & 1 << a && p->moved_to[n][a] != by[a])
-                return model_blame(r, "node %s is displaced by %g in %s here, by %g in another "
+                return model_blame(r, "node %.60s is displaced by %g in %s here, by %g in another "
                                       "statement, expected one of them", p->node[n], by[a],
                                    name[a], p->moved_to[n][a]);
             p->moved_to[n][a] = directions & 1 << a ? by[a] : p->moved_to[n][a];
@@ -498,7 +500,7 @@ int model_velocities(model_reader *r)
         || (model_look(r) && !model_number(r, &v.V[2])) || !model_at_end(r))
         return 0;
     if (r->p->velocity[block].given)
-        return model_blame(r, "a velocity of '%s' for the second time, expected one",
+        return model_blame(r, "a velocity of '%.60s' for the second time, expected one",
                            r->block[block].name);
     r->p->velocity[block] = v;
     return 1;
@@ -512,7 +514,7 @@ int model_stress(model_reader *r)
         return 0;
     model_block *b = &r->block[block];
     if (b->stressed++)
-        return model_blame(r, "a stress of '%s' for the second time, expected one", b->name);
+        return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
     return model_number(r, &b->stress[0]) && model_number(r, &b->stress[1])
            && model_number(r, &b->stress[2]) && model_at_end(r);
 }
@@ -535,6 +537,39 @@ int model_monitors(model_reader *r)
     return 0;
 }
 
+/* How far the start of a boundary edge is from another edge, m. */
+static double distance(const bbm_model *m, int corner, int edge)
+{
+    const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, edge);
+    const bbm_direction t = m->edge[edge].along;
+    const double s = fmax(0, fmin(t.length, bbm_way_along(m, corner, edge)));
+
+    return hypot(P->x - a->x - s * t.x, P->y - a->y - s * t.y);
+}
+
+/* A body is free: which block of another one is nearest to it. */
+static int blame_free(model_reader *r)
+{
+    const bbm_model *m = r->p->m;
+    const int loose = m->blamed[0], body = bbm_component_of(m->K, loose);
+    char near[100] = "";
+    double gap = INFINITY;
+
+    for (int e = 0; e < m->edges; e++)
+        for (int f = 0; f < m->edges; f++) {
+            const int i = bbm_element_of(m, e), j = bbm_element_of(m, f),
+                      own = bbm_component_of(m->K, i) == body;
+            if (own == (bbm_component_of(m->K, j) == body) || distance(m, e, f) >= gap)
+                continue;
+            gap = distance(m, e, f);
+            snprintf(near, sizeof near, "; block '%.60s' is %.3g m away",
+                     r->p->block[m->element[own ? j : i].block], gap);
+        }
+    return model_fail(r, (model_place){ r->path, 0 }, "block '%.60s' is free to move, expected "
+                      "fix, fixblock or a contact that holds it in statics%s",
+                      r->p->block[m->element[loose].block], near);
+}
+
 /* What the statements have noted for each block goes to its nodes and elements; statics must be
  * held. */
 int model_finish(model_reader *r)
@@ -547,17 +582,9 @@ int model_finish(model_reader *r)
     for (int e = 0; e < p->m->elements; e++)
         memcpy(p->m->element[e].stress, r->block[p->m->element[e].block].stress,
                sizeof p->m->element[e].stress);
-    p->block = model_room(r, r->blocks, sizeof *p->block);
-    for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
-        p->block[p->blocks] = r->block[p->blocks].name;
-    if (p->status)
-        return 0;
     const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
-        return model_fail(r, (model_place){ r->path, 0 },
-                          "block '%s' is free to move, expected fix, fixblock or a "
-                          "contact that holds it in statics",
-                          p->block[p->m->element[p->m->blamed[0]].block]);
+        return blame_free(r);
     if (status)
         return model_refused(r, status);
     return !p->status;

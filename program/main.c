@@ -36,8 +36,8 @@ static const char *usage(void)
            "  -d          takes the place of `let NAME`; may be given several times\n"
            "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
            "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
-           "  -m FILE     the matrix of the first solution (Matrix Market), and its right-hand "
-           "side as FILE.rhs\n"
+           "  -m FILE.mtx the matrix of the first solution (Matrix Market), and its right-hand "
+           "side as FILE.mtx.rhs\n"
            "  -q          quiet: errors and warnings alone\n"
            "  -h, --version\n";
 }
@@ -103,6 +103,9 @@ static int read_arguments(arguments *a, int argc, char *argv[])
             return a->exit = 2;
         }
     }
+    const size_t n = a->matrix ? strlen(a->matrix) : 0;
+    if (a->matrix && (n < 5 || strcmp(a->matrix + n - 4, ".mtx") != 0))
+        return complain(a, "-m needs a name that ends in .mtx");
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
 }
 
@@ -214,7 +217,7 @@ static void summarise(const model *p, const char *folder)
     if (p->dynamic && m->beyond->hit[0] > 0)
         printf("hits came with %.3g J in their normal velocities, %.0f %% of it was given back\n",
                m->beyond->hit[0], 100 * m->beyond->hit[1] / m->beyond->hit[0]);
-    printf("largest displacement %.6g m, node %s; largest von Mises stress %.6g Pa, element "
+    printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
 }
@@ -285,13 +288,13 @@ static void describe_blocks(const model *p)
 static void warn_of_pieces(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
-    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece),
-        *count = piece + m->elements;
+    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece);
 
     if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
         free(piece);
         return;
     }
+    int *count = piece + m->elements;
     for (int e = 0; e < m->elements; e++)
         count[m->element[e].block] += piece[e] == e;
     for (int b = 0; b < p->blocks; b++) {
@@ -299,7 +302,7 @@ static void warn_of_pieces(const model *p, const char *path)
         if (count[b] < 2)
             continue;
         fprintf(stderr,
-                "%s: warning: block '%s' is in %d pieces that no bond joins, with the elements",
+                "%s: warning: block '%.60s' is in %d pieces that no bond joins, with the elements",
                 path, p->block[b], count[b]);
         for (int e = 0; e < m->elements && left > 0; e++)
             if (piece[e] == e && m->element[e].block == b)
@@ -317,14 +320,15 @@ static bbm_status settle(model *p)
 {
     bbm_model *m = p->m;
     const bbm_parameters par = m->par;
-    const bbm_beyond beyond = *m->beyond;
+    double *now = m->beyond->shake;
+    const double shake[2] = { now[0], now[1] };
     bbm_status status = BBM_OK;
 
-    m->par.velocity_factor = m->beyond->shake[0] = m->beyond->shake[1] = 0;
+    m->par.velocity_factor = now[0] = now[1] = 0;
     for (int k = 0; k < p->settle && !status && !stopped; k++)
         status = bbm_step(m);
     m->par = par;
-    memcpy(m->beyond->shake, beyond.shake, sizeof beyond.shake);
+    memcpy(now, shake, sizeof shake);
     return status;
 }
 
@@ -352,29 +356,13 @@ static bbm_status run_steps(write_results *w, progress *s)
                                                                            : status;
 }
 
-/* Statics without equilibrium, by the names of the file. */
-static void report_loose(const model *p, const char *path)
-{
-    const bbm_model *m = p->m;
-    const int i = m->blamed[0], j = m->blamed[1];
-
-    fprintf(stderr, "%s: step %d: statics finds no equilibrium: block '%s' (element %s) ", path,
-            m->info.step + 1, p->block[m->element[i].block], p->element[i]);
-    if (j >= 0)
-        fprintf(stderr,
-                "slides, rolls, tips on or leaves block '%s' (element %s); raise the friction, fix "
-                "it, or use dynamic\n",
-                p->block[m->element[j].block], p->element[j]);
-    else
-        fprintf(stderr, "is free to move; fix it, or use dynamic\n");
-}
-
 /* The message of a run that failed; `when`: in which part of it. The library's own message may
  * name the step. */
 static void report(const model *p, bbm_status status, const char *when, const arguments *a)
 {
     const bbm_model *m = p->m;
-    const char *message = *m->message ? m->message : bbm_status_text(status);
+    char text[400];
+    const char *message = model_says(p, status, text);
 
     if (stopped)
         fprintf(stderr,
@@ -386,8 +374,6 @@ static void report(const model *p, bbm_status status, const char *when, const ar
         fprintf(stderr,
                 "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n",
                 a->model, m->info.step, m->info.change, m->par.tolerance);
-    else if (status == BBM_NO_EQUILIBRIUM)
-        report_loose(p, a->model);
     else if (status && strstr(message, "step "))
         fprintf(stderr, "%s: %s%s\n", a->model, when, message);
     else if (status)
@@ -433,18 +419,15 @@ static void catch_signals(void)
             signal(caught[k], SIG_IGN);
 }
 
-/* --check: how many contacts touch at the start; those are closed in statics. -1: no memory. */
-static int count_contacts(bbm_model *m)
+/* --check: how many contacts touch at the start; those are closed in statics. */
+static bbm_status count_contacts(bbm_model *m, int *touching)
 {
-    int touching = 0;
-
     m->h = INFINITY;
     bbm_foresee_step(m);
-    if (bbm_detect_contacts(m, &(int){ 0 }))
-        return -1;
-    for (int k = 0; k < m->scratch->contacts; k++)
-        touching += m->scratch->contact[k].state != BBM_OPEN;
-    return touching;
+    const bbm_status status = bbm_detect_contacts(m, &(int){ 0 });
+    for (int k = 0; k < m->scratch->contacts && !status; k++)
+        *touching += m->scratch->contact[k].state != BBM_OPEN;
+    return status;
 }
 
 /* What the model is, block by block, and a picture of it. */
@@ -453,8 +436,11 @@ static int check(model *p, const arguments *a)
     bbm_model *m = p->m;
     const bbm_parameters *par = &m->par;
     write_results w = { .p = p, .source = a->model, .folder = a->folder };
-    const int touching = count_contacts(m);
+    int touching = 0;
+    const bbm_status status = count_contacts(m, &touching);
 
+    if (status)
+        return fprintf(stderr, "%s: %s\n", a->model, bbm_status_text(status)), 1;
     warn(p, a->model, 1);
     warn_of_pieces(p, a->model);
     if (!a->quiet) {
@@ -464,7 +450,7 @@ static int check(model *p, const arguments *a)
                "other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,
                m->beyond->joints, plural(m->beyond->joints));
     }
-    if (touching < 0 || !write_check(&w))
+    if (!write_check(&w))
         return 1;
     if (!a->quiet)
         printf("nothing was computed; a picture is in %s/model.svg\n", a->folder);
@@ -522,11 +508,26 @@ static int read_and_run(const arguments *a, clock_t start)
     return status;
 }
 
+/* A stream that is closed (2>&-) leaves its number to the next file, a table: an empty file takes
+ * it, which cannot be written. */
+static void fill_streams(void)
+{
+#ifndef _WIN32
+    FILE *f;
+
+    while ((f = fopen("/dev/null", "r")) != NULL && fileno(f) < 3)
+        continue;
+    if (f)
+        fclose(f);
+#endif
+}
+
 int main(int argc, char *argv[])
 {
     const clock_t start = clock();
     arguments a;
 
+    fill_streams();
 #ifdef SIGXFSZ
     signal(SIGPIPE, SIG_IGN);     /* a pipe or a disk that takes no more is an error like another */
     signal(SIGXFSZ, SIG_IGN);

@@ -1,9 +1,43 @@
 /* model.c - what a run asks of a model that was read from a file. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "length.h"
 #include "model.h"
+
+/* The next words of the library's text in those of the file; how many letters they had. */
+static int translate(const model *p, const char *text, char word[80])
+{
+    const struct { const char *from, *to; int count; const char **name; } list[] = {
+        { "block %d%n", "block '%.60s'", p->blocks, p->block },
+        { "element %d%n", "element %.60s", p->m->elements, p->element },
+        { "node %d%n", "node %.60s", p->m->nodes, p->node },
+    };
+
+    for (int k = 0, n, used = 0; k < LENGTH(list); k++)
+        if (sscanf(text, list[k].from, &n, &used) == 1 && n >= 0 && n < list[k].count) {
+            snprintf(word, 80, list[k].to, list[k].name[n]);
+            return used;
+        }
+    const int stiffness = strncmp(text, "p_n", 3) == 0 || strncmp(text, "p_s", 3) == 0;
+    snprintf(word, 80, stiffness ? "k%c" : "%c", text[stiffness ? 2 : 0]);
+    return stiffness ? 3 : 1;
+}
+
+const char *model_says(const model *p, bbm_status status, char out[400])
+{
+    const char *text = *bbm_message(p->m) ? bbm_message(p->m) : bbm_status_text(status);
+    char word[80];
+
+    *out = '\0';
+    while (*text) {
+        text += translate(p, text, word);
+        strncat(out, word, 399 - strlen(out));
+    }
+    return out;
+}
 
 /* A displaced support is where it belongs at the time t, to which its way is even. */
 void model_move_supports(model *p, double t)

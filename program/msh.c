@@ -229,6 +229,13 @@ static int read_position(mesh *m, model_node *n)
     return number(m, &n->x) && number(m, &n->y) && number(m, &z);
 }
 
+/* 4.1 announces how many there are in all blocks of the section. */
+static int as_announced(mesh *m, int n, int total)
+{
+    return n == total ? 1 : model_fail(m->r, m->at, "$%s has %d entries, expected the %d that it "
+                                       "announces", m->section, n, total);
+}
+
 /* 2.2: number x y z, for each. */
 static int read_nodes_22(mesh *m)
 {
@@ -250,12 +257,14 @@ static int read_nodes_22(mesh *m)
 static int read_nodes_41(mesh *m)
 {
     model_reader *r = m->r;
+    const int before = r->nodes;
     int blocks, head[4];
     double parameter;
 
     for (int k = 0; k < 4; k++)                 /* blocks, nodes, least and largest number */
         if (!whole(m, 0, &head[k]))
             return 0;
+    const int total = head[1];
     for (blocks = head[0]; blocks > 0; blocks--) {
         const int first = r->nodes;
         for (int k = 0; k < 4; k++)
@@ -275,7 +284,7 @@ static int read_nodes_41(mesh *m)
                     return 0;
         }
     }
-    return end_section(m);
+    return end_section(m) && as_announced(m, r->nodes - before, total);
 }
 
 static int dimension_of(int corners) { return corners < 3 ? corners - 1 : 2; }
@@ -306,7 +315,7 @@ static int add_element(mesh *m, model_element *e, const int corner[], const char
         return 1;
     if (tags == 0)
         return model_fail(r, e->at,
-                          "element %s lies in no physical surface, expected one, which is its "
+                          "element %.60s lies in no physical surface, expected one, which is its "
                           "block",
                           e->id);
     e->block = model_find_block(r, name_of(m, 2, tag[0]), m->statement);
@@ -325,7 +334,7 @@ static int read_element(mesh *m, const char *number_of, int type, const char **t
     e.n = type == 15 ? 1 : type >= 1 && type <= 3 ? type + 1 : 0;
     if (e.n == 0)
         return model_fail(m->r, m->at,
-                          "element %s is of type %d, expected 15, 1, 2 or 3: a point, or a line, "
+                          "element %.60s is of type %d, expected 15, 1, 2 or 3: a point, or a line, "
                           "triangle "
                           "or quadrilateral of first order",
                           number_of, type);
@@ -361,16 +370,18 @@ static int read_elements_22(mesh *m)
 /* 4.1: for each entity its dimension, tag, the type, n; n times number and nodes. */
 static int read_elements_41(mesh *m)
 {
-    int blocks, head[4];
+    int blocks, head[4], count = 0;
 
     for (int k = 0; k < 4; k++)
         if (!whole(m, 0, &head[k]))
             return 0;
+    const int total = head[1];
     for (blocks = head[0]; blocks > 0; blocks--) {
         for (int k = 0; k < 4; k++)
             if (!whole(m, k == 1 ? INT_MIN / 2 : 0, &head[k]))
                 return 0;
         const entry *e = find(&m->entity, head[0], head[1]);
+        count += head[3];
         while (head[3]-- > 0) {
             const char *number_of = id(m);
             if (!number_of
@@ -378,7 +389,7 @@ static int read_elements_41(mesh *m)
                 return 0;
         }
     }
-    return end_section(m);
+    return end_section(m) && as_announced(m, count, total);
 }
 
 /* ------------------------------------------------------------------------------------- the file */
@@ -396,7 +407,8 @@ static int read_format(mesh *m)
     if (!whole(m, 0, &binary))
         return 0;
     if (binary)
-        return model_fail(m->r, m->at, "the mesh is binary, expected ASCII");
+        return model_fail(m->r, m->at, "the mesh is binary, expected ASCII: gmsh without -bin, "
+                          "or Mesh.Binary = 0");
     return whole(m, 0, &size) && end_section(m);
 }
 
@@ -461,6 +473,9 @@ int model_read_mesh(model_reader *r, const char *path, model_place statement)
     if (m.text) {
         m.end = m.text + size;
         good = read_sections(&m);
+        if (good && r->elements == 0)
+            good = model_fail(r, m.at, "no triangle or quadrilateral, expected a mesh of surfaces: "
+                              "gmsh -2");
     }
     free(m.group.entry);
     free(m.entity.entry);

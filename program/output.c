@@ -1,4 +1,9 @@
-/* output.c - files that get their name when they are complete; folders. */
+/* output.c - files that get their name when they are complete; folders, and whose they are.
+ *
+ * A run locks its folder by a file in it. What is locked is the file that is open (fcntl of POSIX,
+ * on Windows one that nobody else may open), and the system gives it free when the process ends,
+ * however it ends, also in another container on the same machine. A lock file without its owner is
+ * just a file: the next run takes it. */
 #define _POSIX_C_SOURCE 200809L
 #include "output.h"
 
@@ -10,8 +15,10 @@
 
 #ifdef _WIN32
 #include <direct.h>
+#include <share.h>
+#define mkdir(path, mode) _mkdir(path)
 #else
-#include <signal.h>
+#include <fcntl.h>
 #endif
 
 #define ENDING ".tmp"
@@ -20,7 +27,7 @@ int output_open(output *o, const char *path)
 {
     struct stat old;
 
-    o->file = NULL;
+    *o = (output){ 0 };
     if ((size_t)snprintf(o->path, sizeof o->path, "%s", path) >= sizeof o->path) {
         errno = ENAMETOOLONG;
         return 0;
@@ -31,14 +38,29 @@ int output_open(output *o, const char *path)
     else
         snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
     o->file = fopen(o->temporary, "wb");
+    errno = o->file ? 0 : errno;
     return o->file != NULL;
 }
 
-static void give_up(const output *o, int why)
+/* The first error of the file stays. */
+static int note(output *o, int good)
+{
+    if (!good && !o->why)
+        o->why = errno ? errno : EIO;
+    return !o->why;
+}
+
+int output_keep(output *o)
+{
+    if (note(o, !fflush(o->file) && !ferror(o->file)))
+        o->kept = ftell(o->file);
+    return !o->why;
+}
+
+static void give_up(const output *o)
 {
     if (!o->direct)
         remove(o->temporary);
-    errno = why;
 }
 
 void output_drop(output *o)
@@ -47,9 +69,10 @@ void output_drop(output *o)
 
     if (o->file) {
         fclose(o->file);
-        give_up(o, why);
+        give_up(o);
     }
     o->file = NULL;
+    errno = why;
 }
 
 /* Replaces a file of that name. */
@@ -61,6 +84,7 @@ static int give_name(const char *from, const char *to)
     return rename(from, to) == 0;
 }
 
+/* What is kept of a file that is cut off is what was whole. */
 int output_close(output *o)
 {
     FILE *file = o->file;
@@ -68,28 +92,30 @@ int output_close(output *o)
     o->file = NULL;
     if (!file)
         return 0;
-    errno = 0;
-    const int bad = fflush(file) || ferror(file), why = errno;
-    if (fclose(file) || bad || (!o->direct && !give_name(o->temporary, o->path))) {
-        give_up(o, why ? why : errno);
-        return 0;
-    }
-    return 1;
+    note(o, !fflush(file) && !ferror(file));
+    note(o, !fclose(file));
+    const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
+    if (!keep || !(o->direct || give_name(o->temporary, o->path) || note(o, 0)))
+        give_up(o);
+    errno = o->why;
+    return !o->why;
 }
 
 int output_make_folder(const char *path)
 {
+    char part[LONGEST];
     struct stat there;
-#ifdef _WIN32
-    const int made = _mkdir(path) == 0;
-#else
-    const int made = mkdir(path, 0777) == 0;
-#endif
+    int made = 0;
 
+    for (const char *end = path; end; ) {
+        end = strchr(end + 1, '/');
+        snprintf(part, sizeof part, "%.*s", end ? (int)(end - path) : LONGEST - 1, path);
+        made = mkdir(part, 0777) == 0;
+    }
     return made || (errno == EEXIST && stat(path, &there) == 0 && S_ISDIR(there.st_mode));
 }
 
-size_t output_is_temporary(const char *name, long *process)
+size_t output_is_temporary(const char *name)
 {
     const size_t n = strlen(name), ending = strlen(ENDING);
     size_t k = n < ending ? 0 : n - ending;
@@ -98,16 +124,43 @@ size_t output_is_temporary(const char *name, long *process)
         return 0;
     while (k > 0 && name[k - 1] >= '0' && name[k - 1] <= '9')
         k--;
-    *process = strtol(name + k, NULL, 10);
-    return k > 1 && name[k - 1] == '.' && *process > 0 ? k - 1 : 0;
+    return k > 1 && name[k - 1] == '.' && k < n - ending ? k - 1 : 0;
 }
 
-int output_is_alive(long process)
+FILE *output_lock(const char *path)
 {
 #ifdef _WIN32
-    (void)process;
-    return 0;
+    FILE *f = _fsopen(path, "a", _SH_DENYRW);
+
+    errno = !f && errno == EACCES ? EBUSY : errno;
+    return f;
 #else
-    return process != (long)getpid() && (kill((pid_t)process, 0) == 0 || errno == EPERM);
+    struct flock all = { .l_type = F_WRLCK, .l_whence = SEEK_SET };
+    struct stat there, own;
+    FILE *f = fopen(path, "a");
+    int why = 0;
+
+    if (!f)
+        return NULL;
+    if (fcntl(fileno(f), F_SETLK, &all))
+        why = errno == EACCES || errno == EAGAIN ? EBUSY : errno;
+    else if (fstat(fileno(f), &own) || stat(path, &there) || there.st_ino != own.st_ino)
+        why = EBUSY;            /* its owner has removed it by now */
+    if (!why)
+        return f;
+    fclose(f);
+    errno = why;
+    return NULL;
+#endif
+}
+
+void output_unlock(FILE *f, const char *path)
+{
+#ifndef _WIN32
+    remove(path);               /* while it is ours */
+#endif
+    fclose(f);
+#ifdef _WIN32
+    remove(path);
 #endif
 }

@@ -2,6 +2,7 @@
  * and options of a statement, and the nodes, elements, blocks and sets that they find. */
 #include <ctype.h>
 #include <errno.h>
+#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdarg.h>
@@ -14,6 +15,13 @@
 enum { LARGEST = 1 << 28 };     /* bytes of a file: a longer one, or one without end, is no model */
 
 /* ------------------------------------------------------------------------ errors, memory, words */
+
+void model_clean(char *text)
+{
+    for (char *c = text; *c; c++)
+        if (iscntrl((unsigned char)*c))
+            *c = '?';
+}
 
 /* The first error stays. */
 static int note(model_reader *r, model_place at, const char *format, va_list args)
@@ -29,9 +37,7 @@ static int note(model_reader *r, model_place at, const char *format, va_list arg
         used += (size_t)snprintf(message + used, room - used, "%d:", at.line);
     message[used++] = ' ';
     vsnprintf(message + used, room - used, format, args);
-    for (char *c = message; *c; c++)
-        if (iscntrl((unsigned char)*c))
-            *c = '?';
+    model_clean(message);
     return 0;
 }
 
@@ -62,13 +68,17 @@ int model_out_of_memory(model_reader *r)
     return 0;
 }
 
-/* No line is to blame for that. */
+/* A line is to blame for elements that overlap alone. */
 int model_refused(model_reader *r, bbm_status status)
 {
+    const int overlap = status == BBM_OVERLAP || status == BBM_BLOCKS_OVERLAP;
+    const model_place none = { r->path, 0 };
+    char text[400];
+
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
-    return model_fail(r, (model_place){ r->path, 0 }, "%.400s",
-                      *bbm_message(r->p->m) ? bbm_message(r->p->m) : bbm_status_text(status));
+    return model_fail(r, overlap ? r->element[r->p->m->blamed[0]].at : none, "%s",
+                      model_says(r->p, status, text));
 }
 
 /* The room is a power of two, 16 at least: when the count has reached it, it is doubled. */
@@ -262,9 +272,19 @@ int model_is_name(const char *word)
     return *word && word[strspn(word, MODEL_NAME)] == '\0';
 }
 
+const char *model_hint(const char *word)
+{
+    const char *c = word;
+
+    while (*c > 0 && *c < 127)
+        c++;
+    return strncmp(word, "//", 2) == 0 ? "; a comment begins with #"
+         : *c ? "; it has letters beyond ASCII: minus is -" : "";
+}
+
 int model_wrong(model_reader *r, const char *what, const char *word)
 {
-    return model_blame(r, "%s '%.60s', expected: %s", what, word, r->s->form);
+    return model_blame(r, "%s '%.60s', expected: %s%s", what, word, r->s->form, model_hint(word));
 }
 
 /* The word that comes next stays; NULL at the end. */
@@ -318,6 +338,8 @@ int model_number(model_reader *r, double *x)
         return model_wrong(r, "not a number:", word);
     if (!isfinite(*x))
         return model_wrong(r, "not a finite number:", word);
+    if (fabs(*x) < DBL_MIN && strcspn(word, "123456789") < strcspn(word, "eE"))
+        return model_wrong(r, "too small, and not 0:", word);
     return 1;
 }
 
@@ -413,7 +435,9 @@ static int in_range(model_reader *r, const model_option *o)
     const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
                      && (o->rim[1] == ']' ? x <= o->high : x < o->high);
 
-    return good ? 1 : model_blame(r, "%s is %g, expected %s", o->name, x, o->expected);
+    const int at = r->s->first + r->next - 1, same = r->given[at] == r->word[at];
+    return good ? 1 : model_blame(r, "%s is %g%s%.60s, expected %s", o->name, x,
+                                  same ? "" : ", from ", same ? "" : r->given[at], o->expected);
 }
 
 static int option_value(model_reader *r, model_option *o)
@@ -452,7 +476,7 @@ int model_options(model_reader *r, int n, model_option o[])
 int model_add_node(model_reader *r, const model_node *n)
 {
     if (model_find(&r->node_of, n->id) >= 0)
-        return model_fail(r, n->at, "node '%s' for the second time, expected a new one", n->id);
+        return model_fail(r, n->at, "node '%.60s' for the second time, expected a new one", n->id);
     return model_enter(r, &r->node_of, n->id, r->nodes)
            && model_add(r, &r->node, &r->nodes, sizeof *n, n);
 }
@@ -474,7 +498,8 @@ int model_add_element(model_reader *r, const model_element *e, const int corner[
 
     own.first = r->corners;
     if (model_find(&r->element_of, e->id) >= 0)
-        return model_fail(r, e->at, "element '%s' for the second time, expected a new one", e->id);
+        return model_fail(r, e->at, "element '%.60s' for the second time, expected a new one",
+                          e->id);
     for (int k = 0; k < e->n; k++)
         if (!model_add(r, &r->corner, &r->corners, sizeof *corner, &corner[k]))
             return 0;

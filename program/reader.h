@@ -58,7 +58,7 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    char **word;                            /* [words] */
+    char **word, **given;                   /* [words]      $NAME replaced; as the file gives them */
     model_statement *statement;             /* [statements] */
     model_node *node;
     model_element *element;
@@ -85,6 +85,8 @@ int   model_fail(model_reader *r, model_place at, const char *format, ...);
 int   model_blame(model_reader *r, const char *format, ...);
 int   model_out_of_memory(model_reader *r);
 int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
+void  model_clean(char *text);                          /* of what a terminal would obey */
+const char *model_hint(const char *word);               /* what it may mean; or "" */
 /* One more item at the end of an array of `count`; 0: no memory. */
 int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
 void *model_room(model_reader *r, int count, size_t size);      /* zeros, and one more; or NULL */
@@ -134,6 +136,8 @@ int   model_options(model_reader *r, int n, model_option o[]);
 #define RANGE(text, where, from, to, rims, words) \
     { .name = text, .x = where, .low = from, .high = to, .rim = rims, .expected = words }
 #define ABOVE_ZERO(text, where) RANGE(text, where, 0, INFINITY, "()", "more than 0")
+#define NORMAL(text, where) \
+    RANGE(text, where, 1e-100, 1e100, "[]", "more than 0, from 1e-100 to 1e100")
 #define FROM_ZERO(text, where) RANGE(text, where, 0, INFINITY, "[)", "0 or more")
 #define ANGLE(text, where) RANGE(text, where, 0, 90, "[)", "0 to less than 90 degrees")
 #define COUNT(t_text, t_where, t_least) { .name = t_text, .n = t_where, .least = t_least }

@@ -117,7 +117,8 @@ static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 
     scene_contact_force(m, c, c->N, c->T, f);
     const double up = f[1] < 0 ? -1 : 1;
-    return (scene_force){ P1->x, P1->y, up * f[0], up * f[1], c->state };
+    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], up * f[0], up * f[1],
+                          c->state };
 }
 
 static int copy_frame(scene_frame *f, const bbm_model *m)
@@ -129,8 +130,8 @@ static int copy_frame(scene_frame *f, const bbm_model *m)
         return 0;
     }
     for (int v = 0; v < m->vertices; v++) {
-        f->at[v][0] = m->vertex[v].x;
-        f->at[v][1] = m->vertex[v].y;
+        f->at[v][0] = m->vertex[v].x + m->origin[0];
+        f->at[v][1] = m->vertex[v].y + m->origin[1];
     }
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)

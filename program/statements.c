@@ -23,8 +23,8 @@
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 
-/* Letters of an id, of a name; cells of a grid. */
-enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000 };
+/* Letters of an id, of a name; cells of a grid; memory for each element, at least. */
+enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
 
 /* -------------------------------------------------------------------------- numbers with a name */
 
@@ -39,42 +39,46 @@ static char *given(const model_reader *r, const char *name)
     return NULL;
 }
 
-/* The length of the longest name with a value that the text begins with; 0: none. */
-static size_t name_at(model_reader *r, const char *text, char name[NAME_ROOM])
+/* The value of the $NAME at `dollar`, and how many letters its name has; NULL: no such name. */
+static const char *value_of(model_reader *r, const char *dollar, size_t *n)
 {
-    size_t n = strspn(text, MODEL_NAME);
+    char name[NAME_ROOM], text[200];
 
-    for (n = n < NAME_ROOM ? n : NAME_ROOM - 1; n > 0; n--) {
-        memcpy(name, text, n);
-        name[n] = '\0';
-        if (model_find(&r->let_of, name) >= 0)
-            break;
-    }
-    return n;
+    *n = strspn(dollar + 1, MODEL_NAME);
+    snprintf(name, sizeof name, "%.*s", (int)*n, dollar + 1);
+    const int at = *n < sizeof name ? model_find(&r->let_of, name) : -1;
+    if (at >= 0)
+        return r->word[at];
+    model_blame(r, "no `let` says what $%.60s is%s%s", name,
+                r->let_of.count ? ", expected one such as $" : "",
+                model_nearest_of(&r->let_of, name, text));
+    return NULL;
 }
 
 /* Puts the value in place of each $NAME of a word. */
 static int expand(model_reader *r, char **word)
 {
-    char name[NAME_ROOM], *dollar;
+    size_t n, size = strlen(*word);
+    const char *from = strchr(*word, '$');
 
-    while ((dollar = strchr(*word, '$')) != NULL) {
-        const size_t n = name_at(r, dollar + 1, name);
-        if (n == 0) {
-            char text[200];
-            snprintf(name, sizeof name, "%.*s", (int)strspn(dollar + 1, MODEL_NAME), dollar + 1);
-            return model_blame(r, "no `let` says what $%.60s is%s%s", name,
-                               r->let_of.count ? ", expected one such as $" : "",
-                               model_nearest_of(&r->let_of, name, text));
-        }
-        const char *value = r->word[model_find(&r->let_of, name)];
-        char *text = model_text(r, strlen(*word) + strlen(value));
-        if (!text)
+    if (!from)
+        return 1;
+    for (; from; from = strchr(from + 1, '$')) {
+        const char *value = value_of(r, from, &n);
+        if (!value)
             return 0;
-        sprintf(text, "%.*s%s%s", (int)(dollar - *word), *word, value, dollar + 1 + n);
-        *word = text;
+        size += strlen(value);
     }
-    return 1;
+    char *text = model_text(r, size), *to = text;
+    for (from = *word; text && *from; from += n) {
+        const char *value = *from == '$' ? value_of(r, from, &n) : from;
+        const size_t length = value == from ? n = strcspn(from, "$") : strlen(value);
+        n += value != from;
+        memcpy(to, value, length);
+        to += length;
+    }
+    *word = text ? text : *word;
+    return text != NULL;
 }
 
 static int expand_statement(model_reader *r)
@@ -130,6 +134,8 @@ static int give_numbers(model_reader *r)
 static int read_title(model_reader *r)
 {
     r->p->title = model_word(r);
+    if (r->p->title)
+        model_clean(r->p->title);
     return r->p->title != NULL;
 }
 
@@ -161,13 +167,14 @@ static int read_material(model_reader *r)
 {
     const char *word = model_name(r);
     bbm_material m = { .thickness = 1 };
+    enum { E, DENSITY, NU, THICKNESS };
     model_option o[] = {
-        ABOVE_ZERO("E", &m.E), ABOVE_ZERO("density", &m.density),
-        RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
-        ABOVE_ZERO("thickness", &m.thickness),
+        [E] = NORMAL("E", &m.E), [DENSITY] = NORMAL("density", &m.density),
+        [NU] = RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
+        [THICKNESS] = NORMAL("thickness", &m.thickness),
     };
 
-    o[0].needed = o[1].needed = o[2].needed = 1;
+    o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
     return word && model_is_new(r, &r->material_of, "material", word)
            && model_options(r, LENGTH(o), o)
            && model_enter(r, &r->material_of, word, r->materials)
@@ -215,20 +222,21 @@ static int read_static(model_reader *r)
 static int read_dynamic(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
+    enum { DT, STEPS, FACTOR, DAMPING, SETTLE, RAMP };
     model_option o[] = {
-        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
-        RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
-        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),    /* the same */
-        COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
+        [DT] = ABOVE_ZERO("dt", &p->dt), [STEPS] = COUNT("steps", &p->steps, 1),
+        [FACTOR] = RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        [DAMPING] = RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),    /* the same */
+        [SETTLE] = COUNT("settle", &r->p->settle, 0), [RAMP] = FROM_ZERO("ramp", &r->p->ramp),
     };
 
-    o[0].needed = o[1].needed = 1;
+    o[DT].needed = o[STEPS].needed = 1;
     p->velocity_factor = 1;
     r->p->dynamic = 1;
     r->p->ramp = -1;
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    if (o[2].seen && o[3].seen)
+    if (o[FACTOR].seen && o[DAMPING].seen)
         return model_blame(r, "velocity_factor and damping, which are the same, expected one");
     r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
     return 1;
@@ -260,7 +268,7 @@ static int read_pcg(model_reader *r)
     int coarse = 0;
     model_option o[] = {
         RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
-        RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1"),
+        RANGE("tolerance", &p->tolerance, 0, 1e-6, "(]", "more than 0, at most 1e-6"),
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 
@@ -309,7 +317,7 @@ static int read_element(model_reader *r)
         return 0;
     e.n = r->s->n - r->next;
     if (e.n < 3)
-        return model_fail(r, e.at, "element %s has %d nodes, expected 3 or more", e.id, e.n);
+        return model_fail(r, e.at, "element %.60s has %d nodes, expected 3 or more", e.id, e.n);
     int *corner = model_room(r, e.n, sizeof *corner),
         good = corner && (e.block = model_find_block(r, block, e.at)) >= 0;
     for (int k = 0; k < e.n && good; k++)
@@ -392,7 +400,7 @@ static int read_block(model_reader *r)
             corner[k / 2] = r->nodes - 1;
     }
     if (good && (words < 6 || words % 2))
-        good = model_blame(r, "block '%s' has %d coordinates, expected X Y of 3 corners or more",
+        good = model_blame(r, "block '%.60s' has %d coordinates, expected X Y of 3 corners or more",
                            word, words);
     good = good && add_own_element(r, block, material, words / 2, corner);
     free(corner);
@@ -433,6 +441,12 @@ static int read_grid(model_reader *r)
     if ((double)n[0] * n[1] > MOST_CELLS)
         return model_blame(r, "a grid of %d x %d cells, expected at most %d", n[0], n[1],
                            MOST_CELLS);
+    const int elements = n[0] * n[1] * (kind == CELL_QUADS ? 1 : kind == CELL_CROSSED ? 4 : 2);
+    void *room = calloc((size_t)elements, ELEMENT_BYTES);      /* nobody writes there */
+    free(room);
+    if (!room)
+        return model_blame(r, "out of memory: a grid of %d x %d cells takes %.2g GB and more", n[0],
+                           n[1], 1e-9 * ELEMENT_BYTES * elements), r->p->status = 1, 0;
     for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && good; k++) {
         const double s = (double)(k % (n[0] + 1)) / n[0], t = (double)(k / (n[0] + 1)) / n[1];
         good = add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
@@ -483,11 +497,11 @@ static int read_use(model_reader *r)
     if (block < 0 || !model_at_end(r))
         return 0;
     if (!star && !r->block[block].meshed)
-        return model_blame(r, "block '%s' has its material in its own statement, expected a "
+        return model_blame(r, "block '%.60s' has its material in its own statement, expected a "
                            "block of a mesh", word);
     int *m = star ? &r->other_material : &r->block[block].material;
     if (*m >= 0)
-        return model_blame(r, "a material for '%s' for the second time, expected one", word);
+        return model_blame(r, "a material for '%.60s' for the second time, expected one", word);
     *m = material;
     return 1;
 }
@@ -499,7 +513,7 @@ static int read_fixblock(model_reader *r)
     if (block < 0 || !model_at_end(r))
         return 0;
     if (r->block[block].fixed)
-        return model_blame(r, "block '%s' is fixed for the second time, expected once",
+        return model_blame(r, "block '%.60s' is fixed for the second time, expected once",
                            r->block[block].name);
     return r->block[block].fixed = 1;
 }
@@ -593,8 +607,10 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
         k++;
     if (k == LENGTH(kinds)) {
         char text[200];
-        return model_fail(r, at, "unknown statement '%.60s', expected one such as %s", word,
-                          model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text));
+        return model_fail(r, at, "there is no statement '%.60s'; the nearest are %s, and all are "
+                          "in doc/model-file.md%s", word,
+                          model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text),
+                          model_hint(word));
     }
     if (kinds[k].once && r->seen[k].line > 0)
         return model_fail(r, at, "%s for the second time, after line %d, expected it once", word,
@@ -678,7 +694,8 @@ static int check_kind(model_reader *r)
                           "static and dynamic, expected one of them");
     if (!s->line && !d->line)
         return model_fail(r, (model_place){ r->path, 0 },
-                          "neither static nor dynamic, expected one of them");
+                          "neither static nor dynamic, expected one of them, such as: static, or: "
+                          "dynamic dt 1e-3 steps 1000");
     if (s->line && (v->line || a->line))
         return model_fail(r, v->line ? *v : *a, "%s in statics, expected dynamic",
                           v->line ? "velocity" : "shake");
@@ -696,7 +713,7 @@ static void free_reader(model_reader *r)
     }
     for (int k = 0; k < r->sets; k++)
         free(r->set[k].node);
-    free(r->word), free(r->statement), free(r->node), free(r->element), free(r->corner),
+    free(r->word), free(r->given), free(r->statement), free(r->node), free(r->element), free(r->corner),
         free(r->block);
     free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
 }
@@ -706,8 +723,11 @@ static int read_all(model_reader *r)
     size_t size;
     char *text = model_load(r, r->path, (model_place){ r->path, 0 }, &size);
 
-    if (!text || !cut_file(r, text, size) || !check_kind(r))
+    if (!text || !cut_file(r, text, size) || !check_kind(r)
+        || !(r->given = model_room(r, r->words, sizeof *r->given)))
         return 0;
+    if (r->words)
+        memcpy(r->given, r->word, (size_t)r->words * sizeof *r->given);
     for (int phase = 0; phase < PHASES; phase++)
         if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase)
             || (phase == NUMBERS && !give_numbers(r)))

@@ -13,7 +13,7 @@
 #include "length.h"
 #include "write.h"
 
-enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind, as in output.h */
+#define LOCK "bbm.lock"
 
 /* ---------------------------------------------------------------------------------------- files */
 
@@ -41,7 +41,13 @@ static int open_file(write_results *w, output *f, const char *path)
 
 static int close_file(write_results *w, output *f)
 {
-    return output_close(f) ? 1 : fail(w, f->path, strerror(errno));
+    char why[200];
+
+    if (output_close(f))
+        return 1;
+    snprintf(why, sizeof why, "%.100s%s", strerror(errno),
+             f->kept > 0 ? "; it ends before that" : "");
+    return fail(w, f->path, why);
 }
 
 static int write_file(write_results *w, const char *path,
@@ -121,7 +127,7 @@ static void put_contacts(FILE *f, const write_results *w)
         if (c->state == BBM_OPEN)
             continue;
         fprintf(f, "%s,%s", p->block[m->edge[c->corner].block], p->block[m->edge[c->edge].block]);
-        put_numbers(f, 2, (double[]){ P1->x, P1->y });
+        put_numbers(f, 2, (double[]){ m->node[P1->node].x + P1->u, m->node[P1->node].y + P1->v });
         fprintf(f, ",%s", state_name[c->state]);
         put_numbers(f, 3, (double[]){ c->N, c->T, c->d_n });
         fputc('\n', f);
@@ -371,20 +377,18 @@ void write_matrix(write_results *w)
 
 /* The length of a name that a run writes, without the ending of a temporary file; 0: it is
  * another one. */
-static size_t is_ours(const char *name, long *process)
+static size_t is_ours(const char *name)
 {
     static const char *const all[] = {
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
         "reactions.csv", "contacts.svg", "movie.svg", "model.svg",
     };
-    const size_t temporary = output_is_temporary(name, process),
+    const size_t temporary = output_is_temporary(name),
                  n = temporary ? temporary : strlen(name);
     const size_t start = strncmp(name, "step_", 5) == 0 ? 5
                        : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
     const size_t digits = start ? strspn(name + start, "0123456789") : 0;
 
-    if (!temporary)
-        *process = 0;
     if (digits > 0 && n == start + digits + 4 && strncmp(name + start + digits, ".vtk", 4) == 0)
         return n;
     for (int k = 0; k < LENGTH(all); k++)
@@ -397,36 +401,34 @@ static size_t is_ours(const char *name, long *process)
     return 0;
 }
 
-/* Looks through the folder: whether another run writes there (some systems do not let its files
- * be removed, others can tell); then removes what an earlier one left, so that all that stands
- * there is of one run. */
+/* Removes what an earlier run left in the folder, so that all that stands there is of one run. */
 static int empty_folder(write_results *w)
 {
-    char path[LONGEST], why[100];
+    char path[LONGEST];
     struct stat what;
+    DIR *folder = opendir(w->folder);
 
-    for (int pass = 0; pass < 2 && !w->status; pass++) {
-        DIR *folder = opendir(w->folder);
-        if (!folder)
-            return fail(w, w->folder, strerror(errno));
-        for (struct dirent *entry; !w->status && (entry = readdir(folder)) != NULL; ) {
-            long process;
-            if (!is_ours(entry->d_name, &process) || stat(path_of(w, entry->d_name, path), &what)
-                || !S_ISREG(what.st_mode))
-                continue;
-            snprintf(why, sizeof why,
-                     "process %ld writes there; another folder may be given with -o", process);
-            if (process > 0 && (output_is_alive(process) || remove(path)))
-                fail(w, path, why);
-            else if (process == 0 && pass == 1 && remove(path))
-                fail(w, path, strerror(errno));
-        }
-        closedir(folder);
-    }
+    if (!folder)
+        return fail(w, w->folder, strerror(errno));
+    for (struct dirent *entry; !w->status && (entry = readdir(folder)) != NULL; )
+        if (is_ours(entry->d_name) && stat(path_of(w, entry->d_name, path), &what) == 0
+            && S_ISREG(what.st_mode) && remove(path))
+            fail(w, path, strerror(errno));
+    closedir(folder);
     return !w->status;
 }
 
-/* Makes the folder, if need be. */
+/* The end of a run; whether all went well. */
+static int leave_folder(write_results *w)
+{
+    char path[LONGEST];
+
+    if (w->lock)
+        output_unlock(w->lock, path_of(w, LOCK, path));
+    return !w->status;
+}
+
+/* Makes the folder, if need be, and locks it. */
 static int open_folder(write_results *w)
 {
     char path[LONGEST];
@@ -437,7 +439,10 @@ static int open_folder(write_results *w)
         return fail(w, w->folder,
                     errno == EEXIST ? "it is there and no folder; another one may be given with -o"
                                     : strerror(errno));
-    return 1;
+    w->lock = output_lock(path_of(w, LOCK, path));
+    return w->lock ? 1 : fail(w, w->folder, errno == EBUSY
+                                  ? "another run is at work there; another folder may be given "
+                                    "with -o" : strerror(errno));
 }
 
 int write_check(write_results *w)
@@ -445,7 +450,7 @@ int write_check(write_results *w)
     if (!open_folder(w))
         return 0;
     draw_now(w, "model.svg");
-    return !w->status;
+    return leave_folder(w);
 }
 
 int write_open(write_results *w)
@@ -453,11 +458,10 @@ int write_open(write_results *w)
     char path[LONGEST];
 
     if (!open_folder(w) || !empty_folder(w)
-        || !open_file(w, &w->history, path_of(w, "history.csv", path)))
-        return 0;
-    if (!open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
+        || !open_file(w, &w->history, path_of(w, "history.csv", path))
+        || !open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
         output_drop(&w->history);
-        return 0;
+        return leave_folder(w);
     }
     fprintf(w->history.file, "step,t");
     for (int k = 0; k < w->p->monitors; k++)
@@ -465,6 +469,8 @@ int write_open(write_results *w)
     fprintf(w->history.file, "\n");
     fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,"
                              "springs,external,gained\n");
+    output_keep(&w->history);
+    output_keep(&w->summary);
     w->film.title = w->p->title;
     return 1;
 }
@@ -482,8 +488,7 @@ int write_step(write_results *w, int step)
         scene_record(&w->film, p->m);
     if (p->vtk && p->every && step % p->every == 0)
         write_vtk(w);
-    if (ferror(w->history.file) || ferror(w->summary.file))
-        fail(w, w->folder, strerror(errno));
+    w->status |= !output_keep(&w->history) || !output_keep(&w->summary);
     w->writing += clock() - start;
     return !w->status;
 }
@@ -511,5 +516,5 @@ int write_close(write_results *w)
     scene_free(&w->film);
     w->writing += clock() - start;
     write_file(w, path_of(w, "timing.csv", path), put_timing);
-    return !w->status;
+    return leave_folder(w);
 }

@@ -1,11 +1,13 @@
 /* write.h - the results of a model file as files: CSV, VTK for ParaView, pictures (SVG), K and F
  * (Matrix Market).
  *
- *     write_open       makes the folder, or empties it of an earlier run, begins history.csv, summary.csv
+ *     write_open       makes the folder and locks it, or empties it of an earlier run, begins history.csv,
+ *                      summary.csv
  *     write_step          a row of each, a picture, for the start (step 0) and each nominal step
  *     write_close         the end of the run: nodes.csv, elements.csv, contacts.csv, ... pictures
  *
- * A file has its name when it is complete (output.h). Each error is a line on stderr and makes
+ * A file has its name when it is complete (output.h); history.csv and summary.csv, if they cannot be, have the
+ * rows that could be written. Each error is a line on stderr and makes
  * `status` 1; what comes after it still tries to keep what there is.
  */
 #ifndef WRITE_H
@@ -21,6 +23,7 @@ typedef struct {
     model *p;
     const char *source, *folder, *matrix; /* the model file, for messages; matrix: of -m, or NULL */
     output history, summary;
+    FILE *lock;                         /* of the folder */
     scene film;
     int matrix_done, step;              /* step: the last one that has its rows */
     clock_t reading, start, writing;    /* CPU time: of reading, at the start, of writing        */

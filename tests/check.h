@@ -41,6 +41,10 @@ void add_case(Suite *s, const char *name, const loop_test e[], int count);
 /* systems.c: y = K x in the caller's order. */
 void matrix_multiply(const bbm_matrix *K, const double *x, double *y);
 
+/* systems.c: solves A x = b by elimination without pivots; A is positive definite, and is lost; x
+ * takes the place of b. */
+void eliminate(int n, double *A, double *b);
+
 /* In the order in which check_main.c runs them. */
 Suite *formulas_suite(void);
 Suite *elastic_suite(void);

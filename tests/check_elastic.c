@@ -75,10 +75,11 @@ START_TEST(K_is_symmetric_and_positive_definite_when_the_body_is_held)
 }
 END_TEST
 
-/* A step of 1e12 s: the inertia left is 1e-24 of the stiffness. */
+/* A step of 1e12 s: the inertia left is 1e-24 of the stiffness. A rigid motion costs nothing. */
 START_TEST(K_has_three_zero_pivots_when_nothing_holds_the_body)
 {
     grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = _i, .jitter = 0.2 };
+    const double motion[3] = { 0.5, -2, 1.5 };  /* u, v at the origin, rotation */
     bbm_model *m = new_model(&SOLID);
 
     add_grid(m, &g, 0);
@@ -89,35 +90,17 @@ START_TEST(K_has_three_zero_pivots_when_nothing_holds_the_body)
     double *A = dense_matrix(m), least;
     ck_assert_int_eq(rank(n, A, &least), n - 3);
     ck_assert(least > -1e-12);
-    free(A);
-    bbm_model_free(m);
-}
-END_TEST
-
-START_TEST(a_rigid_motion_of_bonded_elements_costs_nothing)
-{
-    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = _i, .jitter = 0.2 };
-    const double motion[3] = { 0.5, -2, 1.5 };  /* u, v at the origin, rotation */
-    bbm_model *m = new_model(&SOLID);
-
-    add_grid(m, &g, 0);
-    ck_ok(bbm_prepare(m), m);
-    m->par.dt = 1e12;
-    bbm_step(m);
-    double *D = calloc(12 * (size_t)m->elements, sizeof *D), *KD = D + 6 * m->elements;
-    double energy_of = 0;
+    double *D = calloc(2 * (size_t)n, sizeof *D), *KD = D + n;
     for (int e = 0; e < m->elements; e++) {
         D[6 * e] = motion[0] - motion[2] * m->element[e].y;
         D[6 * e + 1] = motion[1] + motion[2] * m->element[e].x;
         D[6 * e + 2] = motion[2];
     }
     matrix_multiply(m->K, D, KD);
-    for (int a = 0; a < 6 * m->elements; a++) {
+    for (int a = 0; a < n; a++)
         ck_near(KD[a], 0, 1e5, ROUNDING);  /* of K: alpha G t = 2e4 times D */
-        energy_of += KD[a] * D[a] / 2;
-    }
-    ck_near(energy_of, 0, 1e5, ROUNDING);
     free(D);
+    free(A);
     bbm_model_free(m);
 }
 END_TEST
@@ -310,26 +293,6 @@ START_TEST(a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_pa
 }
 END_TEST
 
-START_TEST(displacements_fall_as_one_over_the_thickness)
-{
-    bbm_material thick = SOLID;
-    grid g = { .lx = 3, .ly = 1, .nx = 3, .ny = 1, .triangles = 1 };
-
-    thick.thickness *= 4;
-    bbm_model *m = cantilever(&SOLID, &g, 1, -1), *n = cantilever(&thick, &g, 1, -1);
-    ck_ok(bbm_step(m), m);
-    ck_ok(bbm_step(n), n);
-    for (int i = 0; i < m->nodes; i++) {
-        ck_near(4 * result_at(n, i).v, result_at(m, i).v,
-                result_at(m, node_at(&g, 3, 0)).v, SOLVED);
-        ck_near(4 * result_at(n, i).stress[0], result_at(m, i).stress[0],
-                result_at(m, 0).stress[0], SOLVED);
-    }
-    bbm_model_free(m);
-    bbm_model_free(n);
-}
-END_TEST
-
 START_TEST(a_displaced_wall_takes_the_body_along)
 {
     bbm_model *m = unit_square(&SOLID);
@@ -471,24 +434,13 @@ END_TEST
 
 /* ----------------------------------------------------------- the constant-strain finite element */
 
-/* Largest difference of the bonded triangles' displacements from the finite element's, against its
- * largest. */
-static double distance_from_finite_element(double alpha)
+static double distance_at(double alpha)
 {
     grid g = { .lx = 4, .ly = 2, .nx = 6, .ny = 3, .triangles = 1, .jitter = 0.25 };
     bbm_model *m = cantilever(&SOLID, &g, 1, -1);
-    double *u = finite_element(m), size = 0, error = 0;
 
     m->par.alpha = alpha;
-    ck_ok(bbm_step(m), m);
-    for (int n = 0; n < m->nodes; n++) {
-        const bbm_result r = result_at(m, n);
-        size = fmax(size, hypot(u[2 * n], u[2 * n + 1]));
-        error = fmax(error, hypot(r.u - u[2 * n], r.v - u[2 * n + 1]));
-    }
-    free(u);
-    bbm_model_free(m);
-    return error / size;
+    return distance_from_finite_element(m);
 }
 
 /* The springs' compliance is a little over 2/alpha; the next term, of 1/alpha^2, is 0.2 % of it at
@@ -496,11 +448,11 @@ static double distance_from_finite_element(double alpha)
  * is half of what is left. */
 START_TEST(bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha)
 {
-    const double e3 = distance_from_finite_element(1e3), e5 = distance_from_finite_element(1e5);
+    const double e3 = distance_at(1e3), e5 = distance_at(1e5);
 
     ck_assert(e3 < 0.003);
     ck_relative(e3 / e5, 100, 0.005);
-    ck_assert(distance_from_finite_element(1e7) < 5e-7);
+    ck_assert(distance_at(1e7) < 5e-7);
 }
 END_TEST
 
@@ -510,7 +462,6 @@ Suite *elastic_suite(void)
     const loop_test K[] = {
         { K_is_symmetric_and_positive_definite_when_the_body_is_held, 2 },
         { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 },
-        { a_rigid_motion_of_bonded_elements_costs_nothing, 2 },
     };
     const loop_test patches[] = {
         { a_strip_under_uniform_traction_has_that_stress_in_every_element, COUNT(STRESSES) },
@@ -522,7 +473,6 @@ Suite *elastic_suite(void)
     const loop_test bars[] = {
         { a_bonded_bar_stretches_by_its_strain_and_its_springs, 1 },
         { a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_parts, 1 },
-        { displacements_fall_as_one_over_the_thickness, 1 },
         { a_displaced_wall_takes_the_body_along, 1 },
         { a_node_may_be_held_in_x_and_y_by_separate_calls, 1 },
     };

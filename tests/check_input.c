@@ -27,6 +27,7 @@ BAD_MATERIALS[] = {
     { { 1, 0.3, 1, -INFINITY }, BBM_NOT_FINITE, "material 1" },
     { { 0, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has E = 0" },
     { { -5, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has E = -5" },
+    { { 1e-200, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "E = 1e-200, expected more than 0, from 1e-100 to 1e+100" },
     { { 1, -1, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = -1" },
     { { 1, 0.5, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = 0.5" },
     { { 1, 0.6, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = 0.6" },
@@ -49,8 +50,8 @@ END_TEST
 
 START_TEST(materials_up_to_the_limits_are_taken)
 {
-    const bbm_material limit[] = { { 1e-300, 0.499, 1e-300, 1e-300 }, { 1, -0.999, 1, 1 },
-                                   { 1e12, 0, 1e5, 1e5 } };
+    const bbm_material limit[] = { { 1e-100, 0.499, 1e-100, 1e-100 }, { 1, -0.999, 1, 1 },
+                                   { 1e100, 0, 1e100, 1e100 } };
     bbm_model *m = new_model(&SOLID);
 
     for (int i = 0; i < COUNT(limit); i++)
@@ -118,19 +119,6 @@ START_TEST(polygons_are_judged_by_their_shape)
 }
 END_TEST
 
-START_TEST(messages_on_elements_give_numbers)
-{
-    bbm_model *m = points(1), *n = points(1);
-
-    check_error(m, bbm_add_element(m, 0, 0, 2, (int[]){ 0, 1 }, NULL), BBM_BAD_ELEMENT,
-                "element 0 has 2");
-    check_error(n, bbm_add_element(n, 0, 0, 3, (int[]){ 0, 2, 25 }, NULL), BBM_BAD_ELEMENT,
-                "element 0 has no area, 1e-13 m^2");
-    bbm_model_free(m);
-    bbm_model_free(n);
-}
-END_TEST
-
 static void not_a_number(double x, double y, const void *context, double f[2])
 {
     const int *component = context;
@@ -145,6 +133,7 @@ static const int COMPONENT[2] = { 0, 1 };
 static bbm_status call_wrongly(bbm_model *m, int which)
 {
     const int corners[4] = { 0, 1, 2, 3 }, high[3] = { 0, 1, 4 }, low[3] = { -1, 1, 2 };
+    const int flat[3] = { 0, 2, 0 };
 
     switch (which) {
     case 0:  return bbm_add_node(m, NAN, 2, NULL);
@@ -169,7 +158,9 @@ static bbm_status call_wrongly(bbm_model *m, int which)
     case 19: return bbm_add_varying_line_load(m, 0, 4, not_a_number, &COMPONENT[0]);
     case 20: return bbm_add_varying_line_load(m, -2, 1, not_a_number, &COMPONENT[0]);
     case 21: return bbm_add_varying_line_load(m, 2, 1, not_a_number, &COMPONENT[0]);
-    default: return bbm_add_varying_line_load(m, 1, 2, not_a_number, &COMPONENT[1]);
+    case 22: return bbm_add_varying_line_load(m, 1, 2, not_a_number, &COMPONENT[1]);
+    case 23: return bbm_add_element(m, 0, 0, 2, corners, NULL);
+    default: return bbm_add_element(m, 0, 0, 3, flat, NULL);
     }
 }
 
@@ -197,6 +188,8 @@ static const struct { bbm_status status; const char *named; } WRONG_CALLS[] = {
     { BBM_BAD_INDEX, "nodes -2, 1 of 4" },
     { BBM_NOT_FINITE, "nodes 2, 1" },
     { BBM_NOT_FINITE, "nodes 1, 2" },
+    { BBM_BAD_ELEMENT, "element 1 has 2 vertices" },
+    { BBM_BAD_ELEMENT, "element 1 has no area, 0 m^2" },
 };
 
 /* After it, correct calls of every kind return the same status and change nothing. */
@@ -256,8 +249,9 @@ START_TEST(elements_of_one_block_on_the_same_side_of_an_edge_are_named)
     bbm_model *m = fan(2, top, (int[]){ 0, 0 }), *n = fan(3, top, (int[]){ 6, 6, 6 });
     bbm_model *o = fan(2, top, (int[]){ 0, 1 }), *p = fan(2, top + 1, (int[]){ 0, 0 });
 
-    check_error(m, bbm_prepare(m), BBM_OVERLAP, "elements 0 and 1 on the same side of nodes 0, 1");
-    check_error(n, bbm_prepare(n), BBM_OVERLAP, "elements 0 and 1 on the same side of nodes 0, 1");
+    const char *const said = "element 0 and element 1 on the same side, from node 0 to node 1";
+    check_error(m, bbm_prepare(m), BBM_OVERLAP, said);
+    check_error(n, bbm_prepare(n), BBM_OVERLAP, said);
     check_error(o, bbm_prepare(o), BBM_BLOCKS_OVERLAP,
                 "0.25 m deep at (0.75, 0.25): block 0 with element 0, "
                 "block 1 with element 1");
@@ -414,15 +408,18 @@ static const struct { size_t offset; double value; const char *name; } PARAMETER
     PARAMETER(gravity[1], INFINITY),
     PARAMETER(p_n, 0),
     PARAMETER(p_n, INFINITY),
+    PARAMETER(p_n, NAN),
     PARAMETER(p_s, 0),
     PARAMETER(p_s, INFINITY),
+    PARAMETER(p_s, NAN),
     PARAMETER(friction, -1),
     PARAMETER(friction, 90),
+    PARAMETER(friction, NAN),
     PARAMETER(pcg.omega, 0),
     PARAMETER(pcg.omega, 2),
     PARAMETER(pcg.omega, NAN),
     PARAMETER(pcg.tolerance, 0),
-    PARAMETER(pcg.tolerance, 1),
+    PARAMETER(pcg.tolerance, 2e-6),
     PARAMETER(pcg.tolerance, NAN),
 };
 
@@ -452,21 +449,8 @@ static bbm_model *held_square(void)
     return m;
 }
 
+/* The core knows its parameters by itself, without the hook. */
 START_TEST(parameters_outside_their_range_are_refused_by_name)
-{
-    bbm_model *m = held_square();
-    char named[60];
-
-    snprintf(named, sizeof named, "%s = %g", PARAMETERS[_i].name, PARAMETERS[_i].value);
-    memcpy((char *)&m->par + PARAMETERS[_i].offset, &PARAMETERS[_i].value, sizeof(double));
-    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, named);
-    ck_assert_int_eq(m->info.step, 0);
-    bbm_model_free(m);
-}
-END_TEST
-
-/* The core knows its parameters by itself. */
-START_TEST(parameters_outside_their_range_are_refused_without_the_hook)
 {
     bbm_model *m = held_square();
     char named[60];
@@ -475,6 +459,7 @@ START_TEST(parameters_outside_their_range_are_refused_without_the_hook)
     snprintf(named, sizeof named, "%s = %g", PARAMETERS[_i].name, PARAMETERS[_i].value);
     memcpy((char *)&m->par + PARAMETERS[_i].offset, &PARAMETERS[_i].value, sizeof(double));
     check_error(m, bbm_step(m), BBM_BAD_PARAMETER, named);
+    ck_assert_int_eq(m->info.step, 0);
     bbm_model_free(m);
 }
 END_TEST
@@ -518,7 +503,12 @@ START_TEST(parameters_at_the_ends_of_their_range_are_taken)
     m->par.steps = 1;
     ck_ok(bbm_run(m), m);
     m->par.pcg.omega = 1.99;
-    m->par.pcg.tolerance = 0.5;
+    m->par.pcg.tolerance = 1e-6;
+    ck_ok(bbm_run(m), m);
+    m->par.friction = m->beyond->cohesion = m->beyond->tension = 0;
+    m->par.p_n = m->par.p_s = 1e-3;
+    ck_ok(bbm_run(m), m);
+    m->par.friction = 89.9;
     ck_ok(bbm_run(m), m);
     bbm_model_free(m);
 }
@@ -529,6 +519,22 @@ START_TEST(a_step_before_bbm_prepare_is_refused)
     bbm_model *m = unit_square(&SOLID);
 
     check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "bbm_prepare");
+    bbm_model_free(m);
+}
+END_TEST
+
+/* Not a step without it, or one that writes beyond its arrays. */
+START_TEST(what_is_added_after_bbm_prepare_needs_it_again)
+{
+    bbm_model *m = unit_square(&SOLID);
+    bbm_result r;
+
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(_i == 0 ? bbm_add_node(m, 9, 9, NULL)
+        : _i == 1 ? bbm_add_element(m, 1, 0, 3, (int[]){ 0, 1, 2 }, NULL)
+        : bbm_add_line_load(m, 0, 1, 0, 1), m);
+    ck_assert_int_eq(bbm_nodal_result(m, m->nodes - 1, -1, &r), BBM_BAD_INDEX);
+    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again");
     bbm_model_free(m);
 }
 END_TEST
@@ -549,29 +555,6 @@ START_TEST(a_negative_stiffness_is_found)
 }
 END_TEST
 
-START_TEST(a_step_that_fails_leaves_the_model_as_it_was)
-{
-    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = 1 };
-    bbm_model *m = cantilever(&SOLID, &g, 5, -4);
-    double before[STATE] = { 0 }, after[STATE] = { 0 };
-
-    m->par.dt = 0.1;
-    m->par.velocity_factor = 1;
-    ck_ok(bbm_step(m), m);
-    const size_t n = state_of(m, before);
-    m->par.pcg.iterations = 1;
-    check_error(m, bbm_step(m), BBM_NOT_CONVERGED, "step 2, 1 iterations");
-    check_error(m, bbm_run(m), BBM_NOT_CONVERGED, "step 2, 1 iterations");
-    state_of(m, after);
-    ck_assert_int_eq(m->info.step, 1);
-    ck_assert(memcmp(before, after, n * sizeof *before) == 0);
-    m->par.pcg.iterations = 1000;
-    ck_ok(bbm_step(m), m);
-    ck_assert_int_eq(m->info.step, 2);
-    bbm_model_free(m);
-}
-END_TEST
-
 START_TEST(every_status_has_a_text_of_its_own)
 {
     for (int s = 0; s < BBM_STATUS_COUNT; s++) {
@@ -581,12 +564,6 @@ START_TEST(every_status_has_a_text_of_its_own)
             ck_assert_str_ne(text, bbm_status_text((bbm_status)t));
     }
     ck_assert_str_eq(bbm_status_text((bbm_status)-1), bbm_status_text(BBM_STATUS_COUNT));
-}
-END_TEST
-
-START_TEST(nothing_may_be_freed)
-{
-    bbm_model_free(NULL);
 }
 END_TEST
 
@@ -643,8 +620,9 @@ START_TEST(whichever_allocation_fails_the_status_is_no_memory_and_nothing_leaks)
             m->par.steps = 3 - m->info.step;
             ck_ok(bbm_prepare(m), m);
             ck_ok(bbm_run(m), m);
-            check_same_state(m, reference);
         }
+        if (m && m->status == BBM_OK)
+            check_same_state(m, reference);
         bbm_model_free(m);
     }
     ck_assert(k > 20);
@@ -671,18 +649,6 @@ START_TEST(an_array_grows_by_doubling_when_it_is_full)
 }
 END_TEST
 
-START_TEST(two_runs_agree_bit_for_bit)
-{
-    bbm_model *m, *n;
-
-    ck_assert_int_eq(build_and_run(&m), BBM_OK);
-    ck_assert_int_eq(build_and_run(&n), BBM_OK);
-    check_same_state(m, n);
-    bbm_model_free(m);
-    bbm_model_free(n);
-}
-END_TEST
-
 Suite *input_suite(void)
 {
     Suite *s = suite_create("input");
@@ -690,7 +656,6 @@ Suite *input_suite(void)
         { bad_materials_are_refused, COUNT(BAD_MATERIALS) },
         { materials_up_to_the_limits_are_taken, 1 },
         { polygons_are_judged_by_their_shape, COUNT(POLYGONS) },
-        { messages_on_elements_give_numbers, 1 },
         { the_first_error_of_building_stays, COUNT(WRONG_CALLS) },
         { a_model_without_elements_is_refused, 1 },
         { a_node_that_no_element_has_is_named, 1 },
@@ -703,22 +668,19 @@ Suite *input_suite(void)
     };
     const loop_test bad_parameters[] = {
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
-        { parameters_outside_their_range_are_refused_without_the_hook, COUNT(PARAMETERS) },
         { settings_outside_their_range_are_refused_by_name, COUNT(SETTINGS) },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_step_before_bbm_prepare_is_refused, 1 },
+        { what_is_added_after_bbm_prepare_needs_it_again, 3 },
     };
     const loop_test failing_steps[] = {
         { a_negative_stiffness_is_found, 1 },
-        { a_step_that_fails_leaves_the_model_as_it_was, 1 },
         { every_status_has_a_text_of_its_own, 1 },
-        { nothing_may_be_freed, 1 },
     };
     const loop_test memory[] = {
         { whichever_allocation_fails_the_status_is_no_memory_and_nothing_leaks, 2 },
         { an_array_grows_by_doubling_when_it_is_full, 1 },
-        { two_runs_agree_bit_for_bit, 1 },
     };
 
     add_case(s, "bad models", bad_models, COUNT(bad_models));

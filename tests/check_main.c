@@ -5,65 +5,40 @@
  * With CASES defined the numbers of the experiments are tested, too; with PAPER the formulas alone.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "check.h"
 
-#ifndef CASES
-
-enum { LIMIT = 80, SHARE = 10 };    /* s  for all of the quick tests, which take 2 to 5; for one */
-
-/* libcheck ends a test that hangs after 4 s. If an error lets hundreds hang, one after the other,
- * that is long: a second process ends the tests after LIMIT. The one in hand, which is then alone,
- * ends after its SHARE. */
-static pid_t set_limit(void)
-{
-    const struct rlimit share = { SHARE, SHARE };
-    const pid_t tests = getpid(), watch = fork();
-
-    for (int s = 0; watch == 0 && s < LIMIT; s++) {
-        sleep(1);
-        if (getppid() != tests)
-            _exit(EXIT_SUCCESS);
-    }
-    if (watch == 0) {
-        fprintf(stderr, "The tests took over %d s and were ended; CK_FORK=no has no limit.\n",
-                LIMIT);
-        kill(tests, SIGKILL);
-        _exit(EXIT_SUCCESS);
-    }
-    setrlimit(RLIMIT_CPU, &share);
-    return watch;
-}
-
-static void run_tests(SRunner *runner)
-{
-    const char *forks = getenv("CK_FORK");
-    const pid_t watch = forks && strcmp(forks, "no") == 0 ? -1 : set_limit();
-
-    srunner_run_all(runner, CK_ENV);
-    if (watch > 0) {
-        kill(watch, SIGKILL);
-        waitpid(watch, NULL, 0);
-    }
-}
-
+/* s of the processor, which other work on the machine does not change: for a test, or a program that
+ * it runs, and for all of them; the quick ones take 15. Tests that hang end after their SHARE, and
+ * when hundreds hang, one after the other, all end after LIMIT. */
+#ifdef CASES
+enum { SHARE = 60, LIMIT = 1200 };
 #else
-
-static void run_tests(SRunner *runner) { srunner_run_all(runner, CK_ENV); }
-
+enum { SHARE = 4, LIMIT = 80 };
 #endif
+
+/* Before each group, in the process that runs them all. */
+static void check_limit(void)
+{
+    struct rusage tests;
+
+    getrusage(RUSAGE_CHILDREN, &tests);
+    if (tests.ru_utime.tv_sec > LIMIT) {
+        fprintf(stderr, "The tests took over %d s of the processor and were ended; CK_FORK=no has no "
+                "limit.\n", LIMIT);
+        exit(EXIT_FAILURE);
+    }
+}
 
 void add_case(Suite *s, const char *name, const loop_test e[], int count)
 {
     TCase *c = tcase_create(name);
 
+    tcase_add_unchecked_fixture(c, check_limit, NULL);
     for (int i = 0; i < count; i++)
         tcase_add_loop_test(c, e[i].test, 0, e[i].times);
     suite_add_tcase(s, c);
@@ -85,13 +60,21 @@ static Suite *(*const SUITES[])(void) = {
 #endif
 };
 
+/* libcheck's limits are by the clock, on a machine that may have other work to do: they are for what
+ * waits for ever. */
 int main(void)
 {
+    const char *forks = getenv("CK_FORK");
+
+    setenv("CK_DEFAULT_TIMEOUT", "60", 0);
+    setenv("CK_TIMEOUT_MULTIPLIER", "10", 0);
     SRunner *runner = srunner_create(SUITES[0]());
 
     for (int k = 1; k < COUNT(SUITES); k++)
         srunner_add_suite(runner, SUITES[k]());
-    run_tests(runner);
+    if (!forks || strcmp(forks, "no") != 0)
+        setrlimit(RLIMIT_CPU, &(struct rlimit){ SHARE, SHARE });
+    srunner_run_all(runner, CK_ENV);
     const int failed = srunner_ntests_failed(runner), run = srunner_ntests_run(runner);
     srunner_free(runner);
     return failed == 0 && run > 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -14,10 +14,13 @@
 /* tests/bad/NAME.model, and what is said after tests/bad/NAME. */
 typedef struct { const char *name, *message; } wrong;
 
+#define NEITHER "neither static nor dynamic, expected one of them, such as: static, or: dynamic dt 1e-3 steps 1000"
+
 static const wrong wrongs[] = {
-    { "unknown-statement", ".model:9: unknown statement 'elephant', expected one such as element, expect, let" },
-    { "blocks-overlap", ".model:11: element 9 of block 'stone' lies 0.005 m deep in element 1 of block 'base' at 0.5 "
-      "0.995, expected blocks that touch at most" },
+    { "unknown-statement", ".model:9: there is no statement 'elephant'; the nearest are element, expect, "
+      "let, and all are in doc/model-file.md" },
+    { "blocks-overlap", ".model:11: blocks overlap: 0.005 m deep at (0.5, 0.995): block 'base' with element 1, block "
+      "'stone' with element 9" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
       "[thickness VALUE]" },
     { "unknown-option-fix", ".model:7: unknown option 'z', expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
@@ -73,13 +76,14 @@ static const wrong wrongs[] = {
     { "zero-area-node-twice", ".model:4: element 1 of block 'b' has no area, or one too large, expected a polygon" },
     { "self-crossing", ".model:6: the boundary of element 1 of block 'b' meets itself, expected a simple polygon" },
     { "too-large", ".model:6: element 1 of block 'b' has no area, or one too large, expected a polygon" },
-    { "overlap", ".model:9: element 2 lies on another one of its block, expected elements side by side" },
-    { "e-zero", ".model:5: E is 0, expected more than 0" },
-    { "e-negative", ".model:5: E is -1, expected more than 0" },
+    { "overlap", ".model:9: elements of one block overlap: element 1 and element 2 on the same side, from node 1 to "
+      "node 2" },
+    { "e-zero", ".model:5: E is 0, expected more than 0, from 1e-100 to 1e100" },
+    { "e-negative", ".model:5: E is -1, expected more than 0, from 1e-100 to 1e100" },
     { "nu-half", ".model:5: nu is 0.5, expected more than -1 and less than 0.5" },
     { "nu-minus-one", ".model:5: nu is -1, expected more than -1 and less than 0.5" },
-    { "density-zero", ".model:5: density is 0, expected more than 0" },
-    { "thickness-zero", ".model:5: thickness is 0, expected more than 0" },
+    { "density-zero", ".model:5: density is 0, expected more than 0, from 1e-100 to 1e100" },
+    { "thickness-zero", ".model:5: thickness is 0, expected more than 0, from 1e-100 to 1e100" },
     { "alpha-zero", ".model:9: alpha is 0, expected more than 0" },
     { "kn-negative", ".model:9: kn is -1, expected 0 or more" },
     { "ks-negative", ".model:9: ks is -1, expected 0 or more" },
@@ -94,29 +98,40 @@ static const wrong wrongs[] = {
     { "velocity-factor-twice", ".model:8: velocity_factor and damping, which are the same, expected one" },
     { "omega-zero", ".model:9: omega is 0, expected more than 0 and less than 2" },
     { "omega-two", ".model:9: omega is 2, expected more than 0 and less than 2" },
-    { "tolerance", ".model:9: tolerance is 1, expected more than 0 and less than 1" },
+    { "tolerance", ".model:9: tolerance is 1, expected more than 0, at most 1e-6" },
     { "tolerance-static", ".model:8: tolerance is 0, expected more than 0" },
-    { "where-names-no-node", ".model:9: no node there, expected a place that names one" },
+    { "where-names-no-node", ".model:9: no node there, the nearest is node 3 at 1 1" },
     { "where-box-empty", ".model:9: no node there, expected a place that names one" },
     { "where-box-reversed", ".model:9: a box from 1, 1 to 0, 0, expected: box XMIN YMIN XMAX YMAX" },
     { "traction-inside", ".model:9: no boundary edge has both ends there, expected one" },
     { "pressure-inside", ".model:10: no boundary edge has both ends there, expected one" },
     { "use-without-mesh", ".model:9: block 'b' has its material in its own statement, expected a block of a mesh" },
-    { "no-element", ".model: the model has no element, expected: element ..., or mesh FILE" },
-    { "empty", ".model: neither static nor dynamic, expected one of them" },
+    { "no-element", ".model: the model has no element, expected: block ..., grid ..., mesh FILE or element ..." },
+    { "empty", ".model: " NEITHER },
     { "static-and-dynamic", ".model:9: static and dynamic, expected one of them" },
-    { "neither", ".model: neither static nor dynamic, expected one of them" },
+    { "neither", ".model: " NEITHER },
     { "free", ".model: block 'b' is free to move, expected fix, fixblock or a contact that holds it in statics" },
     { "free-to-turn", ".model: block 'b' is free to move, expected fix, fixblock or a contact that holds it in "
       "statics" },
     { "free-second-block", ".model: block 'loose' is free to move, expected fix, fixblock or a contact that holds "
-      "it in statics" },
+      "it in statics; block 'b' is 2 m away" },
+    { "near-miss", ".model: block 'b' is free to move, expected fix, fixblock or a contact that holds it in statics; "
+      "block 'a' is 0.001 m away" },
+    { "minus-sign", ".model:9: not a number: '−9.81', expected: gravity GX GY; it has letters beyond ASCII: minus "
+      "is -" },
+    { "comment-slashes", ".model:9: surplus word '//', expected: gravity GX GY; a comment begins with #" },
+    { "too-small", ".model:9: too small, and not 0: '1e-400', expected: gravity GX GY" },
+    { "long-name", ".model:10: a stress of 'bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb' for the second "
+      "time, expected one" },
     { "mesh-missing", ".model:9: tests/bad/nowhere.msh cannot be read: No such file or directory" },
     { "mesh-is-a-folder", ".model:9: tests/bad/. cannot be read: Is a directory" },
     { "binary", ".model:2: a zero byte: the file is binary, expected text" },
     { "msh-version", ".msh:2: '2.1' in $MeshFormat, expected version 2.2 or 4.1" },
     { "msh-version-4", ".msh:2: '4' in $MeshFormat, expected version 2.2 or 4.1" },
-    { "msh-binary", ".msh:2: the mesh is binary, expected ASCII" },
+    { "msh-binary", ".msh:2: the mesh is binary, expected ASCII: gmsh without -bin, or Mesh.Binary = 0" },
+    { "msh-lines", ".msh:20: no triangle or quadrilateral, expected a mesh of surfaces: gmsh -2" },
+    { "msh-nodes-41", ".msh:25: $Nodes has 4 entries, expected the 5 that it announces" },
+    { "msh-elements-41", ".msh:33: $Elements has 3 entries, expected the 4 that it announces" },
     { "msh-empty", ".msh:1: the file ends without $Nodes, expected one" },
     { "msh-no-mesh", ".msh:1: 'This', expected a section like $Nodes" },
     { "msh-no-format", ".msh:1: '$PhysicalNames' in $PhysicalNames, expected $MeshFormat as the first section" },
@@ -152,8 +167,8 @@ static const wrong wrongs[] = {
       "Y4 ...]" },
     { "block-odd", ".model:7: block 'c' has 5 coordinates, expected X Y of 3 corners or more" },
     { "block-of-elements", ".model:6: block 'a' for the second time, expected a new one" },
-    { "block-overlap", ".model:7: element 3 of block 'c' lies 0.1 m deep in element 2 of block 'b' at 1.5 2, "
-      "expected blocks that touch at most" },
+    { "block-overlap", ".model:7: blocks overlap: 0.1 m deep at (1.5, 2): block 'b' with element 2, block 'c' with "
+      "element 3" },
     { "block-twice", ".model:7: block 'b' for the second time, expected a new one" },
     { "block-two-corners", ".model:7: block 'c' has 4 coordinates, expected X Y of 3 corners or more" },
     { "block-unknown-material", ".model:7: unknown material 'rokc', expected one that the model has, such as rock" },
@@ -199,6 +214,8 @@ static const wrong wrongs[] = {
     { "joint-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
     { "let-below", ".model:7: no `let` says what $b is" },
     { "let-dollar", ".model:7: no `let` says what $ is" },
+    { "let-longer-name", ".model:10: no `let` says what $p0 is, expected one such as $p" },
+    { "let-out-of-range", ".model:10: friction is 95, from $phi, expected 0 to less than 90 degrees" },
     { "let-missing", ".model:7: a word is missing, expected: let NAME VALUE" },
     { "let-none", ".model:7: no `let` says what $psi is" },
     { "let-not-a-number", ".model:7: not a number: 'thirty', expected: let NAME VALUE" },
@@ -206,7 +223,7 @@ static const wrong wrongs[] = {
     { "let-twice", ".model:8: let 'phi' for the second time, expected a new one" },
     { "let-unknown", ".model:8: no `let` says what $psi is, expected one such as $phi" },
     { "of-missing", ".model:7: a word is missing, expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
-    { "of-other-block", ".model:7: no node there of block b, expected a place that names one" },
+    { "of-other-block", ".model:7: no node there of block b, the nearest is node 5 at 0.5 1" },
     { "of-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
     { "output-field", ".model:7: 'szz', expected one of u|v|rotation|sxx|syy|sxy|mises|s1|s2|vx|vy|spin" },
     { "output-scale", ".model:7: scale is 0, expected more than 0" },
@@ -261,7 +278,8 @@ START_TEST(wrong_arguments_are_status_2_and_help_is_status_0)
 {
     char said[LONG];
     static const struct { const char *arguments; int status; } call[] = {
-        { "", 2 }, { "-x a.model", 2 }, { "a.model b.model", 2 }, { "a.model -o", 2 }, { "-h", 0 }, { "--version", 0 },
+        { "", 2 }, { "-x a.model", 2 }, { "a.model b.model", 2 }, { "a.model -o", 2 }, { "-h", 0 },
+        { "a.model -m a.model", 2 }, { "a.model -m nodes.csv", 2 }, { "a.model -m .mtx", 2 }, { "--version", 0 },
     };
 
     for (size_t k = 0; k < sizeof call / sizeof *call; k++)
@@ -561,7 +579,7 @@ START_TEST(statics_names_the_block_that_slides)
                               "fixblock base\ngravity 5 -9.81\ncontact friction 20\nstatic\n"), 1);
     ck_assert_str_eq(slurp("out/model/slides.err", said), "out/model/slides.model: step 1: statics finds no equilibrium: "
                      "block 'stone' (element 9) slides, rolls, tips on or leaves block 'base' (element 1); raise the "
-                     "friction, fix it, or use dynamic\n");
+                     "friction, hold it, or use dynamics\n");
 }
 END_TEST
 

@@ -140,6 +140,28 @@ START_TEST(friction_may_drop_with_the_slip)
 }
 END_TEST
 
+/* Each on its floor, in a component of K of its own. Their places differ by a power of two: only
+ * rounding tells them apart. */
+START_TEST(blocks_that_slide_on_floors_apart_slide_alike)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.friction = 20;
+    for (int k = 0; k < 3; k++) {
+        add_rectangle(m, 2 * k, BASE, (rectangle){ .x = 32 * k, .y = -1, .w = 8, .h = 1, .fixed = 1 });
+        add_rectangle(m, 2 * k + 1, ROCK, (rectangle){ .x = 32 * k + 1, .w = 1, .h = 0.5 });
+    }
+    ck_ok(bbm_prepare(m), m);
+    for (int k = 0; k < 3; k++)
+        set_velocity(m, 2 * k + 1, 2, 0);
+    run_steps(m, 20);
+    ck_assert_double_gt(m->element[1].sum[0], 0.3);
+    for (int k = 1; k < 3; k++)
+        ck_relative(m->element[2 * k + 1].sum[0], m->element[1].sum[0], SOLVED);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* Blocks of width 1 and height h on a slope: tan(delta) = 1/h; phi_c as in the literature on
  * toppling [degree], 2 degrees to both sides of each border. */
 static const struct { double h, slope, phi; int slides, topples; } CHART[] = {
@@ -538,6 +560,7 @@ Suite *sliding_suite(void)
         { a_block_whose_friction_angle_is_above_the_slope_stays, 4 },
         { a_block_on_a_slope_slides_or_topples_as_the_chart_says, COUNT(CHART) },
         { friction_may_drop_with_the_slip, 2 },
+        { blocks_that_slide_on_floors_apart_slide_alike, 1 },
     };
     const loop_test anchors[] = {
         { a_locked_contact_keeps_its_anchor, 1 },

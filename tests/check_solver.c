@@ -30,22 +30,6 @@ START_TEST(product_is_that_of_the_dense_matrix)
 }
 END_TEST
 
-START_TEST(product_is_symmetric)
-{
-    dense_system *s = new_system(_i, 2);
-    double x[MOST_6], Kx[MOST_6], KF[MOST_6];
-    unsigned seed = 3;
-
-    for (int i = 0; i < 6 * s->n; i++)
-        x[i] = random_entry(&seed);
-    matrix_multiply(s->K, x, Kx);
-    matrix_multiply(s->K, s->F, KF);
-    ck_near(inner_product(6 * s->n, s->F, Kx), inner_product(6 * s->n, x, KF),
-            norm(6 * s->n, x) * norm(6 * s->n, KF), ROUNDING);
-    free_system(s);
-}
-END_TEST
-
 START_TEST(order_direction_and_repetition_of_the_pairs_change_no_bit)
 {
     dense_system *s = new_system(_i, 4), *t = new_system(_i, 4);
@@ -146,9 +130,6 @@ START_TEST(pattern_with_a_row_that_does_not_exist_is_refused)
         ck_assert_int_eq(bbm_matrix_new(3, 2, wrong[k], &K), BBM_BAD_INDEX);
         ck_assert_ptr_null(K);
     }
-    ck_assert_int_eq(bbm_matrix_new(0, 0, NULL, &K), BBM_NO_ELEMENT);
-    ck_assert_ptr_null(K);
-    bbm_matrix_free(K);
 }
 END_TEST
 
@@ -166,21 +147,6 @@ START_TEST(running_out_of_memory_at_any_call_is_reported)
     }
     ck_assert_int_gt(calls, 1);
     bbm_matrix_free(K);
-}
-END_TEST
-
-START_TEST(blocks_come_out_as_they_went_in)
-{
-    dense_system *s = new_system(_i, 46);
-    double B[6][6];
-
-    for (int i = 0; i < s->n; i++)
-        for (int j = 0; j < s->n; j++) {
-            get_block(s->K, i, j, B);
-            for (int a = 0; a < 36; a++)
-                ck_near(B[a / 6][a % 6], s->A[6 * i + a / 6][6 * j + a % 6], 10.0, ROUNDING);
-        }
-    free_system(s);
 }
 END_TEST
 
@@ -326,6 +292,7 @@ static int dense_ssor_pcg(const dense_system *s, double w, double tolerance, int
 /* A chain keeps its order, so that L is the same here and in solver.c. */
 START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
 {
+    static const double tolerance[] = { 0.5, 1e-2, 1e-4, 1e-6, 1e-8 };
     dense_system *s = new_system(CHAIN, 11);
     double expected[MOST_6], D[MOST_6];
     bbm_pcg_info info;
@@ -339,24 +306,13 @@ START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
             ck_assert_int_eq(info.iterations, pcg.iterations);
             assert_same(6 * s->n, D, expected, ITERATES);
         }
-    }
-    free_system(s);
-}
-END_TEST
-
-START_TEST(iterations_are_as_many_as_with_dense_matrices)
-{
-    static const double tolerance[] = { 0.5, 1e-2, 1e-4, 1e-6, 1e-8 };
-    dense_system *s = new_system(CHAIN, 12);
-    double expected[MOST_6], D[MOST_6];
-    bbm_pcg_info info;
-
-    for (int k = 0; k < COUNT(tolerance); k++) {
-        bbm_pcg pcg = accurate(OMEGA[_i], NULL);
-        pcg.tolerance = tolerance[k];
-        const int iterations = dense_ssor_pcg(s, pcg.omega, pcg.tolerance, 1000, expected);
-        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
-        ck_assert_int_eq(info.iterations, iterations);
+        pcg.iterations = 1000;
+        for (int t = 0; t < COUNT(tolerance); t++) {
+            pcg.tolerance = tolerance[t];
+            const int iterations = dense_ssor_pcg(s, pcg.omega, pcg.tolerance, 1000, expected);
+            ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+            ck_assert_int_eq(info.iterations, iterations);
+        }
     }
     free_system(s);
 }
@@ -414,22 +370,6 @@ START_TEST(a_solution_takes_no_longer_than_the_processor_was_at_it)
     ck_assert(info.seconds[0] >= 0 && info.seconds[1] >= 0);
     /* a tick */
     ck_assert_double_le(info.seconds[0] + info.seconds[1], seconds + 1.0 / CLOCKS_PER_SEC);
-    free_system(s);
-}
-END_TEST
-
-START_TEST(two_solutions_are_equal_to_the_last_bit)
-{
-    dense_system *s = new_system(GRID, 15);
-    const bbm_pcg pcg = accurate(1, NULL);
-    double D[MOST_6], E[MOST_6];
-    bbm_pcg_info info[2];
-
-    ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info[0]), BBM_OK);
-    ck_assert_int_eq(bbm_solve(s->K, s->F, E, &pcg, &info[1]), BBM_OK);
-    ck_assert_mem_eq(D, E, (size_t)(6 * s->n) * sizeof *D);
-    ck_assert_int_eq(info[0].iterations, info[1].iterations);
-    ck_assert(info[0].residual == info[1].residual);
     free_system(s);
 }
 END_TEST
@@ -620,7 +560,7 @@ START_TEST(limit_of_iterations_ends_with_the_last_iterate_and_its_residual)
 {
     dense_system *s = new_system(GRID, 22);
     bbm_pcg pcg = accurate(1, NULL);
-    double D[MOST_6], r[MOST_6];
+    double D[MOST_6];
     bbm_pcg_info info;
     int needed;
 
@@ -633,10 +573,7 @@ START_TEST(limit_of_iterations_ends_with_the_last_iterate_and_its_residual)
     ck_assert_int_eq(info.element, -1);
     pcg.iterations = 3;
     ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
-    dense_multiply(s, D, r);
-    for (int i = 0; i < 6 * s->n; i++)
-        r[i] = s->F[i] - r[i];
-    ck_near(info.residual, norm(6 * s->n, r) / norm(6 * s->n, s->F), 1.0, ROUNDING);
+    ck_near(info.residual, largest_residual(s, D), 1.0, ROUNDING);
     free_system(s);
 }
 END_TEST
@@ -765,14 +702,12 @@ Suite *solver_suite(void)
     Suite *s = suite_create("solver");
     const loop_test matrix[] = {
         { product_is_that_of_the_dense_matrix, PATTERNS },
-        { product_is_symmetric, PATTERNS },
         { order_direction_and_repetition_of_the_pairs_change_no_bit, PATTERNS },
         { block_added_as_ij_or_transposed_as_ji_is_the_same, 1 },
         { cleared_matrix_is_zero_and_can_be_filled_again, PATTERNS },
         { pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing, 1 },
         { pattern_with_a_row_that_does_not_exist_is_refused, 1 },
         { running_out_of_memory_at_any_call_is_reported, 1 },
-        { blocks_come_out_as_they_went_in, PATTERNS },
     };
     const loop_test order[] = {
         { long_strips_in_any_numbering_get_a_narrow_band, 5 },
@@ -782,10 +717,8 @@ Suite *solver_suite(void)
     const loop_test solution[] = {
         { solution_is_that_of_the_dense_matrix, PATTERNS },
         { iterates_are_those_of_ssor_pcg_with_dense_matrices, 1 },
-        { iterations_are_as_many_as_with_dense_matrices, COUNT(OMEGA) },
         { residual_is_the_true_one, PATTERNS },
         { a_solution_takes_no_longer_than_the_processor_was_at_it, 1 },
-        { two_solutions_are_equal_to_the_last_bit, 1 },
         { loads_of_any_size_give_the_same_digits, 1 },
         { no_load_gives_no_displacement_in_no_iteration, 1 },
         { load_on_one_of_many_rows_makes_no_denormals, 1 },

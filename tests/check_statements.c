@@ -497,7 +497,7 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
 {
     char said[LONG];
 
-    write_text("out/model/let.model", FALL "let twice $g\ntitle g is $g\n");
+    write_text("out/model/let.model", FALL "let twice $g\ntitle \033]g is $g\n");
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=30 -d g=20 -dsteps=50 -o out/model/let 2> "
                            "out/model/err",
                            BUILD),
@@ -511,8 +511,12 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
     ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model:2: not a number: '1O', "
                                                    "expected: let NAME VALUE\n");
     ck_assert_int_eq(shell("%s/bbm - < out/model/let.model -o out/model/let 2> out/model/err | "
-                           "grep -q -- '-: g is 10'", BUILD), 0);
+                           "grep -q -- '-: ?]g is 10'", BUILD), 0);
     ck_relative(cell("let", "history.csv", "100,", "a_v"), -5, 1e-9);
+    /* A word with many of them costs no more than its length. */
+    ck_assert_int_eq(shell("sed -i '/^title/s/.*/title '$(printf '$g%%.0s' $(seq 3000))/ "
+                           "out/model/let.model; TEST_ALLOCATIONS=2000 %s/failing/bbm -q "
+                           "out/model/let.model -o out/model/let 2> out/model/err", BUILD), 0);
 }
 END_TEST
 

@@ -62,12 +62,13 @@ static void add_motion(const bbm_model *m, const bbm_element *e, scene_ledger *l
     }
 }
 
-/* In principal stresses p, q: (p^2 + q^2 - 2 nu p q)/(2 E) for each volume. */
-static double elastic_energy(const bbm_element *e)
+/* In principal stresses p, q of the starting area: (p^2 + q^2 - 2 nu p q)/(2 E) for each volume. */
+static double elastic_energy(const bbm_model *m, const bbm_element *e)
 {
-    const double mean = (e->stress[0] + e->stress[1]) / 2;
+    double c[2];
+    const double grown = place(m, e, c) / e->A0, mean = (e->stress[0] + e->stress[1]) / 2;
     const double radius = hypot((e->stress[0] - e->stress[1]) / 2, e->stress[2]);
-    const double p = mean + radius, q = mean - radius;
+    const double p = grown * (mean + radius), q = grown * (mean - radius);
 
     return e->material.thickness * e->A0 * (p * p + q * q - 2 * e->material.nu * p * q) / (2 * e->material.E);
 }
@@ -97,15 +98,20 @@ static double edge_energy(double k, int whole, double (*M)[2], const double p[2]
            + (b[0] * (M[0][0] * b[0] + M[0][1] * b[1]) + b[1] * (M[1][0] * b[0] + M[1][1] * b[1])) / 2;
 }
 
-/* The moment that a quadrilateral has on its side k: the stiffness is data, given by the library's formula. */
+/* The moment that a quadrilateral had on its side k at the start: the stiffness is data, given by the library's formula. */
 static void side_moment(const bbm_model *m, const bbm_element *e, int k, double M[2][2])
 {
+    bbm_element start = *e;
+    bbm_vertex at[4];
     double both[2][2][2];
 
     memset(M, 0, 4 * sizeof M[0][0]);
     if (m->beyond->bonding != BBM_MOMENT || e->n != 4)
         return;
-    bbm_bending_moments(e, &m->vertex[e->first], both);
+    start.A = e->A0;
+    for (int a = 0; a < 4; a++)
+        at[a] = (bbm_vertex){ .x = m->node[corner(m, e, a)->node].x, .y = m->node[corner(m, e, a)->node].y };
+    bbm_bending_moments(&start, at, both);
     memcpy(M, both[k % 2], 4 * sizeof M[0][0]);
 }
 
@@ -119,17 +125,20 @@ static void join_moments(double (*A)[2], double (*B)[2], double x, double y, dou
         M[k / 2][k % 2] = a + b > 0 ? 2 * a * b / ((a + b) * (a + b)) * (A[k / 2][k % 2] + B[k / 2][k % 2]) : 0;
 }
 
-static double bond_energy(const bbm_model *m, const bbm_bond *b)
+static double bond_energy(const bbm_model *m, const bbm_bond *bond)
 {
-    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
-    const bbm_vertex *P = &m->vertex[b->p[0]], *R = &m->vertex[b->p[1]];
-    const bbm_vertex *Q = &m->vertex[b->q[0]], *S = &m->vertex[b->q[1]];
-    const double p[2] = { P->u - Q->u, P->v - Q->v }, q[2] = { R->u - S->u, R->v - S->v };
+    const bbm_element *i = &m->element[bond->i], *j = &m->element[bond->j];
+    const bbm_vertex *P = &m->vertex[bond->p[0]], *R = &m->vertex[bond->p[1]];
+    const bbm_vertex *Q = &m->vertex[bond->q[0]], *S = &m->vertex[bond->q[1]];
+    const bbm_node *a = &m->node[P->node], *b = &m->node[R->node];
+    const double turn = (i->sum[2] + j->sum[2]) / 2, c = cos(turn), s = sin(turn);
+    const double d[4] = { P->u - Q->u, P->v - Q->v, R->u - S->u, R->v - S->v };        /* turned back: p, q */
+    const double p[2] = { c * d[0] + s * d[1], c * d[1] - s * d[0] }, q[2] = { c * d[2] + s * d[3], c * d[3] - s * d[2] };
     double A[2][2], B[2][2], M[2][2];
 
-    side_moment(m, i, b->p[0] - i->first, A);
-    side_moment(m, j, b->q[1] - j->first, B);
-    join_moments(A, B, R->y - P->y, P->x - R->x, M);
+    side_moment(m, i, bond->p[0] - i->first, A);
+    side_moment(m, j, bond->q[1] - j->first, B);
+    join_moments(A, B, b->y - a->y, a->x - b->x, M);
     return edge_energy(bond_stiffness(m, i, j), hinged(m, i) && hinged(m, j), M, p, q);
 }
 
@@ -250,7 +259,7 @@ void scene_balance(const bbm_model *m, scene_ledger *l)
     memset(l, 0, sizeof *l);
     for (int i = 0; i < m->elements; i++) {
         add_motion(m, &m->element[i], l);
-        l->elastic += elastic_energy(&m->element[i]);
+        l->elastic += elastic_energy(m, &m->element[i]);
         l->springs += held_energy(m, &m->element[i]);
     }
     for (int b = 0; b < m->bonds; b++) {

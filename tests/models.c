@@ -101,23 +101,6 @@ bbm_result result_at(const bbm_model *m, int node)
     return r;
 }
 
-/* Solves A x = b by elimination without pivots; A is positive definite. */
-static void dense_solve(int n, double *A, double *b)
-{
-    for (int p = 0; p < n; p++)
-        for (int r = p + 1; r < n; r++) {
-            const double factor = A[r * n + p] / A[p * n + p];
-            for (int c = p; c < n; c++)
-                A[r * n + c] -= factor * A[p * n + c];
-            b[r] -= factor * b[p];
-        }
-    for (int r = n - 1; r >= 0; r--) {
-        for (int c = r + 1; c < n; c++)
-            b[r] -= A[r * n + c] * b[c];
-        b[r] /= A[r * n + r];
-    }
-}
-
 bbm_model *new_bar(const bbm_material *material, int materials)
 {
     bbm_model *m = new_model(material);
@@ -200,9 +183,24 @@ double *finite_element(const bbm_model *m)
         K[a * n + a] = 1;
         u[a] = 0;
     }
-    dense_solve(n, K, u);
+    eliminate(n, K, u);
     free(K);
     return u;
+}
+
+double distance_from_finite_element(bbm_model *m)
+{
+    double *u = finite_element(m), size = 0, error = 0;
+
+    ck_ok(bbm_run(m), m);
+    for (int n = 0; n < m->nodes; n++) {
+        const bbm_result r = result_at(m, n);
+        size = fmax(size, hypot(u[2 * n], u[2 * n + 1]));
+        error = fmax(error, hypot(r.u - u[2 * n], r.v - u[2 * n + 1]));
+    }
+    free(u);
+    bbm_model_free(m);
+    return error / size;
 }
 
 bbm_model *two_squares(int block0, int block1)

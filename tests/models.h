@@ -68,6 +68,10 @@ void rising_load(double x, double y, const void *context, double f[2]);
  * points and loads. */
 double *finite_element(const bbm_model *m);
 
+/* The largest difference from it of the nodal displacements that a run of a prepared model gives,
+ * against its largest. Frees the model. */
+double distance_from_finite_element(bbm_model *m);
+
 /* 0--1--2 */
 bbm_model *two_squares(int block0, int block1);
 

@@ -130,22 +130,30 @@ void dense_multiply(const dense_system *s, const double *x, double *y)
         y[i] = inner_product(6 * s->n, s->A[i], x);
 }
 
+void eliminate(int n, double *A, double *b)
+{
+    for (int p = 0; p < n; p++)
+        for (int r = p + 1; r < n; r++) {
+            const double factor = A[r * n + p] / A[p * n + p];
+            for (int c = p; c < n; c++)
+                A[r * n + c] -= factor * A[p * n + c];
+            b[r] -= factor * b[p];
+        }
+    for (int r = n - 1; r >= 0; r--) {
+        for (int c = r + 1; c < n; c++)
+            b[r] -= A[r * n + c] * b[c];
+        b[r] /= A[r * n + r];
+    }
+}
+
 void dense_solve(int n, double A[MOST_6][MOST_6], const double *f, double *x)
 {
-    static double C[MOST_6][MOST_6];
+    static double copy[MOST_6 * MOST_6];
 
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j <= i; j++) {
-            const double d = A[i][j] - inner_product(j, C[i], C[j]);
-            C[i][j] = i == j ? sqrt(d) : d / C[j][j];
-        }
-        x[i] = (f[i] - inner_product(i, C[i], x)) / C[i][i];
-    }
-    for (int i = n - 1; i >= 0; i--) {
-        for (int j = i + 1; j < n; j++)
-            x[i] -= C[j][i] * x[j];
-        x[i] /= C[i][i];
-    }
+    for (int i = 0; i < n; i++)
+        memcpy(copy + i * n, A[i], (size_t)n * sizeof *copy);
+    memmove(x, f, (size_t)n * sizeof *x);
+    eliminate(n, copy, x);
 }
 
 int dense_pcg(const dense_system *s, double W[MOST_6][MOST_6], double tolerance,

@@ -47,7 +47,7 @@ void label_components(const dense_system *s, int *least);
 double inner_product(int n, const double *x, const double *y);
 void dense_multiply(const dense_system *s, const double *x, double *y);
 
-/* x = A^-1 f by Cholesky, A = C C^T. */
+/* x = A^-1 f. */
 void dense_solve(int n, double A[MOST_6][MOST_6], const double *f, double *x);
 
 /* Conjugate gradients with W = M^-1, as the textbooks have it. Returns the iterations. */
