@@ -22,7 +22,7 @@ PAPER    = bbm contact solver
 BASE     = build detect order step
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse energy envelope interpolation joints mesh multipliers overlap refuse rotation sliding statics \
+BEYOND   = beyond bending coarse energy envelope impact interpolation joints mesh multipliers overlap refuse rotation sliding statics \
            surroundings sweep
 RUN      = exp1 exp2 exp3
 GALLERY  = topple drop arch
@@ -39,7 +39,7 @@ PROGRAMS = check_cases check_model check_statements check_moving check_files che
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_coarse check_beyond check_motion check_bars check_limits check_statics check_refused \
-           check_theory check_equations check_run
+           check_theory check_equations check_run check_impact
 SHARING  = models shapes systems programs
 HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h tests/*.h)
 O        = out/build

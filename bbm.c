@@ -577,6 +577,8 @@ static bbm_status update(bbm_model *m)
     if (status)
         return status;
     bbm_move_elements(m, m->element, m->vertex);
+    if (m->hook->moved)
+        m->hook->moved(m);
     for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
         step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];

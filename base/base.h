@@ -85,6 +85,7 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double slip;                /* m        how far it has slid in all steps since it closed    */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
+    int    hit;                 /* a hook has given it an impulse in place of its spring's      */
     /* --- of the step --- */
     bbm_strength strength;
     /* --- of the step, by detect.c --- */
@@ -184,6 +185,7 @@ struct bbm_hooks {
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*accept)(bbm_model *m);                     /* before the model moves           */
+    void (*moved)(bbm_model *m);                            /* it has: may change velocities    */
     bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */
 };
 

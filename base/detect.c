@@ -671,8 +671,8 @@ int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* How deep the blocks are in the solution in hand: the depth of a closed contact counts for both.
- * */
+/* How deep the blocks are in the solution in hand: the depth of a contact that is closed, or open
+ * inside after a hit, counts for both. */
 void bbm_note_depths(bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
@@ -681,7 +681,8 @@ void bbm_note_depths(bbm_model *m)
         w->reach[i].depth_now = w->reach[i].depth;
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
-        const double depth = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
+        const double inside = c->hit && (c->was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
+        const double depth = c->state == BBM_OPEN ? inside : fabs(c->d_n);
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
     }

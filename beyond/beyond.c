@@ -1,5 +1,6 @@
 /* beyond.c - a model with all that stands beside the paper: what is hooked in where. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "beyond.h"
 
@@ -53,6 +54,9 @@ static bbm_status begin(bbm_model *m)
 
     if (bbm_check_settings(m))
         return BBM_BAD_PARAMETER;
+    b->left = m->info.passes == 0 ? 1 : b->left;
+    b->share = at_rest ? 1 : m->h / m->par.dt / b->left;
+    bbm_place_supports(m);
     for (int a = 0; a < 2; a++)
         m->acceleration[a] -= b->shake[a] * swing;
     b->made *= m->h < m->par.dt;                    /* a step begins whole */
@@ -97,10 +101,12 @@ static bbm_status accept(bbm_model *m)
     if (status)
         return status;
     bbm_find_reactions(m);
-    const bbm_model end = bbm_end_of_step(m);
+    bbm_model end = bbm_end_of_step(m);
     status = bbm_check_reach(m, &end);
     if (!status)
         status = bbm_check_passing(m, &end);
+    if (!status)
+        status = bbm_jump(m, &end);
     if (!status)
         status = bbm_check_balance(m, &end);
     if (!status) {
@@ -108,6 +114,13 @@ static bbm_status accept(bbm_model *m)
         bbm_stop_supports(m);
     }
     return status;
+}
+
+/* The model has moved: with the velocities after the jump. */
+static void moved(bbm_model *m)
+{
+    for (int i = 0; i < m->elements; i++)
+        memcpy(m->element[i].V, m->beyond->end_element[i].V, sizeof m->element[i].V);
 }
 
 bbm_status bbm_beyond_new(bbm_model **out)
@@ -125,6 +138,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
     }
     m->par.pcg.method = &bbm_two_level;
     m->beyond->reach = INFINITY;
+    m->beyond->restitution = -1;
     *m->hook = (bbm_hooks){
         .release = release,
         .check_polygon = bbm_check_polygon,
@@ -142,6 +156,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .before_solution = bbm_interpolate_elements,
         .renew = renew,
         .accept = accept,
+        .moved = moved,
         .failed = bbm_try_otherwise,
     };
     return BBM_OK;

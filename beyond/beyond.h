@@ -21,6 +21,9 @@ typedef enum {                  /* how two quadrilaterals are bonded; others at 
 typedef struct {                /* surroundings.c, of a node                                    */
     double force[2];            /* N        on it, at the end of the last step; 0: it is free   */
     double moved[2];            /* m        its wall point, since that step                     */
+    double to[2];               /* m        where that is then                                  */
+    double rate[2];             /* m/s      the same over the length of that step               */
+    double jump[2], jump_work;  /* N, J     impact.c: its force in the jump, and the work       */
 } bbm_support;
 
 typedef struct {                /* energy.c: of an element, and of the component of this number */
@@ -51,12 +54,17 @@ struct bbm_beyond {
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     double reach;               /* -        statics.c: how far blocks may part in a static step */
+    double restitution;         /* -        impact.c: -1: none, as the springs do               */
     int rounds_done;            /* in this step                                                 */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
     int joints;
     bbm_joint *joint;           /* [joints]                                                     */
     bbm_support *support;       /* [nodes]                                                      */
+    double left, share;         /* -        of dt that is left to do, and of it the part that   */
+                                /*          is in hand                                          */
+    double h_before;            /* s        the last step                                       */
+    const bbm_contact_scratch *jump_of;         /* impact.c: the step that ends with the jump   */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
@@ -67,6 +75,7 @@ struct bbm_beyond {
     bbm_account *account;       /* [elements]                                                   */
     double gained;              /* J        what dynamic steps have made beyond the balance     */
     double gain;                /* -        the most that one made, against what was there      */
+    double hit[2];              /* J        impact.c: of contacts that closed, before and after */
     double made;                /* -        the same of the step in hand, so far                */
     const char *how;            /* statics.c: how the first blamed block parts from the second  */
 };
@@ -107,6 +116,7 @@ typedef struct { double kinetic, elastic, springs; } bbm_energy;        /* J */
 void       bbm_energies(const bbm_model *m, bbm_energy *e);
 void       bbm_note_springs(bbm_model *m, int when);     /* of the solution in hand             */
 bbm_model  bbm_end_of_step(const bbm_model *m);
+void       bbm_find_accounts(bbm_model *m, const bbm_model *end);
 bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end);
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
@@ -148,9 +158,13 @@ bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pr
 bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
 void       bbm_gather_edge_loads(bbm_model *m);
 void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
+void       bbm_place_supports(bbm_model *m);
 void       bbm_find_reactions(bbm_model *m);
 void       bbm_stop_supports(bbm_model *m);
 void       bbm_set_plane_strain(bbm_model *m);
+
+/* impact.c */
+bbm_status bbm_jump(bbm_model *m, bbm_model *end);      /* of a step that has settled           */
 
 /* refuse.c, statics.c */
 bbm_status bbm_check_settings(bbm_model *m);

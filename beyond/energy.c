@@ -155,9 +155,9 @@ static void add_element(const bbm_model *m, const bbm_model *end, int i, bbm_acc
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
  * touch, are near or are bonded. In statics, and where velocities are not kept, nothing is
  * there. */
-static void balance(bbm_model *m, const bbm_model *end)
+void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
-    bbm_beyond *b = m->beyond;
+    const bbm_beyond *b = m->beyond;
     bbm_model now = *end;               /* its gaps take the place of those of the step */
 
     bbm_list_gaps(&now);
@@ -168,9 +168,10 @@ static void balance(bbm_model *m, const bbm_model *end)
         add_element(m, end, i, &b->account[bbm_component_of(m->K, i)]);
     for (int n = 0; n < m->nodes; n++) {
         const int i = m->vertex[m->adjacent[m->adjacent_first[n]]].element;
+        bbm_account *of = &b->account[bbm_component_of(m->K, i)];
         for (int a = 0; a < 2; a++)
-            add_work(&b->account[bbm_component_of(m->K, i)],
-                     b->support[n].force[a] * b->support[n].moved[a]);
+            add_work(of, b->support[n].force[a] * b->share * b->support[n].moved[a]);
+        add_work(of, b->support[n].jump_work);
     }
     for (int c = 0; c < m->elements && (bbm_is_static(m) || m->par.velocity_factor < 1); c++)
         b->account[c].gain = b->account[c].there = 0;
@@ -186,7 +187,7 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
     const bbm_account *worst = b->account;
     double share = 0, gained = 0, work = 0;
 
-    balance(m, end);
+    bbm_find_accounts(m, end);
     for (const bbm_account *a = b->account; a < b->account + m->K->components; a++) {
         worst = a->gain > share * a->there ? a : worst;
         share = fmax(0, worst->gain / worst->there);

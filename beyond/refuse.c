@@ -34,6 +34,7 @@ bbm_status bbm_check_settings(bbm_model *m)
         { "cohesion", b->cohesion, 0, most, "0 or more" },
         { "tension", b->tension, 0, most, "0 or more" },
         { "multiplier_rounds", b->multiplier_rounds, 0, most, "0 or more" },
+        { "restitution", b->restitution, -1, 1, "0 to 1, or -1 for none" },
         { "shake[0]", b->shake[0], -most, most, "a finite number" },
         { "shake[1]", b->shake[1], -most, most, "a finite number" },
         { "shake_omega", b->shake_omega, -most, most, "a finite number" },

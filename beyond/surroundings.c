@@ -115,15 +115,37 @@ void bbm_gather_edge_loads(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------- supports */
 
-/* Displaces the wall point of a node that is held. */
+/* Displaces the wall point of a node that is held, by the end of the next step. */
 void bbm_move_support(bbm_model *m, int node, double u, double v)
 {
+    bbm_support *s = &m->beyond->support[node];
     const double to[2] = { u, v };
 
     for (int a = 0; a < 2; a++) {
-        m->beyond->support[node].moved[a] += to[a] - m->node[node].wall[a];
-        m->node[node].wall[a] = to[a];
+        s->moved[a] += to[a] - (s->moved[a] != 0 ? s->to[a] : m->node[node].wall[a]);
+        s->to[a] = m->node[node].wall[a] = to[a];
     }
+}
+
+/* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
+ * way is left. */
+void bbm_place_supports(bbm_model *m)
+{
+    const double left = 1 - m->beyond->share;
+
+    for (int n = 0; n < m->nodes; n++)
+        for (int a = 0; a < 2; a++) {
+            const bbm_support *s = &m->beyond->support[n];
+            if (s->moved[a] != 0)
+                m->node[n].wall[a] = s->to[a] - left * s->moved[a];
+        }
+}
+
+/* The force of a support on its node, in the step or in the jump. */
+static double *force_of(const bbm_model *m, int node)
+{
+    bbm_support *s = &m->beyond->support[node];
+    return m->beyond->jump_of ? s->jump : s->force;
 }
 
 /* The forces of the supports on their nodes, of the solution. The gap of an edge is the mean of
@@ -131,7 +153,7 @@ void bbm_move_support(bbm_model *m, int node, double u, double v)
 void bbm_find_reactions(bbm_model *m)
 {
     for (int n = 0; n < m->nodes; n++)
-        memset(m->beyond->support[n].force, 0, sizeof m->beyond->support[n].force);
+        memset(force_of(m, n), 0, 2 * sizeof *force_of(m, n));
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         double d[2];
@@ -140,17 +162,26 @@ void bbm_find_reactions(bbm_model *m)
         bbm_gap_length(m, g, d);
         for (int a = 0; a < 2; a++) {
             const double half = (g->own.f[a] + g->own.W[a][0] * d[0] + g->own.W[a][1] * d[1]) / 2;
-            m->beyond->support[g->node[0]].force[a] -= half;
-            m->beyond->support[g->node[1]].force[a] -= g->own.penalty ? half : -half;
+            force_of(m, g->node[0])[a] -= half;
+            force_of(m, g->node[1])[a] -= g->own.penalty ? half : -half;
         }
     }
 }
 
-/* The step is done: the supports stand. */
+/* The step, or a part of it, is done, and what is left of the way is left. */
 void bbm_stop_supports(bbm_model *m)
 {
+    bbm_beyond *b = m->beyond;
+
     for (int n = 0; n < m->nodes; n++)
-        memset(m->beyond->support[n].moved, 0, sizeof m->beyond->support[n].moved);
+        for (int a = 0; a < 2; a++) {
+            bbm_support *s = &b->support[n];
+            s->rate[a] = bbm_is_static(m) ? 0 : b->share * s->moved[a] / m->h;
+            s->moved[a] -= b->share * s->moved[a];
+            s->force[a] += s->jump[a];
+        }
+    b->h_before = m->h;
+    b->left -= m->h / m->par.dt;
 }
 
 /* --------------------------------------------------------------------------------- plane strain */

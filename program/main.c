@@ -214,6 +214,9 @@ static void summarise(const model *p, const char *folder)
     if (p->dynamic)
         printf("no step made more than %.1e of its energy beyond the work of loads\n",
                m->beyond->gain);
+    if (p->dynamic && m->beyond->hit[0] > 0)
+        printf("hits came with %.3g J in their normal velocities, %.0f %% of it was given back\n",
+               m->beyond->hit[0], 100 * m->beyond->hit[1] / m->beyond->hit[0]);
     printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);

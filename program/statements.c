@@ -204,6 +204,7 @@ static int read_contact(model_reader *r)
         FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &b->cohesion),
         FROM_ZERO("tension", &b->tension),
         ANGLE("friction", &p->friction),
+        RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
     };
 
     return model_options(r, LENGTH(o), o);
@@ -562,7 +563,8 @@ static const struct kind {
     { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, 1 },
     { "shake", "shake AX AY OMEGA", read_shake, NOTHING_NEEDED, 1 },
     { "contact",
-      "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
+      "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
+      "[restitution E]",
       read_contact, NOTHING_NEEDED, 1 },
     { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
     { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",

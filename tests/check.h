@@ -70,6 +70,7 @@ Suite *refused_suite(void);
 Suite *theory_suite(void);
 Suite *equations_suite(void);
 Suite *run_suite(void);
+Suite *impact_suite(void);
 Suite *cases_suite(void);
 Suite *model_suite(void);
 Suite *statements_suite(void);

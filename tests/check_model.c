@@ -200,6 +200,7 @@ static const wrong wrongs[] = {
     { "grid-surplus", ".model:7: surplus word '3', expected: grid NAME MATERIAL X0 Y0 X1 Y1 NX NY "
       "[quads|triangles|crossed]" },
     { "grid-too-many", ".model:7: a grid of 10000 x 10000 cells, expected at most 4000000" },
+    { "contact-restitution", ".model:7: restitution is 1.1, expected 0 to 1" },
     { "joint-cohesion", ".model:7: cohesion is -1, expected 0 or more" },
     { "joint-friction", ".model:7: friction is 90, expected 0 to less than 90 degrees" },
     { "joint-itself", ".model:7: a joint of a block with itself, expected two blocks" },

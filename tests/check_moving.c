@@ -293,6 +293,24 @@ START_TEST(a_block_rocks_back_in_its_time)
 }
 END_TEST
 
+/* A block of 0.5 m x 2 m on a base that swings is thrown over, and stays down whatever dt; without a
+ * restitution it stands up again at dt 2e-3. */
+START_TEST(a_block_that_is_thrown_over_stays_down_whatever_the_step)
+{
+    static const double dt[] = { 4e-3, 2e-3, 1e-3, 5e-4 };
+    FILE *f = fopen("out/model/moving.model", "w");
+
+    ck_assert_ptr_nonnull(f);
+    fprintf(f, "material r E 1e12 nu 0 density 2000\nmaterial w E 1e13 nu 0 density 2000\n"
+               "block f w -5 -1 5 -1 5 0 -5 0\nfixblock f\nblock b r -0.25 0 0.25 0 0.25 2 -0.25 2\n"
+               "gravity 0 -9.81\nshake 8 0 3\ncontact kn 1e10 ks 4e9 friction 60 restitution %g\n"
+               "dynamic dt %g steps %g\nmonitor m at 0.25 2 of b\n",
+            _i / 4 * 0.3, dt[_i % 4], ceil(2.094 / dt[_i % 4]));
+    run_moving(f);
+    ck_near(cell("moving", "history.csv", "", "m_v"), -1.5, 1.5, 1e-3);     /* it lies: 0.5 m high */
+}
+END_TEST
+
 Suite *moving_suite(void)
 {
     Suite *s = suite_create("moving");
@@ -303,6 +321,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_shaken_block_slips_once_in_each_period, 0, 8);
     tcase_add_loop_test(t, a_stack_leans_as_far_as_its_centres_of_mass_allow, 0, 4);
     tcase_add_loop_test(t, a_block_rocks_back_in_its_time, 0, 12);
+    tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
     tcase_set_timeout(t, 60);
     suite_add_tcase(s, t);
     return s;

@@ -1,0 +1,389 @@
+/* impact.c - velocities after a hit, and of what is held by supports that move.
+ *
+ * Beyond the paper. V' = 2/h D - V, Eq. (14), has no damping where D is prescribed, by a stiff
+ * contact or by a support that moves: what V' is then depends on the share of the step before the
+ * hit, and in the next steps it alternates. Here such a step ends with a jump: the velocities at
+ * its end become others, V' -> V'', in no time. Positions stay.
+ *
+ * The jump is one more solution of (5), of a step of length h that begins where this one has ended.
+ * Its unknowns are X = h/2 V''. It begins with half of V' for V. Then (16), (17) say
+ *
+ *     (2 M/h^2 + K) X = 2 M/h (V'/2) + F,
+ *
+ * and K has the same elastic, bonding, normal and shear submatrices as ever. Only what they count
+ * from is another. Elements and bonds count from h/2 V', so that they resist a change of their
+ * shape. A held point counts from h/2 w, w the velocity of its support. A closed contact counts
+ * from h/2 v, v the velocity that is asked for: 0; or, if it has closed in this step, -E times the
+ * normal velocity with which it came. The open-close iteration finds which contacts stay closed and
+ * which slide. It judges the forces of the step and of the jump together, for they act in the same
+ * time: F takes back the contact forces of the step, and the jump finds them anew. In between two
+ * bodies all this is push and pull, so that momentum stays.
+ *
+ * A contact that has closed, or that the jump opens, has had its impulse: its spring starts
+ * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
+ * where several points hit together or rub. Such a jump is done again with 0 for all that is asked
+ * of contacts, elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion.
+ *
+ * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
+ * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "beyond.h"
+
+/* STIFF [-]     springs of contacts in the jump, against 2 m/h^2 of the heaviest element that is
+ *               not held: velocities are right to its inverse
+ * GAIN [-]      energy that a jump may make, against what was there: rounding */
+#define STIFF 1e5
+#define GAIN 1e-9
+
+typedef struct {
+    bbm_model m;                /* the model of the jump                                        */
+    bbm_hooks hook;
+    bbm_beyond beyond;
+    bbm_contact_scratch scratch, step;          /* its contacts, and those of the step          */
+    double *moves;              /* [elements] the component of this number: 1: has a cause;     */
+                                /*          -1: and nothing is kept; 0: has none                */
+    double *came;               /* [contacts] m: h/2 times the velocity with which P1 came      */
+} jump;
+
+static double along(const bbm_spring *v, const double Di[6], const double Dj[6])
+{
+    double d = 0;
+
+    for (int a = 0; a < 6; a++)
+        d += v->e[a] * Di[a] + v->g[a] * Dj[a];
+    return d;
+}
+
+static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n, bbm_spring *s)
+{
+    const bbm_touch t = { &m->element[bbm_element_of(m, c->corner)],
+                          &m->element[bbm_element_of(m, c->edge)], bbm_start_of(m, c->corner),
+                          bbm_end_of(m, c->edge), bbm_start_of(m, c->edge), 0 };
+
+    bbm_normal_vectors(&t, n);
+    bbm_shear_vectors(&t, c->anchor, s);
+}
+
+static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->was_closed; }
+
+/* h/2 times the normal velocity with which P1 came. It has changed evenly until P1 hit, after the
+ * share t of the step and the way d0. */
+static double approach(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_element *i = &m->element[bbm_element_of(m, c->corner)];
+    const bbm_element *j = &m->element[bbm_element_of(m, c->edge)];
+    const double t = 1 - c->time_left;
+    bbm_spring n, s;
+
+    find_vectors(m, c, &n, &s);
+    return (1 - 2 * t) * m->h / 2 * along(&n, i->V, j->V) - fmax(0, c->d_n0);
+}
+
+/* 1/mass of an element that is free to move. */
+static double mobility(const bbm_model *m, int i)
+{
+    const bbm_element *e = &m->element[i];
+
+    return bbm_is_held_all_round(m, e) ? 0 : 1 / (bbm_mass_per_area(e) * e->A);
+}
+
+/* The velocity of a support at the end of the step. One that stands has none. */
+static double support_velocity(const bbm_model *m, int node, int a)
+{
+    const bbm_support *s = &m->beyond->support[node];
+    const double r = m->beyond->share * s->moved[a] / m->h;
+
+    return r == 0 ? 0 : r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
+}
+
+/* F takes back the contact forces of the step. */
+static void take_back(bbm_model *m)
+{
+    const bbm_contact_scratch *step = m->beyond->jump_of;
+
+    memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
+    for (int k = 0; k < step->contacts; k++) {
+        const bbm_contact *c = &step->contact[k];
+        const int i = 6 * bbm_element_of(m, c->corner), j = 6 * bbm_element_of(m, c->edge);
+        const double T = c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N)
+                       : c->T;
+        bbm_spring n, s;
+        if (isinf(m->scratch->contact[k].rest))
+            continue;
+        find_vectors(m, c, &n, &s);
+        for (int a = 0; a < 6; a++) {
+            m->load[i + a] += T * s.e[a] - c->N * n.e[a];
+            m->load[j + a] += T * s.g[a] - c->N * n.g[a];
+        }
+    }
+}
+
+/* Whether what is asked for in the component of an element is kept. */
+static int is_kept(const jump *u, int i) { return u->moves[bbm_component_of(u->m.K, i)] > 0; }
+
+/* The elements at the end of the step. */
+static void start_elements(jump *u, const bbm_model *end)
+{
+    bbm_model *m = &u->m;
+    double heaviest = 0, E[3][3];
+
+    for (int i = 0; i < m->elements; i++) {
+        bbm_element *e = &m->element[i];
+        const int moved = u->moves[bbm_component_of(m->K, i)] != 0;
+        *e = end->element[i];
+        e->middle = NULL;
+        bbm_element_geometry(e, &m->vertex[e->first]);
+        bbm_elastic_matrix(&e->material, E);
+        memset(e->stress, 0, sizeof e->stress);
+        for (int a = 0; a < 6; a++) {
+            e->V[a] = moved ? end->element[i].V[a] / 2 : 0;
+            m->D[6 * i + a] = m->h * e->V[a];
+        }
+        for (int a = 0; a < 9; a++)
+            e->stress[a / 3] -= is_kept(u, i) * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
+        if (moved && mobility(m, i) > 0)
+            heaviest = fmax(heaviest, 1 / mobility(m, i));
+    }
+    m->par.p_n = m->par.p_s = fmax(end->par.p_n, STIFF * 2 * heaviest / (m->h * m->h));
+}
+
+static void start_gaps(jump *u)
+{
+    bbm_model *m = &u->m;
+    double d[2];
+
+    bbm_list_gaps(m);
+    for (bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
+        memset(g->d0, 0, sizeof g->d0);
+        bbm_gap_length(m, g, d);
+        for (int a = 0; a < 2; a++) {
+            const double w0 = support_velocity(m, g->node[0], a);
+            const double w1 = support_velocity(m, g->node[1], a);
+            g->d0[a] = g->j >= 0 ? -is_kept(u, g->i) * d[a]
+                     : -m->h / 4 * (g->own.penalty ? w0 + w1 : w0 - w1);
+        }
+    }
+}
+
+static void start_contacts(jump *u)
+{
+    bbm_model *m = &u->m;
+    const double E = m->beyond->restitution;
+    const double slow = hypot(m->acceleration[0], m->acceleration[1]) * m->h * m->h / 2;
+
+    for (int k = 0; k < u->scratch.contacts; k++) {
+        bbm_contact *c = &u->scratch.contact[k];
+        *c = u->step.contact[k];
+        const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
+        const double came = u->came[k];
+        const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
+        bbm_spring n, s;
+        c->anchor = 0;
+        find_vectors(m, c, &n, &s);
+        c->anchor = -s.d / hypot(P3->x - P2->x, P3->y - P2->y);
+        const double asked = !has_closed(c) ? 0 : E < 0 ? along(&n, &m->D[6 * i], &m->D[6 * j])
+                           : came < -slow ? -E * came : 0;
+        c->rest = n.d + is_kept(u, i) * asked;
+        if (c->state == BBM_OPEN || u->moves[bbm_component_of(m->K, i)] == 0) {
+            c->state = BBM_OPEN;
+            c->rest = -INFINITY;
+        }
+        c->was_closed = 1;
+        c->closings = 0;
+        c->time_left = 1;
+        c->d_n0 = 0;
+        memset(c->entrance, -1, sizeof c->entrance);
+    }
+}
+
+/* Solves until all contacts fit. */
+static bbm_status solve(jump *u, const bbm_model *end)
+{
+    bbm_model *m = &u->m;
+    bbm_status status = BBM_OK;
+    bbm_pass pass = BBM_PASS_AGAIN;
+
+    u->scratch.passes = u->scratch.friction_passes = u->scratch.one_until = 0;
+    start_elements(u, end);
+    start_gaps(u);
+    start_contacts(u);
+    bbm_matrix_keep(m->K, 0);
+    while (!status && pass == BBM_PASS_AGAIN) {
+        bbm_assemble(m);
+        m->hook->before_solution(m);
+        status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
+        pass = bbm_open_close(m);
+    }
+    return status || pass == BBM_PASS_DONE ? status : BBM_OPEN_CLOSE;
+}
+
+/* ----------------------------------------------------------------------------- around the jump */
+
+/* Whether the wall point of a node moves, or has moved in the step before. */
+static int moves(const bbm_model *m, int node)
+{
+    const bbm_support *s = &m->beyond->support[node];
+    const int now = s->moved[0] != 0 || s->moved[1] != 0;
+
+    return m->beyond->h_before > 0 && (now || s->rate[0] != 0 || s->rate[1] != 0);
+}
+
+/* Which components have a hit with a restitution or a support that moves; whether any has. */
+static int find_causes(const bbm_model *m, jump *u)
+{
+    double causes = 0;
+
+    for (int k = 0; k < u->step.contacts && m->beyond->restitution >= 0; k++)
+        if (has_closed(&u->step.contact[k]))
+            u->moves[bbm_component_of(m->K, bbm_element_of(m, u->step.contact[k].corner))] = 1;
+    for (int v = 0; v < m->vertices; v++)
+        if (moves(m, m->vertex[v].node))
+            u->moves[bbm_component_of(m->K, m->vertex[v].element)] = 1;
+    for (int c = 0; c < m->elements; c++)
+        causes += u->moves[c];
+    return causes > 0;
+}
+
+/* The work of each support that moves: its force on h times the mean of V' and V''. */
+static void find_work(jump *u, const bbm_model *end)
+{
+    bbm_model *m = &u->m;
+    double v[2];
+
+    bbm_find_reactions(m);
+    for (int n = 0; n < m->nodes; n++) {
+        const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
+        const bbm_element *e = &end->element[P->element];
+        bbm_support *s = &m->beyond->support[n];
+        bbm_displacement(&m->element[P->element], e->V, P->x, P->y, v);
+        s->jump_work = 0;
+        for (int a = 0; a < 2 && moves(m, n); a++)
+            s->jump_work += s->jump[a] * m->h / 2 * (v[a] + support_velocity(m, n, a));
+    }
+}
+
+/* The elements at the end of the step take their velocities. The spring of a contact that has had
+ * its impulse starts unloaded. */
+static void take(jump *u, bbm_model *step, bbm_model *end)
+{
+    const bbm_model *m = &u->m;
+
+    find_work(u, end);
+    for (int a = 0; a < 6 * m->elements; a++)
+        if (u->moves[bbm_component_of(m->K, a / 6)] != 0)
+            end->element[a / 6].V[a % 6] = 2 / m->h * m->D[a];
+    for (int k = 0; k < u->step.contacts; k++) {
+        bbm_contact *c = &step->scratch->contact[k];
+        const bbm_contact *now = &u->scratch.contact[k];
+        const int hit = m->beyond->restitution >= 0 && has_closed(c);
+        *c = u->step.contact[k];
+        if (isinf(now->rest) || (!hit && now->state != BBM_OPEN))
+            continue;
+        c->hit = 1;
+        c->area = 0;
+        c->rest = fmin(0, c->d_n);
+        c->N = c->T = c->time_left = 0;
+    }
+}
+
+/* The kinetic energy of the normal velocities of all hits, as they came and as they are left, with
+ * the reduced mass of the two elements. */
+static void note_hits(const jump *u, bbm_model *step, const bbm_model *end)
+{
+    const bbm_model *m = &u->m;
+
+    for (int k = 0; k < u->step.contacts; k++) {
+        const bbm_contact *c = &u->step.contact[k];
+        const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
+        const double mobile = mobility(m, i) + mobility(m, j), came = 2 / m->h * u->came[k];
+        bbm_spring n, s;
+        if (!has_closed(c) || mobile == 0)
+            continue;
+        find_vectors(m, c, &n, &s);
+        const double left = along(&n, end->element[i].V, end->element[j].V);
+        step->beyond->hit[0] += came * came / (2 * mobile);
+        step->beyond->hit[1] += left * left / (2 * mobile);
+    }
+}
+
+/* The jump that is asked for; where it makes energy, the one in which nothing is. */
+static bbm_status choose(jump *u, bbm_model *m, bbm_model *end)
+{
+    bbm_status status = solve(u, end);
+    int again = 0;
+
+    take(u, m, end);
+    bbm_find_accounts(m, end);
+    for (int c = 0; c < m->elements; c++) {
+        const bbm_account *of = &m->beyond->account[c];
+        const int wrong = u->moves[c] > 0 && (status || of->gain > GAIN * of->there);
+        u->moves[c] = wrong ? -1 : u->moves[c];
+        again |= wrong;
+    }
+    if (again) {
+        *end = bbm_end_of_step(m);
+        status = solve(u, end);
+        take(u, m, end);
+    }
+    return status ? bbm_say_what_failed(m, status) : BBM_OK;
+}
+
+/* The model of the jump: that at the end of the step, with lists of its own. */
+static bbm_status prepare(const bbm_model *m, const bbm_model *end, jump *u)
+{
+    const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
+
+    *u = (jump){ *end, *m->hook, *m->beyond, *m->scratch, *m->scratch, NULL, NULL };
+    u->hook.motion = NULL;
+    u->hook.renew = NULL;
+    u->hook.load = take_back;
+    u->beyond.jump_of = &u->step;
+    u->m.hook = &u->hook;
+    u->m.beyond = &u->beyond;
+    u->m.scratch = &u->scratch;
+    u->m.element = calloc(n, sizeof *u->m.element);
+    u->m.gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *u->m.gap);
+    u->m.F = calloc(19 * n + contacts, sizeof *u->m.F);
+    u->scratch.contact = calloc(2 * contacts + 1, sizeof *u->scratch.contact);
+    if (!u->m.element || !u->m.gap || !u->m.F || !u->scratch.contact)
+        return BBM_NO_MEMORY;
+    u->m.D = u->m.F + 6 * n;
+    u->m.load = u->m.D + 6 * n;
+    u->moves = u->m.load + 6 * n;
+    u->came = u->moves + n;
+    u->step.contact = u->scratch.contact + contacts;
+    for (size_t k = 0; k < contacts; k++) {
+        u->step.contact[k] = m->scratch->contact[k];
+        u->came[k] = approach(m, &u->step.contact[k]);
+    }
+    return BBM_OK;
+}
+
+/* The velocities at the end of the step, where a contact has closed or a support moves. `end` has
+ * those of (14). */
+bbm_status bbm_jump(bbm_model *m, bbm_model *end)
+{
+    jump u;
+
+    for (int n = 0; n < m->nodes; n++) {
+        bbm_support *s = &m->beyond->support[n];
+        s->jump[0] = s->jump[1] = s->jump_work = 0;
+    }
+    if (bbm_is_static(m) || m->par.velocity_factor < 1)
+        return BBM_OK;
+    bbm_status status = prepare(m, end, &u);
+    if (!status) {
+        start_elements(&u, end);
+        status = find_causes(m, &u) ? choose(&u, m, end) : BBM_OK;
+        note_hits(&u, m, end);
+    }
+    free(u.m.element);
+    free(u.m.gap);
+    free(u.m.F);
+    free(u.scratch.contact);
+    return status;
+}
