@@ -457,14 +457,17 @@ static void assemble_gap(bbm_model *m, const bbm_gap *g)
 void bbm_assemble(bbm_model *m)
 {
     const clock_t start = clock();
+    int g = 0;
 
     gather_loads(m);
     bbm_matrix_clear(m->K);
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     for (int i = 0; i < m->elements; i++)
         assemble_element(m, i);
+    for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds */
+        assemble_gap(m, &m->gap[g]);
     bbm_matrix_measure(m->K, m->F);
-    for (int g = 0; g < m->gaps; g++)
+    for (; g < m->gaps; g++)                        /* fixed points */
         assemble_gap(m, &m->gap[g]);
     bbm_assemble_contacts(m);
     bbm_count_time(m, BBM_ASSEMBLE, start);
