@@ -7,7 +7,7 @@
 
 #include "build.h"
 
-/* Of the model's size: nodes closer to a given place, or to the rim of a box, are there. */
+/* Of the smallest element's size: nodes closer to a given place, or to the rim of a box, are there. */
 #define NEAR 1e-6
 
 /* ----------------------------------------------------------------- building the library's model */
@@ -118,19 +118,14 @@ static int add_element(model_reader *r, const model_element *e)
     return 1;
 }
 
-/* By the box of the nodes in use: their copies are the nodes of the library. */
+/* By the smallest element: what lies far away does not matter. */
 static void set_margin(model_reader *r)
 {
-    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY };
+    double least = INFINITY;
 
-    for (int n = 0; n < r->p->m->nodes; n++) {
-        const double x[2] = { r->p->m->node[n].x, r->p->m->node[n].y };
-        for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], x[k]);
-            high[k] = fmax(high[k], x[k]);
-        }
-    }
-    r->margin = NEAR * hypot(high[0] - low[0], high[1] - low[1]);
+    for (int e = 0; e < r->p->m->elements; e++)
+        least = fmin(least, r->p->m->element[e].A0);
+    r->margin = NEAR * sqrt(least);
 }
 
 int model_build(model_reader *r)
