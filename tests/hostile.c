@@ -285,12 +285,13 @@ static void write_model(FILE *o, const scene *s, const frame *f)
     const double spring = f->mass / f->time / f->time, pascal = spring / f->length;
     const double pull = f->length / f->time / f->time;
 
-    fprintf(o, "title seed %llu %s %s\nmaterial rock E %.17g nu %.17g density %.17g thickness %.17g\n",
-            (unsigned long long)s->seed, s->kind, f->name, s->E * pascal, s->nu,
+    fprintf(o, "title %s %s, seed %llu\nmaterial rock ", s->kind, f->name,
+            (unsigned long long)s->seed);
+    fprintf(o, "E %.17g nu %.17g density %.17g thickness %.17g\n", s->E * pascal, s->nu,
             f->mass / pow(f->length, 3), f->length);
     fprintf(o, "contact kn %.17g ks %.17g friction %.17g cohesion %.17g tension %.17g\n",
-        s->kn * spring,
-            s->ks * spring, s->friction, s->cohesion * pascal, s->cohesion * pascal / 2);
+            s->kn * spring, s->ks * spring, s->friction, s->cohesion * pascal,
+            s->cohesion * pascal / 2);
     fprintf(o, "dynamic dt %.17g steps %d\npcg tolerance 1e-12\n", s->dt * f->time, s->steps);
     write_vector(o, f, "gravity", s->g[0], s->g[1], pull * f->nudge);
     write_vector(o, f, "\nshake", s->shake, s->shake / 3, pull);
@@ -408,7 +409,8 @@ static void try_frame(const scene *s, const frame *f, const char *folder, run *r
         exit(2);
     write_model(o, s, f);
     fclose(o);
-    snprintf(text, sizeof text, "cd %s; rm -rf out; ulimit -t 60; ../../../bbm -q %s.model -o out 2>&1; "
+    snprintf(text, sizeof text, "cd %s; rm -rf out; ulimit -t 60;"
+             " ../../../bbm -q %s.model -o out 2>&1; "
              "echo $? > status", folder, f->name);
     for (o = popen(text, "r"); o && fgets(text, sizeof text, o);)
         if (!strstr(text, "arning"))
