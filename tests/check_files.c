@@ -147,7 +147,7 @@ START_TEST(what_cannot_be_written_is_status_1_with_a_message)
           "stdout cannot be written" },
         { "bbm -h > /dev/full", "stdout cannot be written" },
         { "bbm --version > /dev/full", "stdout cannot be written" },
-        { "drop > /dev/full", "stdout could not be written" },
+        { "drop > /dev/full", "stdout: could not be written" },
     };
     char said[LONG];
 
