@@ -447,8 +447,8 @@ static double apart(const scene *s, const run *p, const run *q, int row)
 
 /* A twin differs by rounding, 1e-14 or so. What that does in this scene show four runs turned by
  * 1e-9 and more, with speeds and gravity larger by 1e-9: a twin may be off by three times their
- * spread, and by half of what a spring yields, since rounding decides which of the contacts of a tie
- * carries. */
+ * spread, and by half of what a spring yields, since rounding decides which of the contacts of a
+ * tie carries. */
 static void judge_twin(const scene *s, int rule, const run *r, const run *twin,
     const double spread[], long count[])
 {
