@@ -270,8 +270,8 @@ static void read_tables(const char *folder, const scene *s, const frame *f, run 
         r->spin[b] = t[k][13] * f->time * (f->mirrored ? -1 : 1);
     }
     for (int k = read_table(folder, "contacts", t) - 1; k >= 0; k--) {
-        const double N = t[k][5], T = fabs(t[k][6]);
-        r->force = fmax(r->force, hypot(N, T));
+        const double N = t[k][5] / newton, T = fabs(t[k][6]) / newton;
+        r->force = fmax(r->force, N);
         r->off_cone = fmax(r->off_cone, fmax(-N, T - N * tan(s->friction / 57.29577951)));
     }
 }
@@ -422,6 +422,7 @@ static void judge_slider(const scene *s, const run *r, long count[])
           count);
 }
 
+/* 5e-15 are some last digits of places up to 12, of which springs make forces. */
 static void judge_scene(const scene *s, const run *r, long count[])
 {
     if (r->status != 0 || r->rows != s->steps + 1) {
@@ -430,7 +431,8 @@ static void judge_scene(const scene *s, const run *r, long count[])
     }
     judge_overlap(s, r, count);
     judge_balance(s, r, count);
-    judge(s, CONE, s->cohesion > 0 ? 0 : r->off_cone, 1e-4 * r->force, r->rows - 1, count);
+    if (s->cohesion == 0)
+        judge(s, CONE, r->off_cone, 1e-4 * r->force + 5e-15 * s->kn, r->rows - 1, count);
     if (s->slider > 0)
         judge_slider(s, r, count);
 }
@@ -502,14 +504,13 @@ int main(int argc, char **argv)
 {
     const unsigned long seed = argc > 1 ? strtoul(argv[1], NULL, 10) : 1;
     const long scenes = argc > 2 ? atol(argv[2]) : 0;
-    const double seconds = argc > 3 ? atof(argv[3]) : 60;
-    const time_t start = time(NULL);
+    const time_t end = time(NULL) + (argc > 3 ? atol(argv[3]) : 60);
     long count[RULES] = { 0 }, done = 0, findings = 0;
     char folder[60];
 
     setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
     snprintf(folder, sizeof folder, "out/hostile/%lu", seed);
-    for (; (scenes == 0 || done < scenes) && difftime(time(NULL), start) < seconds; done++)
+    for (; (scenes == 0 || done < scenes) && time(NULL) < end; done++)
         try_scene(seed + (unsigned long)done, folder, count);
     printf("\n%ld hostile scenes\n", done);
     for (int k = 0; k < RULES; k++) {
