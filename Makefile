@@ -107,8 +107,14 @@ $O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-torture: $O/torture
-	$O/torture $(or $(SEED),1) $(or $(SCENES),0) $(or $(TIME),60) $(KIND)
+# First by the library, then by ./bbm and its tables; KIND is a kind of the first.
+HOSTILE = $(or $(SEED),1) $(or $(SCENES),0) $(or $(TIME),60)
+
+torture: $O/torture $O/hostile bbm
+	@$O/torture $(HOSTILE) $(KIND); bad=$$?; $(if $(KIND),,$O/hostile $(HOSTILE) || bad=1;) exit $$bad
+
+$O/hostile: $O/tests/hostile.o
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 $O/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)

@@ -94,18 +94,12 @@ START_TEST(a_corner_that_turns_towards_an_edge_in_the_step_is_stopped_by_it)
 {
     const double angle = ANGLES[_i / 2], side = _i % 2 ? -1 : 1, c = cos(radians(angle));
     const double s = sin(radians(angle));
-    double square[4][2];
+    const outline o = put(&SQUARE, radians(angle) + 0.05 * side, -0.5263 * s, 0.5263 * c);
     bbm_model *m = new_blocks();
 
     m->par.gravity[1] = 0;
     add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, angle, .fixed = 1 });
-    for (int k = 0; k < 4; k++) {
-        const double X = k == 0 || k == 3 ? -0.5 : 0.5, Y = k < 2 ? -0.5 : 0.5, tilt = 0.05 * side;
-        const double x = X * cos(tilt) - Y * sin(tilt), y = 0.5263 + X * sin(tilt) + Y * cos(tilt);
-        square[k][0] = c * x - s * y;
-        square[k][1] = s * x + c * y;
-    }
-    const int e = add_polygon(m, 1, 4, (const double (*)[2])square);
+    const int e = add_polygon(m, 1, 4, o.x);
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, s, -c);
     m->element[e].V[2] = -10 * side;
@@ -124,17 +118,12 @@ START_TEST(a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_
 {
     const double tilt = _i ? 0.012 : 0.02, end = _i ? -0.004 : -0.08, height = _i ? 0.509 : 0.52;
     const double couple = 2 * (DENSITY / 6) * (end - tilt) / 1e-4;
-    double square[4][2];
+    const outline o = put(&SQUARE, tilt, 0, height);
     bbm_model *m = new_blocks();
 
     m->par.gravity[1] = 0;
     add_table(m, 0);
-    for (int k = 0; k < 4; k++) {
-        const double X = k == 0 || k == 3 ? -0.5 : 0.5, Y = k < 2 ? -0.5 : 0.5;
-        square[k][0] = X * cos(tilt) - Y * sin(tilt);
-        square[k][1] = height + X * sin(tilt) + Y * cos(tilt);
-    }
-    const int e = add_polygon(m, 1, 4, (const double (*)[2])square);
+    const int e = add_polygon(m, 1, 4, o.x);
     const int far = add_rectangle(m, 2, ROCK, (rectangle){ .x = 20, .y = 20, .w = 1, .h = 1 });
     for (int k = 0; k < 4; k++)
         ck_ok(bbm_add_load(m, vertex_of(m, e, k)->node, k < 2 ? couple / 2 : -couple / 2, 0), m);
@@ -152,18 +141,14 @@ END_TEST
  * away, is 2.075 cm under its lower side, in reach of the step (2.2 cm), and is not reached. */
 START_TEST(a_corner_is_stopped_though_a_far_one_under_the_same_side_is_not_reached)
 {
-    const double side = _i ? -1 : 1, tilt = 0.0105 * side;
-    double beam[4][2];
+    const double side = _i ? -1 : 1, left = _i ? -3 : 0;
+    const outline flat = { 4, { { left, 0 }, { left + 3, 0 }, { left + 3, 0.5 }, { left, 0.5 } } };
+    const outline beam = put(&flat, 0.0105 * side, 3.5 * side, 0.005);
     bbm_model *m = new_blocks();
 
     m->par.gravity[1] = 0;
     add_table(m, 0);
-    for (int k = 0; k < 4; k++) {
-        const double X = k == 0 || k == 3 ? 0 : 3, Y = k < 2 ? 0 : 0.5, U = _i ? X - 3 : X;
-        beam[k][0] = 3.5 * side + U * cos(tilt) - Y * sin(tilt);
-        beam[k][1] = 0.005 + U * sin(tilt) + Y * cos(tilt);
-    }
-    const int e = add_polygon(m, 1, 4, (const double (*)[2])beam);
+    const int e = add_polygon(m, 1, 4, beam.x);
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -2);
     run_steps(m, 1);

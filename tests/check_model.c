@@ -343,23 +343,8 @@ START_TEST(a_model_meets_theory)
 }
 END_TEST
 
-START_TEST(two_runs_write_the_same_digits)
+START_TEST(no_table_has_a_nan_and_no_file_is_left_half_written)
 {
-    ck_assert_int_eq(shell("%s/bbm -q cases/models/arch.model -o out/model/again", BUILD), 0);
-    for (const char *const *f = (const char *const[]){ "nodes.csv", "elements.csv", "history.csv", "summary.csv",
-                                                       "movie.svg", NULL }; *f; f++)
-        ck_assert_int_eq(shell("cmp out/model/arch/%s out/model/again/%s", *f, *f), 0);
-}
-END_TEST
-
-START_TEST(pictures_and_tables_are_complete)
-{
-    ck_assert_int_eq(shell("tail -n 1 out/model/exp3/movie.svg | grep -q '</svg>'"), 0);
-    ck_assert_int_eq(shell("tail -n 1 out/model/exp1/mises.svg | grep -q '</svg>'"), 0);
-    ck_assert_int_eq(shell("tail -n 1 out/model/dam/contacts.svg | grep -q '</svg>'"), 0);
-    ck_assert_int_eq(shell("test $(wc -l < out/model/exp1/nodes.csv) = 176 && test "
-                           "$(wc -l < out/model/exp1/elements.csv) = 145 && test "
-                           "$(wc -l < out/model/exp3/history.csv) = 202"), 0);
     ck_assert_int_eq(shell("! ls out/model/*/*.tmp 2> out/model/said && ! grep -il nan out/model/*/*.csv"), 0);
     ck_assert_int_eq(shell("grep -q '^CELLS 144 720$' out/model/exp1/step_000001.vtk"), 0);
 }
@@ -421,18 +406,6 @@ START_TEST(a_pressure_turns_with_its_edge_and_a_traction_does_not)
 }
 END_TEST
 
-START_TEST(free_fall_keeps_its_energy)
-{
-    ck_assert_int_eq(run_text("fall", STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
-                              "gravity 0 -10\nvelocity b 3 0\ndynamic dt 0.01 steps 100\nmonitor p node 2\n"), 0);
-    ck_relative(cell("fall", "history.csv", "100,", "p_u"), 3, 1e-9);
-    ck_relative(cell("fall", "history.csv", "100,", "p_v"), -5, 1e-9);
-    /* m/2 (v0^2 + (g t)^2) = m/2 v0^2 + m g h, m = 1950 kg */
-    ck_relative(cell("fall", "summary.csv", "100,", "kinetic"), 975 * 109, 1e-9);
-    ck_relative(cell("fall", "summary.csv", "100,", "external"), 1950 * 50, 1e-9);
-}
-END_TEST
-
 /* The paper's linear update lets a block that turns swell, and gain energy by that: it is told. Its moment of inertia
  * is m/6, m = 3900 kg, and grows by 1 + (w dt)^2 a step, w = 1 rad/s. The exact update makes nothing. */
 START_TEST(what_steps_make_beyond_the_work_of_loads_is_told)
@@ -482,15 +455,6 @@ START_TEST(a_step_with_velocity_factor_0_reports_the_kinetic_energy_that_it_had)
 }
 END_TEST
 
-START_TEST(settling_ends_in_equilibrium_at_time_zero)
-{
-    ck_assert_double_eq(cell("column", "history.csv", "0,", "t"), 0);
-    /* The column of ten blocks has sunk in by the sum of (11 - k) W/(2 kn), and been squeezed a little. */
-    ck_near(cell("column", "history.csv", "0,", "top_v"), -55 * 24525 / 2e9, 7e-4, 0.2);
-    ck_relative(cell("column", "history.csv", "1000,", "top_v"), cell("column", "history.csv", "0,", "top_v"), 1e-6);
-}
-END_TEST
-
 START_TEST(an_initial_stress_pushes_the_wall)
 {
     ck_assert_int_eq(run_text("stress", STRIP "stress b 1e6 0 0\nstatic\n"), 0);
@@ -528,17 +492,6 @@ START_TEST(both_versions_of_a_mesh_and_the_same_by_hand_agree)
         ck_assert_int_eq(run_text("mesh", text), 0);
         ck_assert_double_eq(cell("mesh", "nodes.csv", "3,plate", "v"), cell("hand", "nodes.csv", "3,plate", "v"));
     }
-}
-END_TEST
-
-START_TEST(a_node_that_blocks_share_has_a_row_for_each)
-{
-    char text[LONG];
-
-    ck_assert_int_eq(shell("grep -c '^5,' out/model/dam/nodes.csv > out/model/count"), 0);
-    ck_assert_int_eq(atoi(slurp("out/model/count", text)), 2);
-    ck_assert_int_eq(shell("grep -q '^5,rock,0,0,' out/model/dam/nodes.csv && "
-                           "grep -q '^5,dam,0,0,' out/model/dam/nodes.csv"), 0);
 }
 END_TEST
 
@@ -595,20 +548,16 @@ Suite *model_suite(void)
     tcase_add_test(t, a_missing_file_is_status_2);
     tcase_add_test(t, wrong_arguments_are_status_2_and_help_is_status_0);
     tcase_add_loop_test(t, a_model_meets_theory, 0, sizeof targets / sizeof *targets);
-    tcase_add_test(t, two_runs_write_the_same_digits);
-    tcase_add_test(t, pictures_and_tables_are_complete);
+    tcase_add_test(t, no_table_has_a_nan_and_no_file_is_left_half_written);
     tcase_add_test(t, load_traction_and_pressure_agree);
     tcase_add_test(t, the_order_of_statements_does_not_matter);
     tcase_add_test(t, a_pressure_turns_with_its_edge_and_a_traction_does_not);
-    tcase_add_test(t, free_fall_keeps_its_energy);
     tcase_add_test(t, what_steps_make_beyond_the_work_of_loads_is_told);
     tcase_add_test(t, a_shaken_block_follows_the_closed_form);
     tcase_add_loop_test(t, a_step_with_velocity_factor_0_reports_the_kinetic_energy_that_it_had, 0, 2);
-    tcase_add_test(t, settling_ends_in_equilibrium_at_time_zero);
     tcase_add_test(t, an_initial_stress_pushes_the_wall);
     tcase_add_test(t, statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps);
     tcase_add_test(t, both_versions_of_a_mesh_and_the_same_by_hand_agree);
-    tcase_add_test(t, a_node_that_blocks_share_has_a_row_for_each);
     tcase_add_test(t, a_fixed_block_does_not_hold_the_nodes_of_its_neighbour);
     tcase_add_test(t, a_block_in_pieces_is_said);
     tcase_add_test(t, statics_names_the_block_that_slides);

@@ -2,13 +2,9 @@
  * multipliers in steps of every length, corners, thin plates and stones far away. */
 #include <string.h>
 
-#include "../beyond/beyond.h"
-#include "check.h"
-#include "shapes.h"
+#include "models.h"
 
-Suite *motion_suite(void);
-
-static bbm_model *new_model(double modulus, double dt)
+static bbm_model *new_solid(double modulus, double dt)
 {
     bbm_model *m;
 
@@ -25,23 +21,11 @@ typedef struct { double x, y, w, h, angle; int nx, ny, triangles; } box;
 
 static int add_box(bbm_model *m, int block, const box *b)
 {
-    const int first = m->nodes, e = m->elements, nx = b->nx ? b->nx : 1, ny = b->ny ? b->ny : 1;
-    const double c = cos(b->angle), s = sin(b->angle);
+    grid g = { .x = b->x, .y = b->y, .lx = b->w, .ly = b->h, .nx = b->nx ? b->nx : 1, .ny = b->ny ? b->ny : 1,
+               .triangles = b->triangles, .angle = b->angle };
 
-    for (int k = 0; k < (nx + 1) * (ny + 1); k++) {
-        const double x = b->w * (k % (nx + 1)) / nx, y = b->h * (k / (nx + 1)) / ny;
-        ck_ok(bbm_add_node(m, b->x + c * x - s * y, b->y + s * x + c * y, NULL), m);
-    }
-    for (int k = 0; k < nx * ny; k++) {
-        const int a = first + k / nx * (nx + 1) + k % nx, d = a + nx + 1;
-        if (b->triangles) {
-            ck_ok(bbm_add_element(m, block, 0, 3, (int[]){ a, a + 1, d + 1 }, NULL), m);
-            ck_ok(bbm_add_element(m, block, 0, 3, (int[]){ a, d + 1, d }, NULL), m);
-        } else {
-            ck_ok(bbm_add_element(m, block, 0, 4, (int[]){ a, a + 1, d + 1, d }, NULL), m);
-        }
-    }
-    return e;
+    add_grid(m, &g, block);
+    return g.element;
 }
 
 static void hold_block(bbm_model *m, int block)
@@ -70,12 +54,6 @@ static double sum_of(const bbm_model *m)
 
     bbm_energies(m, &e);
     return e.kinetic + e.elastic + e.springs;
-}
-
-static void run_steps(bbm_model *m, int n)
-{
-    for (int i = 0; i < n; i++)
-        ck_ok(bbm_step(m), m);
 }
 
 /* ------------------------------------------------------------------------------------ the middle of the step */
@@ -110,7 +88,7 @@ static double sum_row(const double T[6], const double D[6])
 START_TEST(positions_follow_the_exact_rotation_in_dynamics_and_the_modes_otherwise)
 {
     unsigned seed = 13;
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
 
     for (int trial = 0; trial < 36; trial++) {
         const bbm_element e = { .x = 4 * random_number(&seed), .y = 4 * random_number(&seed) };
@@ -133,7 +111,7 @@ END_TEST
 /* Also for a D in whose middle it is not: then it is T to first order. 4e-16 of numbers up to 3, summed up: 1e-14. */
 START_TEST(the_matrix_of_the_middle_moves_points_exactly)
 {
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
     const int i = add_box(m, 0, &(box){ 1, 2, 1.5, 0.5, 0.3, 1, 1, 0 });
     double T[2][6], at[2], to[2], paper[2][6];
 
@@ -173,7 +151,7 @@ START_TEST(the_vectors_are_off_when_an_element_turns_further_than_they_did)
 {
     enum { HELD = 2, LOAD_X, LOAD_Y, PRESSED, FREE, ALL };
     const double off = 1.0 / 16384, both = 1e-8 * 16384;    /* of which no bit gets lost */
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
 
     for (int k = 0; k < ALL - 1; k++)
         add_box(m, k, &(box){ 5 * k, 0, 1, 1, 0, k ? 1 : 2, 1, 0 });
@@ -219,7 +197,7 @@ static void products(double p1[2], double p2[2], double p3[2], double p0[2], dou
 /* The lengths of both springs of a contact at the end of the step, over the length l of the edge at its start. */
 START_TEST(with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths)
 {
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
     const int i = add_box(m, 0, &(box){ 0, 0, 1.5, 0.5, 0.3, 1, 1, 0 });
     const int j = add_box(m, 1, &(box){ 0.5, -2, 1, 1, -0.2, 1, 1, 0 });
     const bbm_element *a = &m->element[i], *b = &m->element[j];
@@ -264,7 +242,7 @@ static const struct { double w; int triangles; bbm_bonding bonding; int augment;
 START_TEST(a_bonded_block_that_spins_keeps_its_energy)
 {
     for (int pressed = 0; pressed < 2; pressed++) {
-        bbm_model *m = new_model(1e10, 0.01);
+        bbm_model *m = new_solid(1e10, 0.01);
         const double w = SPINS[_i].w, stress = 2500 * w * w * 0.5 + pressed * 1e4, elastic = stress * stress / 1e10;
         bbm_energy e;
         add_box(m, 0, &(box){ 0, 0, 1, 1, 0, 3, 3, SPINS[_i].triangles });
@@ -298,7 +276,7 @@ START_TEST(multipliers_make_no_energy_in_steps_of_any_length)
     const int fixed = _i % 2, kind = _i / 2 % 3;
 
     for (double dt = 1e-2; dt > 0.9e-7; dt /= sqrt(10)) {
-        bbm_model *m = new_model(1e9, dt);
+        bbm_model *m = new_solid(1e9, dt);
         add_box(m, 0, &(box){ 0, 0, 10, 10, 0, kind ? 3 : 1, kind ? 3 : 1, kind == 2 });
         m->beyond->multiplier_rounds = _i < 6 ? 2 : 5;
         m->par.gravity[1] = fixed ? -9.81 : 0;
@@ -326,7 +304,7 @@ START_TEST(the_balance_of_a_step_is_what_it_says)
     const double load[2][2] = { { 8e9, -6e9 }, { 15e9, 8e9 } };
     const double size[2] = { (5e9 + 10e9) * hypot(300.5, 400.5), (13e9 + 17e9) * hypot(305.5, 400.5) };
     const double work[2] = { 8e2 - 6e2, 30e2 + 16e2 }, way[2] = { 8e2 + 6e2, 30e2 + 16e2 }, v = 2.001;
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
 
     for (int k = 0; k < 2; k++)
         add_box(m, k, &(box){ 300 + 5 * k, 400, 1, 1, 0, 1, 1, 0 });
@@ -380,7 +358,7 @@ static int kick(const bbm_model *m, void *push)
 START_TEST(a_step_that_makes_energy_is_cut_and_then_refused)
 {
     double push[2] = { 2500 * 0.1, 0 };
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
 
     add_box(m, 0, &(box){ 0, 0, 1, 1, 0, 1, 1, 0 });
     ck_ok(bbm_prepare(m), m);
@@ -407,7 +385,7 @@ END_TEST
 START_TEST(a_step_is_judged_whole_and_each_body_by_itself)
 {
     double push[2] = { _i ? 0 : 2500 * 1e-5, _i ? 2500 * 0.75e-5 / 0.01 : 0 };
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
 
     add_box(m, 0, &(box){ 0, 0, 1, 1, 0, 1, 1, 0 });
     add_box(m, 1, &(box){ 20, 0, 10, 10, 0, 1, 1, 0 });
@@ -426,7 +404,7 @@ END_TEST
  * step makes 1e-5 to 1e-2 of its energy and is refused, or cut. What is left is the solver's. */
 START_TEST(bodies_that_strain_and_bend_far_make_no_energy)
 {
-    bbm_model *m = new_model(_i ? 1e6 : 7e6, _i ? 0.01 : 0.002);
+    bbm_model *m = new_solid(_i ? 1e6 : 7e6, _i ? 0.01 : 0.002);
 
     add_box(m, 0, _i ? &(box){ 0, 0, 10, 1, 0, 10, _i, 0 } : &(box){ 0.1, 0, 0.4, 0.3, 0.3, 1, 1, 0 });
     if (_i == 0) {
@@ -450,7 +428,7 @@ START_TEST(a_model_far_from_the_origin_moves_as_one_at_it)
 
     for (int k = 0; k < 2; k++) {
         const double far = k * 1e11;
-        bbm_model *m = new_model(1e9, 0.001);
+        bbm_model *m = new_solid(1e9, 0.001);
         add_box(m, 0, &(box){ far, -far, 4, 1, 0, 1, 1, 0 });
         hold_block(m, 0);
         add_box(m, 1, &(box){ far + 1, 1 - far, 1, 1, 0, 1, 1, 0 });
@@ -472,7 +450,7 @@ END_TEST
 /* Four slabs of 2 cm lie on each other and on a floor; a stone flies by far away, or lies there. */
 static bbm_model *slabs(double v)
 {
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
 
     m->par.gravity[1] = -9.81;
     m->par.friction = 30;
@@ -511,7 +489,7 @@ END_TEST
 START_TEST(a_corner_that_comes_in_over_a_corner_gains_no_energy)
 {
     const double turn[4] = { 0.3, 0.1, 0.6, 1.2 }, above[3] = { 2e-3, 1e-2, 1e-4 }, inside[2] = { 0.01, 0.001 };
-    bbm_model *m = new_model(1e9, 0.01);
+    bbm_model *m = new_solid(1e9, 0.01);
     const double way = _i / 24 ? 0.5 : 0;
 
     m->par.p_n = 1e9;
@@ -536,7 +514,7 @@ END_TEST
 START_TEST(a_fast_block_does_not_pass_a_thin_plate)
 {
     const double v[4] = { 10, 50, 100, 400 }, stiff = _i % 4 == 3 ? 1e11 : 1e9, deep = v[_i % 4] * sqrt(2500 / 2 / stiff);
-    bbm_model *m = new_model(1e10, 0.01);
+    bbm_model *m = new_solid(1e10, 0.01);
 
     m->par.p_n = stiff;
 
@@ -561,7 +539,7 @@ END_TEST
  * status, after 5,000 solutions and ten times the iterations that one may take; it always ends. */
 START_TEST(a_step_far_too_long_ends)
 {
-    bbm_model *m = new_model(1e9, 1.5);
+    bbm_model *m = new_solid(1e9, 1.5);
     bbm_status status = BBM_OK;
 
     m->par.gravity[1] = -9.81;

@@ -42,26 +42,15 @@ typedef struct {
 } outlines;
 
 static const outlines OUTLINES[] = {
-    { "5 mm of a block of 1 m", { 4, 4 },
-      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0, 0.995 }, { 1, 0.995 }, { 1, 2 },
-                                                      { 0, 2 } } }, 5e-3 },
     { "sides that touch", { 4, 4 },
       { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 1 }, { 2, 1 }, { 2, 2 },
                                                       { 0.5, 2 } } }, 0 },
-    { "sides that touch but for rounding", { 4, 4 },
-      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
-        { { 0.5, 1 - 1e-9 }, { 2, 1 - 1e-9 }, { 2, 2 }, { 0.5, 2 } } }, 0 },
     { "one micrometre and a half", { 4, 4 },
       { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
         { { 0, 1 - 1.5e-6 }, { 1, 1 - 1.5e-6 }, { 1, 2 }, { 0, 2 } } }, 1.5e-6 },
     { "half a micrometre", { 4, 4 },
       { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } },
         { { 0, 1 - 0.5e-6 }, { 1, 1 - 0.5e-6 }, { 1, 2 }, { 0, 2 } } }, 0 },
-    { "a corner on a side", { 4, 3 },
-      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 1 }, { 1, 2 }, { 0, 2 } } }, 0 },
-    { "a corner in a side", { 4, 3 },
-      { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 0.9 }, { 1.5, 1.9 }, { -0.5, 1.9 } } },
-          0.1 },
     { "bars that cross", { 4, 4 },
       { { { -5, -0.1 }, { 5, -0.1 }, { 5, 0.1 }, { -5, 0.1 } }, { { 2, -3 }, { 2.5, -3 },
                                                                   { 2.5, 3 }, { 2, 3 } } },
@@ -259,26 +248,6 @@ START_TEST(a_block_falls_into_the_pieces_that_bonds_join)
 }
 END_TEST
 
-/* A node of one element in the middle of the side of another: not one bond. */
-START_TEST(a_hanging_node_leaves_pieces)
-{
-    const double node[][2] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 0, 1 }, { 2, 2 },
-                               { 1, 2 }, { 0, 2 } };
-    bbm_model *m = new_rock();
-    int piece[3];
-
-    for (int k = 0; k < 8; k++)
-        ck_ok(bbm_add_node(m, node[k][0], node[k][1], NULL), m);
-    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 4 }, NULL), m);
-    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 4, 3, 6, 7 }, NULL), m);
-    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 3, 2, 5, 6 }, NULL), m);
-    ck_ok(bbm_prepare(m), m);
-    ck_assert_int_eq(bbm_find_pieces(m, piece), 2);
-    ck_assert(piece[0] == 0 && piece[1] == 1 && piece[2] == 1);
-    bbm_model_free(m);
-}
-END_TEST
-
 /* ------------------------------------------------------------------------- what holds a body */
 
 /* A grid held at one node, and in one direction at another: free if the line on which that holds
@@ -324,40 +293,19 @@ END_TEST
 
 /* ------------------------------------------------------------------------------- runs that fail */
 
-/* A block of 2 x 2 elements on a fixed base, both turned about the origin: which begins to slide at
- * tan(angle) = tan(friction), if statics is asked. */
-static bbm_model *block_on_slope(double angle, double friction)
+START_TEST(a_block_that_lifts_off_in_statics_is_named)
 {
     bbm_model *m = new_rock();
-    const int base = add_rows(m, 0, -2, -1, 4, 1, 4, 1, angle);
+    const int base = add_rows(m, 0, -2, -1, 4, 1, 4, 1, 0);
 
-    add_rows(m, 1, -0.5, 0, 1, 0.5, 2, 2, angle);
+    add_rows(m, 1, -0.5, 0, 1, 0.5, 2, 2, 0);
     for (int n = base; n < base + 10; n++)
         ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
-    m->par.gravity[1] = -9.81;
-    m->par.friction = friction;
-    m->par.p_n = 1e12;
-    m->par.p_s = 4e11;
+    m->par.gravity[1] = 9.81;
     ck_ok(bbm_prepare(m), m);
-    return m;
-}
-
-START_TEST(a_block_that_slides_in_statics_is_named_with_what_it_slides_on)
-{
-    static const double friction[] = { 10, 29, 31, 45, 0 };
-    bbm_model *m = block_on_slope(_i % 2 ? 30 : -30, friction[_i / 2]);
-
-    m->par.steps = 4;
-    const bbm_status status = bbm_run(m);
-    ck_assert_msg(status == (friction[_i / 2] < 30 ? BBM_NO_EQUILIBRIUM : BBM_OK), "%s",
-                  bbm_message(m));
-    if (status) {
-        ck_assert_int_eq(m->element[m->blamed[0]].block, 1);
-        ck_assert_int_eq(m->element[m->blamed[1]].block, 0);
-        ck_assert_ptr_nonnull(strstr(bbm_message(m), "slides on"));
-    }
-    ck_assert_ptr_null(strstr(bbm_message(m), "inf"));
-    ck_assert_ptr_null(strstr(bbm_message(m), "element -1"));
+    const bbm_status status = bbm_step(m);
+    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1
+                  && strcmp(m->beyond->how, "leaves") == 0, "%s", bbm_message(m));
     bbm_model_free(m);
 }
 END_TEST
@@ -387,20 +335,6 @@ START_TEST(of_blocks_that_go_together_the_one_that_parts_is_named)
     snprintf(expected, sizeof expected, "block 1 (element %d) %s block 0 (element %d)",
              m->blamed[0], _i < 2 ? "slides on" : "tips on", m->blamed[1]);
     ck_assert_ptr_nonnull(strstr(bbm_message(m), expected));
-    bbm_model_free(m);
-}
-END_TEST
-
-/* A block that lifts off, or is pushed until it tips over its edge. */
-START_TEST(a_block_that_lifts_off_or_tips_in_statics_is_named)
-{
-    bbm_model *m = block_on_slope(0, 80);
-
-    m->par.gravity[1] = _i ? -9.81 : 9.81;
-    m->par.gravity[0] = _i ? 9.81 * 3 : 0;                      /* more than 2, width over height */
-    const bbm_status status = bbm_step(m);
-    ck_assert_msg(status == BBM_NO_EQUILIBRIUM && m->element[m->blamed[0]].block == 1
-                  && strcmp(m->beyond->how, _i ? "tips on" : "leaves") == 0, "%s", bbm_message(m));
     bbm_model_free(m);
 }
 END_TEST
@@ -631,7 +565,6 @@ Suite *refused_suite(void)
     suite_add_tcase(s, overlap);
     TCase *pieces = tcase_create("pieces");
     tcase_add_test(pieces, a_block_falls_into_the_pieces_that_bonds_join);
-    tcase_add_test(pieces, a_hanging_node_leaves_pieces);
     suite_add_tcase(s, pieces);
     TCase *holds = tcase_create("holds");
     tcase_add_loop_test(holds, a_body_is_held_unless_all_lines_of_action_meet, 0, 16);
@@ -640,9 +573,7 @@ Suite *refused_suite(void)
     TCase *failing = tcase_create("failing");
     tcase_set_timeout(failing, 10);         /* s: the disc takes half a second, 5 with sanitizers */
     tcase_add_loop_test(failing, of_blocks_that_go_together_the_one_that_parts_is_named, 0, 4);
-    tcase_add_loop_test(failing, a_block_that_slides_in_statics_is_named_with_what_it_slides_on,
-                        0, 10);
-    tcase_add_loop_test(failing, a_block_that_lifts_off_or_tips_in_statics_is_named, 0, 2);
+    tcase_add_test(failing, a_block_that_lifts_off_in_statics_is_named);
     tcase_add_test(failing, statics_goes_on_where_all_contacts_of_a_block_slide);
     tcase_add_test(failing, contacts_of_statics_are_found_again_in_the_next_step);
     tcase_add_test(failing, a_disc_that_may_roll_is_named);

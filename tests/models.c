@@ -41,6 +41,7 @@ static void add_cell(bbm_model *m, const grid *g, int i, int j, int block)
 
 void add_grid(bbm_model *m, grid *g, int block)
 {
+    const double c = cos(g->angle), s = sin(g->angle);
     unsigned seed = 5;
 
     g->first = m->nodes;
@@ -48,10 +49,9 @@ void add_grid(bbm_model *m, grid *g, int block)
     for (int j = 0; j <= g->ny; j++)
         for (int i = 0; i <= g->nx; i++) {
             const int inner = i > 0 && i < g->nx && j > 0 && j < g->ny;
-            const double a = inner * g->jitter * random_number(&seed);
-            const double b = inner * g->jitter * random_number(&seed);
-            ck_ok(bbm_add_node(m, g->x + (i + a) * g->lx / g->nx, g->y + (j + b) * g->ly / g->ny,
-                               NULL), m);
+            const double x = (i + inner * g->jitter * random_number(&seed)) * g->lx / g->nx;
+            const double y = (j + inner * g->jitter * random_number(&seed)) * g->ly / g->ny;
+            ck_ok(bbm_add_node(m, g->x + c * x - s * y, g->y + s * x + c * y, NULL), m);
         }
     for (int j = 0; j < g->ny; j++)
         for (int i = 0; i < g->nx; i++)
@@ -418,6 +418,8 @@ outline put(const outline *o, double angle, double x, double y)
     }
     return p;
 }
+
+const outline SQUARE = { 4, { { -0.5, -0.5 }, { 0.5, -0.5 }, { 0.5, 0.5 }, { -0.5, 0.5 } } };
 
 const outline NOTCHED = {
     6, { { -0.5, -0.5 }, { 0.5, -0.5 }, { 0.5, 0 }, { 0, 0 }, { 0, 0.5 }, { -0.5, 0.5 } },

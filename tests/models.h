@@ -29,6 +29,7 @@ typedef struct {
     int nx, ny, triangles;
     double jitter;              /* displacement of the inner nodes against the cell */
     int first, element;         /* its first node and element: set by add_grid */
+    double angle;               /* [rad] by which it is turned about (x, y) */
 } grid;
 
 int node_at(const grid *g, int i, int j);
@@ -142,6 +143,8 @@ typedef struct { int n; double x[12][2]; } outline;             /* of a block, c
 
 /* Turned by `angle` radians and moved. */
 outline put(const outline *o, double angle, double x, double y);
+
+extern const outline SQUARE;    /* of 1 m, about the origin */
 
 /* An L with a notch, and a strip of two elements whose corners 1 and 4 are none. */
 extern const outline NOTCHED;
