@@ -386,6 +386,14 @@ static void renew_friction(bbm_contact_scratch *w)
 
 /* ------------------------------------------------------------- the open-close iteration: states */
 
+/* The fraction of the step at which P1 hits. */
+static double hits_at(const bbm_contact *c)
+{
+    const double d0 = fmax(0, c->d_n0);
+
+    return d0 / (d0 - c->d_n);
+}
+
 /* Gives a contact its next state. When it closes, P1 hits at the fraction d0/(d0 - d_n) of the
  * step, d0 the distance at the start. Until the end of the step the anchor is where P1 stood at the
  * start, and the shear spring feels the share of the slip after the hit: so it never drives the
@@ -393,12 +401,12 @@ static void renew_friction(bbm_contact_scratch *w)
  * if it closes for the second time in the step: the shear spring had opened it. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
-    const double d0 = fmax(0, c->d_n0), s = bbm_way_along(m, c->corner, c->edge);
+    const double s = bbm_way_along(m, c->corner, c->edge);
     const int closes = c->state == BBM_OPEN;
     const double slip = closes ? c->d_s + s : c->T;
 
     if (closes) {
-        c->time_left = 1 - d0 / (d0 - c->d_n);
+        c->time_left = 1 - hits_at(c);
         c->anchor = s / m->edge[c->edge].along.length;
         const double T = c->time_left * m->par.p_s * fabs(slip);
         const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
@@ -454,6 +462,7 @@ static int change_states(bbm_model *m)
         if (c->next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
             worst = c;
     }
+    bbm_let_wait(m);
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
         if (c->next_state == c->state || (one && c != worst))

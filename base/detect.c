@@ -37,11 +37,13 @@
  * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
  *                 projection closer to the end of an edge is at the end: rounding of a model file,
  *                 elastic strain
+ * LEVEL    [-]    a lip up to this, in the girth of the smaller block, is no step: elastic strain
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define BENT 0.1
 #define TOUCH 1e-6
+#define LEVEL 1e-5
 #define TIE 1e-9
 
 typedef struct bbm_pair { int corner, edge, dropped; } pair;    /* what may touch               */
@@ -258,6 +260,15 @@ static double touch_between(const bbm_model *m, int c, int e)
     return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
+/* How deep a corner that rides on a block, or comes to the next one of a pavement, may be behind an
+ * edge and still be at its surface: as deep as contacts of either block, and a lip. */
+double bbm_surface_depth(const bbm_model *m, int c, int e)
+{
+    const reach *i = reach_of(m, c), *j = reach_of(m, e);
+
+    return 2 * fmax(i->depth_now, j->depth_now) + LEVEL * fmin(i->girth, j->girth);
+}
+
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
  * the two blocks do. No corner enters from behind an edge. Where points move by T of the start of
  * the step, a corner may also have ended the last step inside, by as much as it moved. */
@@ -327,6 +338,16 @@ int bbm_carries(const bbm_model *m, int c, int e)
     return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
 }
 
+/* Whether edge f of another block goes on in the line of edge e, where the corner is. */
+static int goes_on_in(const bbm_model *m, int corner, int e, int f)
+{
+    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
+    const double lip = project(m, corner, e).d - project(m, corner, f).d;
+
+    return m->edge[e].block != m->edge[f].block && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
+        && fabs(lip) <= bbm_surface_depth(m, corner, f);
+}
+
 /* The contact of the last step, closed or open inside, between `corner` and the edge - or, if
  * `all`, another one of its straight side - or NULL. */
 static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
@@ -342,6 +363,18 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
         if (all && m->edge[c->edge].side == m->edge[edge].side)
             found = c;
     }
+    return found;
+}
+
+/* Of a corner and an edge: 2, if the corner had a closed contact with an edge from which this one
+ * goes on; 1, if with this one; else 0. */
+static int closed_in_line(const bbm_model *m, pair p)
+{
+    int found = find_closed(m, p.corner, p.edge, 0) != NULL;
+
+    for (int k = m->edge[p.corner].contact; k < m->contacts && m->contact[k].corner == p.corner; k++)
+        if (m->contact[k].state != BBM_OPEN && goes_on_in(m, p.corner, m->contact[k].edge, p.edge))
+            found = 2;
     return found;
 }
 
@@ -455,9 +488,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
-    const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
-    const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
-    return here != there ? there : !faces_up(t, u);
+    const int here = closed_in_line(m, p), there = closed_in_line(m, q);
+    return here != there ? there > here : !faces_up(t, u);
 }
 
 /* Drops the pairs that another one stands for; all are judged on the full list. */
@@ -590,18 +622,20 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
  * the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
+    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_surface_depth(m, c->corner, c->edge))
         return 0;
     return (c->was_closed || c->is_on_edge) && enters_at_end(m, c);
 }
 
-/* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
- * contacts are. */
+/* The fraction of the step at which P has crossed a line, and is deeper than at its surface: 0 if it
+ * begins so deep, more than 1 if it ends the step less deep. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    const double touch = touch_between(m, c->corner, c->edge);
+    const double above = c->d_n0 + bbm_surface_depth(m, c->corner, c->edge);
 
-    return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
+    if (c->was_closed)
+        return INFINITY;
+    return above <= 0 ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
 }
 
 /* The sine by which a line is steep; one that rises to the right passes for flatter. */
@@ -623,20 +657,61 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->d_n >= 0)
         return enters_at_end(m, r);
     if (fabs(later) > TIE)
-        return later > 0 && admits(m, r);
+        return later > 0 && (crossed_at(m, r) > 1 ? enters_at_end(m, r) : admits(m, r));
     if (r->was_closed != c->was_closed)
         return r->was_closed && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
 }
 
+/* Whether a closed contact of P with an edge in the same line holds P: at a joint of two blocks the
+ * next one has P when it has left the last. */
+static int is_held(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_contact_scratch *w = m->scratch;
+    int held = 0;
+
+    for (int k = m->edge[c->corner].pair; k < w->contacts && w->contact[k].corner == c->corner; k++)
+        held |= w->contact[k].state != BBM_OPEN
+             && goes_on_in(m, c->corner, w->contact[k].edge, c->edge);
+    return held;
+}
+
 /* Whether an open contact, though crossed, may not close. */
 int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 {
-    int blocked = !admits(m, c);
+    int blocked = !admits(m, c) || is_held(m, c);
 
     for (int k = 0; k < 4 && !blocked; k++)
         blocked = c->entrance[k] >= 0 && counts(m, &m->scratch->contact[c->entrance[k]], c);
     return blocked;
+}
+
+/* Of the contacts that are about to close, those wait which P would not reach if another one, that
+ * it crosses earlier, held it: of the same corner, or on one of their entrance lines. */
+void bbm_let_wait(bbm_model *m)
+{
+    bbm_contact *list = m->scratch->contact;
+    const int n = m->scratch->contacts;
+
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].hits = m->edge[e].is_hit = INFINITY;
+    for (bbm_contact *c = list; c < list + n; c++) {
+        if (c->state != BBM_OPEN || c->next_state == BBM_OPEN)
+            continue;
+        double *hits = &m->edge[c->corner].hits, *is_hit = &m->edge[c->edge].is_hit;
+        *hits = fmin(*hits, crossed_at(m, c));
+        *is_hit = fmin(*is_hit, crossed_at(m, c));
+    }
+    for (bbm_contact *c = list; c < list + n; c++) {
+        double first = m->edge[c->corner].hits;
+        for (int k = 0; k < 4; k++)
+            if (c->entrance[k] >= 0) {
+                const bbm_contact *r = &list[c->entrance[k]];
+                first = fmin(first, fmin(m->edge[r->corner].hits, m->edge[r->edge].is_hit));
+            }
+        if (c->state == BBM_OPEN && first < crossed_at(m, c) - TIE)
+            c->next_state = BBM_OPEN;
+    }
 }
 
 /* ------------------------------------------------------------------------------ end of the step */
@@ -657,6 +732,28 @@ void bbm_note_depths(bbm_model *m)
     }
 }
 
+/* A closed contact c whose corner has left its edge, and is on that of r, which goes on from it, goes
+ * on as r: with the forces of both. */
+static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
+{
+    const double touch = touch_between(m, c->corner, c->edge);
+    const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
+    const bbm_contact next = *r;
+
+    if (c->state == BBM_OPEN || f.beyond <= touch || g.beyond > touch
+        || !goes_on_in(m, c->corner, c->edge, r->edge))
+        return;
+    *r = *c;
+    r->edge = next.edge;
+    r->N += next.N;
+    r->T += next.T;
+    r->d_n = g.d;
+    r->rest = bbm_motion_of(m) ? fmin(0, g.d + r->N / m->par.p_n) : 0;
+    r->time_left = 0;                                       /* the anchor is placed anew        */
+    c->state = BBM_OPEN;
+    c->N = c->T = c->slip = c->was_closed = c->inside = 0;
+}
+
 /* The list of the step becomes that of the model, which has moved. */
 void bbm_keep_contacts(bbm_model *m)
 {
@@ -665,6 +762,9 @@ void bbm_keep_contacts(bbm_model *m)
     const int last_contacts = m->contacts;
 
     find_directions(m);
+    for (int k = 0; k < w->contacts; k++)
+        for (int i = m->edge[w->contact[k].corner].pair; i < w->contacts && w->contact[i].corner == w->contact[k].corner; i++)
+            hand_over(m, &w->contact[k], &w->contact[i]);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = 0;
     bbm_note_depths(m);

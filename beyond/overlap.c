@@ -265,7 +265,8 @@ double bbm_depth_passed(const bbm_model *m, int corner, int edge)
     if (x * t.y - y * t.x >= 0 || s < 0 || s > t.length)
         return 0;
     int nearest = edge;
-    const double allowed = bbm_allowed_depth(m, corner, edge);
+    const double allowed = fmax(bbm_allowed_depth(m, corner, edge),
+                                bbm_surface_depth(m, corner, edge));
     const double depth = depth_in_block(m, (point){ P->x, P->y }, edge, allowed, &nearest);
     return depth == 0 || moves_out(m, corner, nearest) || are_in_contact(m, own, other) ? 0 : depth;
 }
