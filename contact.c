@@ -386,14 +386,6 @@ static void renew_friction(bbm_contact_scratch *w)
 
 /* ------------------------------------------------------------- the open-close iteration: states */
 
-/* The fraction of the step at which P1 hits. */
-static double hits_at(const bbm_contact *c)
-{
-    const double d0 = fmax(0, c->d_n0);
-
-    return d0 / (d0 - c->d_n);
-}
-
 /* Gives a contact its next state. When it closes, P1 hits at the fraction d0/(d0 - d_n) of the
  * step, d0 the distance at the start. Until the end of the step the anchor is where P1 stood at the
  * start, and the shear spring feels the share of the slip after the hit: so it never drives the
@@ -401,12 +393,12 @@ static double hits_at(const bbm_contact *c)
  * if it closes for the second time in the step: the shear spring had opened it. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
-    const double s = bbm_way_along(m, c->corner, c->edge);
+    const double d0 = fmax(0, c->d_n0), s = bbm_way_along(m, c->corner, c->edge);
     const int closes = c->state == BBM_OPEN;
     const double slip = closes ? c->d_s + s : c->T;
 
     if (closes) {
-        c->time_left = 1 - hits_at(c);
+        c->time_left = 1 - d0 / (d0 - c->d_n);
         c->anchor = s / m->edge[c->edge].along.length;
         const double T = c->time_left * m->par.p_s * fabs(slip);
         const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
@@ -447,25 +439,25 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Changes all states that do not fit the solution, or only the one that fits worst. The worst
- * is the same in any order of the blocks, but for a tie. Returns the number of changes. */
+/* Changes all states that do not fit the solution, or only the one that fits worst. Where P comes in
+ * over a corner is judged when all else fits, for what holds it changes its way. The worst is the same in any order of the blocks, but for a tie. Returns the number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
     const int one = w->passes < w->one_until;
     bbm_contact *worst = NULL;
-    int changes = 0;
+    int changes = 0, sure = 0;
 
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
         c->next_state = find_next_state(m, c);
         if (c->next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
             worst = c;
+        sure |= c->next_state != c->state && !bbm_is_at_corner(m, c);
     }
-    bbm_let_wait(m);
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        if (c->next_state == c->state || (one && c != worst))
+        if (c->next_state == c->state || (one ? c != worst : sure && bbm_is_at_corner(m, c)))
             continue;
         change_state(m, c);
         changes++;

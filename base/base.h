@@ -64,9 +64,9 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
     int    side;                /* the first edge of the straight side that it belongs to       */
-    double span;                /* m        set in that first edge: the side's starting length  */
+    double span, spacing;       /* m        set in that first edge: the side's starting length, */
+                                /*          and the mean length of its edges                    */
     bbm_direction along;        /* from a to b, at present                                      */
-    double hits, is_hit;        /* when in the step the corner a, and the edge, close a contact */
     int    contact, pair;       /* where those of the corner a begin: in model.contact, and in  */
                                 /* the list of pairs                                            */
 };
@@ -266,7 +266,7 @@ double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at th
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
-void       bbm_let_wait(bbm_model *m);
+int        bbm_is_at_corner(const bbm_model *m, const bbm_contact *c);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
 void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
 

@@ -124,15 +124,17 @@ static int goes_on(const bbm_model *m, int e)
 static void find_straight_sides(bbm_model *m)
 {
     for (int first = 0; first < m->edges; first++) {
-        int e = first;
+        int e = first, parts = 0;
         if (goes_on(m, first))
             continue;
         do {
             m->edge[e].side = first;
             e = m->edge[e].after;
+            parts++;
         } while (goes_on(m, e));
         const bbm_vertex *a = bbm_start_of(m, first), *b = bbm_start_of(m, e);
         m->edge[first].span = hypot(b->x - a->x, b->y - a->y);
+        m->edge[first].spacing = m->edge[first].span / parts;
     }
 }
 
@@ -324,18 +326,22 @@ static int faces_up(bbm_direction p, bbm_direction q)
     return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
 }
 
-/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
- * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
- * the shorter side slides on the longer one. Deviation: with `faces` = 0 corners alone touch, and a
- * block of many elements sags between them. */
+/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of a
+ * side that is more than twice as fine do, for between two of its own a coarse side would not feel
+ * the other one; else those of the shorter side, and of equal sides those of the upper one: then no
+ * point comes or goes while the shorter side slides on the longer one. Deviation: with `faces` = 0
+ * corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
-    const double mine = m->edge[m->edge[c].side].span, other = m->edge[m->edge[e].side].span;
+    const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
 
     if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
         return 0;
-    return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
+    if (bbm_is_static(m) && fmax(mine->spacing / other->spacing, other->spacing / mine->spacing) > 2)
+        return mine->spacing < other->spacing;
+    return fabs(mine->span - other->span) > STRAIGHT * other->span ? mine->span < other->span
+                                                                   : faces_up(q, p);
 }
 
 /* Whether edge f of another block goes on in the line of edge e, where the corner is. */
@@ -366,16 +372,23 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
     return found;
 }
 
-/* Of a corner and an edge: 2, if the corner had a closed contact with an edge from which this one
- * goes on; 1, if with this one; else 0. */
-static int closed_in_line(const bbm_model *m, pair p)
+/* Whether a closed contact in a list, of n from the k-th on, has the corner on an edge from which
+ * this one goes on. */
+static int rides(const bbm_model *m, pair p, const bbm_contact *list, int n, int k)
 {
-    int found = find_closed(m, p.corner, p.edge, 0) != NULL;
+    int found = 0;
 
-    for (int k = m->edge[p.corner].contact; k < m->contacts && m->contact[k].corner == p.corner; k++)
-        if (m->contact[k].state != BBM_OPEN && goes_on_in(m, p.corner, m->contact[k].edge, p.edge))
-            found = 2;
+    for (; k < n && list[k].corner == p.corner; k++)
+        found |= list[k].state != BBM_OPEN && goes_on_in(m, p.corner, list[k].edge, p.edge);
     return found;
+}
+
+/* How well a pair stands for a contact of the last step: it is that, or better, its corner comes
+ * riding on a block from which this one goes on. */
+static int heritage(const bbm_model *m, pair p)
+{
+    return rides(m, p, m->contact, m->contacts, m->edge[p.corner].contact) ? 2
+         : find_closed(m, p.corner, p.edge, 0) != NULL;
 }
 
 /* Whether the corner may come to touch the edge in this step. A corner that is still outside may
@@ -488,7 +501,7 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
-    const int here = closed_in_line(m, p), there = closed_in_line(m, q);
+    const int here = heritage(m, p), there = heritage(m, q);
     return here != there ? there > here : !faces_up(t, u);
 }
 
@@ -663,55 +676,27 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
 }
 
-/* Whether a closed contact of P with an edge in the same line holds P: at a joint of two blocks the
- * next one has P when it has left the last. */
-static int is_held(const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_contact_scratch *w = m->scratch;
-    int held = 0;
-
-    for (int k = m->edge[c->corner].pair; k < w->contacts && w->contact[k].corner == c->corner; k++)
-        held |= w->contact[k].state != BBM_OPEN
-             && goes_on_in(m, c->corner, w->contact[k].edge, c->edge);
-    return held;
-}
-
-/* Whether an open contact, though crossed, may not close. */
+/* Whether an open contact, though crossed, may not close. At a joint of two blocks the next one has
+ * P when it has left the last. */
 int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 {
-    int blocked = !admits(m, c) || is_held(m, c);
+    const bbm_contact_scratch *w = m->scratch;
+    const pair p = { c->corner, c->edge, 0 };
+    int blocked = !admits(m, c) || rides(m, p, w->contact, w->contacts, m->edge[c->corner].pair);
 
     for (int k = 0; k < 4 && !blocked; k++)
         blocked = c->entrance[k] >= 0 && counts(m, &m->scratch->contact[c->entrance[k]], c);
     return blocked;
 }
 
-/* Of the contacts that are about to close, those wait which P would not reach if another one, that
- * it crosses earlier, held it: of the same corner, or on one of their entrance lines. */
-void bbm_let_wait(bbm_model *m)
+/* Whether P crosses more than one line of a corner, so that one of them counts. */
+int bbm_is_at_corner(const bbm_model *m, const bbm_contact *c)
 {
-    bbm_contact *list = m->scratch->contact;
-    const int n = m->scratch->contacts;
+    int crossed = 0;
 
-    for (int e = 0; e < m->edges; e++)
-        m->edge[e].hits = m->edge[e].is_hit = INFINITY;
-    for (bbm_contact *c = list; c < list + n; c++) {
-        if (c->state != BBM_OPEN || c->next_state == BBM_OPEN)
-            continue;
-        double *hits = &m->edge[c->corner].hits, *is_hit = &m->edge[c->edge].is_hit;
-        *hits = fmin(*hits, crossed_at(m, c));
-        *is_hit = fmin(*is_hit, crossed_at(m, c));
-    }
-    for (bbm_contact *c = list; c < list + n; c++) {
-        double first = m->edge[c->corner].hits;
-        for (int k = 0; k < 4; k++)
-            if (c->entrance[k] >= 0) {
-                const bbm_contact *r = &list[c->entrance[k]];
-                first = fmin(first, fmin(m->edge[r->corner].hits, m->edge[r->edge].is_hit));
-            }
-        if (c->state == BBM_OPEN && first < crossed_at(m, c) - TIE)
-            c->next_state = BBM_OPEN;
-    }
+    for (int k = 0; k < 4; k++)
+        crossed |= c->entrance[k] >= 0 && m->scratch->contact[c->entrance[k]].d_n < 0;
+    return crossed && c->state == BBM_OPEN;
 }
 
 /* ------------------------------------------------------------------------------ end of the step */
