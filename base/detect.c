@@ -383,12 +383,13 @@ static int rides(const bbm_model *m, pair p, const bbm_contact *list, int n, int
     return found;
 }
 
-/* How well a pair stands for a contact of the last step: it is that, or better, its corner comes
- * riding on a block from which this one goes on. */
+/* How well a pair stands for a closed contact of the last step: 3, its corner comes riding on a
+ * block from which this one goes on; 2, it is that contact; 1, that was on the same side; else 0. */
 static int heritage(const bbm_model *m, pair p)
 {
-    return rides(m, p, m->contact, m->contacts, m->edge[p.corner].contact) ? 2
-         : find_closed(m, p.corner, p.edge, 0) != NULL;
+    if (rides(m, p, m->contact, m->contacts, m->edge[p.corner].contact))
+        return 3;
+    return find_closed(m, p.corner, p.edge, 0) ? 2 : find_closed(m, p.corner, p.edge, 1) != NULL;
 }
 
 /* Whether the corner may come to touch the edge in this step. A corner that is still outside may
@@ -407,7 +408,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, 1))
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !heritage(m, (pair){ corner, e, 0 }))
         return 0;
     return find_closed(m, corner, e, 0)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
