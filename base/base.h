@@ -66,6 +66,7 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    side;                /* the first edge of the straight side that it belongs to       */
     double span, spacing;       /* m        set in that first edge: the side's starting length, */
                                 /*          and the mean length of its edges                    */
+    double deep;                /* m        of closed contacts in its line, in that first edge  */
     bbm_direction along;        /* from a to b, at present                                      */
     int    contact, pair;       /* where those of the corner a begin: in model.contact, and in  */
                                 /* the list of pairs                                            */

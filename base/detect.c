@@ -262,13 +262,17 @@ static double touch_between(const bbm_model *m, int c, int e)
     return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
-/* How deep a corner that rides on a block, or comes to the next one of a pavement, may be behind an
- * edge and still be at its surface: as deep as contacts of either block, and a lip. */
+/* How deep a corner may be behind an edge and still be at its surface: as deep as closed contacts in
+ * this line, on the side of the edge or on those of the corner, and a lip; 0 without any. */
 double bbm_surface_depth(const bbm_model *m, int c, int e)
 {
-    const reach *i = reach_of(m, c), *j = reach_of(m, e);
+    const int of[3] = { e, c, m->edge[c].before };
+    double deep = 0;
 
-    return 2 * fmax(i->depth_now, j->depth_now) + LEVEL * fmin(i->girth, j->girth);
+    for (int k = 0; k < 3; k++)
+        if (coincide(m, of[k], e))
+            deep = fmax(deep, m->edge[m->edge[of[k]].side].deep);
+    return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
 }
 
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
@@ -636,7 +640,8 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
  * the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_surface_depth(m, c->corner, c->edge))
+    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_surface_depth(m, c->corner, c->edge)
+        && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
     return (c->was_closed || c->is_on_edge) && enters_at_end(m, c);
 }
@@ -645,8 +650,11 @@ static int admits(const bbm_model *m, const bbm_contact *c)
  * begins so deep, more than 1 if it ends the step less deep. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    const double above = c->d_n0 + bbm_surface_depth(m, c->corner, c->edge);
+    const double surface = bbm_surface_depth(m, c->corner, c->edge);
+    const double touch = touch_between(m, c->corner, c->edge), above = c->d_n0 + surface;
 
+    if (surface == 0)
+        return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
     if (c->was_closed)
         return INFINITY;
     return above <= 0 ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
@@ -702,19 +710,27 @@ int bbm_is_at_corner(const bbm_model *m, const bbm_contact *c)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* How deep the blocks are in the solution in hand: the depth of a closed contact counts for both.
- * */
+/* How deep the blocks are in the solution in hand, and the sides that lie in the line of a contact:
+ * the depth of a closed contact counts for both. */
 void bbm_note_depths(bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth_now = w->reach[i].depth;
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].deep = 0;
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const int in_line[3] = { c->edge, c->corner, m->edge[c->corner].before };
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
         const double depth = c->state == BBM_OPEN ? 0 : fabs(c->d_n);
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
+        for (int k = 0; k < 3; k++) {
+            double *deep = &m->edge[m->edge[in_line[k]].side].deep;
+            if (coincide(m, in_line[k], c->edge))
+                *deep = fmax(*deep, c->was_closed ? fmax(depth, -c->d_n0) : depth);
+        }
     }
 }
 
