@@ -269,9 +269,9 @@ double bbm_surface_depth(const bbm_model *m, int c, int e)
     const int of[3] = { e, c, m->edge[c].before };
     double deep = 0;
 
-    for (int k = 0; k < 3; k++)
+    for (int k = 1; k < 3; k++)
         if (coincide(m, of[k], e))
-            deep = fmax(deep, m->edge[m->edge[of[k]].side].deep);
+            deep = fmax(deep, fmax(m->edge[m->edge[of[k]].side].deep, m->edge[m->edge[e].side].deep));
     return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
 }
 
@@ -352,10 +352,11 @@ int bbm_carries(const bbm_model *m, int c, int e)
 static int goes_on_in(const bbm_model *m, int corner, int e, int f)
 {
     const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
-    const double lip = project(m, corner, e).d - project(m, corner, f).d;
+    const projection on = project(m, corner, e);
 
     return m->edge[e].block != m->edge[f].block && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
-        && fabs(lip) <= bbm_surface_depth(m, corner, f);
+        && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel
+        && fabs(on.d - project(m, corner, f).d) <= bbm_surface_depth(m, corner, f);
 }
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge - or, if
