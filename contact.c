@@ -439,8 +439,9 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Changes all states that do not fit the solution, or only the one that fits worst. Where P comes in
- * over a corner is judged when all else fits, for what holds it changes its way. The worst is the same in any order of the blocks, but for a tie. Returns the number of changes. */
+/* Changes all states that do not fit the solution, or only the one that fits worst. Where P crosses
+ * lines of a corner it waits until all else fits: what holds it changes its way. The worst is the
+ * same in any order of the blocks, but for a tie. Returns the number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;

@@ -262,14 +262,14 @@ static double touch_between(const bbm_model *m, int c, int e)
     return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
-/* How deep a corner may be behind an edge and still be at its surface: as deep as closed contacts in
- * this line, on the side of the edge or on those of the corner, and a lip; 0 without any. */
+/* How deep a corner that lies on an edge with one of its sides may be and still be at the surface:
+ * twice as deep as closed contacts in this line are, on either side, and a lip; else 0. */
 double bbm_surface_depth(const bbm_model *m, int c, int e)
 {
-    const int of[3] = { e, c, m->edge[c].before };
+    const int of[2] = { c, m->edge[c].before };
     double deep = 0;
 
-    for (int k = 1; k < 3; k++)
+    for (int k = 0; k < 2; k++)
         if (coincide(m, of[k], e))
             deep = fmax(deep, fmax(m->edge[m->edge[of[k]].side].deep, m->edge[m->edge[e].side].deep));
     return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
@@ -330,10 +330,10 @@ static int faces_up(bbm_direction p, bbm_direction q)
     return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
 }
 
-/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of a
- * side that is more than twice as fine do, for between two of its own a coarse side would not feel
- * the other one; else those of the shorter side, and of equal sides those of the upper one: then no
- * point comes or goes while the shorter side slides on the longer one. Deviation: with `faces` = 0
+/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
+ * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
+ * the shorter side slides on the longer one. In statics, where nothing slides far, those of a side
+ * more than twice as fine do: a coarse one would not feel it between its own points. Deviation: with `faces` = 0
  * corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
@@ -342,10 +342,12 @@ int bbm_carries(const bbm_model *m, int c, int e)
 
     if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
         return 0;
-    if (bbm_is_static(m) && fmax(mine->spacing / other->spacing, other->spacing / mine->spacing) > 2)
-        return mine->spacing < other->spacing;
-    return fabs(mine->span - other->span) > STRAIGHT * other->span ? mine->span < other->span
-                                                                   : faces_up(q, p);
+    const double ratio = mine->spacing / other->spacing;
+    if (bbm_is_static(m) && fmax(ratio, 1 / ratio) > 2)
+        return ratio < 1;
+    if (fabs(mine->span - other->span) > STRAIGHT * other->span)
+        return mine->span < other->span;
+    return faces_up(q, p);
 }
 
 /* Whether edge f of another block goes on in the line of edge e, where the corner is. */
@@ -413,7 +415,8 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !heritage(m, (pair){ corner, e, 0 }))
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep
+        && !heritage(m, (pair){ corner, e, 0 }))
         return 0;
     return find_closed(m, corner, e, 0)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -641,21 +644,24 @@ static int enters_at_end(const bbm_model *m, const bbm_contact *c)
  * the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_surface_depth(m, c->corner, c->edge)
-        && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
+    const double deep = fmax(bbm_surface_depth(m, c->corner, c->edge),
+                             bbm_allowed_depth(m, c->corner, c->edge));
+
+    if (!c->was_closed && !c->inside && c->d_n0 < -deep)
         return 0;
     return (c->was_closed || c->is_on_edge) && enters_at_end(m, c);
 }
 
-/* The fraction of the step at which P has crossed a line, and is deeper than at its surface: 0 if it
- * begins so deep, more than 1 if it ends the step less deep. */
+/* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
+ * contacts are. Where closed contacts lie in the line: at which it is deeper than at the surface;
+ * more than 1 if it ends the step no deeper. One that was closed keeps its line. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
     const double surface = bbm_surface_depth(m, c->corner, c->edge);
-    const double touch = touch_between(m, c->corner, c->edge), above = c->d_n0 + surface;
+    const double above = c->d_n0 + surface;
 
     if (surface == 0)
-        return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
+        return c->d_n0 <= touch_between(m, c->corner, c->edge) ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
     if (c->was_closed)
         return INFINITY;
     return above <= 0 ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
@@ -735,8 +741,8 @@ void bbm_note_depths(bbm_model *m)
     }
 }
 
-/* A closed contact c whose corner has left its edge, and is on that of r, which goes on from it, goes
- * on as r: with the forces of both. */
+/* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on as
+ * r, with the forces of both. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
@@ -765,9 +771,10 @@ void bbm_keep_contacts(bbm_model *m)
     const int last_contacts = m->contacts;
 
     find_directions(m);
-    for (int k = 0; k < w->contacts; k++)
-        for (int i = m->edge[w->contact[k].corner].pair; i < w->contacts && w->contact[i].corner == w->contact[k].corner; i++)
-            hand_over(m, &w->contact[k], &w->contact[i]);
+    for (bbm_contact *c = w->contact, *end = c + w->contacts; c < end; c++)
+        for (bbm_contact *r = &w->contact[m->edge[c->corner].pair];
+             r < end && r->corner == c->corner; r++)
+            hand_over(m, c, r);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = 0;
     bbm_note_depths(m);

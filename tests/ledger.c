@@ -215,7 +215,8 @@ static void find_bending(const bbm_model *m, double bending[])
 }
 
 /* The deepest overlap of two blocks less the depth of their deepest contact that is closed, or was since they were last
- * apart: a contact that opens leaves them where they are, and no spring starts loaded that closes there. */
+ * apart: a contact that opens leaves them where they are, and no spring starts loaded that closes there. What rides over
+ * the joint of two blocks is as deep in the next one as it is in the contacts that it has with others. */
 void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS], scene_ledger *l)
 {
     double bending[SCENE_BLOCKS] = { 0 }, deep[SCENE_BLOCKS] = { 0 };
@@ -237,10 +238,10 @@ void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS
             const int p = e->block, q = f->block;
             const int held = m->node[corner(m, e, 0)->node].held && m->node[corner(m, f, 0)->node].held;
             const double all = p == q || held ? 0 : element_overlap(m, e, f);
-            if (all > 0)
+            if (all > 0) {
                 deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], fmax(deep[p], deep[q]));
-            if (all > 0)
                 apart[p][q] = apart[q][p] = 0;
+            }
             const double d = all - deepest[p][q] - bending[p] - bending[q];
             if (all > 0 && d > l->overlap)
                 l->overlap = d, l->pair[0] = p, l->pair[1] = q;
