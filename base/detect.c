@@ -267,11 +267,12 @@ static double touch_between(const bbm_model *m, int c, int e)
 double bbm_surface_depth(const bbm_model *m, int c, int e)
 {
     const int of[2] = { c, m->edge[c].before };
+    const double there = m->edge[m->edge[e].side].deep;
     double deep = 0;
 
     for (int k = 0; k < 2; k++)
         if (coincide(m, of[k], e))
-            deep = fmax(deep, fmax(m->edge[m->edge[of[k]].side].deep, m->edge[m->edge[e].side].deep));
+            deep = fmax(deep, fmax(m->edge[m->edge[of[k]].side].deep, there));
     return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
 }
 
@@ -333,8 +334,8 @@ static int faces_up(bbm_direction p, bbm_direction q)
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
  * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
  * the shorter side slides on the longer one. In statics, where nothing slides far, those of a side
- * more than twice as fine do: a coarse one would not feel it between its own points. Deviation: with `faces` = 0
- * corners alone touch, and a block of many elements sags between them. */
+ * more than twice as fine do: a coarse one would not feel it between its points. Deviation: with
+ * `faces` = 0 corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
@@ -391,7 +392,7 @@ static int rides(const bbm_model *m, pair p, const bbm_contact *list, int n, int
 }
 
 /* How well a pair stands for a closed contact of the last step: 3, its corner comes riding on a
- * block from which this one goes on; 2, it is that contact; 1, that was on the same side; else 0. */
+ * block from which this one goes on; 2, it is that contact; 1, that was on the same side; or 0. */
 static int heritage(const bbm_model *m, pair p)
 {
     if (rides(m, p, m->contact, m->contacts, m->edge[p.corner].contact))
@@ -741,8 +742,8 @@ void bbm_note_depths(bbm_model *m)
     }
 }
 
-/* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on as
- * r, with the forces of both. */
+/* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
+ * as r, with the forces of both. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);

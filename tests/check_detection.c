@@ -448,7 +448,7 @@ START_TEST(in_statics_the_grid_points_of_the_finer_side_touch)
     bbm_model *m = new_blocks();
 
     m->par.dt = _i ? INFINITY : m->par.dt;
-    add_rectangle(m, _i, BASE, (rectangle){ .x = -2, .y = -1, .w = 4, .h = 1, .nx = 16, .fixed = 1 });
+    add_rectangle(m, _i, BASE, (rectangle){ .x = -2, .y = -1, .w = 4, .h = 1, .nx = 16 });
     add_rectangle(m, !_i, ROCK, (rectangle){ .x = -0.45, .y = 0, .w = 0.9, .h = 1 });
     ck_ok(bbm_prepare(m), m);
     detect(m);
