@@ -64,7 +64,9 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
     int    side;                /* the first edge of the straight side that it belongs to       */
-    double span;                /* m        set in that first edge: the side's starting length  */
+    double span, spacing;       /* m        set in that first edge: the side's starting length, */
+                                /*          and the mean length of its edges                    */
+    double deep;                /* m        of closed contacts in its line, in that first edge  */
     bbm_direction along;        /* from a to b, at present                                      */
     int    contact, pair;       /* where those of the corner a begin: in model.contact, and in  */
                                 /* the list of pairs                                            */
@@ -261,11 +263,13 @@ int        bbm_moved_too_far(const bbm_model *m);
 bbm_status bbm_list_pairs(bbm_model *m, int *same);             /* and what carries over        */
 bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
 int        bbm_carries(const bbm_model *m, int corner, int edge);
+double     bbm_surface_depth(const bbm_model *m, int corner, int edge); /* of what rides, m     */
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
+int        bbm_is_at_corner(const bbm_model *m, const bbm_contact *c);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
 void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
 

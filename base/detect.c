@@ -37,11 +37,13 @@
  * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
  *                 projection closer to the end of an edge is at the end: rounding of a model file,
  *                 elastic strain
+ * LEVEL    [-]    a lip up to this, in the girth of the smaller block, is no step: elastic strain
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define BENT 0.1
 #define TOUCH 1e-6
+#define LEVEL 1e-5
 #define TIE 1e-9
 
 typedef struct bbm_pair { int corner, edge, dropped; } pair;    /* what may touch               */
@@ -122,15 +124,17 @@ static int goes_on(const bbm_model *m, int e)
 static void find_straight_sides(bbm_model *m)
 {
     for (int first = 0; first < m->edges; first++) {
-        int e = first;
+        int e = first, parts = 0;
         if (goes_on(m, first))
             continue;
         do {
             m->edge[e].side = first;
             e = m->edge[e].after;
+            parts++;
         } while (goes_on(m, e));
         const bbm_vertex *a = bbm_start_of(m, first), *b = bbm_start_of(m, e);
         m->edge[first].span = hypot(b->x - a->x, b->y - a->y);
+        m->edge[first].spacing = m->edge[first].span / parts;
     }
 }
 
@@ -258,6 +262,20 @@ static double touch_between(const bbm_model *m, int c, int e)
     return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
+/* How deep a corner that lies on an edge with one of its sides may be and still be at the surface:
+ * twice as deep as closed contacts in this line are, on either side, and a lip; else 0. */
+double bbm_surface_depth(const bbm_model *m, int c, int e)
+{
+    const int of[2] = { c, m->edge[c].before };
+    const double there = m->edge[m->edge[e].side].deep;
+    double deep = 0;
+
+    for (int k = 0; k < 2; k++)
+        if (coincide(m, of[k], e))
+            deep = fmax(deep, fmax(m->edge[m->edge[of[k]].side].deep, there));
+    return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
+}
+
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
  * the two blocks do. No corner enters from behind an edge. Where points move by T of the start of
  * the step, a corner may also have ended the last step inside, by as much as it moved. */
@@ -315,16 +333,33 @@ static int faces_up(bbm_direction p, bbm_direction q)
 
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
  * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
- * the shorter side slides on the longer one. Deviation: with `faces` = 0 corners alone touch, and a
- * block of many elements sags between them. */
+ * the shorter side slides on the longer one. In statics, where nothing slides far, those of a side
+ * more than twice as fine do: a coarse one would not feel it between its points. Deviation: with
+ * `faces` = 0 corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
-    const double mine = m->edge[m->edge[c].side].span, other = m->edge[m->edge[e].side].span;
+    const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
 
     if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
         return 0;
-    return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
+    const double ratio = mine->spacing / other->spacing;
+    if (bbm_is_static(m) && fmax(ratio, 1 / ratio) > 2)
+        return ratio < 1;
+    if (fabs(mine->span - other->span) > STRAIGHT * other->span)
+        return mine->span < other->span;
+    return faces_up(q, p);
+}
+
+/* Whether edge f of another block goes on in the line of edge e, where the corner is. */
+static int goes_on_in(const bbm_model *m, int corner, int e, int f)
+{
+    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
+    const projection on = project(m, corner, e);
+
+    return m->edge[e].block != m->edge[f].block && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
+        && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel
+        && fabs(on.d - project(m, corner, f).d) <= bbm_surface_depth(m, corner, f);
 }
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge - or, if
@@ -345,6 +380,26 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
     return found;
 }
 
+/* Whether a closed contact in a list, of n from the k-th on, has the corner on an edge from which
+ * this one goes on. */
+static int rides(const bbm_model *m, pair p, const bbm_contact *list, int n, int k)
+{
+    int found = 0;
+
+    for (; k < n && list[k].corner == p.corner; k++)
+        found |= list[k].state != BBM_OPEN && goes_on_in(m, p.corner, list[k].edge, p.edge);
+    return found;
+}
+
+/* How well a pair stands for a closed contact of the last step: 3, its corner comes riding on a
+ * block from which this one goes on; 2, it is that contact; 1, that was on the same side; or 0. */
+static int heritage(const bbm_model *m, pair p)
+{
+    if (rides(m, p, m->contact, m->contacts, m->edge[p.corner].contact))
+        return 3;
+    return find_closed(m, p.corner, p.edge, 0) ? 2 : find_closed(m, p.corner, p.edge, 1) != NULL;
+}
+
 /* Whether the corner may come to touch the edge in this step. A corner that is still outside may
  * turn before it does, as when a side falls flat on an edge. */
 static int may_touch(const bbm_model *m, int corner, int e)
@@ -361,7 +416,8 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, 1))
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep
+        && !heritage(m, (pair){ corner, e, 0 }))
         return 0;
     return find_closed(m, corner, e, 0)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -453,9 +509,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
-    const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
-    const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
-    return here != there ? there : !faces_up(t, u);
+    const int here = heritage(m, p), there = heritage(m, q);
+    return here != there ? there > here : !faces_up(t, u);
 }
 
 /* Drops the pairs that another one stands for; all are judged on the full list. */
@@ -599,12 +654,18 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
 }
 
 /* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
- * contacts are. */
+ * contacts are. Where closed contacts lie in the line: at which it is deeper than at the surface;
+ * more than 1 if it ends the step no deeper. One that was closed keeps its line. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    const double touch = touch_between(m, c->corner, c->edge);
+    const double surface = bbm_surface_depth(m, c->corner, c->edge);
+    const double above = c->d_n0 + surface;
 
-    return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
+    if (surface == 0)
+        return c->d_n0 <= touch_between(m, c->corner, c->edge) ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
+    if (c->was_closed)
+        return INFINITY;
+    return above <= 0 ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
 }
 
 /* Whether the corner, as it is turned at the end of the step, can enter there. */
@@ -628,9 +689,12 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
  * at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
+    const double deep = fmax(bbm_surface_depth(m, c->corner, c->edge),
+                             bbm_allowed_depth(m, c->corner, c->edge));
+
+    if (!c->was_closed && !c->inside && c->d_n0 < -deep)
         return 0;
-    return (c->was_closed || !c->beyond_end || is_on_edge(m, c, crossed_at(m, c))
+    return (c->was_closed || !c->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
             || is_on_edge(m, c, 1)) && enters_at_end(m, c);
 }
 
@@ -651,41 +715,85 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return r->d_n0 + crossed_at(m, c) * (r->d_n - r->d_n0) >= 0 && enters_at_end(m, r);
+        return r->d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->d_n0) >= 0
+            && enters_at_end(m, r);
     if (fabs(later) > TIE)
-        return later > 0 && admits(m, r);
+        return later > 0 && (crossed_at(m, r) > 1 ? enters_at_end(m, r) : admits(m, r));
     if (r->was_closed != c->was_closed)
         return r->was_closed && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
 }
 
-/* Whether an open contact, though crossed, may not close. */
+/* Whether an open contact, though crossed, may not close. At a joint of two blocks the next one has
+ * P when it has left the last. */
 int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 {
-    int blocked = !admits(m, c);
+    const bbm_contact_scratch *w = m->scratch;
+    const pair p = { c->corner, c->edge, 0 };
+    int blocked = !admits(m, c) || rides(m, p, w->contact, w->contacts, m->edge[c->corner].pair);
 
     for (int k = 0; k < 4 && !blocked; k++)
         blocked = c->entrance[k] >= 0 && counts(m, &m->scratch->contact[c->entrance[k]], c);
     return blocked;
 }
 
+/* Whether P crosses more than one line of a corner, so that one of them counts. */
+int bbm_is_at_corner(const bbm_model *m, const bbm_contact *c)
+{
+    int crossed = 0;
+
+    for (int k = 0; k < 4; k++)
+        crossed |= c->entrance[k] >= 0 && m->scratch->contact[c->entrance[k]].d_n < 0;
+    return crossed && c->state == BBM_OPEN;
+}
+
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* How deep the blocks are in the solution in hand: the depth of a contact that is closed, or open
- * inside after a hit, counts for both. */
+/* How deep the blocks are in the solution in hand, and the sides that lie in the line of a contact:
+ * the depth of a contact that is closed, or open inside after a hit, counts for both. */
 void bbm_note_depths(bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth_now = w->reach[i].depth;
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].deep = 0;
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const int in_line[3] = { c->edge, c->corner, m->edge[c->corner].before };
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
         const double inside = c->hit && (c->was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
         const double depth = c->state == BBM_OPEN ? inside : fabs(c->d_n);
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
+        for (int k = 0; k < 3; k++) {
+            double *deep = &m->edge[m->edge[in_line[k]].side].deep;
+            if (coincide(m, in_line[k], c->edge))
+                *deep = fmax(*deep, c->was_closed ? fmax(depth, -c->d_n0) : depth);
+        }
     }
+}
+
+/* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
+ * as r, with the forces of both. */
+static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
+{
+    const double touch = touch_between(m, c->corner, c->edge);
+    const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
+    const bbm_contact next = *r;
+
+    if (c->state == BBM_OPEN || f.beyond <= touch || g.beyond > touch
+        || !goes_on_in(m, c->corner, c->edge, r->edge))
+        return;
+    *r = *c;
+    r->edge = next.edge;
+    r->N += next.N;
+    r->T += next.T;
+    r->d_n = g.d;
+    r->rest = bbm_motion_of(m) ? fmin(0, g.d + r->N / m->par.p_n) : 0;
+    r->time_left = 0;                                       /* the anchor is placed anew        */
+    c->state = BBM_OPEN;
+    c->N = c->T = c->slip = c->was_closed = c->inside = 0;
 }
 
 /* The list of the step becomes that of the model, which has moved. */
@@ -696,6 +804,10 @@ void bbm_keep_contacts(bbm_model *m)
     const int last_contacts = m->contacts;
 
     find_directions(m);
+    for (bbm_contact *c = w->contact, *end = c + w->contacts; c < end; c++)
+        for (bbm_contact *r = &w->contact[m->edge[c->corner].pair];
+             r < end && r->corner == c->corner; r++)
+            hand_over(m, c, r);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = 0;
     bbm_note_depths(m);
