@@ -263,7 +263,6 @@ int        bbm_moved_too_far(const bbm_model *m);
 bbm_status bbm_list_pairs(bbm_model *m, int *same);             /* and what carries over        */
 bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
 int        bbm_carries(const bbm_model *m, int corner, int edge);
-double     bbm_surface_depth(const bbm_model *m, int corner, int edge); /* of what rides, m     */
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */

@@ -264,7 +264,7 @@ static double touch_between(const bbm_model *m, int c, int e)
 
 /* How deep a corner that lies on an edge with one of its sides may be and still be at the surface:
  * twice as deep as closed contacts in this line are, on either side, and a lip; else 0. */
-double bbm_surface_depth(const bbm_model *m, int c, int e)
+static double surface_depth(const bbm_model *m, int c, int e)
 {
     const int of[2] = { c, m->edge[c].before };
     const double there = m->edge[m->edge[e].side].deep;
@@ -277,14 +277,15 @@ double bbm_surface_depth(const bbm_model *m, int c, int e)
 }
 
 /* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
- * the two blocks do. No corner enters from behind an edge. Where points move by T of the start of
+ * the two blocks do, or at the surface. No corner enters from behind an edge. Where points move by T of the start of
  * the step, a corner may also have ended the last step inside, by as much as it moved. */
 double bbm_allowed_depth(const bbm_model *m, int c, int e)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
     const double way = bbm_motion_of(m) ? 0 : i->travel + j->travel;
 
-    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e) + way;
+    return fmax(2 * fmin(i->depth, j->depth), surface_depth(m, c, e)) + touch_between(m, c, e)
+         + way;
 }
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
@@ -359,7 +360,7 @@ static int goes_on_in(const bbm_model *m, int corner, int e, int f)
 
     return m->edge[e].block != m->edge[f].block && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
         && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel
-        && fabs(on.d - project(m, corner, f).d) <= bbm_surface_depth(m, corner, f);
+        && fabs(on.d - project(m, corner, f).d) <= surface_depth(m, corner, f);
 }
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge - or, if
@@ -416,8 +417,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep
-        && !heritage(m, (pair){ corner, e, 0 }))
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, 1))
         return 0;
     return find_closed(m, corner, e, 0)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -658,7 +658,7 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
  * more than 1 if it ends the step no deeper. One that was closed keeps its line. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    const double surface = bbm_surface_depth(m, c->corner, c->edge);
+    const double surface = surface_depth(m, c->corner, c->edge);
     const double above = c->d_n0 + surface;
 
     if (surface == 0)
@@ -689,10 +689,7 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
  * at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    const double deep = fmax(bbm_surface_depth(m, c->corner, c->edge),
-                             bbm_allowed_depth(m, c->corner, c->edge));
-
-    if (!c->was_closed && !c->inside && c->d_n0 < -deep)
+    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
     return (c->was_closed || !c->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
             || is_on_edge(m, c, 1)) && enters_at_end(m, c);

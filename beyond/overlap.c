@@ -269,7 +269,7 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
         return 0;
     const double depth = depth_in_block(m, (point){ P->x, P->y }, edge,
                                         bbm_allowed_depth(m, corner, edge), nearest);
-    return depth <= bbm_surface_depth(m, corner, *nearest) ? 0 : depth;
+    return depth > bbm_allowed_depth(m, corner, *nearest) ? depth : 0;
 }
 
 /* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.
