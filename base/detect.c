@@ -276,16 +276,21 @@ static double surface_depth(const bbm_model *m, int c, int e)
     return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
 }
 
-/* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
- * the two blocks do, or at the surface. No corner enters from behind an edge. Where points move by T of the start of
- * the step, a corner may also have ended the last step inside, by as much as it moved. */
-double bbm_allowed_depth(const bbm_model *m, int c, int e)
+/* How deep a vertex that comes to an edge may lie behind it at the start of a step: as deep as
+ * closed contacts of the two blocks do. Where points move by T of the start of the step, a corner
+ * may also have ended the last step inside, by as much as it moved. */
+static double start_depth(const bbm_model *m, int c, int e)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
     const double way = bbm_motion_of(m) ? 0 : i->travel + j->travel;
 
-    return fmax(2 * fmin(i->depth, j->depth), surface_depth(m, c, e)) + touch_between(m, c, e)
-         + way;
+    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e) + way;
+}
+
+/* The same, or at the surface. Deeper no corner comes in: it would from behind the edge. */
+double bbm_allowed_depth(const bbm_model *m, int c, int e)
+{
+    return fmax(start_depth(m, c, e), surface_depth(m, c, e));
 }
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
@@ -408,7 +413,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const reach *of = m->scratch->reach;
     const double turns = of[bbm_element_of(m, corner)].turn + of[bbm_element_of(m, e)].turn;
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
-    const double deep = bbm_allowed_depth(m, corner, e);
+    const double deep = start_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
     if (m->edge[e].block == m->edge[corner].block)
@@ -417,7 +422,8 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, 1))
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep
+        && !heritage(m, (pair){ corner, e, 0 }))
         return 0;
     return find_closed(m, corner, e, 0)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -801,15 +807,15 @@ void bbm_keep_contacts(bbm_model *m)
     const int last_contacts = m->contacts;
 
     find_directions(m);
-    for (bbm_contact *c = w->contact, *end = c + w->contacts; c < end; c++)
-        for (bbm_contact *r = &w->contact[m->edge[c->corner].pair];
-             r < end && r->corner == c->corner; r++)
-            hand_over(m, c, r);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = 0;
     bbm_note_depths(m);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = w->reach[i].depth_now;
+    for (bbm_contact *c = w->contact, *end = c + w->contacts; c < end; c++)
+        for (bbm_contact *r = &w->contact[m->edge[c->corner].pair];
+             r < end && r->corner == c->corner; r++)
+            hand_over(m, c, r);
     m->contact = w->contact;
     m->contacts = w->contacts;
     w->contact = last;
