@@ -268,7 +268,6 @@ double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1
 double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
-int        bbm_is_at_corner(const bbm_model *m, const bbm_contact *c);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
 void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
 

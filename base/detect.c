@@ -282,9 +282,9 @@ static double surface_depth(const bbm_model *m, int c, int e)
 static double start_depth(const bbm_model *m, int c, int e)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
-    const double way = bbm_motion_of(m) ? 0 : i->travel + j->travel;
 
-    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e) + way;
+    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e)
+         + (bbm_motion_of(m) ? 0 : i->travel + j->travel);
 }
 
 /* The same, or at the surface. Deeper no corner comes in: it would from behind the edge. */
@@ -352,9 +352,8 @@ int bbm_carries(const bbm_model *m, int c, int e)
     const double ratio = mine->spacing / other->spacing;
     if (bbm_is_static(m) && fmax(ratio, 1 / ratio) > 2)
         return ratio < 1;
-    if (fabs(mine->span - other->span) > STRAIGHT * other->span)
-        return mine->span < other->span;
-    return faces_up(q, p);
+    return fabs(mine->span - other->span) > STRAIGHT * other->span ? mine->span < other->span
+                                                                   : faces_up(q, p);
 }
 
 /* Whether edge f of another block goes on in the line of edge e, where the corner is. */
@@ -368,9 +367,13 @@ static int goes_on_in(const bbm_model *m, int corner, int e, int f)
         && fabs(on.d - project(m, corner, f).d) <= surface_depth(m, corner, f);
 }
 
-/* The contact of the last step, closed or open inside, between `corner` and the edge - or, if
- * `all`, another one of its straight side - or NULL. */
-static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
+/* Edges that may stand for one: itself; those of its straight side; and those of other blocks that
+ * it goes on from. */
+typedef enum { ITSELF, SIDE, LINE } family;
+
+/* The contact of the last step, closed or open inside, between `corner` and the edge, or else
+ * another one of the edge's family, or NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, family of)
 {
     const bbm_contact *found = NULL;
 
@@ -380,30 +383,11 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
             continue;
         if (c->edge == edge)
             return c;
-        if (all && m->edge[c->edge].side == m->edge[edge].side)
+        if ((of >= SIDE && m->edge[c->edge].side == m->edge[edge].side)
+            || (of == LINE && goes_on_in(m, corner, c->edge, edge)))
             found = c;
     }
     return found;
-}
-
-/* Whether a closed contact in a list, of n from the k-th on, has the corner on an edge from which
- * this one goes on. */
-static int rides(const bbm_model *m, pair p, const bbm_contact *list, int n, int k)
-{
-    int found = 0;
-
-    for (; k < n && list[k].corner == p.corner; k++)
-        found |= list[k].state != BBM_OPEN && goes_on_in(m, p.corner, list[k].edge, p.edge);
-    return found;
-}
-
-/* How well a pair stands for a closed contact of the last step: 3, its corner comes riding on a
- * block from which this one goes on; 2, it is that contact; 1, that was on the same side; or 0. */
-static int heritage(const bbm_model *m, pair p)
-{
-    if (rides(m, p, m->contact, m->contacts, m->edge[p.corner].contact))
-        return 3;
-    return find_closed(m, p.corner, p.edge, 0) ? 2 : find_closed(m, p.corner, p.edge, 1) != NULL;
 }
 
 /* Whether the corner may come to touch the edge in this step. A corner that is still outside may
@@ -416,16 +400,14 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const double deep = start_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
-    if (m->edge[e].block == m->edge[corner].block)
-        return 0;
-    if (!is_corner(m, corner) && !bbm_carries(m, corner, e))
+    if (m->edge[e].block == m->edge[corner].block
+        || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep)
         return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep
-        && !heritage(m, (pair){ corner, e, 0 }))
+    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, LINE))
         return 0;
-    return find_closed(m, corner, e, 0)
+    return find_closed(m, corner, e, ITSELF)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
 }
 
@@ -515,8 +497,9 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
-    const int here = heritage(m, p), there = heritage(m, q);
-    return here != there ? there > here : !faces_up(t, u);
+    const int here = find_closed(m, p.corner, p.edge, ITSELF) != NULL;
+    const int there = find_closed(m, q.corner, q.edge, ITSELF) != NULL;
+    return here != there ? there : !faces_up(t, u);
 }
 
 /* Drops the pairs that another one stands for; all are judged on the full list. */
@@ -553,12 +536,12 @@ static int find_entrance(const bbm_model *m, pair p, int end, meeting kind)
  * if it is no longer in the list. */
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
-    const bbm_contact *old = find_closed(m, p.corner, p.edge, 1);
+    const bbm_contact *old = find_closed(m, p.corner, p.edge, SIDE);
 
     for (int k = 0; k < 4 && !old; k++) {
         const pair q = meet(m, p, k / 2, k == 0 || k == 3 ? FLUSH : OTHER);
         if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
-            old = find_closed(m, q.corner, q.edge, 0);
+            old = find_closed(m, q.corner, q.edge, ITSELF);
     }
     return old;
 }
@@ -661,17 +644,14 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
 
 /* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
  * contacts are. Where closed contacts lie in the line: at which it is deeper than at the surface;
- * more than 1 if it ends the step no deeper. One that was closed keeps its line. */
+ * more than 1 if it ends the step no deeper. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    const double surface = surface_depth(m, c->corner, c->edge);
-    const double above = c->d_n0 + surface;
+    const double above = c->d_n0 + surface_depth(m, c->corner, c->edge);
 
-    if (surface == 0)
-        return c->d_n0 <= touch_between(m, c->corner, c->edge) ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
-    if (c->was_closed)
-        return INFINITY;
-    return above <= 0 ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
+    if (above <= touch_between(m, c->corner, c->edge))
+        return 0;
+    return c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
 }
 
 /* Whether the corner, as it is turned at the end of the step, can enter there. */
@@ -720,34 +700,19 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->d_n >= 0)
         return r->d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->d_n0) >= 0
             && enters_at_end(m, r);
-    if (fabs(later) > TIE)
-        return later > 0 && (crossed_at(m, r) > 1 ? enters_at_end(m, r) : admits(m, r));
-    if (r->was_closed != c->was_closed)
-        return r->was_closed && admits(m, r);
+    if (fabs(later) > TIE || r->was_closed != c->was_closed)
+        return (fabs(later) > TIE ? later > 0 : r->was_closed) && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
 }
 
-/* Whether an open contact, though crossed, may not close. At a joint of two blocks the next one has
- * P when it has left the last. */
+/* Whether an open contact, though crossed, may not close. */
 int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_contact_scratch *w = m->scratch;
-    const pair p = { c->corner, c->edge, 0 };
-    int blocked = !admits(m, c) || rides(m, p, w->contact, w->contacts, m->edge[c->corner].pair);
+    int blocked = !admits(m, c);
 
     for (int k = 0; k < 4 && !blocked; k++)
         blocked = c->entrance[k] >= 0 && counts(m, &m->scratch->contact[c->entrance[k]], c);
     return blocked;
-}
-
-/* Whether P crosses more than one line of a corner, so that one of them counts. */
-int bbm_is_at_corner(const bbm_model *m, const bbm_contact *c)
-{
-    int crossed = 0;
-
-    for (int k = 0; k < 4; k++)
-        crossed |= c->entrance[k] >= 0 && m->scratch->contact[c->entrance[k]].d_n < 0;
-    return crossed && c->state == BBM_OPEN;
 }
 
 /* ------------------------------------------------------------------------------ end of the step */
@@ -763,35 +728,31 @@ void bbm_note_depths(bbm_model *m)
     for (int e = 0; e < m->edges; e++)
         m->edge[e].deep = 0;
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
-        const int in_line[3] = { c->edge, c->corner, m->edge[c->corner].before };
+        const int of[3] = { c->edge, c->corner, m->edge[c->corner].before };
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
         const double inside = c->hit && (c->was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
         const double depth = c->state == BBM_OPEN ? inside : fabs(c->d_n);
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
-        for (int k = 0; k < 3; k++) {
-            double *deep = &m->edge[m->edge[in_line[k]].side].deep;
-            if (coincide(m, in_line[k], c->edge))
-                *deep = fmax(*deep, c->was_closed ? fmax(depth, -c->d_n0) : depth);
-        }
+        for (int k = 0; k < 3; k++)
+            if (coincide(m, of[k], c->edge))
+                m->edge[m->edge[of[k]].side].deep = fmax(m->edge[m->edge[of[k]].side].deep, depth);
     }
 }
 
 /* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
- * as r, with the forces of both. */
+ * as r, with its forces. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
-    const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
-    const bbm_contact next = *r;
+    const projection g = project(m, c->corner, r->edge);
+    const int edge = r->edge;
 
-    if (c->state == BBM_OPEN || f.beyond <= touch || g.beyond > touch
-        || !goes_on_in(m, c->corner, c->edge, r->edge))
+    if (c->state == BBM_OPEN || project(m, c->corner, c->edge).beyond <= touch || g.beyond > touch
+        || !goes_on_in(m, c->corner, c->edge, edge))
         return;
     *r = *c;
-    r->edge = next.edge;
-    r->N += next.N;
-    r->T += next.T;
+    r->edge = edge;
     r->d_n = g.d;
     r->rest = bbm_motion_of(m) ? fmin(0, g.d + r->N / m->par.p_n) : 0;
     r->time_left = 0;                                       /* the anchor is placed anew        */
