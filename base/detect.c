@@ -403,9 +403,8 @@ static int may_touch(const bbm_model *m, int corner, int e)
     if (m->edge[e].block == m->edge[corner].block
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (fmax(fabs(f.d), f.beyond) > approach + deep)
-        return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, LINE))
+    if (fmax(fabs(f.d), f.beyond) > approach + deep || (f.beyond <= touch_between(m, corner, e)
+        && f.d < -deep && !find_closed(m, corner, e, LINE)))
         return 0;
     return find_closed(m, corner, e, ITSELF)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -648,10 +647,9 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
     const double above = c->d_n0 + surface_depth(m, c->corner, c->edge);
+    const double touch = touch_between(m, c->corner, c->edge);
 
-    if (above <= touch_between(m, c->corner, c->edge))
-        return 0;
-    return c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
+    return above <= touch ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
 }
 
 /* Whether the corner, as it is turned at the end of the step, can enter there. */
