@@ -467,24 +467,36 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Changes all states that do not fit the solution, or only the one that fits worst. The worst
- * is the same in any order of the blocks, but for a tie. Returns the number of changes. */
+/* Whether P crosses more than one line of a corner, so that one of them counts. */
+static int is_at_corner(const bbm_model *m, const bbm_contact *c)
+{
+    int crossed = 0;
+
+    for (int k = 0; k < 4; k++)
+        crossed |= c->entrance[k] >= 0 && m->scratch->contact[c->entrance[k]].d_n < 0;
+    return crossed && c->state == BBM_OPEN;
+}
+
+/* Changes all states that do not fit the solution, or only the one that fits worst. Where P crosses
+ * lines of a corner it waits until all else fits: what holds it changes its way. The worst is the
+ * same in any order of the blocks, but for a tie. Returns the number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
     const int one = w->passes < w->one_until;
     bbm_contact *worst = NULL;
-    int changes = 0;
+    int changes = 0, sure = 0;
 
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
         c->next_state = find_next_state(m, c);
         if (c->next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
             worst = c;
+        sure |= c->next_state != c->state && !is_at_corner(m, c);
     }
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        if (c->next_state == c->state || (one && c != worst))
+        if (c->next_state == c->state || (one ? c != worst : sure && is_at_corner(m, c)))
             continue;
         change_state(m, c);
         changes++;

@@ -64,7 +64,9 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
     int    side;                /* the first edge of the straight side that it belongs to       */
-    double span;                /* m        set in that first edge: the side's starting length  */
+    double span, spacing;       /* m        set in that first edge: the side's starting length, */
+                                /*          and the mean length of its edges                    */
+    double deep;                /* m        of closed contacts in its line, in that first edge  */
     bbm_direction along;        /* from a to b, at present                                      */
     int    contact, pair;       /* where those of the corner a begin: in model.contact, and in  */
                                 /* the list of pairs                                            */

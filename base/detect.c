@@ -37,11 +37,13 @@
  * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
  *                 projection closer to the end of an edge is at the end: rounding of a model file,
  *                 elastic strain
+ * LEVEL    [-]    a lip up to this, in the girth of the smaller block, is no step: elastic strain
  * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define BENT 0.1
 #define TOUCH 1e-6
+#define LEVEL 1e-5
 #define TIE 1e-9
 
 typedef struct bbm_pair { int corner, edge, dropped; } pair;    /* what may touch               */
@@ -122,15 +124,17 @@ static int goes_on(const bbm_model *m, int e)
 static void find_straight_sides(bbm_model *m)
 {
     for (int first = 0; first < m->edges; first++) {
-        int e = first;
+        int e = first, parts = 0;
         if (goes_on(m, first))
             continue;
         do {
             m->edge[e].side = first;
             e = m->edge[e].after;
+            parts++;
         } while (goes_on(m, e));
         const bbm_vertex *a = bbm_start_of(m, first), *b = bbm_start_of(m, e);
         m->edge[first].span = hypot(b->x - a->x, b->y - a->y);
+        m->edge[first].spacing = m->edge[first].span / parts;
     }
 }
 
@@ -258,15 +262,35 @@ static double touch_between(const bbm_model *m, int c, int e)
     return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
-/* How deep a vertex may lie behind an edge at the start of a step: as deep as closed contacts of
- * the two blocks do. No corner enters from behind an edge. Where points move by T of the start of
- * the step, a corner may also have ended the last step inside, by as much as it moved. */
-double bbm_allowed_depth(const bbm_model *m, int c, int e)
+/* How deep a corner that lies on an edge with one of its sides may be and still be at the surface:
+ * twice as deep as closed contacts in this line are, on either side, and a lip; else 0. */
+static double surface_depth(const bbm_model *m, int c, int e)
+{
+    const int of[2] = { c, m->edge[c].before };
+    const double there = m->edge[m->edge[e].side].deep;
+    double deep = 0;
+
+    for (int k = 0; k < 2; k++)
+        if (coincide(m, of[k], e))
+            deep = fmax(deep, fmax(m->edge[m->edge[of[k]].side].deep, there));
+    return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
+}
+
+/* How deep a vertex that comes to an edge may lie behind it at the start of a step: as deep as
+ * closed contacts of the two blocks do. Where points move by T of the start of the step, a corner
+ * may also have ended the last step inside, by as much as it moved. */
+static double start_depth(const bbm_model *m, int c, int e)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
-    const double way = bbm_motion_of(m) ? 0 : i->travel + j->travel;
 
-    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e) + way;
+    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e)
+         + (bbm_motion_of(m) ? 0 : i->travel + j->travel);
+}
+
+/* The same, or at the surface. Deeper no corner comes in: it would from behind the edge. */
+double bbm_allowed_depth(const bbm_model *m, int c, int e)
+{
+    return fmax(start_depth(m, c, e), surface_depth(m, c, e));
 }
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
@@ -315,21 +339,41 @@ static int faces_up(bbm_direction p, bbm_direction q)
 
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
  * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
- * the shorter side slides on the longer one. Deviation: with `faces` = 0 corners alone touch, and a
- * block of many elements sags between them. */
+ * the shorter side slides on the longer one. In statics, where nothing slides far, those of a side
+ * more than twice as fine do: a coarse one would not feel it between its points. Deviation: with
+ * `faces` = 0 corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
-    const double mine = m->edge[m->edge[c].side].span, other = m->edge[m->edge[e].side].span;
+    const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
 
     if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
         return 0;
-    return fabs(mine - other) > STRAIGHT * other ? mine < other : faces_up(q, p);
+    const double ratio = mine->spacing / other->spacing;
+    if (bbm_is_static(m) && fmax(ratio, 1 / ratio) > 2)
+        return ratio < 1;
+    return fabs(mine->span - other->span) > STRAIGHT * other->span ? mine->span < other->span
+                                                                   : faces_up(q, p);
 }
 
-/* The contact of the last step, closed or open inside, between `corner` and the edge - or, if
- * `all`, another one of its straight side - or NULL. */
-static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, int all)
+/* Whether edge f of another block goes on in the line of edge e, where the corner is. */
+static int goes_on_in(const bbm_model *m, int corner, int e, int f)
+{
+    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
+    const projection on = project(m, corner, e);
+
+    return m->edge[e].block != m->edge[f].block && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
+        && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel
+        && fabs(on.d - project(m, corner, f).d) <= surface_depth(m, corner, f);
+}
+
+/* Edges that may stand for one: itself; those of its straight side; and those of other blocks that
+ * it goes on from. */
+typedef enum { ITSELF, SIDE, LINE } family;
+
+/* The contact of the last step, closed or open inside, between `corner` and the edge, or else
+ * another one of the edge's family, or NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, family of)
 {
     const bbm_contact *found = NULL;
 
@@ -339,7 +383,8 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
             continue;
         if (c->edge == edge)
             return c;
-        if (all && m->edge[c->edge].side == m->edge[edge].side)
+        if ((of >= SIDE && m->edge[c->edge].side == m->edge[edge].side)
+            || (of == LINE && goes_on_in(m, corner, c->edge, edge)))
             found = c;
     }
     return found;
@@ -352,18 +397,16 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const reach *of = m->scratch->reach;
     const double turns = of[bbm_element_of(m, corner)].turn + of[bbm_element_of(m, e)].turn;
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
-    const double deep = bbm_allowed_depth(m, corner, e);
+    const double deep = start_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
-    if (m->edge[e].block == m->edge[corner].block)
+    if (m->edge[e].block == m->edge[corner].block
+        || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (!is_corner(m, corner) && !bbm_carries(m, corner, e))
+    if (fmax(fabs(f.d), f.beyond) > approach + deep || (f.beyond <= touch_between(m, corner, e)
+        && f.d < -deep && !find_closed(m, corner, e, LINE)))
         return 0;
-    if (fmax(fabs(f.d), f.beyond) > approach + deep)
-        return 0;
-    if (f.beyond <= touch_between(m, corner, e) && f.d < -deep && !find_closed(m, corner, e, 1))
-        return 0;
-    return find_closed(m, corner, e, 0)
+    return find_closed(m, corner, e, ITSELF)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
 }
 
@@ -453,8 +496,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
-    const int here = find_closed(m, p.corner, p.edge, 0) != NULL;
-    const int there = find_closed(m, q.corner, q.edge, 0) != NULL;
+    const int here = find_closed(m, p.corner, p.edge, ITSELF) != NULL;
+    const int there = find_closed(m, q.corner, q.edge, ITSELF) != NULL;
     return here != there ? there : !faces_up(t, u);
 }
 
@@ -492,12 +535,12 @@ static int find_entrance(const bbm_model *m, pair p, int end, meeting kind)
  * if it is no longer in the list. */
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
-    const bbm_contact *old = find_closed(m, p.corner, p.edge, 1);
+    const bbm_contact *old = find_closed(m, p.corner, p.edge, SIDE);
 
     for (int k = 0; k < 4 && !old; k++) {
         const pair q = meet(m, p, k / 2, k == 0 || k == 3 ? FLUSH : OTHER);
         if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
-            old = find_closed(m, q.corner, q.edge, 0);
+            old = find_closed(m, q.corner, q.edge, ITSELF);
     }
     return old;
 }
@@ -599,12 +642,14 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
 }
 
 /* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
- * contacts are. */
+ * contacts are. Where closed contacts lie in the line: at which it is deeper than at the surface;
+ * more than 1 if it ends the step no deeper. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
+    const double above = c->d_n0 + surface_depth(m, c->corner, c->edge);
     const double touch = touch_between(m, c->corner, c->edge);
 
-    return c->d_n0 <= touch ? 0 : c->d_n0 / (c->d_n0 - c->d_n);
+    return above <= touch ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
 }
 
 /* Whether the corner, as it is turned at the end of the step, can enter there. */
@@ -630,7 +675,7 @@ static int admits(const bbm_model *m, const bbm_contact *c)
 {
     if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
-    return (c->was_closed || !c->beyond_end || is_on_edge(m, c, crossed_at(m, c))
+    return (c->was_closed || !c->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
             || is_on_edge(m, c, 1)) && enters_at_end(m, c);
 }
 
@@ -651,11 +696,10 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return r->d_n0 + crossed_at(m, c) * (r->d_n - r->d_n0) >= 0 && enters_at_end(m, r);
-    if (fabs(later) > TIE)
-        return later > 0 && admits(m, r);
-    if (r->was_closed != c->was_closed)
-        return r->was_closed && admits(m, r);
+        return r->d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->d_n0) >= 0
+            && enters_at_end(m, r);
+    if (fabs(later) > TIE || r->was_closed != c->was_closed)
+        return (fabs(later) > TIE ? later > 0 : r->was_closed) && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
 }
 
@@ -671,21 +715,47 @@ int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* How deep the blocks are in the solution in hand: the depth of a contact that is closed, or open
- * inside after a hit, counts for both. */
+/* How deep the blocks are in the solution in hand, and the sides that lie in the line of a contact:
+ * the depth of a contact that is closed, or open inside after a hit, counts for both. */
 void bbm_note_depths(bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
 
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth_now = w->reach[i].depth;
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].deep = 0;
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const int of[3] = { c->edge, c->corner, m->edge[c->corner].before };
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
         const double inside = c->hit && (c->was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
         const double depth = c->state == BBM_OPEN ? inside : fabs(c->d_n);
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
+        for (int k = 0; k < 3; k++)
+            if (coincide(m, of[k], c->edge))
+                m->edge[m->edge[of[k]].side].deep = fmax(m->edge[m->edge[of[k]].side].deep, depth);
     }
+}
+
+/* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
+ * as r, with its forces. */
+static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
+{
+    const double touch = touch_between(m, c->corner, c->edge);
+    const projection g = project(m, c->corner, r->edge);
+    const int edge = r->edge;
+
+    if (c->state == BBM_OPEN || project(m, c->corner, c->edge).beyond <= touch || g.beyond > touch
+        || !goes_on_in(m, c->corner, c->edge, edge))
+        return;
+    *r = *c;
+    r->edge = edge;
+    r->d_n = g.d;
+    r->rest = bbm_motion_of(m) ? fmin(0, g.d + r->N / m->par.p_n) : 0;
+    r->time_left = 0;                                       /* the anchor is placed anew        */
+    c->state = BBM_OPEN;
+    c->N = c->T = c->slip = c->was_closed = c->inside = 0;
 }
 
 /* The list of the step becomes that of the model, which has moved. */
@@ -701,6 +771,10 @@ void bbm_keep_contacts(bbm_model *m)
     bbm_note_depths(m);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = w->reach[i].depth_now;
+    for (bbm_contact *c = w->contact, *end = c + w->contacts; c < end; c++)
+        for (bbm_contact *r = &w->contact[m->edge[c->corner].pair];
+             r < end && r->corner == c->corner; r++)
+            hand_over(m, c, r);
     m->contact = w->contact;
     m->contacts = w->contacts;
     w->contact = last;

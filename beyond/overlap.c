@@ -267,8 +267,9 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
         return 0;
     if (x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
         return 0;
-    return depth_in_block(m, (point){ P->x, P->y }, edge, bbm_allowed_depth(m, corner, edge),
-                          nearest);
+    const double depth = depth_in_block(m, (point){ P->x, P->y }, edge,
+                                        bbm_allowed_depth(m, corner, edge), nearest);
+    return depth > bbm_allowed_depth(m, corner, *nearest) ? depth : 0;
 }
 
 /* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.

@@ -421,6 +421,22 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_upper_one_touch)
 }
 END_TEST
 
+/* A coarse block of 0.9 m on a base with a grid point each 25 cm: three of them touch between its
+ * corners, in statics; else its corners alone. */
+START_TEST(in_statics_the_grid_points_of_the_finer_side_touch)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.dt = _i ? INFINITY : m->par.dt;
+    add_rectangle(m, _i, BASE, (rectangle){ .x = -2, .y = -1, .w = 4, .h = 1, .nx = 16 });
+    add_rectangle(m, !_i, ROCK, (rectangle){ .x = -0.45, .y = 0, .w = 0.9, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    detect(m);
+    ck_assert_int_eq(m->contacts, _i ? 5 : 2);
+    bbm_model_free(m);
+}
+END_TEST
+
 /* The side of one block in pieces, and in the middle of it the shorter side of another one in
  * pieces: the grid points of the shorter side touch, wherever the two are, of whatever size,
  * whichever is the upper one. */
@@ -767,6 +783,7 @@ Suite *detection_suite(void)
     };
     const loop_test grid_points[] = {
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
+        { in_statics_the_grid_points_of_the_finer_side_touch, 2 },
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
         { of_two_sides_the_grid_points_of_the_shorter_one_touch, 2 },
         { rounding_in_a_model_file_does_not_undo_a_contact, 4 },

@@ -536,6 +536,73 @@ START_TEST(a_block_on_very_stiff_springs_rests_on_a_slope)
 }
 END_TEST
 
+/* ------------------------------------------------------------------------------ joints of slabs */
+
+typedef struct {                /* slabs side by side, in a frame turned by `turn` [degree]       */
+    int slabs, mesh;            /* how many; elements along each, and twice as many in the slider */
+    double length, gap, lip;    /* m        of a slab; between them; of each second one           */
+    double turn, slope, friction, start, v, dt, time;
+} pavement;
+
+/* How far a slider of 0.35 x 0.2 m goes on it, or on one long slab. */
+static double slide_over(const pavement *p, int one)
+{
+    const double a = radians(p->turn), down = radians(p->turn + p->slope), l = p->length + p->gap;
+    const int slabs = one ? 1 : p->slabs, mesh = p->mesh ? p->mesh : 1;
+    bbm_model *m = new_blocks();
+
+    m->par.dt = p->dt;
+    m->par.friction = p->friction;
+    m->par.gravity[0] = GRAVITY * sin(down);
+    m->par.gravity[1] = -GRAVITY * cos(down);
+    for (int k = 0; k < slabs; k++)
+        add_rectangle(m, k, BASE, (rectangle){ k * l, -0.2 + k % 2 * p->lip, one ? p->slabs * l
+                      : p->length, 0.2, p->turn, mesh * (one ? p->slabs : 1), 1, 1 });
+    const int e = add_rectangle(m, slabs, ROCK, (rectangle){ p->start, 0, 0.35, 0.2, p->turn,
+                                                             p->mesh ? 2 * mesh : 1, 1, 0 });
+    ck_ok(bbm_prepare(m), m);
+    for (int k = e; k < m->elements; k++)
+        set_velocity(m, k, p->v * cos(a), p->v * sin(a));
+    run_steps(m, (int)(p->time / p->dt + 0.5));
+    const double way = m->element[e].sum[0] * cos(a) + m->element[e].sum[1] * sin(a);
+    bbm_model_free(m);
+    return way;
+}
+
+/* Two slabs; rows of short ones, shorter than a step; gaps and lips; in the first step; on slopes,
+ * in turned frames; meshes. */
+static const pavement PAVEMENTS[] = {
+    { 2, 0, 1.0, 0, 0, 0, 0, 0, 0.033, 1, 0.001, 1.2 },
+    { 2, 0, 1.0, 0, 0, 0, 0, 0, 0.6, 5, 0.01, 0.15 },
+    { 2, 0, 1.0, 0, 0, 90, 0, 0, 0.65, 1e-3, 0.001, 0.2 },
+    { 2, 0, 1.0, 0, 0, 301, 25, 20, 0.65, 1e-3, 0.001, 0.4 },
+    { 2, 0, 1.0, 0, 1e-6, 45, 10, 0, 0.4, 0.5, 0.003, 0.6 },
+    { 2, 0, 1.0, 1e-2, 0, 0, 0, 20, 0.4, 3, 0.001, 0.4 },
+    { 40, 0, 0.0137, 0, 0, 133, 0, 30, 0.05, 2, 0.001, 0.05 },
+    { 110, 0, 0.004, 0, 0, 0, 0, 0, 0.005, 1, 0.01, 0.07 },
+    { 10, 0, 0.1, 1e-2, 0, 17, 5, 0, 0.05, 2, 0.001, 0.3 },
+    { 3, 4, 0.4, 0, 0, 0, 0, 10, 0.01, 2, 0.001, 0.35 },
+};
+
+START_TEST(a_block_slides_over_the_joints_of_slabs_as_over_one_slab)
+{
+    const pavement *p = &PAVEMENTS[_i];
+    const double one = slide_over(p, 1);
+
+    /* A micrometre: the slider tilts by as much, where a lip lifts it. */
+    ck_near(slide_over(p, 0), one, 1, 1e-6);
+}
+END_TEST
+
+/* A step of 1 mm: the slider goes 0.2 m to it, and no further. */
+START_TEST(a_step_between_two_slabs_stops_a_block)
+{
+    const pavement p = { 2, 0, 1, 0, 1e-3, _i * 77, 0, 0, 0.45, 1, _i % 2 ? 0.01 : 0.001, 0.4 };
+
+    ck_assert_double_le(slide_over(&p, 0), 0.2 + 1e-3);     /* m: the contact gives way */
+}
+END_TEST
+
 Suite *sliding_suite(void)
 {
     Suite *s = suite_create("sliding");
@@ -562,8 +629,13 @@ Suite *sliding_suite(void)
         { a_corner_that_slides_on_along_a_bent_side_keeps_its_contact, 2 },
         { a_block_that_slides_off_a_table_is_let_go, 4 },
     };
+    const loop_test joints[] = {
+        { a_block_slides_over_the_joints_of_slabs_as_over_one_slab, COUNT(PAVEMENTS) },
+        { a_step_between_two_slabs_stops_a_block, 4 },
+    };
 
     add_case(s, "friction", friction, COUNT(friction));
     add_case(s, "anchors", anchors, COUNT(anchors));
+    add_case(s, "joints of slabs", joints, COUNT(joints));
     return s;
 }

@@ -224,10 +224,11 @@ static void find_bending(const bbm_model *m, double bending[])
 }
 
 /* The deepest overlap of two blocks less the depth of their deepest contact that is closed, or was since they were last
- * apart: a contact that opens leaves them where they are, and no spring starts loaded that closes there. */
+ * apart: a contact that opens leaves them where they are, and no spring starts loaded that closes there. What rides over
+ * the joint of two blocks is as deep in the next one as it is in the contacts that it has with others. */
 void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS], scene_ledger *l)
 {
-    double bending[SCENE_BLOCKS] = { 0 };
+    double bending[SCENE_BLOCKS] = { 0 }, deep[SCENE_BLOCKS] = { 0 };
     int apart[SCENE_BLOCKS][SCENE_BLOCKS];
 
     find_bending(m, bending);
@@ -235,17 +236,22 @@ void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS
     for (int k = 0; k < m->contacts; k++) {
         const bbm_contact *c = &m->contact[k];
         const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
-        if (c->state != BBM_OPEN)
-            deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], contact_depth(m, c)), apart[p][q] = apart[q][p] = 0;
+        if (c->state == BBM_OPEN)
+            continue;
+        deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], contact_depth(m, c)), apart[p][q] = apart[q][p] = 0;
+        deep[p] = fmax(deep[p], contact_depth(m, c)), deep[q] = fmax(deep[q], contact_depth(m, c));
     }
     for (int i = 0; i < m->elements; i++)
         for (int j = 0; j < i; j++) {
             const bbm_element *e = &m->element[i], *f = &m->element[j];
             const int p = e->block, q = f->block;
             const int held = m->node[corner(m, e, 0)->node].held && m->node[corner(m, f, 0)->node].held;
-            const double all = p == q || held ? 0 : element_overlap(m, e, f), d = all - deepest[p][q] - bending[p] - bending[q];
-            if (all > 0)
+            const double all = p == q || held ? 0 : element_overlap(m, e, f);
+            if (all > 0) {
+                deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], fmax(deep[p], deep[q]));
                 apart[p][q] = apart[q][p] = 0;
+            }
+            const double d = all - deepest[p][q] - bending[p] - bending[q];
             if (all > 0 && d > l->overlap)
                 l->overlap = d, l->pair[0] = p, l->pair[1] = q;
         }
