@@ -369,9 +369,9 @@ static void find_tolerances(const bbm_model *m)
     }
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        const bbm_vertex *P = bbm_start_of(m, c->corner);
+        const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         c->force_tolerance = AGREE * *force_around(m, bbm_element_of(m, c->corner))
-                           + DIGITS * m->par.p_n * hypot(P->x, P->y);
+                           + DIGITS * m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y));
     }
 }
 
