@@ -208,15 +208,10 @@ void bbm_matrix_use_coarse(bbm_matrix *K, int pays)
 /* Y = B X */
 static void multiply(double B[6][6], double X[6][2], double Y[6][2])
 {
-    for (int a = 0; a < 6; a++) {
-        double u = 0, v = 0;
-        for (int k = 0; k < 6; k++) {
-            u += B[a][k] * X[k][0];
-            v += B[a][k] * X[k][1];
-        }
-        Y[a][0] = u;
-        Y[a][1] = v;
-    }
+    memset(Y, 0, 12 * sizeof Y[0][0]);
+    for (int a = 0; a < 6; a++)
+        for (int k = 0; k < 12; k++)
+            Y[a][k % 2] += B[a][k / 2] * X[k / 2][k % 2];
 }
 
 /* Kc += f (P^T Y + its transpose), where P belongs to node i and Y to node j. */
@@ -294,13 +289,9 @@ static void restrict_to_nodes(const bbm_matrix *K, const coarse_space *c)
     memset(c->x + 2 * from, 0, 2 * (size_t)(to - from) * sizeof *c->x);
     for (int i = K->from; i < K->to; i++)
         for (int a = c->first[i]; a < c->first[i + 1]; a++) {
-            double *x = &c->x[2 * c->node[a]], sum[2] = { 0 };
-            for (int k = 0; k < 6; k++) {
-                sum[0] += c->P[a][k][0] * c->z[6 * i + k];
-                sum[1] += c->P[a][k][1] * c->z[6 * i + k];
-            }
-            x[0] += sum[0];
-            x[1] += sum[1];
+            double *x = &c->x[2 * c->node[a]];
+            for (int k = 0; k < 12; k++)
+                x[k % 2] += c->P[a][k / 2][k % 2] * c->z[6 * i + k / 2];
         }
 }
 

@@ -304,50 +304,39 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
                     parted);
 }
 
-/* What steps change, in pieces of memory; the last are the contacts. */
-enum { PIECES = 7 };
-
-typedef struct { void *at, *copy; size_t bytes; } piece;
-
-/* Copies them into `from`, which shares the rest. Returns 0 without memory. */
-static int copy_model(const bbm_model *m, piece p[PIECES], bbm_model *from)
+/* What steps change but the contacts, to one piece of memory or back. Returns its bytes; to NULL: no
+ * more than that. */
+static size_t copy_state(const bbm_model *m, char *to, int back)
 {
-    int done = 1;
+    const struct { void *at; size_t bytes; } piece[] = {
+        { m->element, (size_t)m->elements * sizeof *m->element },
+        { m->vertex, (size_t)m->vertices * sizeof *m->vertex },
+        { m->gap, (size_t)m->gaps * sizeof *m->gap },
+        { m->beyond->support, (size_t)m->nodes * sizeof *m->beyond->support },
+        { m->beyond->account, (size_t)m->elements * sizeof *m->beyond->account },
+        { m->beyond, sizeof *m->beyond },
+    };
+    size_t bytes = 0;
 
-    memcpy(p, (piece[PIECES]){
-        { m->element, NULL, (size_t)m->elements * sizeof *m->element },
-        { m->vertex, NULL, (size_t)m->vertices * sizeof *m->vertex },
-        { m->gap, NULL, (size_t)m->gaps * sizeof *m->gap },
-        { m->beyond->support, NULL, (size_t)m->nodes * sizeof *m->beyond->support },
-        { m->beyond->account, NULL, (size_t)m->elements * sizeof *m->beyond->account },
-        { m->beyond, NULL, sizeof *m->beyond },
-        { m->contact, NULL, (size_t)m->contacts * sizeof *m->contact },
-    }, PIECES * sizeof *p);
-    for (int k = 0; k < PIECES; k++) {
-        p[k].copy = malloc(p[k].bytes + 1);
-        if (p[k].copy && p[k].bytes > 0)
-            memcpy(p[k].copy, p[k].at, p[k].bytes);
-        done &= p[k].copy != NULL;
+    for (size_t k = 0; k < sizeof piece / sizeof *piece; k++) {
+        if (to)
+            memcpy(back ? piece[k].at : to + bytes, back ? to + bytes : piece[k].at,
+                   piece[k].bytes);
+        bytes += piece[k].bytes;
     }
-    *from = *m;
-    from->element = p[0].copy;
-    from->vertex = p[1].copy;
-    return done;
+    return bytes;
 }
 
-/* Makes the model what it was, but for its message. */
-static void restore(bbm_model *m, piece p[PIECES], const bbm_model *from)
+/* Makes the model what it was, but for its message; `list`, its contacts, is the model's again. */
+static void restore(bbm_model *m, const bbm_model *from, char *was, bbm_contact *list)
 {
     const char *how = m->beyond->how;
-    bbm_contact *list = m->scratch->contact;
 
-    for (int k = 0; k < PIECES - 1; k++)
-        if (p[k].bytes > 0)
-            memcpy(p[k].at, p[k].copy, p[k].bytes);
+    copy_state(m, was, 1);
     m->beyond->how = how;
-    m->scratch->contact = p[PIECES - 1].copy;
+    free(m->scratch->contact);
+    m->scratch->contact = list;
     m->scratch->contacts = from->contacts;
-    p[PIECES - 1].copy = list;
     bbm_keep_contacts(m);
     m->info = from->info;
 }
@@ -356,11 +345,17 @@ static void restore(bbm_model *m, piece p[PIECES], const bbm_model *from)
  * model as it was. */
 static bbm_status settle(bbm_model *m)
 {
+    char *was = malloc(copy_state(m, NULL, 0));
+    bbm_contact *list = malloc(((size_t)m->contacts + 1) * sizeof *list);
     bbm_status status = BBM_NO_MEMORY;
-    piece p[PIECES];
-    bbm_model from;
+    bbm_model from = *m;
 
-    if (copy_model(m, p, &from)) {
+    if (was && list) {
+        copy_state(m, was, 0);
+        from.element = (void *)was;
+        from.vertex = (void *)(from.element + m->elements);
+        for (int k = 0; k < m->contacts; k++)
+            list[k] = m->contact[k];
         m->beyond->reach = STRIDE;
         m->par.velocity_factor = 0;
         status = creep(m, &from);
@@ -368,13 +363,15 @@ static bbm_status settle(bbm_model *m)
         m->par = from.par;
         m->info.t = from.info.t;
         m->beyond->reach = INFINITY;
-        if (status)
-            restore(m, p, &from);
-        else
+        if (!status)
             m->message[0] = '\0';
+        else {
+            restore(m, &from, was, list);
+            list = NULL;
+        }
     }
-    for (int k = 0; k < PIECES; k++)
-        free(p[k].copy);
+    free(was);
+    free(list);
     return status;
 }
 
