@@ -39,23 +39,6 @@
 #define STIFF 1e5
 #define GAIN 1e-9
 
-typedef struct {
-    bbm_model m;                /* the model of the jump                                        */
-    bbm_hooks hook;
-    bbm_beyond beyond;
-    bbm_contact_scratch scratch;
-    bbm_contact *step;          /* [contacts] those of the step                                 */
-} jump;
-
-static double along(const bbm_spring *v, const double Di[6], const double Dj[6])
-{
-    double d = 0;
-
-    for (int a = 0; a < 6; a++)
-        d += v->e[a] * Di[a] + v->g[a] * Dj[a];
-    return d;
-}
-
 static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n, bbm_spring *s)
 {
     const bbm_touch t = { &m->element[bbm_element_of(m, c->corner)],
@@ -66,13 +49,17 @@ static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n
     bbm_shear_vectors(&t, c->anchor, s);
 }
 
-/* The normal velocity of P1, at which `of` has the elements. */
+/* The normal velocity of P1, where elements move as those of `of`. */
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
 {
+    const double *Vi = of[bbm_element_of(m, c->corner)].V, *Vj = of[bbm_element_of(m, c->edge)].V;
+    double velocity = 0;
     bbm_spring n, s;
 
     find_vectors(m, c, &n, &s);
-    return along(&n, of[bbm_element_of(m, c->corner)].V, of[bbm_element_of(m, c->edge)].V);
+    for (int a = 0; a < 6; a++)
+        velocity += n.e[a] * Vi[a] + n.g[a] * Vj[a];
+    return velocity;
 }
 
 static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->was_closed; }
@@ -170,26 +157,25 @@ static void start_gaps(bbm_model *m)
 }
 
 /* The contacts of `step`, the model at the start of the step. */
-static void start_contacts(jump *u, const bbm_model *step)
+static void start_contacts(bbm_model *m, const bbm_model *step)
 {
-    bbm_model *m = &u->m;
     const double E = m->beyond->restitution;
     const double slow = hypot(m->acceleration[0], m->acceleration[1]) * m->h * m->h / 2;
 
-    for (int k = 0; k < u->scratch.contacts; k++) {
-        bbm_contact *c = &u->scratch.contact[k];
-        *c = u->step[k];
-        const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
+        *c = m->beyond->jump_of[k];
+        const int jumps_by = *jumps(m, bbm_element_of(m, c->corner));
         const double came = approach(step, c);
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         bbm_spring n, s;
         c->anchor = 0;
         find_vectors(m, c, &n, &s);
         c->anchor = -s.d / hypot(P3->x - P2->x, P3->y - P2->y);
-        const double asked = !has_closed(c) ? 0 : E < 0 ? along(&n, &m->D[6 * i], &m->D[6 * j])
+        const double asked = !has_closed(c) ? 0 : E < 0 ? m->h * normal_velocity(m, c, m->element)
                            : came < -slow ? -E * came : 0;
-        c->rest = n.d + (*jumps(m, i) > 0) * asked;
-        if (c->state == BBM_OPEN || *jumps(m, i) == 0) {
+        c->rest = n.d + (jumps_by > 0) * asked;
+        if (c->state == BBM_OPEN || jumps_by == 0) {
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
         }
@@ -202,16 +188,16 @@ static void start_contacts(jump *u, const bbm_model *step)
 }
 
 /* Solves until all contacts fit. */
-static bbm_status solve(jump *u, const bbm_model *step, const bbm_model *end)
+static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
-    bbm_model *m = &u->m;
+    bbm_contact_scratch *w = m->scratch;
     bbm_status status = BBM_OK;
     bbm_pass pass = BBM_PASS_AGAIN;
 
-    u->scratch.passes = u->scratch.friction_passes = u->scratch.one_until = 0;
+    w->passes = w->friction_passes = w->one_until = 0;
     start_elements(m, end);
     start_gaps(m);
-    start_contacts(u, step);
+    start_contacts(m, step);
     bbm_matrix_keep(m->K, 0);
     while (!status && pass == BBM_PASS_AGAIN) {
         bbm_assemble(m);
@@ -269,22 +255,19 @@ static void find_work(bbm_model *m, const bbm_model *end)
     }
 }
 
-/* The elements at the end of the step take their velocities. The spring of a contact that has had
- * its impulse starts unloaded. */
-static void take(jump *u, bbm_model *step, bbm_model *end)
+/* The elements at the end of the step take their velocities, the contacts what they were. But the
+ * spring of one that has had its impulse starts unloaded. */
+static void take(bbm_model *m, bbm_model *end)
 {
-    const bbm_model *m = &u->m;
-
-    find_work(&u->m, end);
+    find_work(m, end);
     for (int a = 0; a < 6 * m->elements; a++)
         if (*jumps(m, a / 6))
             end->element[a / 6].V[a % 6] = 2 / m->h * m->D[a];
-    for (int k = 0; k < u->scratch.contacts; k++) {
-        bbm_contact *c = &step->scratch->contact[k];
-        const bbm_contact *now = &u->scratch.contact[k];
-        *c = u->step[k];
-        const int hit = m->beyond->restitution >= 0 && has_closed(c);
-        if (isinf(now->rest) || (!hit && now->state != BBM_OPEN))
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
+        const int jumped = isfinite(c->rest), opens = c->state == BBM_OPEN;
+        *c = m->beyond->jump_of[k];
+        if (!jumped || !(opens || (m->beyond->restitution >= 0 && has_closed(c))))
             continue;
         c->hit = 1;
         c->area = 0;
@@ -295,23 +278,23 @@ static void take(jump *u, bbm_model *step, bbm_model *end)
 
 /* The kinetic energy of the normal velocities of all hits, as they came and as they are left, with
  * the reduced mass of the two elements. */
-static void note_hits(const jump *u, const bbm_model *step, const bbm_model *end)
+static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
-    for (int k = 0; k < u->scratch.contacts; k++) {
-        const bbm_contact *c = &u->step[k];
-        const double mobile = mobility(&u->m, bbm_element_of(step, c->corner))
-                            + mobility(&u->m, bbm_element_of(step, c->edge));
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        const bbm_contact *c = &m->beyond->jump_of[k];
+        const double mobile = mobility(m, bbm_element_of(m, c->corner))
+                            + mobility(m, bbm_element_of(m, c->edge));
         if (!has_closed(c) || mobile == 0)
             continue;
-        const double came = 2 / step->h * approach(step, c);
-        const double left = normal_velocity(&u->m, c, end->element);
-        step->beyond->hit[0] += came * came / (2 * mobile);
-        step->beyond->hit[1] += left * left / (2 * mobile);
+        const double came = 2 / m->h * approach(step, c);
+        const double left = normal_velocity(m, c, end->element);
+        m->beyond->hit[0] += came * came / (2 * mobile);
+        m->beyond->hit[1] += left * left / (2 * mobile);
     }
 }
 
 /* The jump that is asked for; where it makes energy, the one in which nothing is. */
-static bbm_status choose(jump *u, bbm_model *m, bbm_model *end)
+static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 {
     bbm_account *of = m->beyond->account;
     bbm_status status = BBM_OK;
@@ -320,10 +303,10 @@ static bbm_status choose(jump *u, bbm_model *m, bbm_model *end)
     for (int c = 0; c < m->elements; c++)
         again |= of[c].jumps;
     while (again) {
-        *end = bbm_end_of_step(m);
-        status = solve(u, m, end);
-        take(u, m, end);
-        bbm_find_accounts(m, end);
+        *end = bbm_end_of_step(step);
+        status = solve(m, step, end);
+        take(m, end);
+        bbm_find_accounts(step, end);
         again = 0;
         for (int c = 0; c < m->elements; c++) {
             const int wrong = of[c].jumps > 0 && (status || of[c].gain > GAIN * of[c].there);
@@ -331,51 +314,40 @@ static bbm_status choose(jump *u, bbm_model *m, bbm_model *end)
             again |= wrong;
         }
     }
-    return status ? bbm_say_what_failed(m, status) : BBM_OK;
-}
-
-/* The model of the jump: that at the end of the step, with lists of its own. */
-static bbm_status prepare(const bbm_model *m, const bbm_model *end, jump *u)
-{
-    const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
-
-    *u = (jump){ *end, *m->hook, *m->beyond, *m->scratch, NULL };
-    u->hook.motion = NULL;
-    u->hook.renew = NULL;
-    u->hook.load = take_back;
-    u->m.hook = &u->hook;
-    u->m.beyond = &u->beyond;
-    u->m.scratch = &u->scratch;
-    u->m.element = calloc(n, sizeof *u->m.element);
-    u->m.gap = calloc((size_t)m->gaps + 1, sizeof *u->m.gap);
-    u->m.F = calloc(18 * n, sizeof *u->m.F);
-    u->scratch.contact = calloc(2 * contacts + 1, sizeof *u->step);
-    if (!u->m.element || !u->m.gap || !u->m.F || !u->scratch.contact)
-        return BBM_NO_MEMORY;
-    u->m.D = u->m.F + 6 * n;
-    u->m.load = u->m.D + 6 * n;
-    u->beyond.jump_of = u->step = u->scratch.contact + contacts;
-    memcpy(u->step, m->scratch->contact, contacts * sizeof *u->step);
-    start_elements(&u->m, end);
-    return BBM_OK;
+    return status ? bbm_say_what_failed(step, status) : BBM_OK;
 }
 
 /* The velocities at the end of the step, where a contact has closed or a support moves. `end` has
- * those of (14). */
+ * those of (14). The model of the jump is that at the end of the step, with lists of its own. */
 bbm_status bbm_jump(bbm_model *m, bbm_model *end)
 {
-    jump u;
+    const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
+    bbm_status status = BBM_NO_MEMORY;
+    bbm_hooks hook = *m->hook;
+    bbm_model jump = *end;
 
     if (bbm_is_static(m) || m->par.velocity_factor < 1 || !find_causes(m))
         return BBM_OK;
-    bbm_status status = prepare(m, end, &u);
-    if (!status) {
-        status = choose(&u, m, end);
-        note_hits(&u, m, end);
+    hook.motion = NULL;
+    hook.renew = NULL;
+    hook.load = take_back;
+    jump.hook = &hook;
+    jump.element = calloc(n, sizeof *jump.element);
+    jump.gap = calloc((size_t)m->gaps + 1, sizeof *jump.gap);
+    jump.F = calloc(18 * n, sizeof *jump.F);
+    bbm_contact *list = m->beyond->jump_of = calloc(contacts + 1, sizeof *list);
+    if (jump.element && jump.gap && jump.F && list) {
+        jump.D = jump.F + 6 * n;
+        jump.load = jump.D + 6 * n;
+        memcpy(list, m->scratch->contact, contacts * sizeof *list);
+        start_elements(&jump, end);
+        status = choose(&jump, m, end);
+        note_hits(&jump, m, end);
     }
-    free(u.m.element);
-    free(u.m.gap);
-    free(u.m.F);
-    free(u.scratch.contact);
+    free(jump.element);
+    free(jump.gap);
+    free(jump.F);
+    free(list);
+    m->beyond->jump_of = NULL;
     return status;
 }

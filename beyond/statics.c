@@ -112,12 +112,6 @@ bbm_status bbm_check_held(bbm_model *m)
 
 /* ----------------------------------------------------------------------- who parts from whom */
 
-/* A quarter of the boundary of the smaller of two blocks in contact. */
-static double size_at(const bbm_model *m, const bbm_contact *c)
-{
-    return fmin(bbm_girth(m, c->corner), bbm_girth(m, c->edge)) / 4;
-}
-
 /* How far the corner of a contact and the point of the edge below it have parted on the way from
  * one model to another, against the size of the smaller block; a turn counts in radians. u: the way
  * of the corner, m, without what it has sunk in; turn: that of its element, both against the edge.
@@ -141,7 +135,7 @@ static double find_parting(const bbm_model *from, const bbm_model *to, const bbm
     const double in = fmax(0, u[1] * q->along.x - u[0] * q->along.y);
     u[0] += in * q->along.y;
     u[1] -= in * q->along.x;
-    return hypot(u[0], u[1]) / size_at(to, c) + fabs(*turn);
+    return hypot(u[0], u[1]) / bbm_size_at(to, c) + fabs(*turn);
 }
 
 /* How far blocks have parted at most: at a contact in the list that is closed or was so when the
@@ -195,7 +189,7 @@ static const char *find_how(const bbm_model *from, const bbm_model *m, const bbm
     find_parting(from, m, stays, u, &turn);
     const bbm_direction before = m->edge[m->edge[stays->corner].before].along;
     const bbm_direction after = m->edge[stays->corner].along;
-    if (fabs(turn) * size_at(m, stays) < hypot(u[0], u[1]))
+    if (fabs(turn) * bbm_size_at(m, stays) < hypot(u[0], u[1]))
         return "slides on";
     return before.x * after.x + before.y * after.y > BLUNT ? "rolls on" : "tips on";
 }
