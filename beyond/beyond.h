@@ -30,6 +30,7 @@ typedef struct {                /* energy.c: of an element, and of the component
     double springs[2];          /* J        in springs that count at the element: at the start, */
                                 /*          and in the solution in hand                         */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
+    int    jumps;               /* impact.c: the component does; -1: and nothing is kept        */
 } bbm_account;
 
 typedef struct {                /* joints.c: a joint of its own strength                        */
@@ -64,7 +65,7 @@ struct bbm_beyond {
     double left, share;         /* -        of dt that is left to do, and of it the part that   */
                                 /*          is in hand                                          */
     double h_before;            /* s        the last step                                       */
-    const bbm_contact_scratch *jump_of;         /* impact.c: the step that ends with the jump   */
+    bbm_contact *jump_of;       /* [contacts] impact.c: of the step that ends with the jump     */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
@@ -170,6 +171,7 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end);      /* of a step that has se
 bbm_status bbm_check_settings(bbm_model *m);
 int        bbm_contact_turns_over(const bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
+double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m                    */
 double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */

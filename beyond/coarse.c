@@ -208,15 +208,10 @@ void bbm_matrix_use_coarse(bbm_matrix *K, int pays)
 /* Y = B X */
 static void multiply(double B[6][6], double X[6][2], double Y[6][2])
 {
-    for (int a = 0; a < 6; a++) {
-        double u = 0, v = 0;
-        for (int k = 0; k < 6; k++) {
-            u += B[a][k] * X[k][0];
-            v += B[a][k] * X[k][1];
-        }
-        Y[a][0] = u;
-        Y[a][1] = v;
-    }
+    memset(Y, 0, 12 * sizeof Y[0][0]);
+    for (int a = 0; a < 6; a++)
+        for (int k = 0; k < 12; k++)
+            Y[a][k % 2] += B[a][k / 2] * X[k / 2][k % 2];
 }
 
 /* Kc += f (P^T Y + its transpose), where P belongs to node i and Y to node j. */
@@ -261,44 +256,20 @@ static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
         }
 }
 
-/* s = the products of the rows a0 and a1 with b0 and b1, over an even number of columns, each in
- * two partial sums: one alone would wait for each addition to end. */
-static void multiply_rows(int n, const double *a0, const double *a1, const double *b0,
-                          const double *b1, double s[4])
-{
-    double sum[4][2] = { { 0 } };
-
-    for (int k = 0; k < n; k += 2)
-        for (int e = 0; e < 2; e++) {
-            sum[0][e] += a0[k + e] * b0[k + e];
-            sum[1][e] += a0[k + e] * b1[k + e];
-            sum[2][e] += a1[k + e] * b0[k + e];
-            sum[3][e] += a1[k + e] * b1[k + e];
-        }
-    for (int k = 0; k < 4; k++)
-        s[k] = sum[k][0] + sum[k][1];
-}
-
-/* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk)/C_jj, two rows and two columns at a time. */
+/* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk)/C_jj. */
 static void factor(const bbm_envelope *e, const double *size)
 {
     const int *left = e->left;
 
-    for (int i = 0; i < e->n; i += 2)
-        for (int j = left[i]; j <= i; j += 2) {
+    for (int i = 0; i < e->n; i++)
+        for (int j = left[i]; j <= i; j++) {
             const int from = left[i] > left[j] ? left[i] : left[j];
-            double sum[4];
-            multiply_rows(j - from, bbm_entry(e, i, from), bbm_entry(e, i + 1, from),
-                          bbm_entry(e, j, from), bbm_entry(e, j + 1, from), sum);
-            for (int a = 0; a < 2; a++)
-                for (int b = 0; b < 2 && j + b <= i + a; b++) {
-                    double *to = bbm_entry(e, i + a, j + b), *pivot = bbm_entry(e, j + b, j + b);
-                    const double t = *to - sum[2 * a + b] - (b ? to[-1] * pivot[-1] : 0);
-                    if (to != pivot)
-                        *to = t * *pivot;
-                    else
-                        *to = t > VANISHING * size[i + a] ? 1 / sqrt(t) : 0;
-                }
+            double *C = bbm_entry(e, i, j);
+            *C -= bbm_dot(j - from, bbm_entry(e, i, from), bbm_entry(e, j, from));
+            if (j < i)
+                *C *= *bbm_entry(e, j, j);
+            else
+                *C = *C > VANISHING * size[i] ? 1 / sqrt(*C) : 0;
         }
 }
 
@@ -318,13 +289,9 @@ static void restrict_to_nodes(const bbm_matrix *K, const coarse_space *c)
     memset(c->x + 2 * from, 0, 2 * (size_t)(to - from) * sizeof *c->x);
     for (int i = K->from; i < K->to; i++)
         for (int a = c->first[i]; a < c->first[i + 1]; a++) {
-            double *x = &c->x[2 * c->node[a]], sum[2] = { 0 };
-            for (int k = 0; k < 6; k++) {
-                sum[0] += c->P[a][k][0] * c->z[6 * i + k];
-                sum[1] += c->P[a][k][1] * c->z[6 * i + k];
-            }
-            x[0] += sum[0];
-            x[1] += sum[1];
+            double *x = &c->x[2 * c->node[a]];
+            for (int k = 0; k < 12; k++)
+                x[k % 2] += c->P[a][k / 2][k % 2] * c->z[6 * i + k / 2];
         }
 }
 

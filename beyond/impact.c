@@ -39,25 +39,6 @@
 #define STIFF 1e5
 #define GAIN 1e-9
 
-typedef struct {
-    bbm_model m;                /* the model of the jump                                        */
-    bbm_hooks hook;
-    bbm_beyond beyond;
-    bbm_contact_scratch scratch, step;          /* its contacts, and those of the step          */
-    double *moves;              /* [elements] the component of this number: 1: has a cause;     */
-                                /*          -1: and nothing is kept; 0: has none                */
-    double *came;               /* [contacts] m: h/2 times the velocity with which P1 came      */
-} jump;
-
-static double along(const bbm_spring *v, const double Di[6], const double Dj[6])
-{
-    double d = 0;
-
-    for (int a = 0; a < 6; a++)
-        d += v->e[a] * Di[a] + v->g[a] * Dj[a];
-    return d;
-}
-
 static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n, bbm_spring *s)
 {
     const bbm_touch t = { &m->element[bbm_element_of(m, c->corner)],
@@ -68,19 +49,28 @@ static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n
     bbm_shear_vectors(&t, c->anchor, s);
 }
 
+/* The normal velocity of P1, where elements move as those of `of`. */
+static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
+{
+    const double *Vi = of[bbm_element_of(m, c->corner)].V, *Vj = of[bbm_element_of(m, c->edge)].V;
+    double velocity = 0;
+    bbm_spring n, s;
+
+    find_vectors(m, c, &n, &s);
+    for (int a = 0; a < 6; a++)
+        velocity += n.e[a] * Vi[a] + n.g[a] * Vj[a];
+    return velocity;
+}
+
 static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->was_closed; }
 
 /* h/2 times the normal velocity with which P1 came. It has changed evenly until P1 hit, after the
  * share t of the step and the way d0. */
 static double approach(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_element *i = &m->element[bbm_element_of(m, c->corner)];
-    const bbm_element *j = &m->element[bbm_element_of(m, c->edge)];
     const double t = 1 - c->time_left;
-    bbm_spring n, s;
 
-    find_vectors(m, c, &n, &s);
-    return (1 - 2 * t) * m->h / 2 * along(&n, i->V, j->V) - fmax(0, c->d_n0);
+    return (1 - 2 * t) * m->h / 2 * normal_velocity(m, c, m->element) - fmax(0, c->d_n0);
 }
 
 /* 1/mass of an element that is free to move. */
@@ -89,6 +79,12 @@ static double mobility(const bbm_model *m, int i)
     const bbm_element *e = &m->element[i];
 
     return bbm_is_held_all_round(m, e) ? 0 : 1 / (bbm_mass_per_area(e) * e->A);
+}
+
+/* Whether the component of an element jumps: 1; -1: and nothing is kept. */
+static int *jumps(const bbm_model *m, int i)
+{
+    return &m->beyond->account[bbm_component_of(m->K, i)].jumps;
 }
 
 /* The velocity of a support at the end of the step. One that stands has none. */
@@ -103,57 +99,48 @@ static double support_velocity(const bbm_model *m, int node, int a)
 /* F takes back the contact forces of the step. */
 static void take_back(bbm_model *m)
 {
-    const bbm_contact_scratch *step = m->beyond->jump_of;
-
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
-    for (int k = 0; k < step->contacts; k++) {
-        const bbm_contact *c = &step->contact[k];
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        const bbm_contact *c = &m->beyond->jump_of[k];
         const int i = 6 * bbm_element_of(m, c->corner), j = 6 * bbm_element_of(m, c->edge);
         const double T = c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N)
                        : c->T;
         bbm_spring n, s;
-        if (isinf(m->scratch->contact[k].rest))
-            continue;
         find_vectors(m, c, &n, &s);
-        for (int a = 0; a < 6; a++) {
+        for (int a = 0; a < 6 && isfinite(m->scratch->contact[k].rest); a++) {
             m->load[i + a] += T * s.e[a] - c->N * n.e[a];
             m->load[j + a] += T * s.g[a] - c->N * n.g[a];
         }
     }
 }
 
-/* Whether what is asked for in the component of an element is kept. */
-static int is_kept(const jump *u, int i) { return u->moves[bbm_component_of(u->m.K, i)] > 0; }
-
 /* The elements at the end of the step. */
-static void start_elements(jump *u, const bbm_model *end)
+static void start_elements(bbm_model *m, const bbm_model *end)
 {
-    bbm_model *m = &u->m;
     double heaviest = 0, E[3][3];
 
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
-        const int moved = u->moves[bbm_component_of(m->K, i)] != 0;
+        const int kept = *jumps(m, i) > 0;
         *e = end->element[i];
         e->middle = NULL;
         bbm_element_geometry(e, &m->vertex[e->first]);
         bbm_elastic_matrix(&e->material, E);
         memset(e->stress, 0, sizeof e->stress);
         for (int a = 0; a < 6; a++) {
-            e->V[a] = moved ? end->element[i].V[a] / 2 : 0;
+            e->V[a] *= *jumps(m, i) ? 0.5 : 0;
             m->D[6 * i + a] = m->h * e->V[a];
         }
         for (int a = 0; a < 9; a++)
-            e->stress[a / 3] -= is_kept(u, i) * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
-        if (moved && mobility(m, i) > 0)
+            e->stress[a / 3] -= kept * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
+        if (*jumps(m, i) && mobility(m, i) > 0)
             heaviest = fmax(heaviest, 1 / mobility(m, i));
     }
     m->par.p_n = m->par.p_s = fmax(end->par.p_n, STIFF * 2 * heaviest / (m->h * m->h));
 }
 
-static void start_gaps(jump *u)
+static void start_gaps(bbm_model *m)
 {
-    bbm_model *m = &u->m;
     double d[2];
 
     bbm_list_gaps(m);
@@ -163,32 +150,32 @@ static void start_gaps(jump *u)
         for (int a = 0; a < 2; a++) {
             const double w0 = support_velocity(m, g->node[0], a);
             const double w1 = support_velocity(m, g->node[1], a);
-            g->d0[a] = g->j >= 0 ? -is_kept(u, g->i) * d[a]
+            g->d0[a] = g->j >= 0 ? -(*jumps(m, g->i) > 0) * d[a]
                      : -m->h / 4 * (g->own.penalty ? w0 + w1 : w0 - w1);
         }
     }
 }
 
-static void start_contacts(jump *u)
+/* The contacts of `step`, the model at the start of the step. */
+static void start_contacts(bbm_model *m, const bbm_model *step)
 {
-    bbm_model *m = &u->m;
     const double E = m->beyond->restitution;
     const double slow = hypot(m->acceleration[0], m->acceleration[1]) * m->h * m->h / 2;
 
-    for (int k = 0; k < u->scratch.contacts; k++) {
-        bbm_contact *c = &u->scratch.contact[k];
-        *c = u->step.contact[k];
-        const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
-        const double came = u->came[k];
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
+        *c = m->beyond->jump_of[k];
+        const int jumps_by = *jumps(m, bbm_element_of(m, c->corner));
+        const double came = approach(step, c);
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         bbm_spring n, s;
         c->anchor = 0;
         find_vectors(m, c, &n, &s);
         c->anchor = -s.d / hypot(P3->x - P2->x, P3->y - P2->y);
-        const double asked = !has_closed(c) ? 0 : E < 0 ? along(&n, &m->D[6 * i], &m->D[6 * j])
+        const double asked = !has_closed(c) ? 0 : E < 0 ? m->h * normal_velocity(m, c, m->element)
                            : came < -slow ? -E * came : 0;
-        c->rest = n.d + is_kept(u, i) * asked;
-        if (c->state == BBM_OPEN || u->moves[bbm_component_of(m->K, i)] == 0) {
+        c->rest = n.d + (jumps_by > 0) * asked;
+        if (c->state == BBM_OPEN || jumps_by == 0) {
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
         }
@@ -201,16 +188,16 @@ static void start_contacts(jump *u)
 }
 
 /* Solves until all contacts fit. */
-static bbm_status solve(jump *u, const bbm_model *end)
+static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
-    bbm_model *m = &u->m;
+    bbm_contact_scratch *w = m->scratch;
     bbm_status status = BBM_OK;
     bbm_pass pass = BBM_PASS_AGAIN;
 
-    u->scratch.passes = u->scratch.friction_passes = u->scratch.one_until = 0;
-    start_elements(u, end);
-    start_gaps(u);
-    start_contacts(u);
+    w->passes = w->friction_passes = w->one_until = 0;
+    start_elements(m, end);
+    start_gaps(m);
+    start_contacts(m, step);
     bbm_matrix_keep(m->K, 0);
     while (!status && pass == BBM_PASS_AGAIN) {
         bbm_assemble(m);
@@ -232,26 +219,29 @@ static int moves(const bbm_model *m, int node)
     return m->beyond->h_before > 0 && (now || s->rate[0] != 0 || s->rate[1] != 0);
 }
 
-/* Which components have a hit with a restitution or a support that moves; whether any has. */
-static int find_causes(const bbm_model *m, jump *u)
+/* Which components jump: those with a hit with a restitution, or a support that moves. Returns
+ * whether there is one, or a hit. */
+static int find_causes(const bbm_model *m)
 {
-    double causes = 0;
+    const bbm_contact_scratch *w = m->scratch;
+    int any = 0;
 
-    for (int k = 0; k < u->step.contacts && m->beyond->restitution >= 0; k++)
-        if (has_closed(&u->step.contact[k]))
-            u->moves[bbm_component_of(m->K, bbm_element_of(m, u->step.contact[k].corner))] = 1;
+    for (int c = 0; c < m->elements; c++)
+        m->beyond->account[c].jumps = 0;
+    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++)
+        if (has_closed(c)) {
+            *jumps(m, bbm_element_of(m, c->corner)) |= m->beyond->restitution >= 0;
+            any = 1;
+        }
     for (int v = 0; v < m->vertices; v++)
         if (moves(m, m->vertex[v].node))
-            u->moves[bbm_component_of(m->K, m->vertex[v].element)] = 1;
-    for (int c = 0; c < m->elements; c++)
-        causes += u->moves[c];
-    return causes > 0;
+            any = *jumps(m, m->vertex[v].element) = 1;
+    return any;
 }
 
 /* The work of each support that moves: its force on h times the mean of V' and V''. */
-static void find_work(jump *u, const bbm_model *end)
+static void find_work(bbm_model *m, const bbm_model *end)
 {
-    bbm_model *m = &u->m;
     double v[2];
 
     bbm_find_reactions(m);
@@ -260,28 +250,24 @@ static void find_work(jump *u, const bbm_model *end)
         const bbm_element *e = &end->element[P->element];
         bbm_support *s = &m->beyond->support[n];
         bbm_displacement(&m->element[P->element], e->V, P->x, P->y, v);
-        s->jump_work = 0;
         for (int a = 0; a < 2 && moves(m, n); a++)
             s->jump_work += s->jump[a] * m->h / 2 * (v[a] + support_velocity(m, n, a));
     }
 }
 
-/* The elements at the end of the step take their velocities. The spring of a contact that has had
- * its impulse starts unloaded. */
-static void take(jump *u, bbm_model *step, bbm_model *end)
+/* The elements at the end of the step take their velocities, the contacts what they were. But the
+ * spring of one that has had its impulse starts unloaded. */
+static void take(bbm_model *m, bbm_model *end)
 {
-    const bbm_model *m = &u->m;
-
-    find_work(u, end);
+    find_work(m, end);
     for (int a = 0; a < 6 * m->elements; a++)
-        if (u->moves[bbm_component_of(m->K, a / 6)] != 0)
+        if (*jumps(m, a / 6))
             end->element[a / 6].V[a % 6] = 2 / m->h * m->D[a];
-    for (int k = 0; k < u->step.contacts; k++) {
-        bbm_contact *c = &step->scratch->contact[k];
-        const bbm_contact *now = &u->scratch.contact[k];
-        const int hit = m->beyond->restitution >= 0 && has_closed(c);
-        *c = u->step.contact[k];
-        if (isinf(now->rest) || (!hit && now->state != BBM_OPEN))
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
+        const int jumped = isfinite(c->rest), opens = c->state == BBM_OPEN;
+        *c = m->beyond->jump_of[k];
+        if (!jumped || !(opens || (m->beyond->restitution >= 0 && has_closed(c))))
             continue;
         c->hit = 1;
         c->area = 0;
@@ -292,98 +278,76 @@ static void take(jump *u, bbm_model *step, bbm_model *end)
 
 /* The kinetic energy of the normal velocities of all hits, as they came and as they are left, with
  * the reduced mass of the two elements. */
-static void note_hits(const jump *u, bbm_model *step, const bbm_model *end)
+static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
-    const bbm_model *m = &u->m;
-
-    for (int k = 0; k < u->step.contacts; k++) {
-        const bbm_contact *c = &u->step.contact[k];
-        const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
-        const double mobile = mobility(m, i) + mobility(m, j), came = 2 / m->h * u->came[k];
-        bbm_spring n, s;
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        const bbm_contact *c = &m->beyond->jump_of[k];
+        const double mobile = mobility(m, bbm_element_of(m, c->corner))
+                            + mobility(m, bbm_element_of(m, c->edge));
         if (!has_closed(c) || mobile == 0)
             continue;
-        find_vectors(m, c, &n, &s);
-        const double left = along(&n, end->element[i].V, end->element[j].V);
-        step->beyond->hit[0] += came * came / (2 * mobile);
-        step->beyond->hit[1] += left * left / (2 * mobile);
+        const double came = 2 / m->h * approach(step, c);
+        const double left = normal_velocity(m, c, end->element);
+        m->beyond->hit[0] += came * came / (2 * mobile);
+        m->beyond->hit[1] += left * left / (2 * mobile);
     }
 }
 
 /* The jump that is asked for; where it makes energy, the one in which nothing is. */
-static bbm_status choose(jump *u, bbm_model *m, bbm_model *end)
+static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 {
-    bbm_status status = solve(u, end);
+    bbm_account *of = m->beyond->account;
+    bbm_status status = BBM_OK;
     int again = 0;
 
-    take(u, m, end);
-    bbm_find_accounts(m, end);
-    for (int c = 0; c < m->elements; c++) {
-        const bbm_account *of = &m->beyond->account[c];
-        const int wrong = u->moves[c] > 0 && (status || of->gain > GAIN * of->there);
-        u->moves[c] = wrong ? -1 : u->moves[c];
-        again |= wrong;
+    for (int c = 0; c < m->elements; c++)
+        again |= of[c].jumps;
+    while (again) {
+        *end = bbm_end_of_step(step);
+        status = solve(m, step, end);
+        take(m, end);
+        bbm_find_accounts(step, end);
+        again = 0;
+        for (int c = 0; c < m->elements; c++) {
+            const int wrong = of[c].jumps > 0 && (status || of[c].gain > GAIN * of[c].there);
+            of[c].jumps = wrong ? -1 : of[c].jumps;
+            again |= wrong;
+        }
     }
-    if (again) {
-        *end = bbm_end_of_step(m);
-        status = solve(u, end);
-        take(u, m, end);
-    }
-    return status ? bbm_say_what_failed(m, status) : BBM_OK;
-}
-
-/* The model of the jump: that at the end of the step, with lists of its own. */
-static bbm_status prepare(const bbm_model *m, const bbm_model *end, jump *u)
-{
-    const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
-
-    *u = (jump){ *end, *m->hook, *m->beyond, *m->scratch, *m->scratch, NULL, NULL };
-    u->hook.motion = NULL;
-    u->hook.renew = NULL;
-    u->hook.load = take_back;
-    u->beyond.jump_of = &u->step;
-    u->m.hook = &u->hook;
-    u->m.beyond = &u->beyond;
-    u->m.scratch = &u->scratch;
-    u->m.element = calloc(n, sizeof *u->m.element);
-    u->m.gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *u->m.gap);
-    u->m.F = calloc(19 * n + contacts, sizeof *u->m.F);
-    u->scratch.contact = calloc(2 * contacts + 1, sizeof *u->scratch.contact);
-    if (!u->m.element || !u->m.gap || !u->m.F || !u->scratch.contact)
-        return BBM_NO_MEMORY;
-    u->m.D = u->m.F + 6 * n;
-    u->m.load = u->m.D + 6 * n;
-    u->moves = u->m.load + 6 * n;
-    u->came = u->moves + n;
-    u->step.contact = u->scratch.contact + contacts;
-    for (size_t k = 0; k < contacts; k++) {
-        u->step.contact[k] = m->scratch->contact[k];
-        u->came[k] = approach(m, &u->step.contact[k]);
-    }
-    return BBM_OK;
+    return status ? bbm_say_what_failed(step, status) : BBM_OK;
 }
 
 /* The velocities at the end of the step, where a contact has closed or a support moves. `end` has
- * those of (14). */
+ * those of (14). The model of the jump is that at the end of the step, with lists of its own. */
 bbm_status bbm_jump(bbm_model *m, bbm_model *end)
 {
-    jump u;
+    const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
+    bbm_status status = BBM_NO_MEMORY;
+    bbm_hooks hook = *m->hook;
+    bbm_model jump = *end;
 
-    for (int n = 0; n < m->nodes; n++) {
-        bbm_support *s = &m->beyond->support[n];
-        s->jump[0] = s->jump[1] = s->jump_work = 0;
-    }
-    if (bbm_is_static(m) || m->par.velocity_factor < 1)
+    if (bbm_is_static(m) || m->par.velocity_factor < 1 || !find_causes(m))
         return BBM_OK;
-    bbm_status status = prepare(m, end, &u);
-    if (!status) {
-        start_elements(&u, end);
-        status = find_causes(m, &u) ? choose(&u, m, end) : BBM_OK;
-        note_hits(&u, m, end);
+    hook.motion = NULL;
+    hook.renew = NULL;
+    hook.load = take_back;
+    jump.hook = &hook;
+    jump.element = calloc(n, sizeof *jump.element);
+    jump.gap = calloc((size_t)m->gaps + 1, sizeof *jump.gap);
+    jump.F = calloc(18 * n, sizeof *jump.F);
+    bbm_contact *list = m->beyond->jump_of = calloc(contacts + 1, sizeof *list);
+    if (jump.element && jump.gap && jump.F && list) {
+        jump.D = jump.F + 6 * n;
+        jump.load = jump.D + 6 * n;
+        memcpy(list, m->scratch->contact, contacts * sizeof *list);
+        start_elements(&jump, end);
+        status = choose(&jump, m, end);
+        note_hits(&jump, m, end);
     }
-    free(u.m.element);
-    free(u.m.gap);
-    free(u.m.F);
-    free(u.scratch.contact);
+    free(jump.element);
+    free(jump.gap);
+    free(jump.F);
+    free(list);
+    m->beyond->jump_of = NULL;
     return status;
 }

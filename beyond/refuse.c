@@ -43,6 +43,12 @@ bbm_status bbm_check_settings(bbm_model *m)
     return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
 }
 
+/* A quarter of the boundary of the smaller of two blocks in contact. */
+double bbm_size_at(const bbm_model *m, const bbm_contact *c)
+{
+    return fmin(bbm_girth(m, c->corner), bbm_girth(m, c->edge)) / 4;
+}
+
 /* Whether a closed contact turns an element too far. Its vectors mean nothing then, and what they
  * would close or open in the next pass does not either. */
 int bbm_contact_turns_over(const bbm_model *m)
@@ -64,7 +70,7 @@ static int curving_element(const bbm_model *m)
     int far = -1;
 
     for (int k = 0; k < m->scratch->contacts && far < 0 && bbm_motion_of(m); k++) {
-        const double size = fmin(bbm_girth(m, c[k].corner), bbm_girth(m, c[k].edge)) / 4;
+        const double size = bbm_size_at(m, &c[k]);
         const double along = bbm_way_along(m, c[k].corner, c[k].edge) + c[k].past[0];
         const double way = hypot(c[k].d_n - c[k].d_n0, along);
         const double ri = fabs(bbm_D_of(m, c[k].corner)[2]), rj = fabs(bbm_D_of(m, c[k].edge)[2]);
@@ -100,16 +106,15 @@ bbm_status bbm_check_solution(bbm_model *m)
                                                  : "a smaller dt, velocity or load helps");
 }
 
-/* The closed contact that is deepest against the size of its smaller block, a quarter of its
- * boundary; returns that share, or 0 if none is closed. */
+/* The closed contact that is deepest against the size of its smaller block; returns that share, or
+ * 0 if none is closed. */
 double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
 {
     const bbm_contact *c = m->scratch->contact;
     double most = 0;
 
     for (int k = 0; k < m->scratch->contacts; k++) {
-        const double girth = fmin(bbm_girth(m, c[k].corner), bbm_girth(m, c[k].edge));
-        const double share = -c[k].d_n / (girth / 4);
+        const double share = -c[k].d_n / bbm_size_at(m, &c[k]);
         if (c[k].state != BBM_OPEN && share > most) {
             most = share;
             *deepest = &c[k];

@@ -172,13 +172,6 @@ static bbm_status solve_directly(const bbm_matrix *K, double *x, bbm_pcg_info *i
 
 /* ------------------------------------------------------------------------------- the iteration */
 
-/* x += a p, r -= a q */
-static void advance(const bbm_matrix *K, double a, const double *p, const double *q)
-{
-    bbm_combine(K, K->x, a, p, K->x);
-    bbm_combine(K, K->r, -a, q, K->r);
-}
-
 /* The iteration of the head, from x = 0 and r = F to x; a length is the square root of rz, and
  * `last` is z0.r. */
 static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
@@ -201,14 +194,16 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
             break;
         bbm_multiply(K, p, q);
         const double a = last / bbm_dot_rows(K, z0, q);
-        advance(K, a, p, q);
+        bbm_combine(K, K->x, a, p, K->x);
+        bbm_combine(K, r, -a, q, r);
         bbm_combine(K, z, 0, z, d);
         bbm_precondition(K, r, z);
         bbm_combine(K, d, -1, z, d);
         bbm_multiply(K, z, q);
         bbm_precondition(K, q, v);
         const double vq = bbm_dot_rows(K, v, q), c = vq > 0 ? bbm_dot_rows(K, z, q) / vq : 0;
-        advance(K, c, z, q);
+        bbm_combine(K, K->x, c, z, K->x);
+        bbm_combine(K, r, -c, q, r);
         bbm_combine(K, z, -c, v, z);
         rz = bbm_dot_rows(K, r, z);
         const double z0r = bbm_dot_rows(K, z0, r);

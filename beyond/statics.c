@@ -112,12 +112,6 @@ bbm_status bbm_check_held(bbm_model *m)
 
 /* ----------------------------------------------------------------------- who parts from whom */
 
-/* A quarter of the boundary of the smaller of two blocks in contact. */
-static double size_at(const bbm_model *m, const bbm_contact *c)
-{
-    return fmin(bbm_girth(m, c->corner), bbm_girth(m, c->edge)) / 4;
-}
-
 /* How far the corner of a contact and the point of the edge below it have parted on the way from
  * one model to another, against the size of the smaller block; a turn counts in radians. u: the way
  * of the corner, m, without what it has sunk in; turn: that of its element, both against the edge.
@@ -141,7 +135,7 @@ static double find_parting(const bbm_model *from, const bbm_model *to, const bbm
     const double in = fmax(0, u[1] * q->along.x - u[0] * q->along.y);
     u[0] += in * q->along.y;
     u[1] -= in * q->along.x;
-    return hypot(u[0], u[1]) / size_at(to, c) + fabs(*turn);
+    return hypot(u[0], u[1]) / bbm_size_at(to, c) + fabs(*turn);
 }
 
 /* How far blocks have parted at most: at a contact in the list that is closed or was so when the
@@ -195,7 +189,7 @@ static const char *find_how(const bbm_model *from, const bbm_model *m, const bbm
     find_parting(from, m, stays, u, &turn);
     const bbm_direction before = m->edge[m->edge[stays->corner].before].along;
     const bbm_direction after = m->edge[stays->corner].along;
-    if (fabs(turn) * size_at(m, stays) < hypot(u[0], u[1]))
+    if (fabs(turn) * bbm_size_at(m, stays) < hypot(u[0], u[1]))
         return "slides on";
     return before.x * after.x + before.y * after.y > BLUNT ? "rolls on" : "tips on";
 }
@@ -304,50 +298,39 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
                     parted);
 }
 
-/* What steps change, in pieces of memory; the last are the contacts. */
-enum { PIECES = 7 };
-
-typedef struct { void *at, *copy; size_t bytes; } piece;
-
-/* Copies them into `from`, which shares the rest. Returns 0 without memory. */
-static int copy_model(const bbm_model *m, piece p[PIECES], bbm_model *from)
+/* What steps change but the contacts, to one piece of memory or back. Returns its bytes; to NULL: no
+ * more than that. */
+static size_t copy_state(const bbm_model *m, char *to, int back)
 {
-    int done = 1;
+    const struct { void *at; size_t bytes; } piece[] = {
+        { m->element, (size_t)m->elements * sizeof *m->element },
+        { m->vertex, (size_t)m->vertices * sizeof *m->vertex },
+        { m->gap, (size_t)m->gaps * sizeof *m->gap },
+        { m->beyond->support, (size_t)m->nodes * sizeof *m->beyond->support },
+        { m->beyond->account, (size_t)m->elements * sizeof *m->beyond->account },
+        { m->beyond, sizeof *m->beyond },
+    };
+    size_t bytes = 0;
 
-    memcpy(p, (piece[PIECES]){
-        { m->element, NULL, (size_t)m->elements * sizeof *m->element },
-        { m->vertex, NULL, (size_t)m->vertices * sizeof *m->vertex },
-        { m->gap, NULL, (size_t)m->gaps * sizeof *m->gap },
-        { m->beyond->support, NULL, (size_t)m->nodes * sizeof *m->beyond->support },
-        { m->beyond->account, NULL, (size_t)m->elements * sizeof *m->beyond->account },
-        { m->beyond, NULL, sizeof *m->beyond },
-        { m->contact, NULL, (size_t)m->contacts * sizeof *m->contact },
-    }, PIECES * sizeof *p);
-    for (int k = 0; k < PIECES; k++) {
-        p[k].copy = malloc(p[k].bytes + 1);
-        if (p[k].copy && p[k].bytes > 0)
-            memcpy(p[k].copy, p[k].at, p[k].bytes);
-        done &= p[k].copy != NULL;
+    for (size_t k = 0; k < sizeof piece / sizeof *piece; k++) {
+        if (to)
+            memcpy(back ? piece[k].at : to + bytes, back ? to + bytes : piece[k].at,
+                   piece[k].bytes);
+        bytes += piece[k].bytes;
     }
-    *from = *m;
-    from->element = p[0].copy;
-    from->vertex = p[1].copy;
-    return done;
+    return bytes;
 }
 
-/* Makes the model what it was, but for its message. */
-static void restore(bbm_model *m, piece p[PIECES], const bbm_model *from)
+/* Makes the model what it was, but for its message; `list`, its contacts, is the model's again. */
+static void restore(bbm_model *m, const bbm_model *from, char *was, bbm_contact *list)
 {
     const char *how = m->beyond->how;
-    bbm_contact *list = m->scratch->contact;
 
-    for (int k = 0; k < PIECES - 1; k++)
-        if (p[k].bytes > 0)
-            memcpy(p[k].at, p[k].copy, p[k].bytes);
+    copy_state(m, was, 1);
     m->beyond->how = how;
-    m->scratch->contact = p[PIECES - 1].copy;
+    free(m->scratch->contact);
+    m->scratch->contact = list;
     m->scratch->contacts = from->contacts;
-    p[PIECES - 1].copy = list;
     bbm_keep_contacts(m);
     m->info = from->info;
 }
@@ -356,11 +339,17 @@ static void restore(bbm_model *m, piece p[PIECES], const bbm_model *from)
  * model as it was. */
 static bbm_status settle(bbm_model *m)
 {
+    char *was = malloc(copy_state(m, NULL, 0));
+    bbm_contact *list = malloc(((size_t)m->contacts + 1) * sizeof *list);
     bbm_status status = BBM_NO_MEMORY;
-    piece p[PIECES];
-    bbm_model from;
+    bbm_model from = *m;
 
-    if (copy_model(m, p, &from)) {
+    if (was && list) {
+        copy_state(m, was, 0);
+        from.element = (void *)was;
+        from.vertex = (void *)(from.element + m->elements);
+        for (int k = 0; k < m->contacts; k++)
+            list[k] = m->contact[k];
         m->beyond->reach = STRIDE;
         m->par.velocity_factor = 0;
         status = creep(m, &from);
@@ -368,13 +357,15 @@ static bbm_status settle(bbm_model *m)
         m->par = from.par;
         m->info.t = from.info.t;
         m->beyond->reach = INFINITY;
-        if (status)
-            restore(m, p, &from);
-        else
+        if (!status)
             m->message[0] = '\0';
+        else {
+            restore(m, &from, was, list);
+            list = NULL;
+        }
     }
-    for (int k = 0; k < PIECES; k++)
-        free(p[k].copy);
+    free(was);
+    free(list);
     return status;
 }
 

@@ -62,12 +62,13 @@ static void press(double depth_a, double depth_b, double c[2])
     c[0] = force - c[1] / 2;
 }
 
-/* What lies on the edge in the step. */
-static void find_load(const bbm_model *m, bbm_edge_load *load)
+/* What lies on the edge in the step, which adds to F of its element, Eq. (42). */
+static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
 {
     const bbm_vertex *a = &m->vertex[load->a];
     const bbm_element *e = &m->element[a->element];
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
+    const bbm_edge_load *now = load;
     double T[2][6], am[2], bm[2], c[2] = { 0, 0 };
 
     bbm_step_point(e, a->x, a->y, T, am);
@@ -82,6 +83,7 @@ static void find_load(const bbm_model *m, bbm_edge_load *load)
         load->q[g][0] = load->f[0] - p * (bm[1] - am[1]);
         load->q[g][1] = load->f[1] + p * (bm[0] - am[0]);
     }
+    bbm_varying_load_submatrix(e, a, b, now->q, F);
 }
 
 /* Water up to the level on a boundary edge of the prepared model; its weight is that of a m^3 times
@@ -89,6 +91,7 @@ static void find_load(const bbm_model *m, bbm_edge_load *load)
 bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
 {
     const bbm_status status = bbm_load_edge(m, edge, 0, 0, level * weight);
+    double F[6] = { 0 };
 
     if (status)
         return status;
@@ -96,20 +99,16 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
     load->pressure = 0;
     load->level = level - m->origin[1];
     load->weight = weight;
-    find_load(m, load);
+    add_load(m, load, F);
     return BBM_OK;
 }
 
-/* Adds them to the loads of the step, Eq. (42). */
+/* Adds them to the loads of the step. */
 void bbm_gather_edge_loads(bbm_model *m)
 {
     for (int l = 0; l < m->beyond->edge_loads; l++) {
-        const bbm_edge_load *load = &m->beyond->edge_load[l];
-        const bbm_vertex *a = &m->vertex[load->a];
-        const bbm_element *e = &m->element[a->element];
-        const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
-        find_load(m, &m->beyond->edge_load[l]);
-        bbm_varying_load_submatrix(e, a, b, load->q, &m->load[6 * a->element]);
+        bbm_edge_load *load = &m->beyond->edge_load[l];
+        add_load(m, load, &m->load[6 * m->vertex[load->a].element]);
     }
 }
 
@@ -135,7 +134,8 @@ void bbm_place_supports(bbm_model *m)
 
     for (int n = 0; n < m->nodes; n++)
         for (int a = 0; a < 2; a++) {
-            const bbm_support *s = &m->beyond->support[n];
+            bbm_support *s = &m->beyond->support[n];
+            s->jump[a] = s->jump_work = 0;
             if (s->moved[a] != 0)
                 m->node[n].wall[a] = s->to[a] - left * s->moved[a];
         }
