@@ -256,20 +256,44 @@ static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
         }
 }
 
-/* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk)/C_jj. */
+/* s = the products of the rows a0 and a1 with b0 and b1, over an even number of columns, each in
+ * two partial sums: one alone would wait for each addition to end. */
+static void multiply_rows(int n, const double *a0, const double *a1, const double *b0,
+                          const double *b1, double s[4])
+{
+    double sum[4][2] = { { 0 } };
+
+    for (int k = 0; k < n; k += 2)
+        for (int e = 0; e < 2; e++) {
+            sum[0][e] += a0[k + e] * b0[k + e];
+            sum[1][e] += a0[k + e] * b1[k + e];
+            sum[2][e] += a1[k + e] * b0[k + e];
+            sum[3][e] += a1[k + e] * b1[k + e];
+        }
+    for (int k = 0; k < 4; k++)
+        s[k] = sum[k][0] + sum[k][1];
+}
+
+/* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk)/C_jj, two rows and two columns at a time. */
 static void factor(const bbm_envelope *e, const double *size)
 {
     const int *left = e->left;
 
-    for (int i = 0; i < e->n; i++)
-        for (int j = left[i]; j <= i; j++) {
+    for (int i = 0; i < e->n; i += 2)
+        for (int j = left[i]; j <= i; j += 2) {
             const int from = left[i] > left[j] ? left[i] : left[j];
-            double *C = bbm_entry(e, i, j);
-            *C -= bbm_dot(j - from, bbm_entry(e, i, from), bbm_entry(e, j, from));
-            if (j < i)
-                *C *= *bbm_entry(e, j, j);
-            else
-                *C = *C > VANISHING * size[i] ? 1 / sqrt(*C) : 0;
+            double sum[4];
+            multiply_rows(j - from, bbm_entry(e, i, from), bbm_entry(e, i + 1, from),
+                          bbm_entry(e, j, from), bbm_entry(e, j + 1, from), sum);
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2 && j + b <= i + a; b++) {
+                    double *to = bbm_entry(e, i + a, j + b), *pivot = bbm_entry(e, j + b, j + b);
+                    const double t = *to - sum[2 * a + b] - (b ? to[-1] * pivot[-1] : 0);
+                    if (to != pivot)
+                        *to = t * *pivot;
+                    else
+                        *to = t > VANISHING * size[i + a] ? 1 / sqrt(t) : 0;
+                }
         }
 }
 
