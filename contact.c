@@ -40,12 +40,14 @@
 
 #include "base/base.h"
 
-/* AGREE [-]   forces agree if they differ by less than this share of the largest force in their
- *             component of K: the solver is not more exact */
+/* AGREE  [-]  forces agree if they differ by less than this share of the largest force in their
+ *             component of K: the solver is not more exact
+ * DIGITS [-]  the last digits of a position, after some sums; what a spring makes of them is no
+ *             force
+ * ROUGH  [-]  unless it is more than this share of the largest force: such springs do not settle */
 #define AGREE 1e-9
-
-/* DIGITS [-]  the last digits of a position, after some sums */
 #define DIGITS 1e-15
+#define ROUGH 1e-3
 
 /* The most passes in a row that change friction forces alone. */
 enum { FRICTION_PASSES = 100 };
@@ -356,8 +358,7 @@ static double *force_around(const bbm_model *m, int element)
 
 /* The force tolerance of each contact: a share of the largest force in its component of K. That is
  * the force on an element, inertia included, or in a contact. The solver's residual, and with it
- * the error of every N, is small against this force alone. What a spring makes of the last digits
- * of a position is no force either. */
+ * the error of every N, is small against this force alone. */
 static void find_tolerances(const bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
@@ -370,8 +371,9 @@ static void find_tolerances(const bbm_model *m)
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        c->force_tolerance = AGREE * *force_around(m, bbm_element_of(m, c->corner))
-                           + DIGITS * m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y));
+        const double force = *force_around(m, bbm_element_of(m, c->corner));
+        const double digits = m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y)) * DIGITS;
+        c->force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
     }
 }
 

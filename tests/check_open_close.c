@@ -325,7 +325,7 @@ END_TEST
  * The model stays as one that has not been touched. */
 START_TEST(contacts_that_never_settle_end_with_a_status_and_the_numbers)
 {
-    bbm_model *m = incline(20, 1e18, 1), *n = incline(20, 1e18, 1);
+    bbm_model *m = incline(20, 1e19, 1), *n = incline(20, 1e19, 1);
 
     m->par.pcg.tolerance = 1e-6;
     ck_assert_int_eq(bbm_step(m), BBM_OPEN_CLOSE);
