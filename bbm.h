@@ -226,9 +226,9 @@ const char *bbm_message(const bbm_model *m);                /* the last error in
 
 /* --------------------------------------------------------------------------- 2. build a model
  * Once a bbm_add or bbm_fix has failed, the later calls do nothing and return its status. So a
- * program may check bbm_prepare alone. What is added after it needs it again, but for fixed nodes and
- * loads of nodes. The index of what was added goes through the last pointer,
- * which may be NULL. */
+ * program may check bbm_prepare alone. What is added after it needs it again, but for fixed nodes
+ * and loads of nodes. The index of what was added goes through the last pointer, which may be
+ * NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);
 void       bbm_model_free(bbm_model *m);                    /* takes NULL                       */

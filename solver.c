@@ -343,8 +343,6 @@ void bbm_matrix_measure(bbm_matrix *K, const double *F)
         K->to = K->start[c + 1];
         K->forces[c] = largest(K, F, 2);
     }
-    K->from = 0;
-    K->to = K->n;
 }
 
 /* Solves one component. If its iteration fails, its rows of the solution D are the last x. */

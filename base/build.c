@@ -294,8 +294,8 @@ static bbm_status connect_elements(bbm_model *m)
         if (same || partners > 1) {
             m->blamed[0] = i > m->vertex[w].element ? i : m->vertex[w].element;
             m->blamed[1] = i + m->vertex[w].element - m->blamed[0];
-            return bbm_fail(m, BBM_OVERLAP, "element %d and element %d on the same side, from node %d "
-                            "to node %d", m->blamed[1], m->blamed[0], p, q);
+            return bbm_fail(m, BBM_OVERLAP, "element %d and element %d on the same side, from "
+                            "node %d to node %d", m->blamed[1], m->blamed[0], p, q);
         }
         const int across = partners == 0 ? 0
                          : bbm_next_vertex(&m->element[m->vertex[w].element], w);

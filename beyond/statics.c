@@ -298,8 +298,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
                     parted);
 }
 
-/* What steps change but the contacts, to one piece of memory or back. Returns its bytes; to NULL: no
- * more than that. */
+/* What steps change but the contacts, to one piece of memory or back. Returns its bytes; to NULL:
+ * no more than that. */
 static size_t copy_state(const bbm_model *m, char *to, int back)
 {
     const struct { void *at; size_t bytes; } piece[] = {

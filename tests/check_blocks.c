@@ -436,7 +436,6 @@ START_TEST(a_stone_gives_a_heavy_wall_its_momentum_through_a_very_stiff_spring)
     m->par.dt = 0.1;
     m->par.pcg.tolerance = 1e-10;
     m->par.p_n = 5e13;
-    m->par.p_s = 2e13;
     add_rectangle(m, 0, stiff, (rectangle){ .x = -0.03, .y = -0.01, .w = 0.03, .h = 0.02 });
     add_rectangle(m, 1, stiff, (rectangle){ .x = 0.025, .y = -8, .w = 0.05, .h = 16 });
     ck_ok(bbm_prepare(m), m);

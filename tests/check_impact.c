@@ -22,7 +22,7 @@ static bbm_model *hard_blocks(double E, double friction)
 START_TEST(a_block_rebounds_at_the_velocity_asked_for_whatever_the_step)
 {
     static const double Ws[] = { 0.01, 0.1, 1, 4, 10, 30, 100, 300 };
-    static const double friction[] = { 0, 11.309932474020213, 40 }, left[] = { 2, 0.2, 0 };
+    static const double friction[] = { 0, 11.309932474020213, 40 };
     const double E = _i % 3 / 2.0, tan_phi = bbm_tangent(friction[_i / 3 % 3]);
 
     for (int k = 0; k < COUNT(Ws); k++) {
@@ -36,7 +36,7 @@ START_TEST(a_block_rebounds_at_the_velocity_asked_for_whatever_the_step)
         for (int step = 0; step < 3 && m->info.contacts == 0; step++)
             run_steps(m, 1);
         ck_near(m->element[1].V[1], 3 * E, 3, 0.01);
-        ck_near(m->element[1].V[0], fmax(left[2], 2 - tan_phi * (1 + E) * 3), 3, 0.01);
+        ck_near(m->element[1].V[0], fmax(0, 2 - tan_phi * (1 + E) * 3), 3, 0.01);
         ck_assert(m->beyond->gain < 1e-9);                      /* the solution's rounding      */
         ck_near(m->beyond->hit[1] / m->beyond->hit[0], E * E, 1, 0.01);
         bbm_model_free(m);

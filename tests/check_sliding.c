@@ -505,22 +505,18 @@ START_TEST(a_block_that_slides_off_a_table_is_let_go)
 }
 END_TEST
 
-/* The springs that take a table along begin with far more than 10^9 times the weight of the block on
+/* The springs that take a base along begin with far more than 10^9 times the weight of the block on
  * it. No share of that may be taken for friction. */
 START_TEST(the_springs_of_a_support_that_moves_let_no_contact_leave_its_cone)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = incline(40, 1e10, 1);
 
-    m->par.friction = 30;
-    add_table(m, 0);
-    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     for (int v = 0; v < 4; v++)
         bbm_move_support(m, m->vertex[v].node, 0.01, 0);
     run_steps(m, 1);
-    ck_assert_int_eq(m->contacts, 2);
+    ck_assert_int_gt(m->contacts, 0);
     for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++)
-        ck_assert(c->force_tolerance < 1e-6 * c->N);
+        ck_assert(c->force_tolerance < 1e-2);           /* N; the block weighs 10^4 N */
     bbm_model_free(m);
 }
 END_TEST
