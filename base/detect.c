@@ -754,6 +754,8 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
     r->d_n = g.d;
     r->rest = bbm_motion_of(m) ? fmin(0, g.d + r->N / m->par.p_n) : 0;
     r->time_left = 0;                                       /* the anchor is placed anew        */
+    reach_of(m, edge)->depth = fmax(reach_of(m, edge)->depth, -g.d);
+    reach_of(m, c->corner)->depth = fmax(reach_of(m, c->corner)->depth, -g.d);
     c->state = BBM_OPEN;
     c->N = c->T = c->slip = c->was_closed = c->inside = 0;
 }
