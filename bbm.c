@@ -464,7 +464,7 @@ void bbm_assemble(bbm_model *m)
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     for (int i = 0; i < m->elements; i++)
         assemble_element(m, i);
-    for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds */
+    for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds: their rounding is in the forces */
         assemble_gap(m, &m->gap[g]);
     bbm_matrix_measure(m->K, m->F);
     for (; g < m->gaps; g++)                        /* fixed points */

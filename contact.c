@@ -42,9 +42,9 @@
 
 /* AGREE  [-]  forces agree if they differ by less than this share of the largest force in their
  *             component of K: the solver is not more exact
- * DIGITS [-]  the last digits of a position, after some sums; what a spring makes of them is no
- *             force
- * ROUGH  [-]  unless it is more than this share of the largest force: such springs do not settle */
+ * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
+ *             it counts as no force
+ * ROUGH  [-]  but at most this share of the largest force does. Stiffer springs do not settle */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define ROUGH 1e-3
@@ -358,7 +358,8 @@ static double *force_around(const bbm_model *m, int element)
 
 /* The force tolerance of each contact: a share of the largest force in its component of K. That is
  * the force on an element, inertia included, or in a contact. The solver's residual, and with it
- * the error of every N, is small against this force alone. */
+ * the error of every N, is small against this force alone. What the spring makes of the rounding of
+ * positions is added. */
 static void find_tolerances(const bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
@@ -479,9 +480,9 @@ static int is_at_corner(const bbm_model *m, const bbm_contact *c)
     return crossed && c->state == BBM_OPEN;
 }
 
-/* Changes all states that do not fit the solution, or only the one that fits worst. Where P crosses
- * lines of a corner it waits until all else fits: what holds it changes its way. The worst is the
- * same in any order of the blocks, but for a tie. Returns the number of changes. */
+/* Changes all states that do not fit the solution, or only the one that fits worst. A contact
+ * whose P crosses several lines of a corner waits until all others fit, since they change the way
+ * of P. The worst is the same in any order of the blocks, but for a tie. Returns the number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;

@@ -334,8 +334,8 @@ static double magnitude(double x)
 }
 
 /* Notes the largest force in each component. The tolerance is a share of these where the F of
- * bbm_solve is larger. A spring that has to close a gap begins with a force far above the
- * one that it carries in the end, and what is lost of the first may be all of the second. */
+ * bbm_solve is larger. A spring that closes a gap begins with a force far above the one that it
+ * carries in the end. A small share of the first may be more than the second. */
 void bbm_matrix_measure(bbm_matrix *K, const double *F)
 {
     for (int c = 0; c < K->components; c++) {
