@@ -480,9 +480,10 @@ static int is_at_corner(const bbm_model *m, const bbm_contact *c)
     return crossed && c->state == BBM_OPEN;
 }
 
-/* Changes all states that do not fit the solution, or only the one that fits worst. A contact
- * whose P crosses several lines of a corner waits until all others fit, since they change the way
- * of P. The worst is the same in any order of the blocks, but for a tie. Returns the number of changes. */
+/* Changes all states that do not fit the solution, or only the one that fits worst. A contact whose
+ * P crosses several lines of a corner waits until all others fit, since they change the way of P.
+ * The worst is the same in any order of the blocks, but for a tie. Returns the number of changes.
+ */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
