@@ -104,10 +104,7 @@ bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
 }
 
 /* A model with an error takes none. */
-static int is_node(const bbm_model *m, int node)
-{
-    return node >= 0 && node < m->nodes && !m->status;
-}
+static int is_node(const bbm_model *m, int n) { return n >= 0 && n < m->nodes && !m->status; }
 
 /* The signed area of a polygon, and whether the polygon is degenerate: the areas of the triangles
  * at vertex 0, without their signs, are compared with the square of the longest distance from
