@@ -5,6 +5,7 @@
 # In a block of the kind "console" a line "$ COMMAND" is run by the shell in the project's top folder
 # (it goes on in the next line after a backslash); the lines below it are what it prints, letter for
 # letter. "..." stands for any number of lines. Programs are taken from the folder O.
+# A comment "<!-- $ COMMAND -->" does the same for the table in the lines below it.
 
 function fail(why)
 {
@@ -87,6 +88,9 @@ inside && /^\$ / {
     run(command)
     next
 }
+/^<!-- \$ .* -->$/ { table = 1; run(substr($0, 8, length($0) - 11)); running = 1; next }
+table && !/^[|]/ { finish(); table = 0 }
+table { compare($0); next }
 inside && /^\.\.\.$/ { skip = 1; next }
 inside { compare($0); next }
 { follow_links($0); check_names($0) }
