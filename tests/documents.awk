@@ -26,10 +26,10 @@ function follow_links(line,    path, folder)
     }
 }
 
-# Each `bbm_name` is a word of the sources.
+# Each `bbm_name` is a word of the sources, and so is each name of four words, as those of tests.
 function check_names(line,    name)
 {
-    while (match(line, /`bbm_[a-z_0-9]+`/)) {
+    while (match(line, /`(bbm_[a-z_0-9]+|[A-Za-z]+_[A-Za-z0-9]+_[A-Za-z0-9]+_[A-Za-z0-9_]+)`/)) {
         name = substr(line, RSTART + 1, RLENGTH - 2)
         line = substr(line, RSTART + RLENGTH)
         if (!(name in known))
@@ -71,7 +71,7 @@ function finish()
 }
 
 BEGIN {
-    words = "cat *.h *.c */*.h */*.c | grep -o 'bbm_[a-z_0-9]*' | sort -u"
+    words = "cat *.h *.c */*.h */*.c | grep -oE '[A-Za-z]+_[A-Za-z0-9_]+' | sort -u"
     while ((words | getline word) > 0)
         known[word] = 1
 }
