@@ -1,7 +1,7 @@
 /* figures.c - the figures of the documents: `make figures` draws them into doc/figures.
  *
- * What can be computed is: deformed shapes by the mode matrix, the pattern of K by the order that the
- * solver finds, beams by the core, the line of thrust by its moments. The rest is drawn.
+ * What can be computed is: deformed shapes by the mode matrix, the pattern of K by the order that
+ * the solver finds, beams by the core, the line of thrust by its moments. The rest is drawn.
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,6 +25,8 @@
 typedef struct { plot p; double x, y, scale; } drawing;
 
 typedef struct { double x, y; } point;
+
+static const double QUARTER = 1.57079632679489661923;   /* of a turn, rad */
 
 static double px(const drawing *d, double x) { return d->x + d->scale * x; }
 static double py(const drawing *d, double y) { return d->y - d->scale * y; }
@@ -430,8 +432,8 @@ static void path(drawing *d, int n, const point p[])
 
 static void draw_end(drawing *d, double x, double depth, const char *what)
 {
-    plot_put(&d->p, "<rect x=\"%.1f\" y=\"%.1f\" width=\"120\" height=\"32\" rx=\"16\" " SOLID "/>\n",
-             x - 60, depth);
+    plot_put(&d->p, "<rect x=\"%.1f\" y=\"%.1f\" width=\"120\" height=\"32\" rx=\"16\" "
+             SOLID "/>\n", x - 60, depth);
     plot_text(&d->p, x, depth + 21, MIDDLE, what);
 }
 
@@ -479,15 +481,19 @@ static void draw_flow(drawing *d)
     plot_text(&d->p, x + 300, 398, LEFT, "contacts");
 }
 
-/* ------------------------------------------------------------------------ rock, blocks, elements */
+/* ----------------------------------------------------------------------- rock, blocks, elements */
 
 enum { TRIANGLES = 9 };
 
 static const struct { int block; point p[3]; } rock[TRIANGLES] = {
-    { 0, { { 0, 0 }, { 2, 0 }, { 1.8, 1.4 } } },        { 0, { { 0, 0 }, { 1.8, 1.4 }, { 0, 1.3 } } },
-    { 1, { { 2, 0 }, { 4, 0 }, { 4, 1.6 } } },          { 1, { { 2, 0 }, { 4, 1.6 }, { 1.8, 1.4 } } },
-    { 2, { { 1.8, 1.4 }, { 2.6, 1.473 }, { 2.4, 3 } } }, { 2, { { 1.8, 1.4 }, { 2.4, 3 }, { 0, 3 } } },
-    { 2, { { 1.8, 1.4 }, { 0, 3 }, { 0, 1.3 } } },      { 3, { { 2.6, 1.473 }, { 4, 1.6 }, { 4, 3 } } },
+    { 0, { { 0, 0 }, { 2, 0 }, { 1.8, 1.4 } } },
+    { 0, { { 0, 0 }, { 1.8, 1.4 }, { 0, 1.3 } } },
+    { 1, { { 2, 0 }, { 4, 0 }, { 4, 1.6 } } },
+    { 1, { { 2, 0 }, { 4, 1.6 }, { 1.8, 1.4 } } },
+    { 2, { { 1.8, 1.4 }, { 2.6, 1.473 }, { 2.4, 3 } } },
+    { 2, { { 1.8, 1.4 }, { 2.4, 3 }, { 0, 3 } } },
+    { 2, { { 1.8, 1.4 }, { 0, 3 }, { 0, 1.3 } } },
+    { 3, { { 2.6, 1.473 }, { 4, 1.6 }, { 4, 3 } } },
     { 3, { { 2.6, 1.473 }, { 4, 3 }, { 2.4, 3 } } },
 };
 
@@ -502,17 +508,30 @@ static point apart(int k, int corner, double blocks, double elements)
                     b.y + elements * (p[corner].y - b.y) + blocks * (c.y - 1.5) };
 }
 
+/* The corners of all triangles are numbered from 0. */
+static point corner_of(int i) { return rock[i / 3].p[i % 3]; }
+
+static int is_same(point a, point b) { return hypot(a.x - b.x, a.y - b.y) < 1e-6; }
+
 /* Whether no triangle before it has that corner in the same block. */
 static int is_first(int i)
 {
-    const point a = rock[i / 3].p[i % 3];
-
-    for (int j = 0; j < i; j++) {
-        const point b = rock[j / 3].p[j % 3];
-        if (rock[i / 3].block == rock[j / 3].block && hypot(a.x - b.x, a.y - b.y) < 1e-6)
+    for (int j = 0; j < i; j++)
+        if (rock[i / 3].block == rock[j / 3].block && is_same(corner_of(i), corner_of(j)))
             return 0;
-    }
     return 1;
+}
+
+/* Whether the side from that corner lies between two triangles of the block. */
+static int is_inside(int i)
+{
+    const point a = corner_of(i), b = rock[i / 3].p[(i + 1) % 3];
+
+    for (int j = 0; j < 3 * TRIANGLES; j++)
+        if (rock[i / 3].block == rock[j / 3].block && is_same(corner_of(j), b)
+            && is_same(rock[j / 3].p[(j + 1) % 3], a))
+            return 1;
+    return 0;
 }
 
 /* What joins corners that were one point: bonds in a block, contacts between two. */
@@ -520,9 +539,8 @@ static void join_corners(drawing *d, double blocks, double elements)
 {
     for (int i = 0; i < 3 * TRIANGLES; i++)
         for (int j = i + 1; j < 3 * TRIANGLES; j++) {
-            const point a = rock[i / 3].p[i % 3], b = rock[j / 3].p[j % 3];
             const int same = rock[i / 3].block == rock[j / 3].block;
-            if (i / 3 == j / 3 || hypot(a.x - b.x, a.y - b.y) > 1e-6
+            if (i / 3 == j / 3 || !is_same(corner_of(i), corner_of(j))
                 || (!same && !(is_first(i) && is_first(j))))
                 continue;
             line(d, apart(i / 3, i % 3, blocks, elements), apart(j / 3, j % 3, blocks, elements),
@@ -544,18 +562,11 @@ static void draw_rock(drawing *d)
                 p[c] = apart(k, c, blocks[panel], elements[panel]);
             polygon(d, 3, p, panel == 2 ? BLUE : "fill=\"#f4ead7\" stroke=\"#f4ead7\"");
         }
-        for (int k = 0; k < 3 * TRIANGLES && panel < 2; k++) {
-            const point a = rock[k / 3].p[k % 3], b = rock[k / 3].p[(k + 1) % 3];
-            int inside = 0;
-            for (int j = 0; j < 3 * TRIANGLES; j++)
-                inside |= rock[j / 3].block == rock[k / 3].block
-                          && hypot(rock[j / 3].p[(j + 1) % 3].x - a.x, rock[j / 3].p[(j + 1) % 3].y - a.y)
-                             + hypot(rock[j / 3].p[j % 3].x - b.x, rock[j / 3].p[j % 3].y - b.y) < 1e-6;
-            if (!inside)
+        for (int k = 0; k < 3 * TRIANGLES && panel < 2; k++)
+            if (!is_inside(k))
                 line(d, apart(k / 3, k % 3, blocks[panel], 1),
                      apart(k / 3, (k + 1) % 3, blocks[panel], 1),
                      "stroke=\"#8a6d3b\" stroke-width=\"1.8\"");
-        }
         if (panel)
             join_corners(d, blocks[panel], elements[panel]);
         name(d, (point){ 2, -0.75 }, 0, 0, HEADING, heading[panel]);
@@ -564,7 +575,7 @@ static void draw_rock(drawing *d)
     }
 }
 
-/* ------------------------------------------------------------------------------- the experiments */
+/* ------------------------------------------------------------------------------ the experiments */
 
 /* Between two arrow heads. */
 static void dimension(drawing *d, point a, point b, double right, double up, const char *text)
@@ -599,20 +610,26 @@ static void draw_setup_1(drawing *d)
     name(d, (point){ 24, 7 }, 0, 10, HEADING, "I: load a at one node; b, c as parabolic shear");
 }
 
+static void roller(drawing *d, point a)
+{
+    plot_put(&d->p, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" " SOLID "/>\n", px(d, a.x),
+             py(d, a.y));
+}
+
 static void draw_setup_2(drawing *d)
 {
     enum { ARC = 16 };
     point plate[ARC + 4] = { { 5, 0 }, { 5, 5 }, { 0, 5 } };
 
     for (int k = 0; k <= ARC; k++)
-        plate[3 + k] = (point){ sin(1.5707963267948966 * k / ARC), cos(1.5707963267948966 * k / ARC) };
+        plate[3 + k] = (point){ sin(QUARTER * k / ARC), cos(QUARTER * k / ARC) };
     place(d, 590, 300, 48);
     polygon(d, ARC + 4, plate, BLUE);
     for (int k = 0; k < 5; k++) {
         const point left = { -0.12, 1.2 + 0.92 * k }, below = { 1.2 + 0.92 * k, -0.12 };
         const point right = { 5, 0.3 + 1.1 * k };
-        plot_put(&d->p, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" " SOLID "/>\n", px(d, left.x), py(d, left.y));
-        plot_put(&d->p, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" " SOLID "/>\n", px(d, below.x), py(d, below.y));
+        roller(d, left);
+        roller(d, below);
         arrow(d, right, (point){ 5.6, right.y }, RED);
     }
     axes(d, (point){ 0, 0 }, 0.55);
@@ -656,13 +673,15 @@ static void draw_setup(drawing *d)
     draw_setup_3(d);
 }
 
-/* ---------------------------------------------------------------------- the beam of Experiment I */
+/* --------------------------------------------------------------------- the beam of Experiment I */
 
 /* nx x ny cells of four triangles, clamped, 1 kN spread over the nodes of the end; no cells: one
  * block. NULL where there is no memory. */
 static bbm_model *solve_beam(int nx, int ny, double alpha)
 {
-    static const double one[6][2] = { { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 }, { 0, 0 } };
+    static const double one[6][2] = {
+        { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 }, { 0, 0 },
+    };
     bbm_model *m;
 
     if (bbm_model_new(&m))
@@ -751,8 +770,8 @@ static void draw_bending(drawing *d)
         hatch(d, (point){ 0, 7 }, (point){ 0, -7 });
         draw_beam(d, m, way[k].size, BLUE);
         for (int x = 0; x < 48; x += 2)
-            line(d, (point){ x, MAGNIFIED * beam_theory(x) }, (point){ x + 1, MAGNIFIED * beam_theory(x + 1) },
-                 RED);
+            line(d, (point){ x, MAGNIFIED * beam_theory(x) },
+                 (point){ x + 1, MAGNIFIED * beam_theory(x + 1) }, RED);
         snprintf(text, sizeof text, "tip %.2f mm", 1e3 * at_node(m, 48, 0).v);
         name(d, (point){ 49, 0 }, 10, 20, LEFT, text);
         name(d, (point){ 2, 7.5 }, 0, 0, LEFT, way[k].what);
@@ -785,20 +804,20 @@ static void draw_error(drawing *d)
     }
     for (int a = 0; a < ALPHAS; a++)
         soft[a] = 300 / alpha[a];
-    s[MESHES] = (plot_series){ .name = "springs alone: 3/alpha", .n = 5, .x = alpha, .y = soft, .look = 1,
-                               .style = PLOT_DASHED };
+    s[MESHES] = (plot_series){ .name = "springs alone: 3/alpha", .n = 5, .x = alpha, .y = soft,
+                               .look = 1, .style = PLOT_DASHED };
     plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 460 }, &(plot_chart){
         .title = "Error of v(24,0): too soft on the left, too stiff on the right",
         .x = { "alpha", NULL, 1, 0, 0 }, .y = { "error, its sign left out", "%", 1, 0, 0 },
         .count = MESHES + 1, .series = s });
 }
 
-/* ------------------------------------------------------------- the stress of elements, and of nodes */
+/* --------------------------------------------------------- the stress of elements, and of nodes */
 
 enum { CELLS_HIGH = 8, STEPS = 8 };
 
-/* sxx of the triangles that a cell has above (2), below (0), and at the sides (1, 3): the mean of the
- * cells left and right of x = 24. */
+/* sxx of the triangles that a cell has above (2), below (0), and at the sides (1, 3): the mean of
+ * the cells left and right of x = 24. */
 static double cell_stress(const bbm_model *m, int j, int k)
 {
     const int nx = 4 * CELLS_HIGH, left = 4 * (j * nx + nx / 2 - 1), right = left + 4;
@@ -829,60 +848,66 @@ static void draw_stress(drawing *d)
     }
     const plot_series series[] = {
         { .name = "theory (70)", .n = 2, .x = end, .y = exact, .look = 1 },
-        { .name = "triangles above and below in a cell", .n = 3 * STEPS, .x = y[0], .y = s[0], .look = 2 },
-        { .name = "triangles left and right in a cell", .n = 3 * STEPS, .x = y[1], .y = s[1], .look = 4 },
-        { .name = "nodal mean", .n = STEPS / 2 + 1, .x = at, .y = mean, .look = 3, .style = PLOT_MARKS },
+        { .name = "triangles above and below in a cell", .n = 3 * STEPS, .x = y[0], .y = s[0],
+          .look = 2 },
+        { .name = "triangles left and right in a cell", .n = 3 * STEPS, .x = y[1], .y = s[1],
+          .look = 4 },
+        { .name = "nodal mean", .n = STEPS / 2 + 1, .x = at, .y = mean, .look = 3,
+          .style = PLOT_MARKS },
     };
     if (m)
         plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 460 }, &(plot_chart){
             .title = "sxx at x = 24 m from the axis to the face, 1,024 triangles",
-            .x = { "y", "m", 0, 0, 0 }, .y = { "sxx", "Pa", 0, 0, 0 }, .count = 4, .series = series });
+            .x = { "y", "m", 0, 0, 0 }, .y = { "sxx", "Pa", 0, 0, 0 }, .count = 4,
+            .series = series });
     bbm_model_free(m);
 }
 
-/* -------------------------------------------------------------------------------- a line of thrust */
+/* ----------------------------------------------------------------------------- a line of thrust */
 
-/* A semicircular arch of mean radius 1 and thickness t, its own weight 1 for each radian. The resultant
- * of the part up to the angle phi from the crown crosses its section at the radius r, by the moments
- * about that point: H (c - r cos phi) = r phi sin phi - g (1 - cos phi), where H acts at the height c
- * at the crown and g is the radius of the centre of gravity of a slice. H lets it end at r = c. */
+/* A semicircular arch of mean radius 1 and thickness t, its own weight 1 for each radian. The
+ * resultant of the part up to the angle phi from the crown crosses its section at the radius r, by
+ * the moments about that point:
+ *     H (c - r cos phi) = r phi sin phi - g (1 - cos phi)
+ * H acts at the height c at the crown, g is the radius of the centre of gravity of a slice. H lets
+ * the line end at r = c. */
 static double thrust_radius(double phi, double c, double t)
 {
-    const double right = 1.5707963267948966, g = 1 + t * t / 12, H = (right * c - g) / c;
+    const double g = 1 + t * t / 12, H = (QUARTER * c - g) / c;
 
     return (H * c + g * (1 - cos(phi))) / (H * cos(phi) + phi * sin(phi));
 }
 
-static void arc(drawing *d, double phi[2], double radius, const char *look)
+static void half_circle(drawing *d, double radius, const char *look)
 {
     for (int k = 0; k < 60; k++) {
-        const double a = phi[0] + (phi[1] - phi[0]) * k / 60, b = phi[0] + (phi[1] - phi[0]) * (k + 1) / 60;
-        line(d, (point){ radius * sin(a), radius * cos(a) }, (point){ radius * sin(b), radius * cos(b) }, look);
+        const double a = QUARTER * (k - 30) / 30, b = QUARTER * (k - 29) / 30;
+        line(d, (point){ radius * sin(a), radius * cos(a) },
+             (point){ radius * sin(b), radius * cos(b) }, look);
     }
 }
 
 static void draw_arch(drawing *d, double t, double c, int hinges)
 {
     enum { STONES = 15 };
-    const double right = 1.5707963267948966;
-    double half[2] = { -right, right }, least = 2, where = 0;
+    double least = 2, where = 0;
 
-    arc(d, half, 1 - t / 2, "stroke=\"#8a6d3b\" stroke-width=\"1.8\"");
-    arc(d, half, 1 + t / 2, "stroke=\"#8a6d3b\" stroke-width=\"1.8\"");
+    half_circle(d, 1 - t / 2, "stroke=\"#8a6d3b\" stroke-width=\"1.8\"");
+    half_circle(d, 1 + t / 2, "stroke=\"#8a6d3b\" stroke-width=\"1.8\"");
     for (int k = 0; k <= STONES; k++) {
-        const double a = -right + 2 * right * k / STONES;
+        const double a = -QUARTER + 2 * QUARTER * k / STONES;
         line(d, (point){ (1 - t / 2) * sin(a), (1 - t / 2) * cos(a) },
              (point){ (1 + t / 2) * sin(a), (1 + t / 2) * cos(a) }, "stroke=\"#8a6d3b\"");
     }
     for (int k = -90; k < 90; k++) {
-        const double a = right * k / 90, b = right * (k + 1) / 90;
+        const double a = QUARTER * k / 90, b = QUARTER * (k + 1) / 90;
         const double r = thrust_radius(fabs(a), c, t), q = thrust_radius(fabs(b), c, t);
         line(d, (point){ r * sin(a), r * cos(a) }, (point){ q * sin(b), q * cos(b) }, RED);
         if (k >= 0 && r < least)
             least = r, where = a;
     }
     for (int k = -2; k <= 2 && hinges; k++) {
-        const double a = k % 2 ? where * k : right * k / 2, r = thrust_radius(fabs(a), c, t);
+        const double a = k % 2 ? where * k : QUARTER * k / 2, r = thrust_radius(fabs(a), c, t);
         dot(d, (point){ r * sin(a), r * cos(a) }, "#222");
     }
     hatch(d, (point){ -1.15, 0 }, (point){ -0.8, 0 });
