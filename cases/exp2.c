@@ -4,7 +4,7 @@
  *   y=5 ____________        a = 1 m, quarter of a plate 10 m x 10 m, t = 0.2 m, tension s = 1 MPa
  *      |            |-> s   along x, E = 2900 GPa, nu = 0.3; symmetry: v = 0 on y = 0, u = 0 on
  *     o|            |-> s   x = 0
- *     o|_           |-> s   b5  s on x = 5, y = 5 free: the paper's experiment, a finite plate
+ *     o|_           |-> s   b5  s on x = 5, y = 5 free: the paper's plate, its size ours
  *        \          |-> s   k5  the tractions of (72) on x = 5 and y = 5: the infinite plate, so
  *         |_________|-> s       (72) is exact
  *         1 o  o    5       One large step, as in the paper.

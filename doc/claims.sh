@@ -81,8 +81,8 @@ areas()
 # SSOR-PCG; digits that rounding decides are left out.
 iterations()
 {
-    for a in 10 100 1000 10000 100000; do
-        beam 24 6 $a 0 | sed 's/^pcg.*/pcg coarse off/' | run
+    for a in 10 1000 100000; do
+        beam 32 8 $a 0 | sed 's/^pcg.*/pcg coarse off/' | run
         tail -1 out/claims/summary.csv | awk -F, -v a=$a '{
             printf "alpha %6d: %2.0f hundred iterations, residual 1e%d\n", a, $4 / 100, log($5) / log(10) - 1
         }'
