@@ -393,8 +393,40 @@ int case_draw(case_results *r, int done)
     return done;
 }
 
-void case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[])
+/* The largest values of a field, and the largest difference at a grid point. */
+static void print_difference(const bbm_model *m, const bbm_model *fem, const scene_map *map)
+{
+    const field *f = field_find(map->field);
+    double most[3] = { 0 };
+
+    for (int i = 0; i < m->nodes; i++) {
+        const double a = field_of_node(f, m, i), b = field_of_node(f, fem, i);
+        most[0] = fmax(most[0], fabs(a));
+        most[1] = fmax(most[1], fabs(b));
+        most[2] = fmax(most[2], fabs(a - b));
+    }
+    printf("| %s | %.5g | %.5g | %.2f %% |\n", map->title, most[0], most[1],
+           100 * most[2] / most[1]);
+}
+
+/* fem: the same beside a finite element on the same mesh, or NULL. */
+void case_draw_maps(case_results *r, const bbm_model *m, const bbm_model *fem, int n,
+                    const case_map map[])
 {
     for (int k = 0; k < n; k++)
         case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+    if (!fem)
+        return;
+    printf("\n## With beyond/: the figures beside the constant-strain finite element, fem_*.svg\n\n"
+           "| largest [m, Pa] | BBM | FEM | largest difference |\n|---|---|---|---|\n");
+    for (int k = 0; k < n && map[k].map.scale < 0; k++) {
+        scene_map both = map[k].map;
+        char file[40];
+        both.other = fem;
+        both.name[0] = "BBM, the paper's way";
+        both.name[1] = "FEM: constant-strain triangles";
+        snprintf(file, sizeof file, "fem_%s", map[k].file);
+        case_draw(r, scene_write_map(m, case_path(r, file), &both));
+        print_difference(m, fem, &both);
+    }
 }

@@ -106,7 +106,10 @@ void   case_write_curves(case_results *r, const char *file, const char *header, 
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);
 typedef struct { const char *file; scene_map map; } case_map;
-void   case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[]);
+/* The maps of m, and those that show no displacements once more beside a finite element on the same
+ * mesh: the triangles with two rounds of multipliers. */
+void   case_draw_maps(case_results *r, const bbm_model *m, const bbm_model *fem, int n,
+                      const case_map map[]);
 void   case_print_parameters(const bbm_model *m);       /* Table 1, and what the solution took  */
 void   case_print_augmented(const bbm_model *m);        /* what a row with beyond/ is; or NULL  */
 void   case_progress(const char *what);                 /* one line on stdout, at once          */
