@@ -133,7 +133,7 @@ int model_build(model_reader *r)
     model *p = r->p;
 
     if (r->elements == 0)
-        return model_fail(r, (model_place){ r->path, 0 },
+        return model_fail(r, (model_place){ .file = r->path },
                           "the model has no element, expected: block ..., grid ..., mesh FILE or "
                           "element ...");
     if (!give_materials(r) || !copy_nodes(r) || !add_nodes(r))
@@ -560,7 +560,7 @@ static int blame_free(model_reader *r)
             snprintf(near, sizeof near, "; block '%.60s' is %.3g m away",
                      r->p->block[m->element[own ? j : i].block], gap);
         }
-    return model_fail(r, (model_place){ r->path, 0 }, "block '%.60s' is free to move, expected "
+    return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, expected "
                       "fix, fixblock or a contact that holds it in statics%s",
                       r->p->block[m->element[loose].block], near);
 }

@@ -36,6 +36,8 @@ static int note(model_reader *r, model_place at, const char *format, va_list arg
     if (at.line > 0)
         used += (size_t)snprintf(message + used, room - used, "%d:", at.line);
     message[used++] = ' ';
+    if (at.round)
+        used += (size_t)snprintf(message + used, room - used, "%.100s: ", at.round);
     vsnprintf(message + used, room - used, format, args);
     model_clean(message);
     return 0;
@@ -63,7 +65,7 @@ int model_blame(model_reader *r, const char *format, ...)
 
 int model_out_of_memory(model_reader *r)
 {
-    model_fail(r, (model_place){ r->path, 0 }, "out of memory");
+    model_fail(r, (model_place){ .file = r->path }, "out of memory");
     r->p->status = 1;
     return 0;
 }
@@ -72,7 +74,7 @@ int model_out_of_memory(model_reader *r)
 int model_refused(model_reader *r, bbm_status status)
 {
     const int overlap = status == BBM_OVERLAP || status == BBM_BLOCKS_OVERLAP;
-    const model_place none = { r->path, 0 };
+    const model_place none = { .file = r->path };
     char text[400];
 
     if (status == BBM_NO_MEMORY)
@@ -279,12 +281,25 @@ const char *model_hint(const char *word)
     while (*c > 0 && *c < 127)
         c++;
     return strncmp(word, "//", 2) == 0 ? "; a comment begins with #"
+         : strpbrk(word, "(*/^") ? "; arithmetic is $(...)"
          : *c ? "; it has letters beyond ASCII: minus is -" : "";
+}
+
+/* What the file has in place of a word of the statement, or NULL: the same. */
+static const char *source_of(const model_reader *r, const char *word)
+{
+    for (int k = r->s->first; k < r->s->first + r->s->n; k++)
+        if (r->word[k] == word && r->given[k].text != word)
+            return r->given[k].text;
+    return NULL;
 }
 
 int model_wrong(model_reader *r, const char *what, const char *word)
 {
-    return model_blame(r, "%s '%.60s', expected: %s%s", what, word, r->s->form, model_hint(word));
+    const char *source = source_of(r, word);
+
+    return model_blame(r, "%s '%.60s'%s%.60s, expected: %s%s", what, word, source ? ", from " : "",
+                       source ? source : "", r->s->form, model_hint(word));
 }
 
 /* The word that comes next stays; NULL at the end. */
@@ -327,9 +342,21 @@ int model_at_end(model_reader *r)
     return model_look(r) ? model_wrong(r, "surplus word", model_look(r)) : 1;
 }
 
+/* A word that is to be a number: none that is put together, as 2$p. */
+static char *number_word(model_reader *r)
+{
+    char *word = model_word(r);
+    const int at = r->s->first + r->next - 1;
+
+    if (word && r->given[at].glued)
+        return model_blame(r, "'%.60s' would be '%.60s', put together from letters; a number is one "
+                           "of 5, $NAME, -$NAME, $(...)", r->given[at].text, word), NULL;
+    return word;
+}
+
 int model_number(model_reader *r, double *x)
 {
-    char *word = model_word(r), *end;
+    char *word = number_word(r), *end;
 
     if (!word)
         return 0;
@@ -354,7 +381,7 @@ int model_numbers(model_reader *r, int n, double x[])
 
 int model_whole(model_reader *r, const char *what, int least, int *n)
 {
-    char *word = model_word(r), *end;
+    char *word = number_word(r), *end;
 
     if (!word)
         return 0;
@@ -435,9 +462,9 @@ static int in_range(model_reader *r, const model_option *o)
     const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
                      && (o->rim[1] == ']' ? x <= o->high : x < o->high);
 
-    const int at = r->s->first + r->next - 1, same = r->given[at] == r->word[at];
+    const char *source = source_of(r, r->word[r->s->first + r->next - 1]);
     return good ? 1 : model_blame(r, "%s is %g%s%.60s, expected %s", o->name, x,
-                                  same ? "" : ", from ", same ? "" : r->given[at], o->expected);
+                                  source ? ", from " : "", source ? source : "", o->expected);
 }
 
 static int option_value(model_reader *r, model_option *o)

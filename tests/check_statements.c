@@ -434,6 +434,41 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
 }
 END_TEST
 
+START_TEST(arithmetic_has_its_value_to_15_digits)
+{
+    char said[LONG];
+
+    write_text("out/model/sums.model", "title $(1 + 2*3) $(2^3^2) $(-2^2) $(2^-1) $(7/2 - -1) $((1+2)*3) $t$(t)$a-b "
+               "$(a-b) $(a - b) $(0.1+0.2) $(sin(30)) $(cos(90)) $(tan(45)) $(asin(-1)) $(acos(0)) $(atan(1)) "
+               "$(sqrt(2)) $(abs(-3)) $(floor(-1.5)) $(min(3,1, 2)) $(max(t, 5)) $(pi) $(1e3) $(-0) $t.left\n"
+               "let t 1.5\nlet a 5\nlet b 2\nlet a-b 7\n" ROCK "block x rock 0 0 1 0 1 1\ndynamic dt 1 steps 1\n");
+    ck_assert_int_eq(shell("%s/bbm out/model/sums.model -o out/model/sums | head -1 > out/model/said", BUILD), 0);
+    ck_assert_str_eq(slurp("out/model/said", said), "out/model/sums.model: 7 512 -4 0.5 4.5 9 1.51.57 7 3 0.3 0.5 0 1 "
+                     "-90 90 45 1.4142135623731 3 -2 1 5 3.14159265358979 1000 0 1.5.left\n");
+}
+END_TEST
+
+/* A wall in a triangle by rounds, of which the first has none, and by hand. */
+START_TEST(what_is_repeated_is_what_stands_there_so_often)
+{
+    static const char *const by[] = {
+        "let n 2\nrepeat j 0 $n\nlet x $(2*j)\nrepeat i 1 $j\nblock v$i-$j rock $x $i $(x + 1) $i $x $(i + 0.5)\n"
+        "monitor top$j.$i at $x $i of v$i-$j\nexpect top$j.$i u 1 within $(50*n)%\nend\nend\n",
+        "block v1-1 rock 2 1 3 1 2 1.5\nblock v1-2 rock 4 1 5 1 4 1.5\nblock v2-2 rock 4 2 5 2 4 2.5\n",
+    };
+    char text[LONG];
+
+    for (int k = 0; k < 2; k++) {
+        snprintf(text, sizeof text, ROCK "%svelocity v1-1 1 0\nvelocity v1-2 1 0\nvelocity v2-2 1 0\n"
+                 "dynamic dt 0.1 steps 10\n", by[k]);
+        ck_assert_int_eq(run_text(k ? "hand" : "rounds", text), 0);
+    }
+    ck_assert_int_eq(shell("cd out/model && cmp rounds/nodes.csv hand/nodes.csv && "
+                           "cmp rounds/elements.csv hand/elements.csv"), 0);
+    ck_relative(cell("rounds", "history.csv", "10,", "top2.2_u"), 1, 1e-9);
+}
+END_TEST
+
 START_TEST(a_check_draws_and_computes_nothing)
 {
     char said[LONG];
@@ -491,6 +526,8 @@ Suite *statements_suite(void)
     tcase_add_test(t, of_block_takes_the_nodes_of_one_block);
     tcase_add_loop_test(t, what_is_expected_is_compared, 0, 8);
     tcase_add_test(t, a_number_of_the_command_line_takes_the_place_of_let);
+    tcase_add_test(t, arithmetic_has_its_value_to_15_digits);
+    tcase_add_test(t, what_is_repeated_is_what_stands_there_so_often);
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_set_timeout(t, 60);
