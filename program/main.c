@@ -15,6 +15,7 @@
 
 #include "field.h"
 #include "length.h"
+#include "run.h"
 #include "statements.h"
 #include "write.h"
 
@@ -124,8 +125,9 @@ static void show_progress(progress *s, const bbm_model *m, int step)
 {
     const double each = (double)(clock() - s->start) / CLOCKS_PER_SEC / (step > 0 ? step : 1);
 
-    if (!s->shown || (isatty(2) ? clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps
-                                : time(NULL) < s->said + SILENCE))
+    if (!s->shown || step == 0
+        || (isatty(2) ? clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps
+                      : time(NULL) < s->said + SILENCE))
         return;
     s->last = clock();
     s->said = time(NULL);
@@ -236,27 +238,14 @@ static void warn_of_turns(const model *p, const char *path)
 /* What came out beside what was expected of it; the number of those not met. */
 static int report_expectations(const model *p, int quiet)
 {
-    static const char *const kind[] = { "u", "v", "moves", "stays" };
+    char text[300];
     int missed = 0;
 
     for (int k = 0; k < p->expectations; k++) {
-        const model_expected *e = &p->expected[k];
-        const int value = e->kind == MODEL_U || e->kind == MODEL_V;
-        double u[2];
-        model_displacement(p, &p->monitor[e->monitor], u);
-        const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
-        const int met = value ? fabs(got - e->value) <= e->within
-                      : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
+        const int met = run_is_met(p, k, text);
         missed += !met;
-        if (met && quiet)
-            continue;
-        printf("expected: %s %s ", p->monitor[e->monitor].name, kind[e->kind]);
-        if (value)
-            printf("%.6g within %.2g m; computed: %.6g m: ", e->value, e->within, got);
-        else
-            printf("by %s than %.6g m; computed: %.6g m: ",
-                   e->kind == MODEL_MOVES ? "more" : "less", e->within, got);
-        printf("%s\n", met ? "ok" : "NOT MET");
+        if (!met || !quiet)
+            printf("expected: %s\n", text);
     }
     return missed;
 }
@@ -315,69 +304,38 @@ static void warn_of_pieces(const model *p, const char *path)
 
 /* -------------------------------------------------------------------------------------- the run */
 
-/* Quasi-static steps without shaking. */
-static bbm_status settle(model *p)
+/* All steps, with rows in the tables for the start and each one of the model. What went wrong is in
+ * the library's message or in w. */
+static bbm_status run_all(run *r, write_results *w, progress *s)
 {
-    bbm_model *m = p->m;
-    const bbm_parameters par = m->par;
-    double *now = m->beyond->shake;
-    const double shake[2] = { now[0], now[1] };
+    const bbm_info *i = &r->p->m->info;
     bbm_status status = BBM_OK;
 
-    m->par.velocity_factor = now[0] = now[1] = 0;
-    for (int k = 0; k < p->settle && !status && !stopped; k++)
-        status = bbm_step(m);
-    m->par = par;
-    memcpy(now, shake, sizeof shake);
+    while (!status && !r->is_over && !stopped && (!r->has_begun || !w->status)) {
+        status = run_step(r);
+        if (!status && r->has_begun) {
+            write_step(w, i->step);
+            show_progress(s, r->p->m, r->is_over ? s->steps : i->step);
+        }
+    }
     return status;
 }
 
-/* All steps, or until (71) is met; what went wrong is in the library's message or in w. */
-static bbm_status run_steps(write_results *w, progress *s)
+/* The message of a run that failed or was stopped. */
+static void report(const run *r, bbm_status status, const arguments *a)
 {
-    bbm_model *m = w->p->m;
-    const bbm_parameters *par = &m->par;
-    bbm_status status = BBM_OK;
-    int met = 0;
+    const bbm_model *m = r->p->m;
+    char text[500];
 
-    if (!model_start(w->p))
-        status = BBM_NO_MEMORY;
-    if (!status)
-        write_step(w, 0);
-    for (int step = 1; step <= par->steps && !status && !w->status && !met && !stopped; step++) {
-        model_move_supports(w->p, w->p->dynamic ? step * par->dt : INFINITY);
-        status = bbm_step(m);
-        if (!status)
-            write_step(w, step);
-        met = !status && par->tolerance > 0 && m->info.change <= par->tolerance;
-        show_progress(s, m, met ? s->steps : step);
-    }
-    return !status && !w->status && !stopped && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED
-                                                                           : status;
-}
-
-/* The message of a run that failed; `when`: in which part of it. The library's own message may
- * name the step. */
-static void report(const model *p, bbm_status status, const char *when, const arguments *a)
-{
-    const bbm_model *m = p->m;
-    char text[400];
-    const char *message = model_says(p, status, text);
-
+    run_says(r, status, text);
     if (stopped)
         fprintf(stderr,
                 "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in "
                 "%s\n",
-                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t,
-                a->folder);
-    else if (status == BBM_STEPS_EXHAUSTED)
-        fprintf(stderr,
-                "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n",
-                a->model, m->info.step, m->info.change, m->par.tolerance);
-    else if (status && strstr(message, "step "))
-        fprintf(stderr, "%s: %s%s\n", a->model, when, message);
+                a->model, r->has_begun ? "" : "settling, ", m->info.step,
+                r->has_begun ? m->par.steps : r->p->settle, m->info.t, a->folder);
     else if (status)
-        fprintf(stderr, "%s: %sstep %d: %s\n", a->model, when, m->info.step + 1, message);
+        fprintf(stderr, "%s: %s\n", a->model, text);
 }
 
 /* Looked at before each solution: the matrix if it is wanted, and whether to stop. */
@@ -457,7 +415,7 @@ static int check(model *p, const arguments *a)
     return 0;
 }
 
-static int run(model *p, const arguments *a, clock_t start)
+static int run_model(model *p, const arguments *a, clock_t start)
 {
     write_results w = { .p = p,
                         .source = a->model,
@@ -467,7 +425,7 @@ static int run(model *p, const arguments *a, clock_t start)
                         .reading = clock() - start };
     progress s = { !a->quiet, p->m->par.steps, 0, clock(), 0, time(NULL) };
     bbm_status status = BBM_OK;
-    const char *when = "settling, ";
+    run r = { .p = p, .settling = p->settle };
 
     catch_signals();
     warn(p, a->model, 0);
@@ -477,15 +435,10 @@ static int run(model *p, const arguments *a, clock_t start)
     if (!a->quiet)
         describe(p, a->model);
     if (write_open(&w)) {
-        status = settle(p);
-        if (!status && !stopped) {
-            when = "";
-            p->m->info.t = p->m->info.step = 0;
-            status = run_steps(&w, &s);
-        }
+        status = run_all(&r, &w, &s);
         end_progress(&s);
         write_close(&w);
-        report(p, status, when, a);
+        report(&r, status, a);
     }
     if (stopped || status || w.status)
         return stopped ? 128 + (int)stopped : 1;
@@ -503,7 +456,7 @@ static int read_and_run(const arguments *a, clock_t start)
     if (status)
         fprintf(stderr, "%s\n", p.message);
     else
-        status = a->check ? check(&p, a) : run(&p, a, start);
+        status = a->check ? check(&p, a) : run_model(&p, a, start);
     model_free(&p);
     return status;
 }
