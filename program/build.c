@@ -228,11 +228,9 @@ static void choose_nearest(model_reader *r, const selection *w)
         return;
     choose(r, w, found);
     if (others > 0)
-        fprintf(stderr,
-                "%s:%d: note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
-                "takes another\n",
-                r->s->at.file, r->s->at.line, others + 1, r->node[found].id,
-                r->block[r->copy[r->node[found].first].block].name);
+        model_note(r, "note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
+                   "takes another", others + 1, r->node[found].id,
+                   r->block[r->copy[r->node[found].first].block].name);
 }
 
 static int is_there(const model_reader *r, const selection *w, const model_node *n)
@@ -477,8 +475,7 @@ int model_joint(model_reader *r)
         const int *a = b->joint[k].block;
         if (((a[0] < 0 || a[0] == block[0]) && (a[1] < 0 || a[1] == block[1]))
             || ((a[0] < 0 || a[0] == block[1]) && (a[1] < 0 || a[1] == block[0])))
-            fprintf(stderr, "%s:%d: warning: this joint never counts, below one that fits the same "
-                            "blocks\n", r->s->at.file, r->s->at.line);
+            model_note(r, "warning: this joint never counts, below one that fits the same blocks");
     }
     r->p->slippery = 0;
     if (r->no_shear)

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "field.h"
+#include "find.h"
 #include "length.h"
 #include "run.h"
 #include "statements.h"
@@ -28,14 +29,18 @@ typedef struct {
     const char *model, *matrix;
     char folder[1024], **let;                   /* let: [lets] NAME=VALUE */
     int lets, quiet, check, exit;               /* exit: -1, go on */
+    find find;                                  /* name: NULL, none */
 } arguments;
 
 static const char *usage(void)
 {
     return "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
+           "       bbm [-q] [-d NAME=VALUE] --find NAME LOW HIGH MODEL\n"
            "  MODEL       a model file; -: standard input\n"
            "  -d          takes the place of `let NAME`; may be given several times\n"
            "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
+           "  --find NAME LOW HIGH\n"
+           "              bisects `let NAME` until its expectations change; writes no results\n"
            "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
            "  -m FILE.mtx the matrix of the first solution (Matrix Market), and its right-hand "
            "side as FILE.mtx.rhs\n"
@@ -62,6 +67,21 @@ static int name_folder(arguments *a, const char *given)
     memcpy(a->folder, base, n);
     a->folder[n] = '\0';
     return 0;
+}
+
+/* NAME LOW HIGH; 0: they are not. */
+static int read_find(find *f, char *word[])
+{
+    char *end[2] = { "?", "?" };
+
+    for (int k = 0; k < 3; k++)
+        if (!word[k])
+            return 0;
+    f->name = word[0];
+    f->low = strtod(word[1], &end[0]);
+    f->high = strtod(word[2], &end[1]);
+    return *word[1] && *word[2] && !*end[0] && !*end[1] && isfinite(f->low) && isfinite(f->high)
+           && f->low != f->high;
 }
 
 /* The options may stand before and after the model; behind `--` a name may begin with a dash. */
@@ -91,6 +111,10 @@ static int read_arguments(arguments *a, int argc, char *argv[])
             return printf("bbm %s\n", BBM_VERSION), a->exit = 0;
         } else if (strcmp(word, "--check") == 0) {
             a->check = 1;
+        } else if (strcmp(word, "--find") == 0) {
+            if (!read_find(&a->find, argv + k + 1))
+                return complain(a, "--find needs a name and two different numbers");
+            k += 3;
         } else if (word[1] == 'o' || word[1] == 'm' || word[1] == 'd') {
             if (word[1] != 'd')
                 value = word[1] == 'o' ? &folder : &a->matrix;
@@ -107,6 +131,9 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     const size_t n = a->matrix ? strlen(a->matrix) : 0;
     if (a->matrix && (n < 5 || strcmp(a->matrix + n - 4, ".mtx") != 0))
         return complain(a, "-m needs a name that ends in .mtx");
+    if (a->find.name && (folder || a->matrix || a->check || (a->model && strcmp(a->model, "-") == 0)))
+        return complain(a, "--find reads a file several times and writes none: without -o, -m, "
+                           "--check and -");
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
 }
 
@@ -448,11 +475,27 @@ static int run_model(model *p, const arguments *a, clock_t start)
     return report_expectations(p, a->quiet) > 0 ? 3 : 0;
 }
 
+/* Looked at by --find. */
+static int is_stopped(const bbm_model *m, void *none)
+{
+    (void)m, (void)none;
+    return stopped != 0;
+}
+
 static int read_and_run(const arguments *a, clock_t start)
 {
     model p;
-    int status = model_read(a->model, a->lets, a->let, &p);
+    find f = a->find;
 
+    if (f.name) {
+        f.model = a->model, f.quiet = a->quiet, f.lets = a->lets, f.let = a->let, f.stop = is_stopped;
+        catch_signals();
+        const int status = find_limit(&f);
+        return stopped ? 128 + (int)stopped : status;
+    }
+    int status = model_read(a->model, a->lets, a->let, &p);
+    for (int k = 0; k < p.notes; k++)
+        fprintf(stderr, "%s\n", p.note[k]);
     if (status)
         fprintf(stderr, "%s\n", p.message);
     else

@@ -447,7 +447,8 @@ static int check_given(model_reader *r)
         snprintf(word, sizeof word, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
         if (!strchr(r->let[k], '=') || model_find(&r->let_of, word) < 0)
             return model_fail(r, (model_place){ .file = r->path },
-                              "-d %.60s: expected NAME=VALUE with a name of a `let`%s%s", r->let[k],
+                              "'%.60s' of -d or --find, expected NAME=VALUE with a name of a `let`%s%s",
+                              r->let[k],
                               r->let_of.count ? ", such as " : "; the model has none",
                               model_nearest_of(&r->let_of, word, text));
     }

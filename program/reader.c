@@ -63,6 +63,22 @@ int model_blame(model_reader *r, const char *format, ...)
     return 0;
 }
 
+int model_note(model_reader *r, const char *format, ...)
+{
+    enum { ROOM = 600 };
+    char *text = model_text(r, ROOM);
+    va_list args;
+
+    if (!text)
+        return 0;
+    const int used = snprintf(text, ROOM, "%.200s:%d: ", r->s->at.file, r->s->at.line);
+    va_start(args, format);
+    vsnprintf(text + used, (size_t)(ROOM - used), format, args);
+    va_end(args);
+    model_clean(text);
+    return model_add(r, &r->p->note, &r->p->notes, sizeof text, &text);
+}
+
 int model_out_of_memory(model_reader *r)
 {
     model_fail(r, (model_place){ .file = r->path }, "out of memory");

@@ -94,6 +94,7 @@ typedef struct {
 /* They return 0; the first message stays. model_blame: at the statement in hand. */
 int   model_fail(model_reader *r, model_place at, const char *format, ...);
 int   model_blame(model_reader *r, const char *format, ...);
+int   model_note(model_reader *r, const char *format, ...);     /* what is no error, of it */
 int   model_out_of_memory(model_reader *r);
 int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
 void  model_clean(char *text);                          /* of what a terminal would obey */

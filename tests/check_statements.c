@@ -418,8 +418,8 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
                      0);
     ck_relative(cell("let", "history.csv", "50,", "a_v"), -20 * 0.125, 1e-9);
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d f=20 2> out/model/err", BUILD), 2);
-    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model: -d f=20: expected "
-                                                   "NAME=VALUE with a name of a `let`, "
+    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model: 'f=20' of -d or --find, "
+                                                   "expected NAME=VALUE with a name of a `let`, "
                                                    "such as g, steps, twice\n");
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=1O 2> out/model/err", BUILD), 2);
     ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model:2: not a number: '1O', "
