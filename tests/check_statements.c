@@ -226,7 +226,8 @@ static int run_with(const char *model, const char *lets)
 /* Both sides of limits: 0.02 degrees from the least friction angle of the slope by limit equilibrium,
  * 38.13392 degrees; g (sin a, -cos a) with a thousandth more and less than the wall's 28.98456
  * degrees; the spread of 0.589 m to each side at which the arch falls by limit analysis; the spin
- * that gives the first domino energy enough. `rotation exact` alone leads a corner to its place,
+ * that gives the first domino energy enough; half a per cent of the arch's least thickness, by
+ * doc/thrust.awk; a drop rebounds by theory, whatever dt. `rotation exact` alone leads a corner to its place,
  * whatever the step. */
 static const struct { const char *model, *lets; int status; } limits[] = {
     { "slope", "-d phi=38.11392", 3 }, { "slope", "-d phi=38.15392", 0 },
@@ -234,6 +235,11 @@ static const struct { const char *model, *lets; int status; } limits[] = {
     { "spread", "-d half=0.601", 3 }, { "spread", "-d half=0.577", 0 },
     { "dominoes", "-d spin=-1.45", 3 }, { "dominoes", "-d spin=-1.6", 0 },
     { "turning", "", 0 }, { "turning", "-d dt=0.001 -d steps=2000", 0 },
+    { "arch", "-d n=9 -d t=1.010 -d steps=400", 3 }, { "arch", "-d n=9 -d t=1.020 -d steps=400", 0 },
+    { "arch", "-d n=11 -d t=1.041 -d steps=400", 3 }, { "arch", "-d n=11 -d t=1.051 -d steps=400", 0 },
+    { "arch", "-d n=16 -d t=1.066 -d steps=400", 3 }, { "arch", "-d n=16 -d t=1.077 -d steps=400", 0 },
+    { "arch", "-d n=21 -d t=1.062 -d steps=400", 3 }, { "arch", "-d n=21 -d t=1.072 -d steps=400", 0 },
+    { "drop", "", 0 }, { "drop", "-d dt=0.001", 0 }, { "drop", "-d dt=0.0002", 0 }, { "drop", "-d dt=0.00005", 0 },
 };
 
 START_TEST(a_shipped_model_stands_to_its_limit_and_falls_beyond)
@@ -244,6 +250,52 @@ START_TEST(a_shipped_model_stands_to_its_limit_and_falls_beyond)
         ck_relative(sum("slope", "contacts.csv", "normal", "^c6,c7,")
                         + sum("slope", "contacts.csv", "normal", "^c7,c6,"),
                     4803220, 5e-3);
+}
+END_TEST
+
+/* Between bounds that bisection narrows to a thousandth of where it began: a; atan(k); the formula of
+ * topple.model; limit analysis of the arch (doc/thrust.awk). */
+static const struct { const char *call; double limit, within; } found[] = {
+    { "topple.model --find phi 10 40", 20, 0.05 },
+    { "topple.model --find phi 40 10 -d a=25", 25, 0.05 },
+    { "topple.model -d phi=60 --find a 10 40", 26.5651, 0.05 },
+    { "topple.model -d k=1 -d phi=60 --find a 30 60", 45, 0.15 },      /* its springs sway */
+    { "topple.model -d a=40 -d sway=1 --find phi 20 40", 29.9808, 0.05 },
+    { "topple.model -d a=60 -d sway=1 --find phi 20 60", 35.9393, 0.05 },
+    { "arch.model -d steps=400 --find t 0.95 1.2", 1.061, 0.002 },
+    { "arch.model -d steps=400 --find phi 15 30", 19.2071, 0.02 },
+    { "arch.model -d steps=400 -d t=1.07 --find phi 15 30", 21.5303, 0.02 },
+};
+
+START_TEST(a_limit_is_found_by_bisection)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("%s/bbm -q cases/models/%s > out/model/said", BUILD, found[_i].call), 0);
+    slurp("out/model/said", said);
+    ck_assert_msg(strstr(said, "; 12 runs\n"), "%s", said);
+    ck_near(strtod(strstr(said, " = ") + 3, NULL), found[_i].limit, 1, found[_i].within);
+}
+END_TEST
+
+/* Both ends alike; no expectation; no such let; a number that it cannot be; no file. */
+START_TEST(what_has_no_limit_is_said)
+{
+    static const struct { const char *call; int status; const char *said; } table[] = {
+        { "topple.model --find phi 30 40", 3, "the expectations are met at phi = 30 and 40, 2 runs; expected" },
+        { "exp1.model --find phi 3 4", 2, "'phi=3' of -d or --find, expected NAME=VALUE with a name of a `let`; " },
+        { "topple.model --find phi 30 x", 2, "--find needs a name and two different numbers" },
+        { "topple.model --find phi 30", 2, "--find needs a name and two different numbers" },
+        { "arch.model --find n 15 20", 3, "" }, { "topple.model --find phi 80 90", 2, "friction is 90, from $phi" },
+        { "topple.model --find phi 10 20 -o x", 2, "--find reads a file several times and writes none" },
+    };
+    char said[LONG];
+
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        ck_assert_int_eq(shell("%s/bbm -q cases/models/%s > out/model/said 2>&1", BUILD, table[k].call),
+                         table[k].status);
+        ck_assert_msg(strstr(slurp("out/model/said", said), table[k].said), "%s", said);
+    }
 }
 END_TEST
 
@@ -519,6 +571,8 @@ Suite *statements_suite(void)
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
     tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0,
                         sizeof limits / sizeof *limits);
+    tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, sizeof found / sizeof *found);
+    tcase_add_test(t, what_has_no_limit_is_said);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
