@@ -31,7 +31,7 @@ BEYOND_LIMITS = arch:t=1 topple:phi=19 slope:phi=38.114 tilt:gx=4.76864 spread:h
 COMMON   = cases/case cases/theory $(addprefix program/,cell field output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
 READER   = $(addprefix program/,statements numbers build msh reader model cell field)
-PROGRAM  = $(READER) $(addprefix program/,main run find write output plot scene edge_load)
+PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene edge_load)
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures \
            check_scenes $(TORTURE)

@@ -218,15 +218,23 @@ static int find_nearest(const model_reader *r, const selection *w, int *others)
     return found;
 }
 
-/* That others lie there as well is said. */
+/* That others lie there as well is said, and that it is far away: by more than a tenth of the model. */
 static void choose_nearest(model_reader *r, const selection *w)
 {
     int others;
     const int found = find_nearest(r, w, &others);
+    double far = 0;
 
     if (found < 0)
         return;
     choose(r, w, found);
+    const model_node *at = &r->node[found];
+    const double d = hypot(at->x - w->x[0], at->y - w->x[1]);
+    for (int n = 0; n < r->nodes; n++)
+        far = fmax(far, hypot(r->node[n].x - at->x, r->node[n].y - at->y));
+    if (d > far / 10)
+        model_note(r, "warning: the nearest node, %.60s at %g %g, is %.3g m away from %g %g", at->id,
+                   at->x, at->y, d, w->x[0], w->x[1]);
     if (others > 0)
         model_note(r, "note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
                    "takes another", others + 1, r->node[found].id,
@@ -467,7 +475,7 @@ int model_joint(model_reader *r)
         if (!model_skip(r, "*") && (block[k] = model_next_block(r)) < 0)
             return 0;
     }
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, LENGTH(o), o) || !model_note_friction(r, friction))
         return 0;
     if (block[0] >= 0 && block[0] == block[1])
         return model_blame(r, "a joint of a block with itself, expected two blocks");

@@ -56,7 +56,7 @@ static int try_number(const find *f, double x, int first)
     let[f->lets] = number;
     snprintf(number, sizeof number, "%.100s=%.15g", f->name, x);
     const int status = model_read(f->model, f->lets + 1, let, &p);
-    for (int k = 0; k < p.notes && first; k++)
+    for (int k = 0; k < p.notes && first && !status; k++)
         fprintf(stderr, "%s\n", p.note[k]);
     if (status)
         fprintf(stderr, "%s = %.9g: %s\n", f->name, x, p.message);

@@ -449,6 +449,14 @@ int model_next_block(model_reader *r)
     return model_known(r, &r->block_of, "block", model_word(r));
 }
 
+/* Angles are in degrees; tan(phi) is given elsewhere. */
+int model_note_friction(model_reader *r, double friction)
+{
+    return !(friction > 0 && friction < 1)
+           || model_note(r, "warning: a friction of %g degrees; if it is meant as tan(phi), phi is %.3g "
+                         "degrees", friction, atan(friction) * 180 / acos(-1));
+}
+
 int model_is_new(model_reader *r, const model_table *t, const char *what, const char *word)
 {
     if (model_find(t, word) >= 0)

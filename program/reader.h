@@ -85,6 +85,7 @@ typedef struct {
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
                                             /* many nodes of the file */
     double margin;                          /* m            lengths below it are none */
+    const model_statement *light;           /* of a material that weighs next to nothing */
     const model_statement *s;               /* in hand, and its next word */
     int next;
     model_place *seen;                      /* [kinds]      where the last of a kind stands */
@@ -129,6 +130,7 @@ const char *model_id(model_reader *r);
 int   model_known(model_reader *r, const model_table *t, const char *what, const char *word);
 int   model_is_new(model_reader *r, const model_table *t, const char *what, const char *word);
 int   model_next_block(model_reader *r);
+int   model_note_friction(model_reader *r, double friction);    /* of less than a degree */
 int   model_choice(model_reader *r, const char *choices, int *n);
 
 /* `word value`, in any order, each once. One of: a number (low to high, with the rims of `rim`), a

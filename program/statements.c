@@ -73,8 +73,10 @@ static int read_material(model_reader *r)
     };
 
     o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
-    return word && model_is_new(r, &r->material_of, "material", word)
-           && model_options(r, LENGTH(o), o)
+    if (!word || !model_is_new(r, &r->material_of, "material", word) || !model_options(r, LENGTH(o), o))
+        return 0;
+    r->light = m.density < 10 ? r->s : r->light;
+    return 1
            && model_enter(r, &r->material_of, word, r->materials)
            && model_add(r, &r->material, &r->materials, sizeof m, &m);
 }
@@ -105,7 +107,7 @@ static int read_contact(model_reader *r)
         RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
     };
 
-    return model_options(r, LENGTH(o), o);
+    return model_options(r, LENGTH(o), o) && model_note_friction(r, p->friction);
 }
 
 static int read_static(model_reader *r)
@@ -501,6 +503,30 @@ static const struct kind {
       read_expect, MONITORS, 0 },
 };
 
+/* What other programs have, and what there is here instead; NULL: not known. */
+static const char *find_other(const char *word)
+{
+    static const struct { const char *words, *here; } other[] = {
+        { " anchor bolt cable spring ", "a spring between two points is doc/exercises/24-bolt.md" },
+        { " excavate remove stage ", "a file with the block and one without are two runs" },
+        { " accelerogram earthquake pulse ", "see shake, which is a sine" },
+        { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
+        { " set_value var define ", "see let" }, { " force point_load ", "see load" },
+        { " support boundary fixed ", "see fix, fixblock" }, { " polygon rectangle ", "see block, grid" },
+        { " time timestep step steps solve run ", "see static, dynamic" },
+        { " damping ", "see dynamic ... velocity_factor" },
+        { " friction cohesion tension kn ks ", "see contact, joint" },
+        { " plot print history ", "see monitor, output" }, { " include import ", "see mesh" },
+    };
+    const size_t n = strlen(word);
+
+    for (int k = 0; k < LENGTH(other); k++)
+        for (const char *at = other[k].words; (at = strstr(at, word)); at++)
+            if (n > 0 && at[-1] == ' ' && at[n] == ' ')
+                return other[k].here;
+    return NULL;
+}
+
 /* Finds the statement that begins with the word; whether it may stand here. */
 static int begin_statement(model_reader *r, const char *word, model_place at)
 {
@@ -510,6 +536,9 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
         k++;
     if (k == LENGTH(kinds)) {
         char text[200];
+        const char *other = find_other(word);
+        if (other)
+            return model_fail(r, at, "there is no statement '%.60s'; %s", word, other);
         return model_fail(r, at, "there is no statement '%.60s'; the nearest are %s, and all are "
                           "in doc/model-file.md%s", word,
                           model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text),
@@ -652,6 +681,9 @@ static int read_all(model_reader *r)
     for (int phase = NUMBERS + 1; phase < PHASES; phase++)
         if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase))
             return 0;
+    r->s = r->light;
+    if (r->light && (r->p->m->par.gravity[0] != 0 || r->p->m->par.gravity[1] != 0))
+        model_note(r, "warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?");
     return model_finish(r);
 }
 

@@ -550,7 +550,7 @@ START_TEST(a_block_in_pieces_is_said)
     ck_assert_int_eq(run_text("pieces", "node 1 0 0\nnode 2 2 0\nnode 3 2 1\nnode 4 1 1\nnode 5 0 1\nnode 6 2 2\n"
                               "node 7 1 2\nnode 8 0 2\nmaterial rock E 1e10 nu 0.25 density 2500\n"
                               "element 10 beam rock 1 2 3 5\nelement 20 beam rock 5 4 7 8\n"
-                              "element 30 beam rock 4 3 6 7\nfixblock beam\ndynamic dt 0.01 steps 1\n"), 0);
+                              "element 30 beam rock 4 3 6 7\nfixblock beam\ngravity 0 -10\ndynamic dt 0.01 steps 1\n"), 0);
     ck_assert_str_eq(slurp("out/model/pieces.err", said), "out/model/pieces.model: warning: block 'beam' is in 2 pieces "
                      "that no bond joins, with the elements 10, 20; elements are bonded along sides whose two nodes they "
                      "share\n");

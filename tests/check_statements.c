@@ -299,6 +299,57 @@ START_TEST(what_has_no_limit_is_said)
 }
 END_TEST
 
+/* What runs, and is hardly meant: the line that takes the place of one of these, and what is said. */
+#define TWO ROCK "block base rock 0 0 10 0 10 1 0 1\nfixblock base\n"
+static const struct { const char *text, *said; } doubtful[] = {
+    { TWO "block stone rock 4 1.001 5 1.001 5 2 4 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "block 'stone' touches nothing that is held: it falls; between it and block 'base' there is a gap of 0.001 m" },
+    { TWO "block a rock 4 3 5 3 5 4 4 4\nblock b rock 5 3 6 3 6 4 5 4\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\n"
+      "contact friction 30\n", "block 'a' and 1 more touch nothing that is held: they fall" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "nothing loads the model; " },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "gravity is not downward; " },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 1 steps 2\ncontact friction 30\n",
+      "a step of 1 s is long: a block falls by its own size in 0.45 s" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 1e-9 steps 2\ncontact friction 30\n",
+      "the run of 2e-09 s is short: a wave needs 0.0005 s through an element" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\nvelocity stone 0 200\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "step 1: element 2 of block 'stone' moved by 2 m, more than its own size" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 0.6\n",
+      ":7: warning: a friction of 0.6 degrees; if it is meant as tan(phi), phi is 31 degrees" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n"
+      "monitor far at 50 3\n", ":8: warning: the nearest node, 3 at 10 1, is 40 m away from 50 3" },
+    { "material rock E 1e10 nu 0.2 density 2.5\nblock a rock 0 0 1 0 1 1 0 1\nfixblock a\ngravity 0 -9.81\nstatic\n",
+      ":1: warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?" },
+    { "material rock E 1e6 nu 0.2 density 2500\nblock a rock 0 0 1 0 1 1 0 1\nfix at 0 0\nfix at 1 0 y\ngravity 0 -9.81\n"
+      "static\n", "its own weight would make block 'a' 2.5 % lower: E is 1e+06 Pa; is it in Pa?" },
+    { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\nfix set a.left\nfix set b.right\ngravity 0 -9.81\n"
+      "contact friction 30\nstatic\n", "blocks 'b' and 'a' have nodes in the same places, but blocks are never bonded" },
+};
+
+START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
+{
+    char said[LONG];
+
+    run_text("doubtful", doubtful[_i].text);
+    const char *at = strstr(slurp("out/model/doubtful.err", said), doubtful[_i].said);
+    ck_assert_msg(at && strchr(at, '\n') && strchr(at, '\n')[1] == '\0' && strncmp(said, "out/model/doubtful.model:", 25) == 0,
+                  "%s", said);
+}
+END_TEST
+
+START_TEST(shipped_models_give_no_warning_but_that_the_drop_falls)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("for m in cases/models/*.model; do %s/bbm --check -q $m -o out/model/quiet 2>&1; done "
+                           "| grep warning > out/model/said", BUILD), 0);
+    ck_assert_str_eq(slurp("out/model/said", said), "cases/models/drop.model: warning: block 'stone' touches nothing "
+                     "that is held: it falls\n");
+}
+END_TEST
+
 /* The mean stress of the 24 equal triangles of a row of cells is the weight above its middle; one
  * alone is within 2 % of rho g h of the weight above its own. */
 START_TEST(each_row_of_a_resting_block_carries_those_above)
@@ -573,6 +624,8 @@ Suite *statements_suite(void)
                         sizeof limits / sizeof *limits);
     tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, sizeof found / sizeof *found);
     tcase_add_test(t, what_has_no_limit_is_said);
+    tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, sizeof doubtful / sizeof *doubtful);
+    tcase_add_test(t, shipped_models_give_no_warning_but_that_the_drop_falls);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
