@@ -75,21 +75,21 @@ static int try_number(const find *f, double x, int first)
 int find_limit(const find *f)
 {
     double x[2] = { f->low, f->high };
-    const int at_low = try_number(f, x[0], 1), at_high = at_low > MET ? at_low : try_number(f, x[1], 0);
-    int answer = at_high, runs = 2;
+    const int low = try_number(f, x[0], 1), high = low > MET ? low : try_number(f, x[1], 0);
+    int answer = high, runs = 2;
 
-    if (at_high <= MET && at_low == at_high)
-        return printf("the expectations are %s at %s = %g and %g, 2 runs; expected a number between "
-                      "one that meets them and one that does not\n", answer == MET ? "met" : "not met",
-                      f->name, x[0], x[1]), 3;
+    if (high <= MET && low == high)
+        return printf("the expectations are %s at %s = %g and %g, 2 runs; expected a number "
+                      "between one that meets them and one that does not\n",
+                      answer == MET ? "met" : "not met", f->name, x[0], x[1]), 3;
     for (; answer <= MET && runs < HALVINGS + 2; runs++) {
         const double middle = x[0] + (x[1] - x[0]) / 2;
         answer = try_number(f, middle, 0);
-        x[answer != at_low] = middle;
+        x[answer != low] = middle;
     }
     if (answer > MET)
         return answer == STOPPED ? 1 : 2;
     printf("the limit is %s = %.6g +- %.2g: the expectations are met at %.9g, not at %.9g; %d runs\n",
-           f->name, (x[0] + x[1]) / 2, fabs(x[1] - x[0]) / 2, x[at_low != MET], x[at_low == MET], runs);
+           f->name, (x[0] + x[1]) / 2, fabs(x[1] - x[0]) / 2, x[low != MET], x[low == MET], runs);
     return 0;
 }

@@ -147,13 +147,14 @@ static double call(formula *f, const function *of)
     if (!take(f, ")"))
         return blame_formula(f, "an operator or ) is missing");
     if (of->one ? numbers > 1 : numbers < 2)
-        return blame_formula(f, of->one ? "one number too many before" : "a second number is missing");
+        return blame_formula(f, of->one ? "one number too many before"
+                                        : "a second number is missing");
     return of->one ? of->one(x) : x;
 }
 
 static double name(formula *f)
 {
-    const size_t letters = strspn(f->at, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789");
+    const size_t letters = strcspn(f->at, "+-*/^(),$ \t");
     const function *of = find_function(f->at, letters);
     size_t n;
 
@@ -447,8 +448,8 @@ static int check_given(model_reader *r)
         snprintf(word, sizeof word, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
         if (!strchr(r->let[k], '=') || model_find(&r->let_of, word) < 0)
             return model_fail(r, (model_place){ .file = r->path },
-                              "'%.60s' of -d or --find, expected NAME=VALUE with a name of a `let`%s%s",
-                              r->let[k],
+                              "'%.60s' of -d or --find, expected NAME=VALUE with a name of a "
+                              "`let`%s%s", r->let[k],
                               r->let_of.count ? ", such as " : "; the model has none",
                               model_nearest_of(&r->let_of, word, text));
     }

@@ -315,7 +315,9 @@ int model_wrong(model_reader *r, const char *what, const char *word)
     const char *source = source_of(r, word);
 
     return model_blame(r, "%s '%.60s'%s%.60s, expected: %s%s", what, word, source ? ", from " : "",
-                       source ? source : "", r->s->form, model_hint(word));
+                       source ? source : "", r->s->form,
+                       model_find(&r->let_of, word) >= 0 ? "; $ stands before the name of a number"
+                                                         : model_hint(word));
 }
 
 /* The word that comes next stays; NULL at the end. */
@@ -365,8 +367,8 @@ static char *number_word(model_reader *r)
     const int at = r->s->first + r->next - 1;
 
     if (word && r->given[at].glued)
-        return model_blame(r, "'%.60s' would be '%.60s', put together from letters; a number is one "
-                           "of 5, $NAME, -$NAME, $(...)", r->given[at].text, word), NULL;
+        return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or $(2*p)",
+                           r->given[at].text, word), NULL;
     return word;
 }
 

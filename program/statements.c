@@ -511,12 +511,11 @@ static const char *find_other(const char *word)
         { " excavate remove stage ", "a file with the block and one without are two runs" },
         { " accelerogram earthquake pulse ", "see shake, which is a sine" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
-        { " set_value var define ", "see let" }, { " force point_load ", "see load" },
-        { " support boundary fixed ", "see fix, fixblock" }, { " polygon rectangle ", "see block, grid" },
-        { " time timestep step steps solve run ", "see static, dynamic" },
-        { " damping ", "see dynamic ... velocity_factor" },
+        { " var define ", "see let" }, { " force ", "see load" },
+        { " support boundary fixed ", "see fix, fixblock" }, { " polygon ", "see block, grid" },
+        { " time step steps solve run damping ", "see static, dynamic" },
         { " friction cohesion tension kn ks ", "see contact, joint" },
-        { " plot print history ", "see monitor, output" }, { " include import ", "see mesh" },
+        { " plot print history ", "see monitor, output" },
     };
     const size_t n = strlen(word);
 

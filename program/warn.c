@@ -70,7 +70,7 @@ static void warn_of_pieces(const model *p, const char *path)
     free(piece);
 }
 
-/* ------------------------------------------------------------------- bodies, and what is between */
+/* -------------------------------------------------------------- bodies, and what is between */
 
 /* A block. Gaps up to NEAR of its size may be meant as none; one below TOUCH of it is none. */
 typedef struct {
@@ -148,7 +148,7 @@ static body *group_of(const bodies *s, int b)
     return &s->body[b];
 }
 
-static int has_strength(const bbm_beyond *b) { return b->joints || b->tension > 0 || b->cohesion > 0; }
+static int has_strength(const bbm_beyond *b) { return b->joints || b->tension + b->cohesion > 0; }
 
 /* Blocks that touch are a group, which is held if one of them is. Two meshes of one material with the
  * same nodes along a side were hardly meant as two. */

@@ -241,8 +241,7 @@ static const wrong wrongs[] = {
       "name" },
     { "repeat-twice", ".model:7: i = 2: gravity for the second time, after line 7, expected it "
       "once" },
-    { "number-glued", ".model:6: '2$t' would be '21.5', put together from letters; a number is "
-      "one of 5, $NAME, -$NAME, $(...)" },
+    { "number-glued", ".model:6: '2$t' would be '21.5'; a number is one piece, as 5, $p, -$p or $(2*p)" },
     { "number-longer", ".model:6: no `let` says what $t0 is, expected one such as $t" },
     { "number-open", ".model:6: an operator or ) is missing at '0' in '$(sin(30) 0'" },
     { "number-function", ".model:6: no function is called so (there are sqrt sin cos tan asin "

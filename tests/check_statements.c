@@ -339,14 +339,10 @@ START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
 }
 END_TEST
 
-START_TEST(shipped_models_give_no_warning_but_that_the_drop_falls)
+START_TEST(shipped_models_give_no_warning)
 {
-    char said[LONG];
-
     ck_assert_int_eq(shell("for m in cases/models/*.model; do %s/bbm --check -q $m -o out/model/quiet 2>&1; done "
-                           "| grep warning > out/model/said", BUILD), 0);
-    ck_assert_str_eq(slurp("out/model/said", said), "cases/models/drop.model: warning: block 'stone' touches nothing "
-                     "that is held: it falls\n");
+                           "| grep warning", BUILD), 1);
 }
 END_TEST
 
@@ -625,7 +621,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, sizeof found / sizeof *found);
     tcase_add_test(t, what_has_no_limit_is_said);
     tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, sizeof doubtful / sizeof *doubtful);
-    tcase_add_test(t, shipped_models_give_no_warning_but_that_the_drop_falls);
+    tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
