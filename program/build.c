@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build.h"
+#include "reader.h"
 
 /* Of the smallest element's size: nodes closer to a given place, or to the rim of a box, are there. */
 #define NEAR 1e-6

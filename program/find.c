@@ -9,7 +9,6 @@
 
 #include "find.h"
 #include "run.h"
-#include "statements.h"
 
 enum { NOT_MET, MET, WRONG, STOPPED };
 enum { HALVINGS = 10 };         /* 2^-10 of the interval is a thousandth */

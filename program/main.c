@@ -17,7 +17,6 @@
 #include "find.h"
 #include "length.h"
 #include "run.h"
-#include "statements.h"
 #include "warn.h"
 #include "write.h"
 

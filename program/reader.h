@@ -166,5 +166,23 @@ int   model_add_element(model_reader *r, const model_element *e, const int corne
 int   model_find_block(model_reader *r, const char *name, model_place at);
 int   model_find_set(model_reader *r, const char *name);
 int   model_add_to_set(model_reader *r, int set, int node);
+/* msh.c: Gmsh's mesh files. */
+int   model_read_mesh(model_reader *r, const char *path, model_place statement);
+
+/* numbers.c: the statements as the file has them become those that count. */
+int   model_expand(model_reader *r);
+
+/* --- build.c: the library's model of what the statements say, and the statements that need it --- */
+int   model_build(model_reader *r);
+int   model_finish(model_reader *r);
+int   model_fix(model_reader *r);
+int   model_load_nodes(model_reader *r);
+int   model_traction(model_reader *r);
+int   model_pressure(model_reader *r);
+int   model_water(model_reader *r);
+int   model_velocities(model_reader *r);
+int   model_stress(model_reader *r);
+int   model_joint(model_reader *r);
+int   model_monitors(model_reader *r);
 
 #endif

@@ -15,12 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build.h"
 #include "cell.h"
 #include "field.h"
-#include "msh.h"
-#include "numbers.h"
-#include "statements.h"
+#include "reader.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 
