@@ -131,11 +131,9 @@ void case_add_grid(bbm_model *m, case_grid *g)
 static void place_in_box(double i, double j, const void *box, double xy[2])
 {
     const case_box *b = box;
-    const double x = b->x + b->w * i / b->nx, y = b->y + b->h * j / b->ny;
-    const double c = cos(b->turn), s = sin(b->turn);
 
-    xy[0] = c * x - s * y;
-    xy[1] = s * x + c * y;
+    xy[0] = b->x + b->w * i / b->nx;
+    xy[1] = b->y + b->h * j / b->ny;
 }
 
 int case_add_box(bbm_model *m, const case_box *b)
@@ -221,7 +219,7 @@ void case_read_reference(const char *problem, const char *variant, case_referenc
     while (fgets(line, sizeof line, f))
         if (strncmp(line, start, strlen(start)) == 0) {
             char *p = line + strlen(start), *end = p + strcspn(p, ",");
-            struct case_value v = { { 0 }, 0, 0, 0, 0, 0 };
+            struct case_value v = { .x = 0 };
             if (*end == ',')
                 *end++ = '\0';
             snprintf(v.quantity, sizeof v.quantity, "%s", p);
@@ -229,7 +227,6 @@ void case_read_reference(const char *problem, const char *variant, case_referenc
             v.y = next_number(&end);
             v.converged = next_number(&end);
             v.six_node = next_number(&end);
-            v.three_node = next_number(&end);
             void *more = realloc(r->value, ((size_t)r->values + 1) * sizeof *r->value);
             if (!more)
                 stop("cases/fem.csv", "out of memory");
@@ -272,7 +269,7 @@ static void make_folder(const char *path)
 void case_open(case_results *r, const char *name)
 {
     snprintf(r->folder, sizeof r->folder, "out/%s", name);
-    r->worst = r->failed = 0;
+    r->failed = 0;
     make_folder("out");
     make_folder(r->folder);
     r->csv = fopen(case_path(r, "results.csv"), "w");
@@ -301,7 +298,6 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
     else
         fprintf(r->csv, "%.9g,%.9g,", xy[0], xy[1]);
     fprintf(r->csv, "%.15g,%.15g,%s,%.3e\n", computed, reference, kind, error);
-    r->worst = fmax(r->worst, fabs(error));
     return error;
 }
 

@@ -19,14 +19,13 @@ typedef struct {                    /* a grid of nx x ny cells, mapped by a func
 } case_grid;
 
 typedef struct {                    /* values of cases/fem.csv for one problem and variant      */
-    struct case_value { char quantity[32]; double x, y, converged, six_node, three_node; } *value;
+    struct case_value { char quantity[32]; double x, y, converged, six_node; } *value;
     int values;
 } case_reference;
 
 typedef struct {                    /* out/NAME/results.csv                                     */
     char folder[64], path[128];     /* path: of case_path, the last file                        */
     FILE *csv;
-    double worst;                   /* largest |relative error| of the rows since it was set to 0 */
     int failed;                     /* 1: a picture could not be made                           */
 } case_results;
 
@@ -44,9 +43,9 @@ bbm_model *case_augmented_model(void);
 
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
-/* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h, then turned about the
- * origin by an angle. Returns its first element; element (i, j) is j nx + i further. */
-typedef struct { int block, material, nx, ny; double x, y, w, h, turn; } case_box;
+/* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h. Returns its first
+ * element; element (i, j) is j nx + i further. */
+typedef struct { int block, material, nx, ny; double x, y, w, h; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
 void   case_fix_block(bbm_model *m, int block);                 /* every node of it             */
 bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */

@@ -215,11 +215,11 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
         lift[k] = (plot_series){ .name = v[k].label, .n = N, .x = t, .y = v_of[k], .look = k + 2 };
     if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
         plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
-            .title = "Fig. 25: displacement of P", .x = { "t", "s", 0, 0, 0 },
-            .y = { "displacement", "m", 0, 0, 0 }, .count = LENGTH(both), .series = both });
+            .title = "Fig. 25: displacement of P", .x = { "t", "s", 0 },
+            .y = { "displacement", "m", 0 }, .count = LENGTH(both), .series = both });
         plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
-            .title = "Error of v of P, which is 0 in theory", .x = { "t", "s", 0, 0, 0 },
-            .y = { "v", "m", 0, 0, 0 }, .count = LENGTH(lift), .series = lift });
+            .title = "Error of v of P, which is 0 in theory", .x = { "t", "s", 0 },
+            .y = { "v", "m", 0 }, .count = LENGTH(lift), .series = lift });
         case_draw(r, plot_close(&p));
     }
     case_write_curves(r, "fig25.csv",

@@ -52,6 +52,8 @@ typedef struct {
 int  model_read(const char *path, int lets, char *const let[], model *p);
 /* The library's last error, or the status, in the words of the file; out: with what it returns. */
 const char *model_says(const model *p, bbm_status status, char out[400]);
+/* How far the start of a boundary edge is from another edge, m. */
+double model_distance(const bbm_model *m, int corner, int edge);
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p, double t);                  /* to where they are at the time t */
 void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */

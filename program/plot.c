@@ -217,10 +217,6 @@ static plot_axis make_axis(const plot_quantity *q, const double range[2], double
     plot_axis a = { .log = q->log };
     double end[2] = { range[0], range[1] };
 
-    if (q->low < q->high && !(q->log && q->low <= 0)) {
-        plot_widen(end, q->low);
-        plot_widen(end, q->high);
-    }
     if (end[0] > end[1]) {
         end[0] = q->log ? 0.1 : 0;
         end[1] = 1;
@@ -357,7 +353,7 @@ static void place_axes(plot *p, plot_box b)
 /* The unit is that of the larger extent, not of the distance from the origin. */
 void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 {
-    static const plot_quantity q[2] = { { "x", "m", 0, 0, 0 }, { "y", "m", 0, 0, 0 } };
+    static const plot_quantity q[2] = { { "x", "m", 0 }, { "y", "m", 0 } };
     const double *const end[2] = { x, y };
 
     for (int k = 0; k < 2; k++) {

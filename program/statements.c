@@ -24,6 +24,8 @@ enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS,
 /* Letters of an id; cells of a grid; memory for each element, at least. */
 enum { ID_ROOM = 24, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
 
+#define MOST_NUMBERED 100000000000000000        /* ids of blocks and grids are below it */
+
 /* ----------------------------------------------------------------- statements that need nothing */
 
 static int read_title(model_reader *r)
@@ -70,11 +72,11 @@ static int read_material(model_reader *r)
     };
 
     o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
-    if (!word || !model_is_new(r, &r->material_of, "material", word) || !model_options(r, LENGTH(o), o))
+    if (!word || !model_is_new(r, &r->material_of, "material", word)
+        || !model_options(r, LENGTH(o), o))
         return 0;
     r->light = m.density < 10 ? r->s : r->light;
-    return 1
-           && model_enter(r, &r->material_of, word, r->materials)
+    return model_enter(r, &r->material_of, word, r->materials)
            && model_add(r, &r->material, &r->materials, sizeof m, &m);
 }
 
@@ -150,9 +152,9 @@ static int read_bond(model_reader *r)
 
     for (int k = 1; k < r->s->n; k++)
         if (strcmp(r->word[r->s->first + k], "midpoints") == 0)
-            return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in the "
-                                  "middles of their sides alone elements can turn against each "
-                                  "other");
+            return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in "
+                                  "the middles of their sides alone elements can turn against "
+                                  "each other");
     if (!model_options(r, LENGTH(o), o))
         return 0;
     b->bonding = bonding[kind];
@@ -226,38 +228,23 @@ static int read_element(model_reader *r)
 
 /* ----------------------------------------------------- blocks and grids with nodes of their own */
 
-/* The largest id of those there are; they are whole numbers. */
-static int find_last(model_reader *r, int of_elements)
+/* The id behind the last one of nodes or elements, kept as text. */
+static const char *next_id(model_reader *r, long long *last)
 {
-    const int n = of_elements ? r->elements : r->nodes;
-
-    for (int k = 0; k < n; k++) {
-        const char *word = of_elements ? r->element[k].id : r->node[k].id;
-        if (strlen(word) > 17)
-            return model_blame(r, "an id of %d digits, expected at most 17 where blocks are "
-                               "numbered on", (int)strlen(word));
-        const long long value = strtoll(word, NULL, 10);
-        if (value > r->last[of_elements])
-            r->last[of_elements] = value;
-    }
-    return 1;
-}
-
-/* The next id of a node or element, kept as text. */
-static const char *next_id(model_reader *r, int of_elements)
-{
-    if (r->last[of_elements] == 0 && !find_last(r, of_elements))
-        return NULL;
     char *text = model_text(r, ID_ROOM);
+
+    if (*last >= MOST_NUMBERED)
+        return model_blame(r, "an id of 18 digits or more, expected at most 17 where blocks are "
+                           "numbered on"), NULL;
     if (text)
-        snprintf(text, ID_ROOM, "%lld", ++r->last[of_elements]);
+        snprintf(text, ID_ROOM, "%lld", ++*last);
     return text;
 }
 
 static int add_own_node(model_reader *r, double x, double y)
 {
     const model_node n = {
-        .id = next_id(r, 0), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
+        .id = next_id(r, &r->last_node), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
     };
 
     return n.id && model_add_node(r, &n);
@@ -265,7 +252,7 @@ static int add_own_node(model_reader *r, double x, double y)
 
 static int add_own_element(model_reader *r, int block, int material, int n, const int corner[])
 {
-    const model_element e = { next_id(r, 1), r->s->at, block, material, 0, n };
+    const model_element e = { next_id(r, &r->last_element), r->s->at, block, material, 0, n };
 
     return e.id && model_add_element(r, &e, corner);
 }
