@@ -71,23 +71,6 @@ void case_print_augmented(const bbm_model *m)
                "exact rotation");
 }
 
-void case_converge(const char *title, int triangles, void (*print_errors)(int k, double alpha))
-{
-    static const double alpha[4] = { 10, 100, 1000, 1e5 };
-
-    printf("\n%s\n\n"
-           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
-           "|---|---|---|---|---|\n", title);
-    for (int k = 1; k <= 3; k++) {
-        printf("| %d |", triangles * k * k);
-        for (int a = 0; a < 4; a++) {
-            print_errors(k, alpha[a]);
-            fflush(stdout);
-        }
-        printf("\n");
-    }
-}
-
 /* --------------------------------------------------------------------------------------- meshes */
 
 static int grid_node(const case_grid *g, int i, int j)
@@ -236,11 +219,6 @@ void case_read_reference(const char *problem, const char *variant, case_referenc
     fclose(f);
 }
 
-void case_free_reference(case_reference *r)
-{
-    free(r->value);
-}
-
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
                                    double y)
 {
@@ -301,7 +279,7 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
     return error;
 }
 
-static void compare_all(case_results *r, const case_problem *p, const bbm_model *m,
+static void compare_all(case_results *r, const case_experiment *p, const bbm_model *m,
                         const case_run *run, const case_reference *ref)
 {
     for (int i = 0; i < ref->values; i++) {
@@ -322,10 +300,11 @@ static void compare_all(case_results *r, const case_problem *p, const bbm_model 
     }
 }
 
-bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run *run,
-                          case_reference *ref)
+/* Each reference value against the computed one is a row of results.csv. */
+static bbm_model *solve_run(case_results *r, const case_experiment *p, const case_run *run,
+                            case_reference *ref)
 {
-    bbm_model *m = run->beyond ? case_augmented_model() : case_paper_model();
+    bbm_model *m = run->beyond ? case_beyond_model(2) : case_paper_model();
 
     case_read_reference(p->name, run->variant, ref);
     if (!m)
@@ -380,24 +359,72 @@ static void print_difference(const bbm_model *m, const bbm_model *fem, const sce
            100 * most[2] / most[1]);
 }
 
-/* fem: the same beside a finite element on the same mesh, or NULL. */
-void case_draw_maps(case_results *r, const bbm_model *m, const bbm_model *fem, int n,
-                    const case_map map[])
+/* The maps of m, and those that show no displacements once more beside a finite element on the same
+ * mesh, the triangles with two rounds of multipliers, if there is beyond/. */
+static void draw_maps(case_results *r, const case_experiment *e, const bbm_model *m)
 {
-    for (int k = 0; k < n; k++)
-        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+    bbm_model *fem = case_beyond_model(2);
+
+    for (int k = 0; k < e->maps; k++)
+        case_draw(r, scene_write_map(m, case_path(r, e->map[k].file), &e->map[k].map));
     if (!fem)
         return;
+    e->solve(fem, e->run[0].variant, CELL_CROSSED, 2, 1000);
     printf("\n## With beyond/: the figures beside the constant-strain finite element, fem_*.svg\n\n"
            "| largest [m, Pa] | BBM | FEM | largest difference |\n|---|---|---|---|\n");
-    for (int k = 0; k < n && map[k].map.scale < 0; k++) {
-        scene_map both = map[k].map;
+    for (int k = 0; k < e->maps && e->map[k].map.scale < 0; k++) {
+        scene_map both = e->map[k].map;
         char file[40];
         both.other = fem;
         both.name[0] = "BBM, the paper's way";
         both.name[1] = "FEM: constant-strain triangles";
-        snprintf(file, sizeof file, "fem_%s", map[k].file);
+        snprintf(file, sizeof file, "fem_%s", e->map[k].file);
         case_draw(r, scene_write_map(m, case_path(r, file), &both));
         print_difference(m, fem, &both);
     }
+    bbm_model_free(fem);
+}
+
+/* ---------------------------------------------------------------------------- Experiments I, II */
+
+static void print_convergence(const case_experiment *e)
+{
+    static const double alpha[4] = { 10, 100, 1000, 1e5 };
+
+    printf("\n%s\n\n"
+           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
+           "|---|---|---|---|---|\n", e->errors);
+    for (int k = 1; k <= 3; k++) {
+        printf("| %d |", e->triangles * k * k);
+        for (int a = 0; a < 4; a++) {
+            e->print_errors(k, alpha[a]);
+            fflush(stdout);
+        }
+        printf("\n");
+    }
+}
+
+int case_main(const case_experiment *e, int argc, char **argv)
+{
+    case_results r;
+    case_reference ref[4];
+    bbm_model *m[4];
+
+    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
+        print_convergence(e);
+        return case_close(NULL);
+    }
+    printf("\n# %s, the paper's way\n\n", e->title);
+    case_open(&r, e->name);
+    for (int k = 0; k < e->runs; k++)
+        m[k] = solve_run(&r, e, &e->run[k], &ref[k]);
+    case_print_parameters(m[0]);
+    e->show(&r, (const bbm_model *const *)m, ref);
+    draw_maps(&r, e, m[0]);
+    printf("\nNumbers and pictures: %s/results.csv, %s\n", r.folder, e->files);
+    for (int k = 0; k < e->runs; k++) {
+        bbm_model_free(m[k]);
+        free(ref[k].value);
+    }
+    return case_close(&r);
 }

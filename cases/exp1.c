@@ -12,7 +12,7 @@
  * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
  * say so are by as many quadrilaterals with beyond/. More of that is in exp1_beyond.c. */
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "exp.h"
 #include "theory.h"
@@ -259,45 +259,30 @@ static void print_error(int k, double alpha)
     const double exact = case_find(&ref, "v", 24, 0)->converged;
     exp1_solve(m, "b", CELL_CROSSED, k, alpha);
     printf(" %+.3f %% |", case_percent(case_at(m, 24, 0).v, exact));
-    case_free_reference(&ref);
+    free(ref.value);
     bbm_model_free(m);
+}
+
+static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
+{
+    bbm_model *dda = solve_dda(1000);
+
+    print_table_2(dda, m[0]);
+    show_deflection(r, dda, m[0], &ref[0]);
+    print_table_3(m, ref);
+    print_stress(m[0], &ref[0]);
+    print_summary(m, ref);
+    exp1_show_beyond(&ref[1]);
+    bbm_model_free(dda);
 }
 
 int main(int argc, char **argv)
 {
-    case_results r;
-    case_reference ref[RUNS];
-    bbm_model *m[RUNS], *dda, *fem;
-
-    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
-        case_converge("Experiment I, load b, the paper's way: error of v(24,0) against the "
-                      "converged finite element", 600, print_error);
-        return case_close(NULL);
-    }
-    printf("\n# Experiment I: cantilever, the paper's way\n\n");
-    case_open(&r, "exp1");
-    dda = solve_dda(1000);
-    for (int k = 0; k < RUNS; k++)
-        m[k] = case_solve_run(&r, &(case_problem){ "exp1", exp1_solve, computed, theory }, &run[k],
-                              &ref[k]);
-    case_print_parameters(m[0]);
-    print_table_2(dda, m[0]);
-    show_deflection(&r, dda, m[0], &ref[0]);
-    print_table_3((const bbm_model *const *)m, ref);
-    print_stress(m[0], &ref[0]);
-    print_summary((const bbm_model *const *)m, ref);
-    fem = case_augmented_model();
-    if (fem)
-        exp1_solve(fem, "a", CELL_CROSSED, 2, 1000);
-    exp1_show_beyond(&ref[1]);
-    case_draw_maps(&r, m[0], fem, LENGTH(map), map);
-    printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, "
-           "deformed.svg\n", r.folder);
-    for (int k = 0; k < RUNS; k++) {
-        bbm_model_free(m[k]);
-        case_free_reference(&ref[k]);
-    }
-    bbm_model_free(dda);
-    bbm_model_free(fem);
-    return case_close(&r);
+    return case_main(&(case_experiment){
+        .name = "exp1", .title = "Experiment I: cantilever", .solve = exp1_solve,
+        .computed = computed, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .maps = LENGTH(map), .map = map, .triangles = 600, .print_errors = print_error,
+        .errors = "Experiment I, load b, the paper's way: error of v(24,0) against the converged "
+                  "finite element",
+        .files = "fig10.csv, fig10.svg to fig13.svg, deformed.svg" }, argc, argv);
 }

@@ -269,37 +269,22 @@ static void print_errors(int k, double alpha)
     bbm_model_free(m);
 }
 
-int main(int argc, char **argv)
+static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
 {
-    case_results r;
-    case_reference ref[RUNS];
-    bbm_model *m[RUNS], *fem;
-
-    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
-        case_converge("Experiment II, plate k5, the paper's way: error of u(1,0) | of sxx(0,1) "
-                      "against theory (72)", 816, print_errors);
-        return case_close(NULL);
-    }
-    printf("\n# Experiment II: plate with a hole, the paper's way\n\n");
-    case_open(&r, "exp2");
-    for (int k = 0; k < RUNS; k++)
-        m[k] = case_solve_run(&r, &(case_problem){ "exp2", solve_plate, computed, theory }, &run[k],
-                              &ref[k]);
-    case_print_parameters(m[0]);
     for (int k = 0; k < PAPER_RUNS; k++)
         print_tables(m[k], run[k].variant, &ref[k]);
-    print_summary((const bbm_model *const *)m);
-    draw_lines(&r, (const bbm_model *const *)m, &ref[0]);
-    fem = case_augmented_model();
-    if (fem)
-        solve_plate(fem, "b5", CELL_CROSSED, 2, 1000);
-    case_draw_maps(&r, m[0], fem, LENGTH(map), map);
-    printf("\nNumbers and pictures: %s/results.csv, fig15 to fig19 as csv and svg, fig20.svg to "
-           "fig23.svg, deformed.svg\n", r.folder);
-    for (int k = 0; k < RUNS; k++) {
-        bbm_model_free(m[k]);
-        case_free_reference(&ref[k]);
-    }
-    bbm_model_free(fem);
-    return case_close(&r);
+    print_summary(m);
+    draw_lines(r, m, &ref[0]);
+}
+
+int main(int argc, char **argv)
+{
+    return case_main(&(case_experiment){
+        .name = "exp2", .title = "Experiment II: plate with a hole", .solve = solve_plate,
+        .computed = computed, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .maps = LENGTH(map), .map = map, .triangles = 816, .print_errors = print_errors,
+        .errors = "Experiment II, plate k5, the paper's way: error of u(1,0) | of sxx(0,1) "
+                  "against theory (72)",
+        .files = "fig15 to fig19 as csv and svg, fig20.svg to fig23.svg, deformed.svg" },
+        argc, argv);
 }

@@ -97,7 +97,7 @@ static void measure(const slide *s, double at[4])
 /* Returns 0 if there is no such model. */
 static int run(slide *s, const variant *v, scene *film)
 {
-    s->m = v->beyond ? case_augmented_model() : case_paper_model();
+    s->m = v->beyond ? case_beyond_model(2) : case_paper_model();
     if (!s->m)
         return 0;
     case_progress(v->label);
