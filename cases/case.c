@@ -129,13 +129,6 @@ int case_add_box(bbm_model *m, const case_box *b)
     return first;
 }
 
-void case_fix_block(bbm_model *m, int block)
-{
-    for (int v = 0; v < m->vertices; v++)
-        if (m->element[m->vertex[v].element].block == block)
-            bbm_fix_node(m, m->vertex[v].node, BBM_XY, 0, 0);
-}
-
 bbm_result case_at(const bbm_model *m, double x, double y)
 {
     double least = INFINITY;
@@ -159,23 +152,6 @@ double case_percent(double computed, double reference)
 double case_quantity(const bbm_result *r, const char *quantity)
 {
     return field_find(strcmp(quantity, "svm") ? quantity : "mises")->of_result(r);
-}
-
-/* ---------------------------------------------------------------------------- blocks that touch */
-
-void case_step(bbm_model *m, scene *s)
-{
-    case_must(m, bbm_step(m));
-    if (s)
-        scene_record(s, m);
-}
-
-void case_settle(bbm_model *m, int steps)
-{
-    m->par.velocity_factor = 0;
-    for (int i = 0; i < steps; i++)
-        case_step(m, NULL);
-    m->par.velocity_factor = 1;
 }
 
 /* ----------------------------------------------------------------------------- reference values */
@@ -316,7 +292,7 @@ static bbm_model *solve_run(case_results *r, const case_experiment *p, const cas
 }
 
 void case_write_curves(case_results *r, const char *file, const char *header, int rows,
-                       int columns, const double *table)
+                       int columns, const double *const column[])
 {
     FILE *f = fopen(case_path(r, file), "w");
 
@@ -325,9 +301,8 @@ void case_write_curves(case_results *r, const char *file, const char *header, in
     fprintf(f, "%s\n", header);
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < columns; j++) {
-            const double value = table[i * columns + j];
-            if (!isnan(value))
-                fprintf(f, "%.15g", value);
+            if (!isnan(column[j][i]))
+                fprintf(f, "%.15g", column[j][i]);
             fputc(j + 1 < columns ? ',' : '\n', f);
         }
     if (ferror(f) | fclose(f))

@@ -46,18 +46,12 @@ void   case_add_grid(bbm_model *m, case_grid *g);
  * element; element (i, j) is j nx + i further. */
 typedef struct { int block, material, nx, ny; double x, y, w, h; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
-void   case_fix_block(bbm_model *m, int block);                 /* every node of it             */
 bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */
 /* u, v, sxx, syy, sxy, svm */
 double case_quantity(const bbm_result *r, const char *quantity);
 void   case_solve(bbm_model *m);                                /* prepared and run             */
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
 double case_percent(double computed, double reference);
-
-void   case_step(bbm_model *m, scene *s);              /* one step, recorded unless s is NULL    */
-/* Quasi-static steps, to start a run in equilibrium: springs that are loaded suddenly would
- * swing. */
-void   case_settle(bbm_model *m, int steps);
 
 void   case_read_reference(const char *problem, const char *variant, case_reference *r);
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
@@ -100,9 +94,9 @@ int    case_close(case_results *r);
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
                 double reference, const char *kind);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
-/* table [rows][columns] as CSV */
+/* column [columns][rows] as CSV */
 void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
-                         int columns, const double *table);
+                         int columns, const double *const column[]);
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);

@@ -143,7 +143,7 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
                             const case_reference *ref)
 {
     enum { N = 9 };
-    double x[N], v[4][N], table[N][5];
+    double x[N], v[4][N];
 
     printf("\nFig. 10 - deflection v [mm] of the axis, load a (concentrated)\n\n"
            "| x [m] | DDA | BBM | FEM | FEM, converged | theory (70) | BBM against FEM |\n"
@@ -157,8 +157,6 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         v[1][i] = case_at(bbm, x[i], 0).v;
         v[2][i] = f->six_node;
         v[3][i] = theory("v", x[i], 0);
-        for (int c = 0; c < 5; c++)
-            table[i][c] = c ? v[c - 1][i] : x[i];
         if (i == 0)
             continue;
         printf("| %.0f | %.4f | %.4f | %.4f | ", x[i], 1e3 * v[0][i], 1e3 * v[1][i], 1e3 * v[2][i]);
@@ -175,7 +173,8 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
     case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
         .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0 },
         .y = { "v", "m", 0 }, .count = LENGTH(s), .series = s }));
-    case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5, &table[0][0]);
+    case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5,
+                      (const double *const[]){ x, v[0], v[1], v[2], v[3] });
 }
 
 /* Table 3: u and v at three points, for each way to load and to hold the beam. */

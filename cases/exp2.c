@@ -192,16 +192,16 @@ static int on_line(const line_of *l, const struct case_value *f)
 static void draw_line(case_results *r, const bbm_model *const m[RUNS], const case_reference *b5,
                       const line_of *l)
 {
-    double at[128], value[2][128], exact[128], table[128][4], fem_at[16], fem[16];
+    double at[128], value[2][128], exact[128], fem_at[16], fem[16];
     char csv[32], svg[32], header[80];
     int fems = 0;
 
     for (int i = 0; i < l->count; i++) {
         const bbm_node *n = &m[0]->node[l->first + i * l->step];
-        at[i] = table[i][0] = abscissa_of(l, n->x, n->y);
-        exact[i] = table[i][3] = theory(l->quantity, n->x, n->y);
+        at[i] = abscissa_of(l, n->x, n->y);
+        exact[i] = theory(l->quantity, n->x, n->y);
         for (int k = 0; k < 2; k++)
-            value[k][i] = table[i][1 + k] = computed(m[k], l->quantity, n->x, n->y);
+            value[k][i] = computed(m[k], l->quantity, n->x, n->y);
     }
     for (int i = 0; i < b5->values && fems < 16; i++)
         if (on_line(l, &b5->value[i])) {
@@ -225,7 +225,8 @@ static void draw_line(case_results *r, const bbm_model *const m[RUNS], const cas
         .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0 },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
                l->quantity[0] == 's' ? "Pa" : "m", 0 } }));
-    case_write_curves(r, csv, header, l->count, 4, &table[0][0]);
+    case_write_curves(r, csv, header, l->count, 4,
+                      (const double *const[]){ at, value[0], value[1], exact });
 }
 
 /* Fig. 15-19. */

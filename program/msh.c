@@ -239,8 +239,6 @@ static void read_nodes_41(mesh *m)
     }
 }
 
-static int dimension_of(int corners) { return corners < 3 ? corners - 1 : 2; }
-
 static const char *name_of(const mesh *m, int dimension, const char *tag)
 {
     const entry *g = find(&m->group, dimension, (int)strtol(tag, NULL, 10));
@@ -249,9 +247,9 @@ static const char *name_of(const mesh *m, int dimension, const char *tag)
 }
 
 /* Adds the nodes to the set of each group, and the element to the block of the first one. */
-static int add_element(mesh *m, model_element *e, const int corner[], const char **tag, int tags)
+static int add_element(mesh *m, model_element *e, const char **tag, int tags)
 {
-    const int dimension = dimension_of(e->n);
+    const int dimension = e->n < 3 ? e->n - 1 : 2;
     model_reader *r = m->r;
 
     for (int t = 0; t < tags; t++) {
@@ -259,8 +257,8 @@ static int add_element(mesh *m, model_element *e, const int corner[], const char
         if (set < 0)
             return 0;
         r->set[set].dimensions |= 1 << dimension;
-        for (int k = 0; k < e->n; k++)
-            if (!model_add_to_set(r, set, corner[k]))
+        for (int k = r->corners - e->n; k < r->corners; k++)
+            if (!model_add_to_set(r, set, r->corner[k]))
                 return 0;
     }
     if (dimension < 2)
@@ -272,14 +270,13 @@ static int add_element(mesh *m, model_element *e, const int corner[], const char
     if (e->block < 0)
         return 0;
     r->block[e->block].meshed = 1;
-    return model_add_element(r, e, corner);
+    return model_add_element(r, e);
 }
 
 /* The nodes of an element, of a type that is known by its number. */
 static int read_element(mesh *m, const char *number_of, int type, const char **tag, int tags)
 {
     model_element e = { .id = number_of, .at = m->at, .material = -1 };
-    int corner[4];
 
     e.n = type == 15 ? 1 : type >= 1 && type <= 3 ? type + 1 : 0;
     if (e.n == 0)
@@ -288,11 +285,10 @@ static int read_element(mesh *m, const char *number_of, int type, const char **t
                           number_of, type);
     for (int k = 0; k < e.n; k++) {
         const char *word = id(m);
-        corner[k] = model_find(&m->r->node_of, word);
-        if (corner[k] < 0)
+        if (!model_add_corner(m->r, model_find(&m->r->node_of, word)))
             return wrong(m, word, "a node of the mesh");
     }
-    return add_element(m, &e, corner, tag, tags);
+    return add_element(m, &e, tag, tags);
 }
 
 /* 2.2: number, type, number of tags, the physical group (0: none), other tags, nodes. */

@@ -165,14 +165,10 @@ static void number_text(char *text, size_t size, double value, double step)
 static void power_text(char *text, size_t size, int exponent)
 {
     static const char *const raised[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
-    char digits[16];
+    const int e = abs(exponent);
 
-    snprintf(digits, sizeof digits, "%d", abs(exponent));
-    snprintf(text, size, "10%s", exponent < 0 ? "⁻" : "");
-    for (const char *d = digits; *d; d++) {
-        const size_t used = strlen(text);
-        snprintf(text + used, size - used, "%s", raised[*d - '0']);
-    }
+    snprintf(text, size, "10%s%s%s%s", exponent < 0 ? "⁻" : "", e < 100 ? "" : raised[e / 100 % 10],
+             e < 10 ? "" : raised[e / 10 % 10], raised[e % 10]);
 }
 
 /* ---------------------------------------------------------------------------------------- axes */

@@ -536,18 +536,20 @@ int model_find_block(model_reader *r, const char *word, model_place at)
            && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
 }
 
-int model_add_element(model_reader *r, const model_element *e, const int corner[])
+int model_add_corner(model_reader *r, int node)
+{
+    return node >= 0 && model_add(r, &r->corner, &r->corners, sizeof node, &node);
+}
+
+int model_add_element(model_reader *r, const model_element *e)
 {
     model_element own = *e;
 
-    own.first = r->corners;
+    own.first = r->corners - e->n;
     note_id(&r->last_element, e->id);
     if (model_find(&r->element_of, e->id) >= 0)
         return model_fail(r, e->at, "element '%.60s' for the second time, expected a new one",
                           e->id);
-    for (int k = 0; k < e->n; k++)
-        if (!model_add(r, &r->corner, &r->corners, sizeof *corner, &corner[k]))
-            return 0;
     return model_enter(r, &r->element_of, e->id, r->elements)
            && model_add(r, &r->element, &r->elements, sizeof own, &own);
 }

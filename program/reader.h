@@ -162,7 +162,9 @@ int   model_options(model_reader *r, int n, model_option o[]);
 
 /* --- nodes, elements, blocks and sets --- */
 int   model_add_node(model_reader *r, const model_node *n);
-int   model_add_element(model_reader *r, const model_element *e, const int corner[]);
+/* Its corners are the e->n last of r->corner, added before. */
+int   model_add_corner(model_reader *r, int node);
+int   model_add_element(model_reader *r, const model_element *e);
 /* A new one if need be; -1: no memory. */
 int   model_find_block(model_reader *r, const char *name, model_place at);
 int   model_find_set(model_reader *r, const char *name);

@@ -19,11 +19,10 @@
 
 static int fail(write_results *w, const char *path, const char *why)
 {
+    fprintf(stderr, "%s: ", w->source);
     if (w->p->m->info.step > 0)
-        fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step,
-                path, why);
-    else
-        fprintf(stderr, "%s: %s cannot be written: %s\n", w->source, path, why);
+        fprintf(stderr, "step %d: ", w->p->m->info.step);
+    fprintf(stderr, "%s cannot be written: %s\n", path, why);
     w->status = 1;
     return 0;
 }
@@ -177,12 +176,10 @@ static void put_timing(FILE *f, const write_results *w)
 {
     const double *s = w->p->m->info.seconds;
 
-    fprintf(f,
-            "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\niterate,%"
-            ".15g\n",
-            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION],
-            s[BBM_ITERATE]);
-    fprintf(f, "write,%.15g\ntotal,%.15g\n", seconds(w->writing), seconds(clock() - w->start));
+    fprintf(f, "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\n",
+            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION]);
+    fprintf(f, "iterate,%.15g\nwrite,%.15g\ntotal,%.15g\n", s[BBM_ITERATE], seconds(w->writing),
+            seconds(clock() - w->start));
 }
 
 /* ------------------------------------------------------------------------------------------ VTK */
@@ -370,8 +367,7 @@ static size_t is_ours(const char *name)
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
         "reactions.csv", "contacts.svg", "movie.svg", "model.svg",
     };
-    const size_t temporary = output_is_temporary(name),
-                 n = temporary ? temporary : strlen(name);
+    const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
     const size_t start = strncmp(name, "step_", 5) == 0 ? 5
                        : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
     const size_t digits = start ? strspn(name + start, "0123456789") : 0;
