@@ -72,7 +72,8 @@ typedef struct {                    /* Experiment I or II                       
     int runs, maps;                 /* runs: 4 at most; maps: of the first                      */
     const case_run *run;
     const case_map *map;
-    /* Its tables and pictures: of each run, NULL where there is no beyond/, its reference values. */
+    /* Its tables and pictures, of each run, NULL where there is no beyond/, with its reference
+     * values. */
     void (*show)(case_results *r, const bbm_model *const m[], const case_reference ref[]);
     /* The table of convergence: so many triangles times k k; prints what a cell holds. */
     const char *errors;

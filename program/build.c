@@ -7,7 +7,8 @@
 
 #include "reader.h"
 
-/* Of the smallest element's size: nodes closer to a given place or to the rim of a box are there. */
+/* Of the smallest element's size: nodes closer to a given place, or to the rim of a box, are
+ * there. */
 #define NEAR 1e-6
 
 /* ----------------------------------------------------------------- building the library's model */

@@ -143,8 +143,8 @@ static int read_arguments(arguments *a, int argc, char *argv[])
 static const char *plural(int n) { return n == 1 ? "" : "s"; }
 
 typedef struct {
-    int shown, steps, settling;                 /* steps, settling: in all                          */
-    int begun, warned;                          /* begun: a line without its end                    */
+    int shown, steps, settling;                 /* steps, settling: in all */
+    int begun, warned;                          /* begun: a line without its end */
     double each;                                /* s            a step takes at present */
     clock_t now, last;                          /* CPU time at the last step, at the last line */
     time_t said;
@@ -372,8 +372,8 @@ static int check(model *p, const arguments *a)
     if (!a->quiet) {
         describe(p, a->model);
         describe_blocks(p);
-        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s of "
-               "other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,
+        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s "
+               "of other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,
                m->beyond->joints, plural(m->beyond->joints));
     }
     if (!write_check(&w))

@@ -542,7 +542,7 @@ plot_axis plot_bar_axis(const plot_quantity *q, const double range[2])
 
     bar.step = nice_step((bar.hi - bar.lo) / LEVELS, 1);
     round_axis(&bar);
-    bar.lo -= 1e-6 * bar.step;          /* a field that is one level, but for rounding: one colour */
+    bar.lo -= 1e-6 * bar.step;          /* a field of one level, but for rounding: one colour */
     return bar;
 }
 

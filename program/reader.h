@@ -30,7 +30,7 @@ typedef struct {                /* words first .. first+n-1 */
     const char *name, *form;    /* its first word; what it looks like, for messages */
 } model_statement;
 
-typedef struct { char *text; int glued; } model_given;      /* glued: of several pieces, no number */
+typedef struct { char *text; int glued; } model_given;  /* glued: of several pieces, no number */
 typedef struct { const char *name, *value; } model_local;   /* a number of a round */
 
 typedef struct {
@@ -175,7 +175,7 @@ int   model_read_mesh(model_reader *r, const char *path, model_place statement);
 /* numbers.c: the statements as the file has them become those that count. */
 int   model_expand(model_reader *r);
 
-/* --- build.c: the library's model of what the statements say, and the statements that need it --- */
+/* --- build.c: the library's model, and the statements that need it --- */
 int   model_build(model_reader *r);
 int   model_finish(model_reader *r);
 int   model_fix(model_reader *r);
