@@ -171,26 +171,22 @@ void case_read_reference(const char *problem, const char *variant, case_referenc
     char start[64], line[256];
     FILE *f = fopen("cases/fem.csv", "r");
 
-    *r = (case_reference){ NULL, 0 };
+    r->values = 0;
     if (!f)
         stop("cases/fem.csv", "cannot be read; run the program from the project's top folder");
     snprintf(start, sizeof start, "%s,%s,", problem, variant);
     while (fgets(line, sizeof line, f))
         if (strncmp(line, start, strlen(start)) == 0) {
             char *p = line + strlen(start), *end = p + strcspn(p, ",");
-            struct case_value v = { .x = 0 };
-            if (*end == ',')
-                *end++ = '\0';
-            snprintf(v.quantity, sizeof v.quantity, "%s", p);
-            v.x = next_number(&end);
-            v.y = next_number(&end);
-            v.converged = next_number(&end);
-            v.six_node = next_number(&end);
-            void *more = realloc(r->value, ((size_t)r->values + 1) * sizeof *r->value);
-            if (!more)
-                stop("cases/fem.csv", "out of memory");
-            r->value = more;
-            r->value[r->values++] = v;
+            struct case_value *v = &r->value[r->values++];
+            if (r->values > LENGTH(r->value))
+                stop("cases/fem.csv", "has more values than there is room for");
+            snprintf(v->quantity, sizeof v->quantity, "%.*s", (int)(end - p), p);
+            end += *end == ',';
+            v->x = next_number(&end);
+            v->y = next_number(&end);
+            v->converged = next_number(&end);
+            v->six_node = next_number(&end);
         }
     fclose(f);
 }
@@ -397,9 +393,7 @@ int case_main(const case_experiment *e, int argc, char **argv)
     e->show(&r, (const bbm_model *const *)m, ref);
     draw_maps(&r, e, m[0]);
     printf("\nNumbers and pictures: %s/results.csv, %s\n", r.folder, e->files);
-    for (int k = 0; k < e->runs; k++) {
+    for (int k = 0; k < e->runs; k++)
         bbm_model_free(m[k]);
-        free(ref[k].value);
-    }
     return case_close(&r);
 }

@@ -19,8 +19,8 @@ typedef struct {                    /* a grid of nx x ny cells, mapped by a func
 } case_grid;
 
 typedef struct {                    /* values of cases/fem.csv for one problem and variant      */
-    struct case_value { char quantity[32]; double x, y, converged, six_node; } *value;
     int values;
+    struct case_value { char quantity[32]; double x, y, converged, six_node; } value[50];
 } case_reference;
 
 typedef struct {                    /* out/NAME/results.csv                                     */

@@ -12,7 +12,6 @@
  * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
  * say so are by as many quadrilaterals with beyond/. More of that is in exp1_beyond.c. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "exp.h"
 #include "theory.h"
@@ -258,7 +257,6 @@ static void print_error(int k, double alpha)
     const double exact = case_find(&ref, "v", 24, 0)->converged;
     exp1_solve(m, "b", CELL_CROSSED, k, alpha);
     printf(" %+.3f %% |", case_percent(case_at(m, 24, 0).v, exact));
-    free(ref.value);
     bbm_model_free(m);
 }
 

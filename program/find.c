@@ -6,21 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "find.h"
 #include "run.h"
 
 enum { NOT_MET, MET, WRONG, STOPPED };
 enum { HALVINGS = 10 };         /* 2^-10 of the interval is a thousandth */
 
 /* Whether all is as expected; text: of what is not, or of the last. */
-static int judge(const model *p, char text[500])
-{
-    for (int k = 0; k < p->expectations; k++)
-        if (!run_is_met(p, k, text))
-            return NOT_MET;
-    return MET;
-}
-
 static int run_model(const find *f, model *p, char text[520])
 {
     run r = { .p = p, .settling = p->settle };
@@ -36,7 +27,10 @@ static int run_model(const find *f, model *p, char text[520])
         strcat(text, ": NOT MET");
         return NOT_MET;
     }
-    return judge(p, text);
+    for (int k = 0; k < p->expectations; k++)
+        if (!run_is_met(p, k, text))
+            return NOT_MET;
+    return MET;
 }
 
 /* One run; what it says, unless it is to be quiet. */

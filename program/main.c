@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include "field.h"
-#include "find.h"
 #include "length.h"
 #include "run.h"
 #include "warn.h"

@@ -392,15 +392,10 @@ static void chart_axes(plot *p, plot_box box, const plot_chart *c)
 
 static const char *series_colour(int look)
 {
-    static const char *const colour[] = { "#000000", "#D55E00", "#0072B2", "#009E73", "#CC79A7",
-                                          "#E69F00", "#56B4E9" };
+    static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
+                                          "#CC79A7", "#E69F00" };
 
     return colour[look % LENGTH(colour)];
-}
-
-static int series_look(const plot_chart *c, int k)
-{
-    return c->series[k].look > 0 ? c->series[k].look - 1 : k;
 }
 
 /* Lines without marks take the patterns in turn; the first is solid. */
@@ -421,13 +416,13 @@ static const char *series_dashes(const plot_chart *c, int k)
 static void draw_mark(plot *p, int look, double x, double y)
 {
     static const char *const shape[] = {
+        "m0 4.4l4.2 -7.2h-8.4z",                                /* triangle on its tip */
         "m-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0z",    /* circle   */
         "m-3.3 -3.3h6.6v6.6h-6.6z",                             /* square   */
         "m0 -4.4l4.2 7.2h-8.4z",                                /* triangle */
         "m0 -4.6l4.6 4.6l-4.6 4.6l-4.6 -4.6z",                  /* diamond  */
         "m-3.4 -3.4l6.8 6.8m0 -6.8l-6.8 6.8",                   /* cross    */
-        "m-4.4 0h8.8m-4.4 -4.4v8.8",                            /* plus     */
-        "m0 4.4l4.2 -7.2h-8.4z"                                 /* triangle on its tip */
+        "m-4.4 0h8.8m-4.4 -4.4v8.8"                             /* plus     */
     };
 
     plot_point(p, "<path d=\"M", x, y);
@@ -449,7 +444,7 @@ static void draw_line(plot *p, const plot_chart *c, const plot_series *s)
     plot_put(p, "\"/>\n");
 }
 
-static void draw_marks(plot *p, const plot_chart *c, const plot_series *s, int look)
+static void draw_marks(plot *p, const plot_chart *c, const plot_series *s)
 {
     const double apart = s->style == PLOT_BOTH ? 14 : 0;
     double last_x = -INFINITY, last_y = 0;
@@ -460,7 +455,7 @@ static void draw_marks(plot *p, const plot_chart *c, const plot_series *s, int l
         const double x = plot_pixel(&p->x, s->x[i]), y = plot_pixel(&p->y, s->y[i]);
         if (hypot(x - last_x, y - last_y) < apart)
             continue;
-        draw_mark(p, look, x, y);
+        draw_mark(p, s->look, x, y);
         last_x = x;
         last_y = y;
     }
@@ -469,7 +464,7 @@ static void draw_marks(plot *p, const plot_chart *c, const plot_series *s, int l
 static void begin_series(plot *p, const plot_chart *c, int k)
 {
     plot_put(p, "<g fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" "
-             "stroke-dasharray=\"%s\">\n", series_colour(series_look(c, k)), series_dashes(c, k));
+             "stroke-dasharray=\"%s\">\n", series_colour(c->series[k].look), series_dashes(c, k));
 }
 
 /* Columns of the legend: as few as keep it to the rows that the widest entry allows. */
@@ -494,7 +489,7 @@ static void draw_legend(plot *p, plot_box b, const plot_chart *c)
         if (c->series[k].style != PLOT_MARKS)
             put_line(p, "", x, y, x + 40, y);
         if (c->series[k].style >= PLOT_MARKS)
-            draw_mark(p, series_look(c, k), x + 20, y);
+            draw_mark(p, c->series[k].look, x + 20, y);
         plot_put(p, "</g>\n");
         plot_text(p, x + 48, y + 5, "", c->series[k].name);
     }
@@ -518,7 +513,7 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
         if (s->style != PLOT_MARKS)
             draw_line(p, c, s);
         if (s->style >= PLOT_MARKS)
-            draw_marks(p, c, s, series_look(c, k));
+            draw_marks(p, c, s);
         plot_put(p, "</g>\n");
     }
     draw_legend(p, (plot_box){ b.x, b.y + b.h + 66, b.w, 0 }, c);

@@ -1,12 +1,12 @@
 /* plot.h - pictures as SVG: text and lines, axes, curve charts.
  *
  * Plain arrays in, one file out. A chart is a struct with designated initialisers; what is left out
- * (zero, NULL) is chosen by the writer: ticks, colours, dashes, marks, the power of ten or the
- * prefix of a unit.
+ * (zero, NULL) is chosen by the writer: ticks, dashes, the power of ten or the prefix of a unit.
  *
  *     const plot_series s[] = {
- *         { .name = "theory", .n = 49, .x = x, .y = exact },
- *         { .name = "BBM", .n = 49, .x = x, .y = v, .style = PLOT_MARKS } };
+ *         { .name = "theory", .n = 49, .x = x, .y = exact, .look = 1 },
+ *         { .name = "BBM", .n = 49, .x = x, .y = v, .look = 2,
+ *           .style = PLOT_MARKS } };
  *     const plot_chart c = { .title = "Deflection of the axis", .x = { .name = "x", .unit = "m" },
  *                            .y = { .name = "v", .unit = "m" }, .count = 2, .series = s };
  *     if (!plot_write_chart("out/axis.svg", &c)) ...
@@ -38,8 +38,8 @@ typedef struct {
     int           n;
     const double *x, *y;        /* [n]; NaN leaves a gap                                          */
     plot_style    style;
-    int           look;         /* 1, 2, ..: colour and mark; 0: the place in the chart. The same */
-                                /* in each chart lets the reader know a method again              */
+    int           look;         /* 1, 2, ..: colour and mark. The same in each chart lets the     */
+                                /* reader know a method again                                     */
 } plot_series;
 
 typedef struct {

@@ -21,4 +21,14 @@ bbm_status run_step(run *r);
 void run_says(const run *r, bbm_status status, char out[500]);      /* why a run failed */
 int  run_is_met(const model *p, int k, char out[300]);  /* expectation k beside what came out */
 
+typedef struct {                /* the limit of a number: `./bbm MODEL --find NAME LOW HIGH` */
+    const char *model, *name;   /* the file; the name of a `let` */
+    double low, high;
+    int    lets, quiet;
+    char **let;                 /* [lets]       NAME=VALUE of the command line; room for one more */
+    int  (*stop)(const bbm_model *m, void *none);       /* looked at before each solution */
+} find;
+
+int find_limit(const find *f);  /* find.c: says what it finds; the exit status */
+
 #endif

@@ -972,11 +972,13 @@ static void draw_bands(film *f, const nodal *n, const plot_axis *bar)
     }
 }
 
-static void draw_outlines(film *f, int frame, const char *stroke)
+/* Of all blocks what `put` draws of one. */
+static void draw_lines(film *f, int frame, const char *stroke,
+                       void (*put)(film *f, int frame, const body *b))
 {
-    plot_put(&f->p, "<path fill=\"none\" stroke=\"%s\" d=\"", stroke);
+    plot_put(&f->p, "<path fill=\"none\" %s d=\"", stroke);
     for (int b = 0; b < f->bodies; b++)
-        put_outline(f, frame, &f->body[b]);
+        put(f, frame, &f->body[b]);
     plot_put(&f->p, "\"/>\n");
 }
 
@@ -987,13 +989,10 @@ static void draw_field(film *f, const nodal *n, const plot_axis *bar)
     for (int b = 0; b < f->bodies; b++)
         if (f->body[b].held)
             draw_block(f, 1, &f->body[b]);
-    plot_put(&f->p, "<path fill=\"none\" stroke=\"#000000\" stroke-width=\"0.4\" "
-             "stroke-opacity=\"0.45\" d=\"");
-    for (int b = 0; b < f->bodies; b++)
-        put_elements(f, 1, &f->body[b]);
-    plot_put(&f->p, "\"/>\n");
-    draw_outlines(f, 0, "#666666");
-    draw_outlines(f, 1, "#000000");
+    draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
+               put_elements);
+    draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
+    draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
 }
 
 /* A panel for each model, of the values n [models][nodes]. */

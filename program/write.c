@@ -277,6 +277,13 @@ static void write_vtk(write_results *w)
 
 /* ------------------------------------------------------------------------------------- pictures */
 
+/* A picture that cannot be made costs no results. */
+static void note_picture(write_results *w, const char *path, int done)
+{
+    if (!done)
+        fail(w, path, strerror(errno));
+}
+
 /* The present state. */
 static void draw_now(write_results *w, const char *name)
 {
@@ -285,12 +292,10 @@ static void draw_now(write_results *w, const char *name)
     char path[LONGEST];
 
     scene_record(&now, m);
-    if (!scene_write_panels(&now, m, path_of(w, name, path), 1, &m->info.t))
-        fail(w, path, strerror(errno));
+    note_picture(w, path, scene_write_panels(&now, m, path_of(w, name, path), 1, &m->info.t));
     scene_free(&now);
 }
 
-/* A picture that cannot be made costs no results. */
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
@@ -299,13 +304,11 @@ static void draw_pictures(write_results *w)
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
-        if (!scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)))
-            fail(w, path, strerror(errno));
+        note_picture(w, path, scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)));
     if (w->p->dynamic && map.scale == 0)
         map.scale = 1;                          /* a static one is magnified */
     snprintf(name, sizeof name, "%.90s.svg", map.field);
-    if (!scene_write_map(m, path_of(w, name, path), &map))
-        fail(w, path, strerror(errno));
+    note_picture(w, path, scene_write_map(m, path_of(w, name, path), &map));
 }
 
 /* -------------------------------------------------------------------------------- Matrix Market */
