@@ -127,7 +127,10 @@ static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
     }
 }
 
-typedef struct { int element; double x, y, r; } circle;         /* around an element            */
+typedef struct {                /* around an element                                            */
+    int element, outer, next;   /* it has a boundary edge; the place of the next one that has   */
+    double x, y, r;
+} circle;
 
 static int compare_circles(const void *p, const void *q)
 {
@@ -151,27 +154,46 @@ static circle circle_of(const bbm_model *m, int e)
     return c;
 }
 
-/* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
- * none do. */
-bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
+/* Compares the elements of sorted circles, two inner ones only if `all`. */
+static void probe_elements(const bbm_model *m, const circle *s, int all, bbm_overlap *o)
 {
-    circle *s = malloc((size_t)m->elements * sizeof *s);
-    double length = 0;
-
-    if (!s)
-        return BBM_NO_MEMORY;
-    for (int e = 0; e < m->edges; e++)
-        length += m->edge[e].along.length;
-    *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
-    for (int e = 0; e < m->elements; e++)
-        s[e] = circle_of(m, e);
-    qsort(s, (size_t)m->elements, sizeof *s, compare_circles);
-    for (int a = 0; a < m->elements; a++)
-        for (int b = a + 1; b < m->elements && s[b].x - s[b].r < s[a].x + s[a].r; b++)
+    for (int a = 0; a < m->elements; a++) {
+        const int each = all || s[a].outer;
+        for (int b = each ? a + 1 : s[a].next; b < m->elements && s[b].x - s[b].r < s[a].x + s[a].r;
+             b = each ? b + 1 : s[b].next)
             if (hypot(s[b].x - s[a].x, s[b].y - s[a].y) < s[a].r + s[b].r) {
                 probe_element(m, s[a].element, s[b].element, o);
                 probe_element(m, s[b].element, s[a].element, o);
             }
+    }
+}
+
+/* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
+ * none do. The winding numbers of all elements round a point add up to that of all boundary edges,
+ * for internal edges cancel. So where elements overlap, the overlap ends at a boundary edge, whose
+ * element takes part. */
+bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
+{
+    circle *s = calloc((size_t)m->elements, sizeof *s);
+    double length = 0;
+
+    if (!s)
+        return BBM_NO_MEMORY;
+    for (int e = 0; e < m->elements; e++)
+        s[e] = circle_of(m, e);
+    for (int e = 0; e < m->edges; e++) {
+        length += m->edge[e].along.length;
+        s[m->edge[e].element].outer = 1;
+    }
+    *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
+    qsort(s, (size_t)m->elements, sizeof *s, compare_circles);
+    for (int a = m->elements - 1, next = m->elements; a >= 0; a--) {
+        s[a].next = next;
+        next = s[a].outer ? a : next;
+    }
+    probe_elements(m, s, 0, o);
+    if (o->i >= 0)
+        probe_elements(m, s, 1, o);
     free(s);
     return BBM_OK;
 }
