@@ -67,6 +67,7 @@ struct bbm_beyond {
     double h_before;            /* s        the last step                                       */
     bbm_contact *jump_of;       /* [contacts] impact.c: of the step that ends with the jump     */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
+    double (*moment)[2][2][2];  /* [elements], bending.c                                        */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     int edge_loads;
@@ -132,6 +133,7 @@ int        bbm_renew_middle(bbm_model *m);
 /* bending.c */
 void       bbm_condense(int n, int rows, double W[n][n]);
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
+void       bbm_find_moments(bbm_model *m);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
 void       bbm_weighted_submatrices(const bbm_gap *g, bbm_submatrices *s);
 void       bbm_list_edge_gaps(bbm_model *m);
