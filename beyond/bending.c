@@ -160,46 +160,25 @@ static void list_edge(bbm_model *m, int i, int j, const bbm_gap end[2], int dire
     }
 }
 
-/* The present or the starting shape of a quadrilateral: what its area and its vertices are. */
-static bbm_element shape_of(const bbm_model *m, const bbm_element *e, int start, bbm_vertex at[5])
-{
-    bbm_element shape = *e;
-
-    shape.A = start ? e->A0 : e->A;
-    for (int k = 0; k < 5; k++) {
-        at[k] = m->vertex[e->first + k % 4];
-        at[k].x = start ? m->node[at[k].node].x - m->origin[0] : at[k].x;
-        at[k].y = start ? m->node[at[k].node].y - m->origin[1] : at[k].y;
-    }
-    return shape;
-}
-
-/* The shares of all quadrilaterals in exact steps. They belong to the starting shapes: they are
- * constant then, and their forces have a potential. */
-void bbm_find_moments(bbm_model *m)
-{
-    bbm_vertex at[5];
-
-    for (int i = 0; i < m->elements && bbm_motion_of(m); i++)
-        if (m->element[i].n == 4) {
-            const bbm_element shape = shape_of(m, &m->element[i], 1, at);
-            bbm_bending_moments(&shape, at, m->beyond->moment[i]);
-        }
-}
-
 /* The moment M that a quadrilateral asks for on its edge from vertex v on; returns n.M n with the
- * normal n of the edge. */
+ * normal n of the edge. Where steps are exact M belongs to the starting shape: it is constant then,
+ * found once, and its forces have a potential. */
 static double own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
 {
     const int edge = v - e->first, exact = e->middle != NULL;
-    double own[2][2][2];
+    bbm_element shape = *e;
     bbm_vertex at[5];
+    double now[2][2][2], (*own)[2][2] = exact ? m->beyond->moment[e - m->element] : now;
 
-    const bbm_element shape = shape_of(m, e, exact, at);
-    if (!exact)
+    shape.A = exact ? e->A0 : e->A;
+    for (int k = 0; k < 5; k++) {
+        at[k] = m->vertex[e->first + k % 4];
+        at[k].x = exact ? m->node[at[k].node].x - m->origin[0] : at[k].x;
+        at[k].y = exact ? m->node[at[k].node].y - m->origin[1] : at[k].y;
+    }
+    if (!exact || own[0][0][0] + own[0][1][1] == 0)
         bbm_bending_moments(&shape, at, own);
-    memcpy(M, exact ? m->beyond->moment[e - m->element][edge % 2] : own[edge % 2],
-           4 * sizeof M[0][0]);
+    memcpy(M, own[edge % 2], 4 * sizeof M[0][0]);
     const double nx = at[edge + 1].y - at[edge].y, ny = at[edge].x - at[edge + 1].x;
     return nx * nx * M[0][0] + nx * ny * (M[0][1] + M[1][0]) + ny * ny * M[1][1];
 }

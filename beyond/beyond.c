@@ -60,7 +60,6 @@ static bbm_status begin(bbm_model *m)
     b->left = m->info.passes == 0 ? 1 : b->left;
     b->share = at_rest ? 1 : m->h / m->par.dt / b->left;
     bbm_place_supports(m);
-    bbm_find_moments(m);
     for (int a = 0; a < 2; a++)
         m->acceleration[a] -= b->shake[a] * swing;
     b->made *= m->h < m->par.dt;                    /* a step begins whole */
@@ -88,11 +87,15 @@ static bbm_status listed(bbm_model *m)
  * unless K is kept; when all has settled, multipliers take over what the springs carry. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
+    const int is_round = m->beyond->is_round;
+
+    m->beyond->is_round = 0;
     if (bbm_contact_turns_over(m))
         return BBM_PASS_GIVE_UP;
-    if (!m->K->is_kept && bbm_renew_middle(m))
+    if (!is_round && bbm_renew_middle(m))
         return BBM_PASS_AGAIN;
-    return next == BBM_PASS_DONE && bbm_take_over(m) ? BBM_PASS_SAME_K : next;
+    m->beyond->is_round = next == BBM_PASS_DONE && bbm_take_over(m);
+    return m->beyond->is_round ? BBM_PASS_SAME_K : next;
 }
 
 /* A step that went well: right as far as one can tell, no corner passed, no energy from nowhere. */

@@ -57,6 +57,7 @@ struct bbm_beyond {
     double reach;               /* -        statics.c: how far blocks may part in a static step */
     double restitution;         /* -        impact.c: -1: none, as the springs do               */
     int rounds_done;            /* in this step                                                 */
+    int is_round;               /* the solution in hand is one: K was kept                      */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
     int joints;
@@ -133,7 +134,6 @@ int        bbm_renew_middle(bbm_model *m);
 /* bending.c */
 void       bbm_condense(int n, int rows, double W[n][n]);
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
-void       bbm_find_moments(bbm_model *m);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
 void       bbm_weighted_submatrices(const bbm_gap *g, bbm_submatrices *s);
 void       bbm_list_edge_gaps(bbm_model *m);
