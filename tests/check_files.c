@@ -213,6 +213,19 @@ static const char *const pictures[] = { "contacts.svg", "movie.svg", "mises.svg"
 static const char *const tables[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv",
                                       "timing.csv" };
 
+/* How many of the tables are in a folder. */
+static int count_tables(const char *folder)
+{
+    char path[100];
+    int there = 0;
+
+    for (int k = 0; k < 5; k++) {
+        snprintf(path, sizeof path, "%s/%s", folder, tables[k]);
+        there += is_there(path);
+    }
+    return there;
+}
+
 START_TEST(a_picture_that_cannot_be_made_is_said_and_costs_nothing_else)
 {
     char said[LONG], text[100], path[100];
@@ -230,10 +243,7 @@ START_TEST(a_picture_that_cannot_be_made_is_said_and_costs_nothing_else)
         snprintf(path, sizeof path, "out/model/picture/%s", pictures[k]);
         ck_assert(is_there(path));
     }
-    for (int k = 0; k < 5; k++) {
-        snprintf(path, sizeof path, "out/model/picture/%s", tables[k]);
-        ck_assert(is_there(path));
-    }
+    ck_assert_int_eq(count_tables("out/model/picture"), 5);
     ck_assert_double_eq(cell("picture", "history.csv", "", "step"), 10);
     ck_assert(!has_file("out/model/picture", ".tmp", 0));
 }
@@ -321,7 +331,6 @@ static int run_short(int model, int allocations, int *kept)
 {
     const char *name = short_of_memory[model].model;
     char folder[60], path[100], said[LONG];
-    int there = 0;
 
     const int status = shell("rm -rf out/model/%s out/model/short.mtx*; TEST_ALLOCATIONS=%d "
                              "exec %s/failing/bbm -q out/model/%s.model -o out/model/%s "
@@ -333,10 +342,7 @@ static int run_short(int model, int allocations, int *kept)
                   "%s, %d allocations: status %d, said: %s", name, allocations, status, said);
     ck_assert_msg(!has_file(folder, ".tmp", 0) && !has_file(folder, "", 1), "%s, %d: left over",
                   name, allocations);
-    for (int k = 0; k < 5; k++) {
-        snprintf(path, sizeof path, "%s/%s", folder, tables[k]);
-        there += is_there(path);
-    }
+    const int there = count_tables(folder);
     snprintf(path, sizeof path, "%s/%s", folder, short_of_memory[model].last);
     ck_assert_msg(status || (there == 5 && is_there(path) && is_there("out/model/short.mtx.rhs")),
                   "%s, %d: status 0, but not all is there", name, allocations);
@@ -443,10 +449,7 @@ START_TEST(an_interrupted_run_keeps_what_it_has_computed)
     ck_assert_msg(strstr(said, _i == 2 ? "interrupted at settling, step " : "interrupted at step "),
                   "%s", said);
     ck_assert(!has_file("out/model/long", ".tmp", 0) && !has_file("out/model/long", "", 1));
-    for (int k = 0; k < 5; k++) {
-        snprintf(text, sizeof text, "out/model/long/%s", tables[k]);
-        ck_assert_msg(is_there(text), "no %s", text);
-    }
+    ck_assert_int_eq(count_tables("out/model/long"), 5);
     if (_i == 2)
         return;
     const double step = cell("long", "history.csv", "", "step");
