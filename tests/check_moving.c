@@ -30,9 +30,8 @@ static void put_box(FILE *f, const char *name, const char *material, const doubl
 static void run_moving(FILE *f)
 {
     fclose(f);
-    ck_assert_int_eq(shell("%s/bbm -q out/model/moving.model -o out/model/moving 2> out/model/err",
-                           BUILD),
-                     0);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/moving.model -o out/model/moving 2> "
+                           "out/model/err", BUILD), 0);
 }
 
 /* A slope that falls to the left and a block of 1 m x 0.5 m on it, of 2500 kg/m^3. */

@@ -55,15 +55,6 @@ static int next_point(const char **s, point *at, int *new)
 
 static const char *path_of(const char *s) { return strstr(s, " d=\"") + 4; }
 
-/* The file has the text in it. */
-static void check_text(const char *path, const char *expected)
-{
-    char *text = read_all(path);
-
-    ck_assert_msg(strstr(text, expected), "%s: not %s", path, expected);
-    free(text);
-}
-
 /* ------------------------------------------------------------------------------ all pictures */
 
 static glob_t pictures;

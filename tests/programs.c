@@ -45,6 +45,14 @@ char *read_all(const char *path)
     return text;
 }
 
+void check_text(const char *path, const char *expected)
+{
+    char *text = read_all(path);
+
+    ck_assert_msg(strstr(text, expected), "%s lacks '%s': %.1000s", path, expected, text);
+    free(text);
+}
+
 void write_text(const char *path, const char *text)
 {
     FILE *f = fopen(path, "w");
