@@ -37,7 +37,7 @@ PROGRAMS = check_cases check_model check_statements check_moving check_files che
            check_scenes $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
-           check_coarse check_beyond check_motion check_bars check_limits check_statics check_refused \
+           check_coarse check_beyond check_motion check_bars check_statics check_refused \
            check_theory check_equations check_run check_impact
 SHARING  = models shapes systems programs
 HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h tests/*.h)
