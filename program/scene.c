@@ -444,8 +444,8 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     }
     for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++) {
         const bbm_line_load *l = &m->line_load[i];
-        visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f, 0 }, &last,
-                   visit);
+        visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f, 0 },
+                   &last, visit);
     }
     scene_line l;
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
@@ -643,7 +643,8 @@ static void find_window(film *f)
     for (int b = 0; b < f->bodies; b++)
         for (int k = 0; k < f->body[b].n && !(chosen && f->body[b].held); k++)
             for (int i = 0; i < f->s->frames; i++)
-                widen_window(f, 0, position(f, i, f->vertex[f->body[b].first + k]), (point){ 0, 0 });
+                widen_window(f, 0, position(f, i, f->vertex[f->body[b].first + k]),
+                             (point){ 0, 0 });
     const double more = 0.03 * fmax(f->window[0][1] - f->window[0][0],
                                     f->window[1][1] - f->window[1][0]);
     for (int k = 0; k < 2; k++) {
@@ -701,7 +702,8 @@ static int open_page(film *f, const char *path, int n, double below)
 {
     layout *l = &f->l;
 
-    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0, .over = n > 1 || is_timed(f) ? OVER : 14 };
+    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0,
+                   .over = n > 1 || is_timed(f) ? OVER : 14 };
     measure(f, n);
     const double width = fmax(l->columns * l->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
     const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;

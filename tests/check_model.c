@@ -162,7 +162,7 @@ static const wrong wrongs[] = {
       "curves or points, expected one" },
     { "block-crossing", ".model:7: the boundary of element 3 of block 'c' meets itself, expected a simple polygon" },
     { "block-flat", ".model:7: element 3 of block 'c' has no area, or one too large, expected a polygon" },
-    { "block-long-id", ".model:6: an id of 18 digits, expected at most 17 where blocks are numbered on" },
+    { "block-long-id", ".model:6: an id of 18 digits or more, expected at most 17 where blocks are numbered on" },
     { "block-not-a-number", ".model:7: not a number: 'two', expected: block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 "
       "Y4 ...]" },
     { "block-odd", ".model:7: block 'c' has 5 coordinates, expected X Y of 3 corners or more" },
