@@ -29,10 +29,10 @@ GALLERY  = topple drop arch
 CASES    = $(RUN) $(GALLERY)
 # Beyond their limits models do not do what is expected of them (status 3).
 BEYOND_LIMITS = slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 shaken:phi=34 wall:A=8
-COMMON   = cases/case cases/theory $(addprefix program/,cell field output plot scene)
+COMMON   = cases/case cases/theory $(addprefix program/,cell field force output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
 READER   = $(addprefix program/,statements build msh reader model cell field)
-PROGRAM  = $(READER) $(addprefix program/,main run write output plot scene edge_load)
+PROGRAM  = $(READER) $(addprefix program/,main run write output plot scene force edge_load)
 TORTURE  = scenes ledger trial
 PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures \
            check_scenes $(TORTURE)
@@ -41,7 +41,7 @@ SUITES   = check_formulas check_elastic check_steps check_mesh check_input check
            check_coarse check_beyond check_motion check_bars check_limits check_statics check_refused \
            check_theory check_equations check_run check_impact
 SHARING  = models shapes systems programs
-HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h tests/*.h)
+HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h page/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
@@ -119,6 +119,26 @@ $O/hostile: $O/tests/hostile.o
 $O/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+
+# --- the page: the same sources as WebAssembly, in one HTML file that needs nothing else ---
+PAGE_CC    = clang --target=wasm32-wasi -mexec-model=reactor -flto -D_WASI_EMULATED_PROCESS_CLOCKS
+PAGE_CALLS = malloc free $(addprefix page_,load free state step text numbers data)
+PAGE_C     = page/page $(READER) $(addprefix program/,run force edge_load) $(LIBRARY)
+EMPTY      =
+COMMA      = ,
+
+page: out/bbm.html
+
+out/bbm.wasm: $(PAGE_C:%=%.c) $(HEADERS) Makefile
+	@mkdir -p $(@D)
+	$(PAGE_CC) $(STRICT) -O2 -o $@ $(PAGE_C:%=%.c) -Wl,$(subst $(EMPTY) $(EMPTY),$(COMMA),$(PAGE_CALLS:%=--export=%)) \
+	-Wl,--strip-all,--stack-first,-z,stack-size=1048576 -lm -lwasi-emulated-process-clocks
+
+PAGE_FILES = $(addprefix page/,page.html style.css assemble.awk wasi.js model.js picture.js graphs.js inspect.js exercises.js page.js)
+PAGE_DATA  = out/bbm.wasm $(wildcard cases/models/*.model cases/models/*.msh)
+
+out/bbm.html: $(PAGE_FILES) $(PAGE_DATA) Makefile
+	awk -f page/assemble.awk page/page.html $(PAGE_DATA) > $@
 
 # --- tests: the library once more, with an allocator that can be made to fail ---
 $O/failing/%.o: %.c $(HEADERS) Makefile
