@@ -34,8 +34,9 @@ SHARED   = $(COMMON) cases/beyond program/edge_load
 READER   = $(addprefix program/,statements build msh reader model cell field)
 PROGRAM  = $(READER) $(addprefix program/,main run write output plot scene force edge_load)
 TORTURE  = scenes ledger trial
+PAGE     = page/page $(READER) $(addprefix program/,run force edge_load)
 PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures \
-           check_scenes $(TORTURE)
+           check_scenes check_page $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_coarse check_beyond check_motion check_bars check_limits check_statics check_refused \
@@ -123,15 +124,14 @@ $O/%.o: %.c $(HEADERS) Makefile
 # --- the page: the same sources as WebAssembly, in one HTML file that needs nothing else ---
 PAGE_CC    = clang --target=wasm32-wasi -mexec-model=reactor -flto -D_WASI_EMULATED_PROCESS_CLOCKS
 PAGE_CALLS = malloc free $(addprefix page_,load free state step text numbers data)
-PAGE_C     = page/page $(READER) $(addprefix program/,run force edge_load) $(LIBRARY)
 EMPTY      =
 COMMA      = ,
 
 page: out/bbm.html
 
-out/bbm.wasm: $(PAGE_C:%=%.c) $(HEADERS) Makefile
+out/bbm.wasm: $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(HEADERS) Makefile
 	@mkdir -p $(@D)
-	$(PAGE_CC) $(STRICT) -O2 -o $@ $(PAGE_C:%=%.c) -Wl,$(subst $(EMPTY) $(EMPTY),$(COMMA),$(PAGE_CALLS:%=--export=%)) \
+	$(PAGE_CC) $(STRICT) -O2 -o $@ $(PAGE:%=%.c) $(LIBRARY:%=%.c) -Wl,$(subst $(EMPTY) $(EMPTY),$(COMMA),$(PAGE_CALLS:%=--export=%)) \
 	-Wl,--strip-all,--stack-first,-z,stack-size=1048576 -lm -lwasi-emulated-process-clocks
 
 PAGE_FILES = $(addprefix page/,page.html style.css assemble.awk wasi.js model.js picture.js graphs.js inspect.js exercises.js page.js)
@@ -167,7 +167,7 @@ TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/rock.o $O/t
 $O/quick: $O/tests/check_main.o $(TESTED) | $O/bbm
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(TESTED)
+$O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(PAGE:%=$O/%.o) $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
 $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $(PROGRAMS:%=$O/tests/%.o) $O/tests/test_alloc.o: | libcheck
@@ -191,6 +191,15 @@ exercise:
 
 check-exercises: $O/quick $(ALONE)
 	@$(EXERCISE) prove
+
+# The page in node and in Chromium, and natively with musl, whose libm is that of WASI.
+check-page: out/bbm.html $O/bbm $O/musl/page_native
+	@rm -rf out/page && mkdir -p out/page
+	node tests/check_page.js $O/bbm $O/musl/page_native out/page
+
+$O/musl/page_native: tests/page_native.c $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(HEADERS) Makefile
+	@mkdir -p $(@D)
+	musl-gcc $(STRICT) -O2 -o $@ $(filter %.c,$^) -lm
 
 # The figures of the documents, their commands and what these print.
 check-documents: $O/figures $O/bbm experiments

@@ -59,6 +59,8 @@ function loadModel(name, text, lets) {
     title: textOf('t') });
   keepFrame();
   run.monitors = Array.from({ length: count(run.frames[0].o, 'o') }, (_, k) => textOf('o', k));
+  if (run.frames[0].settle === 0)
+    stepModel();                                /* begins, at step 0 */
   return '';
 }
 

@@ -142,7 +142,7 @@ int page_step(page *g)
     g->status = run_step(&g->r);
     if (g->status)
         run_says(&g->r, g->status, g->said);
-    else
+    else if (g->look.n > 0)
         note_look(g, g->p.m->contact, g->p.m->contacts, PAGE_DONE);
     return page_state(g);
 }

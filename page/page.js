@@ -50,7 +50,7 @@ function makeSliders() {
       value: now, ariaLabel: name }), word = make('input', { value: now, ariaLabel: name });
     const set = other => x => {
       given[name] = other.value = x.target.value;
-      const again = playing || run?.rows.length;
+      const again = playing || run?.rows.length > 1;
       if (load() && again)
         play(true);
     };
@@ -160,7 +160,7 @@ function oneStep() {
 
 function where(f) {
   if (!f.begun)
-    return f.settle > f.settling ? `settling ${f.settle - f.settling} of ${f.settle}` : 'at the start';
+    return `settling ${f.settle - f.settling} of ${f.settle}`;
   const time = f.dynamic ? `  t = ${format(f.t)} s` : '';
   return `step ${f.step} of ${f.steps}${time}${f.failed ? '  failed' : ''}`;
 }

@@ -78,6 +78,7 @@ Suite *moving_suite(void);
 Suite *scenes_suite(void);
 Suite *files_suite(void);
 Suite *pictures_suite(void);
+Suite *page_suite(void);
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX
