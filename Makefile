@@ -6,6 +6,7 @@
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
+# make page      out/bbm.html, the method in a browser (clang for wasm32); make check-page: beside ./bbm
 # make windows   ./bbm for Windows (mingw-w64)
 # make exercise N=07   a copy without one function, and its tests; doc/exercises
 # make figures   draws doc/figures             make check-exercises   each red as it begins, green in the end
@@ -210,7 +211,7 @@ check-documents: $O/figures $O/bbm experiments
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
 
 # How large the project is, and may be.
-CODE = $(wildcard *.[ch] $(foreach f,base beyond cases program tests doc,$f/*.[ch] $f/*.awk $f/*.sh))
+CODE = $(wildcard *.[ch] page/*.html page/*.css $(foreach f,base beyond cases program page tests doc,$f/*.[ch] $f/*.js $f/*.awk $f/*.sh))
 BUDGET = awk -f tests/budget.awk README.md $(CODE)
 
 check-budget:
@@ -310,5 +311,6 @@ clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
+.PHONY: page check-page
 .PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents check-budget experiments exercise figures $(CALLS)
 .DELETE_ON_ERROR:

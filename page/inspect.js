@@ -52,37 +52,24 @@ function tellElement(frame, e) {
   return `element ${textOf('e', e)} of block ${textOf('b', block)}`;
 }
 
+/* What it carries, the row that keeps it, and the one that changed it last, in this step or before. */
 function tellContact(frame, [corner, edge]) {
-  let k = 0, last = null;
-  while (k < count(frame.c, 'c') && (frame.c[13 * k] !== corner || frame.c[13 * k + 1] !== edge))
-    k++;
-  if (k === count(frame.c, 'c')) {
-    fill('about', [['not near in this step', '']]);
-    return `contact, ${nameOf([corner, edge])}`;
-  }
-  const [, , state, , , , , N, T, gap, strength, slip, now] = row(frame.c, 'c', k);
-  for (const f of run.frames.slice(0, run.frames.indexOf(frame) + 1))
-    looksOf(f).forEach(look => look.contacts.forEach(c => {
-      if (c.corner === corner && c.edge === edge && c.from !== c.to)
-        last = [f.step, c.row];
-    }));
-  fill('about', [['state', STATES[state], ''], ['N', N, 'N'], ['T', T, 'N'], ['bound of T', strength, 'N'],
-    ['d_n', gap, 'm'], ['slip', slip, 'm']]);
+  const is = c => c.corner === corner && c.edge === edge, until = run.frames.indexOf(frame) + 1;
+  const at = times(count(frame.c, 'c'), k => row(frame.c, 'c', k)).find(c => c[0] === corner && c[1] === edge);
+  const changes = run.frames.slice(Math.max(0, until - 300), until).flatMap(f => looksOf(f).flatMap(look =>
+    look.contacts.filter(c => is(c) && c.from !== c.to).map(c => `step ${f.step}: ${sentence(c.row)}`)));
+  const [, , state, , , , , N, T, gap, strength, slip, now] = at ?? [];
+  fill('about', at ? [['state', STATES[state], ''], ['N', N, 'N'], ['T', T, 'N'], ['bound of T', strength, 'N'],
+    ['d_n', gap, 'm'], ['slip', slip, 'm']] : []);
   document.getElementById('about').append(make('tr', {}, make('td', { colSpan: 3, className: 'why' },
-    `Now: ${sentence(now)}. ` + (last ? `Last change, step ${last[0]}: ${sentence(last[1])}.` : ''))));
+    at ? `Now ${sentence(now)}. Last change, ${changes.at(-1) ?? 'none'}.` : 'not near in this step')));
   return `contact, ${nameOf([corner, edge])}`;
 }
 
 function tell(frame, picked) {
-  const who = document.getElementById('who');
-  if (picked.contact)
-    who.textContent = tellContact(frame, picked.contact);
-  else if (picked.element >= 0)
-    who.textContent = tellElement(frame, picked.element);
-  else {
-    who.textContent = 'Click an element or a contact';
-    fill('about', []);
-  }
+  fill('about', []);
+  document.getElementById('who').textContent = picked.contact ? tellContact(frame, picked.contact)
+    : picked.element >= 0 ? tellElement(frame, picked.element) : 'Click an element or a contact';
   fill('facts', [['open-close passes', frame.passes], ['contacts closed', frame.contacts],
     ['deepest contact [m]', frame.penetration], ['times dt was halved', frame.cuts],
     ['PCG iterations', frame.iterations], ['residual', frame.residual],
@@ -104,28 +91,23 @@ function looksOf(frame) {
   return looks;
 }
 
-/* The look in hand: its sentence, and the contacts that it changes first. */
+/* The look in hand, as a sentence and a table; what it changes stands first. */
 function tellLook(frame, at, onpick) {
   const looks = looksOf(frame), look = looks[at], is = id => document.getElementById(id);
-  is('stage').replaceChildren(...['list contacts', 'assemble K, F', 'solve K D = F', 'look at D',
-    'move'].map((name, k) => make('li', { className: look && (k === 0 && look.what === 0 ||
-    k === 3 && look.what > 0 || k === 4 && look.what === 4) ? 'on' : '' }, name)));
-  if (!look) {
-    is('look').textContent = 'No step has been done yet: press Step.';
-    is('changes').replaceChildren();
-    return null;
-  }
-  const solutions = looks.slice(0, at + 1).filter(l => l.what > 0).length, changed = new Set();
-  look.contacts.forEach(c => { if (c.from !== c.to || c.row === 7) changed.add(c); });
-  is('look').textContent = `Step ${frame.step}${frame.failed ? ' + 1, which failed' : ''}, look ${at + 1} of ` +
-    `${looks.length}, after ${solutions} solutions: ` +
-    `${look.what === 1 && !changed.size ? RENEWED : WHY[look.what]}.  ${look.contacts.length} closed before ` +
-    `or after, ${changed.size} changed${frame.dynamic ? `; h = ${format(look.h)} s` : ''}.`;
-  const list = [...changed, ...look.contacts.filter(c => !changed.has(c))].slice(0, 200);
-  is('changes').replaceChildren(make('tr', {}, ...['contact', 'was', 'becomes', 'N [N]', 'T [N]', 'd_n [m]',
-    'why'].map(c => make('th', {}, c))), ...list.map(c => make('tr', { className: changed.has(c) ? 'changed' : '',
-    onclick: () => onpick([c.corner, c.edge]) }, ...[nameOf([c.corner, c.edge]), STATES[c.from], STATES[c.to],
-    format(c.N), format(c.T), format(c.gap), look.what ? ROWS[c.row][1] : 'as it began']
-    .map(text => make('td', {}, text)))));
+  const on = look ? [look.what === 0, false, false, look.what > 0, look.what === 4] : [];
+  is('stage').replaceChildren(...['list contacts', 'assemble K, F', 'solve K D = F', 'look at D', 'move']
+    .map((name, k) => make('li', { className: on[k] ? 'on' : '' }, name)));
+  const contacts = look?.contacts ?? [], changes = c => c.from !== c.to || c.row === 7;
+  const changed = contacts.filter(changes), rest = contacts.filter(c => !changes(c));
+  const solution = looks.slice(0, at + 1).filter(l => l.what > 0).length;
+  is('look').textContent = !look ? 'No step has been done yet: press Step.'
+    : `Step ${frame.step}${frame.failed ? ' + 1, which failed' : ''}, look ${at + 1} of ${looks.length}, after ` +
+    `solution ${solution}: ${look.what === 1 && !changed.length ? RENEWED : WHY[look.what]}. ${contacts.length} ` +
+    `closed before or after, ${changed.length} changed${frame.dynamic ? `; h = ${format(look.h)} s` : ''}.`;
+  const head = ['contact', 'was', 'becomes', 'N [N]', 'T [N]', 'd_n [m]', 'why'].map(c => make('th', {}, c));
+  is('changes').replaceChildren(make('tr', {}, ...head), ...[...changed, ...rest].slice(0, 200).map(c =>
+    make('tr', { className: changes(c) ? 'changed' : '', onclick: () => onpick([c.corner, c.edge]) },
+      ...[nameOf([c.corner, c.edge]), STATES[c.from], STATES[c.to], format(c.N), format(c.T), format(c.gap),
+        look.what ? ROWS[c.row][1] : 'as it began'].map(text => make('td', {}, text)))));
   return look;
 }

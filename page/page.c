@@ -149,18 +149,14 @@ int page_step(page *g)
 
 /* ------------------------------------------------------------------------- numbers */
 
-static void put_vertices(page *g)
+static void put_vertices(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
-
     for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
         PUT(&g->out, v->x + m->origin[0], v->y + m->origin[1], v->u, v->v);
 }
 
-static void put_elements(page *g)
+static void put_elements(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
-
     for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
         const double szz = bbm_stress_out_of_plane(e);
         put(&g->out, 6, e->D);
@@ -172,27 +168,21 @@ static void put_elements(page *g)
     }
 }
 
-static void put_mesh(page *g)
+static void put_mesh(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
-
     for (const bbm_element *e = m->element; e < m->element + m->elements; e++)
         PUT(&g->out, e->first, e->n, e->block, e->material.E, e->material.nu, e->material.density,
             e->material.thickness);
 }
 
-static void put_edges(page *g)
+static void put_edges(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
-
     for (const bbm_edge *d = m->edge; d < m->edge + m->edges; d++)
         PUT(&g->out, d->a, d->b, d->block);
 }
 
-static void put_contacts(page *g)
+static void put_contacts(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
-
     for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
         const bbm_vertex *P1 = bbm_start_of(m, c->corner);
         double f[2];
@@ -203,19 +193,16 @@ static void put_contacts(page *g)
     }
 }
 
-static void put_supports(page *g)
+static void put_supports(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
-
     for (int v = 0; v < m->vertices; v++)
         if (m->node[m->vertex[v].node].held)
             PUT(&g->out, v, m->node[m->vertex[v].node].held);
 }
 
 /* What turns with an edge, or varies along it, by its mean. */
-static void put_loads(page *g)
+static void put_loads(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
     scene_line l;
 
     for (int n = 0; n < m->nodes; n++)
@@ -233,9 +220,9 @@ static void put_loads(page *g)
 }
 
 /* i - back is the column. */
-static void put_pattern(page *g)
+static void put_pattern(page *g, const bbm_model *m)
 {
-    const bbm_matrix *K = g->p.m->K;
+    const bbm_matrix *K = m->K;
 
     PUT(&g->out, K->n);
     for (int i = 0; i < K->n; i++)
@@ -246,9 +233,8 @@ static void put_pattern(page *g)
 }
 
 /* The time is that of ./bbm, the nominal one. */
-static void put_facts(page *g)
+static void put_facts(page *g, const bbm_model *m)
 {
-    const bbm_model *m = g->p.m;
     const bbm_info *i = &m->info;
     bbm_energy e;
 
@@ -259,31 +245,33 @@ static void put_facts(page *g)
         e.elastic, e.springs, m->beyond->work, m->beyond->gained, g->p.scale);
 }
 
-static void put_monitors(page *g)
+static void put_monitors(page *g, const bbm_model *m)
 {
     double u[2];
 
+    (void)m;
     for (int k = 0; k < g->p.monitors; k++) {
         model_displacement(&g->p, &g->p.monitor[k], u);
         put(&g->out, 2, u);
     }
 }
 
-static void put_expectations(page *g)
+static void put_expectations(page *g, const bbm_model *m)
 {
     char text[300];
 
+    (void)m;
     for (int k = 0; k < g->p.expectations; k++) {
         const model_expected *e = &g->p.expected[k];
         PUT(&g->out, e->monitor, e->kind, e->value, e->within, run_is_met(&g->p, k, text));
     }
 }
 
-static void put_looks(page *g) { put(&g->out, g->look.n, g->look.x); }
+static void put_looks(page *g, const bbm_model *m) { (void)m, put(&g->out, g->look.n, g->look.x); }
 
 int page_numbers(page *g, int what)
 {
-    static const struct { int what; void (*put)(page *g); } table[] = {
+    static const struct { int what; void (*put)(page *g, const bbm_model *m); } table[] = {
         { 'v', put_vertices }, { 'e', put_elements }, { 'a', put_mesh }, { 'd', put_edges },
         { 'c', put_contacts }, { 'h', put_supports }, { 'l', put_loads }, { 'k', put_pattern },
         { 'f', put_facts }, { 'o', put_monitors }, { 'x', put_expectations }, { 'p', put_looks },
@@ -292,7 +280,7 @@ int page_numbers(page *g, int what)
     g->out.n = g->out.failed = 0;
     for (int k = 0; k < LENGTH(table) && !g->wrong; k++)
         if (table[k].what == what)
-            table[k].put(g);
+            table[k].put(g, g->p.m);
     return g->out.failed ? -1 : g->out.n;
 }
 

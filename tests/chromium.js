@@ -1,67 +1,57 @@
 /* chromium.js - a page in headless Chromium, over a pipe: its DevTools protocol, and no package. */
 'use strict';
-const { spawn } = require('child_process'), fs = require('fs'), os = require('os'), path = require('path');
+const { spawn } = require('child_process'), fs = require('fs'), path = require('path');
 
-/* Opens the page; do(text) evaluates an expression there, shot(name) takes a picture. Each request
- * that leaves the page for another place than the file itself is counted. */
+/* Opens the page. do(text) evaluates an expression in it; until(text) waits for one to be true; shot(name)
+ * takes a picture. `requests` are all that left it, `errors` what it threw. */
 exports.open = async (url, folder) => {
-  const home = fs.mkdtempSync(path.join(os.tmpdir(), 'page-'));
-  const browser = spawn(process.env.CHROMIUM || 'chromium', ['--headless=new', '--no-sandbox', '--disable-gpu',
-    '--no-first-run', '--disable-backgrounding-occluded-windows', '--disable-renderer-backgrounding',
-    '--remote-debugging-pipe', '--window-size=1280,720', `--user-data-dir=${home}`],
-  { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
-  const waiting = new Map(), page = { requests: [], errors: [] };
-  let said = Buffer.alloc(0), last = 0, session;
-  browser.on('error', e => { console.log(`${e}`); process.exit(1); });
+  const waiting = [], requests = [], errors = [];
+  const browser = spawn('chromium', ['--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run',
+    '--remote-debugging-pipe', `--user-data-dir=${path.resolve(folder, 'profile')}`], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
+  let said = Buffer.alloc(0), sessionId;
+  browser.on('error', e => { throw e; });
   browser.stdio[4].on('data', piece => {
     said = Buffer.concat([said, piece]);
     for (let end; (end = said.indexOf(0)) >= 0; said = said.subarray(end + 1)) {
-      const m = JSON.parse(said.subarray(0, end));
-      if (m.id)
-        waiting.get(m.id)(m);
-      else if (m.method === 'Network.requestWillBeSent')
-        page.requests.push(m.params.request.url);
-      else if (m.method === 'Runtime.exceptionThrown')
-        page.errors.push(m.params.exceptionDetails.exception?.description ?? m.params.exceptionDetails.text);
+      const { id, method, params, result, error } = JSON.parse(said.subarray(0, end));
+      waiting[id]?.(error ? Promise.reject(Error(error.message)) : result);
+      if (method === 'Network.requestWillBeSent')
+        requests.push(params.request.url);
+      if (method === 'Runtime.exceptionThrown')
+        errors.push(params.exceptionDetails);
     }
   });
-  const send = (method, params = {}) => new Promise((done, fail) => {
-    waiting.set(++last, m => m.error ? fail(Error(`${method}: ${m.error.message}`)) : done(m.result));
-    browser.stdio[3].write(JSON.stringify({ id: last, method, params, sessionId: session }) + '\0');
+  const send = (method, params = {}) => new Promise(done => {
+    const id = waiting.push(done) - 1;
+    browser.stdio[3].write(JSON.stringify({ id, method, params, sessionId }) + '\0');
   });
   const { targetId } = await send('Target.createTarget', { url: 'about:blank' });
-  session = (await send('Target.attachToTarget', { targetId, flatten: true })).sessionId;
+  ({ sessionId } = await send('Target.attachToTarget', { targetId, flatten: true }));
   for (const domain of ['Page', 'Runtime', 'Network'])
     await send(`${domain}.enable`);
-  page.send = send;
-  page.do = async expression => {
-    const r = await send('Runtime.evaluate', { expression, awaitPromise: true, returnByValue: true });
-    if (r.exceptionDetails)
-      throw Error(`${expression}: ${r.exceptionDetails.exception?.description}`);
-    return r.result.value;
-  };
-  page.until = async expression => {
-    for (const start = Date.now(); !await page.do(expression); await new Promise(r => setTimeout(r, 50)))
-      if (Date.now() - start > 60e3)
-        throw Error(`after a minute not yet: ${expression}; ${await page.do('document.body.innerText.slice(0, 300)')}`);
-  };
-  page.go = async to => {
-    await send('Page.navigate', { url: 'about:blank' });
-    await send('Page.navigate', { url: to });
-    await page.until('typeof loadModel === "function" && run !== null');
-  };
-  page.click = async (x, y) => {
-    for (const type of ['mousePressed', 'mouseReleased'])
-      await send('Input.dispatchMouseEvent', { type, x, y, button: 'left', buttons: 1, clickCount: 1 });
-  };
-  page.shot = async name => fs.writeFileSync(path.join(folder, `${name}.png`),
-    Buffer.from((await send('Page.captureScreenshot')).data, 'base64'));
-  page.close = () => new Promise(done => {
-    browser.on('exit', () => done(fs.rmSync(home, { recursive: true, force: true, maxRetries: 9, retryDelay: 200 })));
-    browser.kill();
-  });
-  await send('Page.bringToFront');
   await send('Emulation.setDeviceMetricsOverride', { width: 1280, height: 720, deviceScaleFactor: 1, mobile: false });
+  const page = { send, requests, errors,
+    async do(expression) {
+      const r = await send('Runtime.evaluate', { expression, awaitPromise: true, returnByValue: true });
+      if (r.exceptionDetails)
+        throw Error(`${expression}: ${r.exceptionDetails.exception.description}`);
+      return r.result.value;
+    },
+    async until(expression) {
+      for (const start = Date.now(); !await page.do(expression); await new Promise(r => setTimeout(r, 50)))
+        if (Date.now() - start > 60e3)
+          throw Error(`after a minute not yet: ${expression}`);
+    },
+    async go(to) {
+      for (const next of ['about:blank', to])
+        await send('Page.navigate', { url: next });
+      await page.until('typeof loadModel === "function" && run !== null');
+    },
+    async shot(name) {
+      const { data } = await send('Page.captureScreenshot');
+      fs.writeFileSync(path.join(folder, `${name}.png`), Buffer.from(data, 'base64'));
+    },
+    close: () => browser.kill() };
   await page.go(url);
   return page;
 };
