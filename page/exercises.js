@@ -13,7 +13,7 @@ const EXERCISES = {
     equation: 'a joint at the springing holds while H <= W tan phi; thrust H, half the weight W',
     task: 'The arch has t/R = 0.15. What does the crown do with less friction: does it stay, sink ' +
       'a little, fall? Which joints move?',
-    cases: ['friction 35', 'friction 20', 'friction 19', 'friction 15'], place: /friction 35/,
+    cases: ['friction 35', 'friction 20', 'friction 19', 'friction 15'], place: /(?<=^contact .*)friction (35|\$phi)/m,
     words: '{}', ask: 'expect crown {stays|moves} by {m}' },
   '03': { model: 'exp1.model', title: 'Quadrilaterals that lock',
     equation: 'without gaps at their vertices, rectangles can have u, v = f(x) + g(y) alone',
