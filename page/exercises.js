@@ -11,9 +11,10 @@ const EXERCISES = {
     words: 'let {}', ask: 'expect corner u {m} within 0.005' },
   '02': { model: 'arch.model', title: 'What holds an arch',
     equation: 'a joint at the springing holds while H <= W tan phi; thrust H, half the weight W',
-    task: 'The arch has t/R = 0.15. What does the crown do with less friction: does it stay, sink ' +
+    task: 'The arch has t/R = 0.15. What does the crown do with less friction: stay, sink ' +
       'a little, fall? Which joints move?',
-    cases: ['friction 35', 'friction 20', 'friction 19', 'friction 15'], place: /(?<=^contact .*)friction (35|\$phi)/m,
+    cases: ['friction 35', 'friction 20', 'friction 19', 'friction 15'],
+      place: /(?<=^contact .*)friction (35|\$phi)/m,
     words: '{}', ask: 'expect crown {stays|moves} by {m}' },
   '03': { model: 'exp1.model', title: 'Quadrilaterals that lock',
     equation: 'without gaps at their vertices, rectangles can have u, v = f(x) + g(y) alone',
@@ -40,14 +41,16 @@ function askFor(exercise, done) {
         ...part.split('|').map(word => new Option(word, word))));
     else if (part === 'm')
       form.append(make('input', { name: 'part', required: true, size: 9, placeholder: 'metres',
-        pattern: '[-+]?(\\d+\\.?\\d*|\\.\\d+)([eE][-+]?\\d+)?', ariaLabel: 'your number in metres' }));
+        pattern: '[-+]?(\\d+\\.?\\d*|\\.\\d+)([eE][-+]?\\d+)?',
+          ariaLabel: 'your number in metres' }));
     else
       form.append(make('span', { className: 'part' }, part));
   }
   form.append(make('button', { id: 'predict' }, 'I predict: run'));
   form.onsubmit = event => {
     event.preventDefault();
-    done([...form.querySelectorAll('.part, [name=part]')].map(e => e.value ?? e.textContent).join(''));
+    const parts = [...form.querySelectorAll('.part, [name=part]')];
+    done(parts.map(e => e.value ?? e.textContent).join(''));
   };
   return form;
 }

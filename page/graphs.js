@@ -33,7 +33,8 @@ function drawGraph(id, { title, unit, curves, bands = [], bars, now }) {
     x += 40 + wide;
   });
   const most = largest(bars ?? []), thick = Math.max(1, Math.min(12, 0.7 * (right - left) / n));
-  paint(g, () => bars?.forEach((a, k) => g.rect(X(k) - thick / 2, h - 18, thick, -32 * a / most)), { fill: ink });
+  paint(g, () => bars?.forEach((a, k) => g.rect(X(k) - thick / 2, h - 18, thick, -32 * a / most)),
+    { fill: ink });
   if (bars)
     put(`open-close passes, at most ${most}`, left, h - 4);
   paint(g, () => g.rect(X(now) - 1, top, 2, bottom - top), { fill: css('--pick') });
@@ -43,17 +44,20 @@ function drawGraph(id, { title, unit, curves, bands = [], bars, now }) {
  * gravity has become. Monitors: four, those of which something is
  * expected first. */
 function drawGraphs(frame) {
-  const { rows, monitors } = run, now = rows.findIndex(r => r.step === frame.step), curves = [], bands = [];
+  const { rows, monitors } = run, now = rows.findIndex(r => r.step === frame.step);
+  const curves = [], bands = [];
   const since = name => rows.map(r => r[name] - (name === 'kinetic' ? 0 : rows[0][name]));
   drawGraph('energies', { title: 'Energy', unit: 'J', now, bars: rows.map(r => r.passes),
     curves: ['kinetic', 'elastic', 'springs', 'work', 'gained'].map(name => [name, since(name)]) });
   monitors.forEach((name, k) => ['u', 'v'].forEach((axis, kind) => {
-    const asked = expectations(frame).filter(x => x.monitor === k), fit = asked.filter(x => x.kind === kind);
+    const asked = expectations(frame).filter(x => x.monitor === k);
+    const fit = asked.filter(x => x.kind === kind);
     bands.push(...fit.map(x => [x.value - x.within, x.value + x.within]));
     if (fit.length || asked.every(x => x.kind > 1))
       curves.push([`${name} ${axis}`, rows.map(r => r.o[2 * k + kind]), asked.length > 0]);
   }));
-  drawGraph('monitors', { title: 'Monitors', unit: 'm', now, curves: curves.sort((a, b) => b[2] - a[2]).slice(0, 4), bands });
+  curves.sort((a, b) => b[2] - a[2]);
+  drawGraph('monitors', { title: 'Monitors', unit: 'm', now, curves: curves.slice(0, 4), bands });
 }
 
 const expectations = frame => frame.said.map((said, k) => {
@@ -63,10 +67,12 @@ const expectations = frame => frame.said.map((said, k) => {
 
 /* The solver's order; the row and column of an element that is picked. */
 function drawPattern(picked) {
-  const k = numbersOf('k'), n = k[0], { g, w } = begin('K'), q = w / n, at = q * k[1 + picked.element];
+  const k = numbersOf('k'), n = k[0], { g, w } = begin('K'), q = w / n;
+  const at = q * k[1 + picked.element];
   const dot = (i, j) => g.rect(j * q, i * q, Math.max(1, q - 0.4), Math.max(1, q - 0.4));
   if (picked.element >= 0)
-    paint(g, () => { g.rect(0, at, w, Math.max(2, q)); g.rect(at, 0, Math.max(2, q), w); }, { fill: css('--band') });
+    paint(g, () => { g.rect(0, at, w, Math.max(2, q)); g.rect(at, 0, Math.max(2, q), w); },
+      { fill: css('--band') });
   paint(g, () => times(n, i => dot(i, i)), { fill: css('--ink') });
   paint(g, () => times((k.length - 1 - n) / 2, b => {
     const [i, j] = k.subarray(1 + n + 2 * b);

@@ -23,10 +23,11 @@ const WHY = ['The contacts are listed, with the states in which this attempt beg
   'All states fit: once more with the same K and a new F (a round of multipliers)',
   'All states fit the solution: the step is done'];
 
-const RENEWED = 'All states fit, but the solution turns blocks: once more with vectors for this turn';
+const RENEWED =
+  'All states fit, but the solution turns blocks: once more with vectors for this turn';
 
-const format = x => x === 0 ? '0' : Math.abs(x) >= 1e-3 && Math.abs(x) < 1e5 ? +x.toPrecision(6) + ''
-  : x.toExponential(4);
+const format = x => x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e5)
+  ? `${+x.toPrecision(6)}` : x.toExponential(4);
 
 /* A new element of HTML; what is in it is text, or elements. */
 function make(tag, properties, ...inside) {
@@ -52,17 +53,21 @@ function tellElement(frame, e) {
   return `element ${textOf('e', e)} of block ${textOf('b', block)}`;
 }
 
-/* What it carries, the row that keeps it, and the one that changed it last, in this step or before. */
+/* What it carries, the row that keeps it, and the one that changed it last. */
 function tellContact(frame, [corner, edge]) {
   const is = c => c.corner === corner && c.edge === edge, until = run.frames.indexOf(frame) + 1;
-  const at = times(count(frame.c, 'c'), k => row(frame.c, 'c', k)).find(c => c[0] === corner && c[1] === edge);
-  const changes = run.frames.slice(Math.max(0, until - 300), until).flatMap(f => looksOf(f).flatMap(look =>
-    look.contacts.filter(c => is(c) && c.from !== c.to).map(c => `step ${f.step}: ${sentence(c.row)}`)));
+  const contacts = times(count(frame.c, 'c'), k => row(frame.c, 'c', k));
+  const at = contacts.find(c => c[0] === corner && c[1] === edge);
+  const changes = run.frames.slice(Math.max(0, until - 300), until).flatMap(f =>
+    looksOf(f).flatMap(look => look.contacts).filter(c => is(c) && c.from !== c.to)
+      .map(c => `step ${f.step}: ${sentence(c.row)}`));
   const [, , state, , , , , N, T, gap, strength, slip, now] = at ?? [];
-  fill('about', at ? [['state', STATES[state], ''], ['N', N, 'N'], ['T', T, 'N'], ['bound of T', strength, 'N'],
-    ['d_n', gap, 'm'], ['slip', slip, 'm']] : []);
-  document.getElementById('about').append(make('tr', {}, make('td', { colSpan: 3, className: 'why' },
-    at ? `Now ${sentence(now)}. Last change, ${changes.at(-1) ?? 'none'}.` : 'not near in this step')));
+  fill('about', at ? [['state', STATES[state], ''], ['N', N, 'N'], ['T', T, 'N'],
+    ['bound of T', strength, 'N'], ['d_n', gap, 'm'], ['slip', slip, 'm']] : []);
+  const why = at ? `Now ${sentence(now)}. Last change, ${changes.at(-1) ?? 'none'}.`
+    : 'not near in this step';
+  document.getElementById('about').append(
+    make('tr', {}, make('td', { colSpan: 3, className: 'why' }, why)));
   return `contact, ${nameOf([corner, edge])}`;
 }
 
@@ -95,19 +100,25 @@ function looksOf(frame) {
 function tellLook(frame, at, onpick) {
   const looks = looksOf(frame), look = looks[at], is = id => document.getElementById(id);
   const on = look ? [look.what === 0, false, false, look.what > 0, look.what === 4] : [];
-  is('stage').replaceChildren(...['list contacts', 'assemble K, F', 'solve K D = F', 'look at D', 'move']
-    .map((name, k) => make('li', { className: on[k] ? 'on' : '' }, name)));
+  const stages = ['list contacts', 'assemble K, F', 'solve K D = F', 'look at D', 'move'];
+  is('stage').replaceChildren(...stages.map((name, k) =>
+    make('li', { className: on[k] ? 'on' : '' }, name)));
   const contacts = look?.contacts ?? [], changes = c => c.from !== c.to || c.row === 7;
   const changed = contacts.filter(changes), rest = contacts.filter(c => !changes(c));
   const solution = looks.slice(0, at + 1).filter(l => l.what > 0).length;
   is('look').textContent = !look ? 'No step has been done yet: press Step.'
-    : `Step ${frame.step}${frame.failed ? ' + 1, which failed' : ''}, look ${at + 1} of ${looks.length}, after ` +
-    `solution ${solution}: ${look.what === 1 && !changed.length ? RENEWED : WHY[look.what]}. ${contacts.length} ` +
-    `closed before or after, ${changed.length} changed${frame.dynamic ? `; h = ${format(look.h)} s` : ''}.`;
-  const head = ['contact', 'was', 'becomes', 'N [N]', 'T [N]', 'd_n [m]', 'why'].map(c => make('th', {}, c));
-  is('changes').replaceChildren(make('tr', {}, ...head), ...[...changed, ...rest].slice(0, 200).map(c =>
-    make('tr', { className: changes(c) ? 'changed' : '', onclick: () => onpick([c.corner, c.edge]) },
-      ...[nameOf([c.corner, c.edge]), STATES[c.from], STATES[c.to], format(c.N), format(c.T), format(c.gap),
-        look.what ? ROWS[c.row][1] : 'as it began'].map(text => make('td', {}, text)))));
+    : `Step ${frame.step}${frame.failed ? ' + 1, which failed' : ''}, look ${at + 1} of ` +
+    `${looks.length}, after solution ${solution}: ` +
+    `${look.what === 1 && !changed.length ? RENEWED : WHY[look.what]}. ` +
+    `${contacts.length} closed before or after, ${changed.length} changed` +
+    `${frame.dynamic ? `; h = ${format(look.h)} s` : ''}.`;
+  const line = (tag, properties, cells) =>
+    make('tr', properties, ...cells.map(text => make(tag, {}, text)));
+  is('changes').replaceChildren(
+    line('th', {}, ['contact', 'was', 'becomes', 'N [N]', 'T [N]', 'd_n [m]', 'why']),
+    ...[...changed, ...rest].slice(0, 200).map(c => line('td',
+      { className: changes(c) ? 'changed' : '', onclick: () => onpick([c.corner, c.edge]) },
+      [nameOf([c.corner, c.edge]), STATES[c.from], STATES[c.to], format(c.N), format(c.T),
+        format(c.gap), look.what ? ROWS[c.row][1] : 'as it began'])));
   return look;
 }

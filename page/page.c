@@ -68,7 +68,9 @@ static void note_look(page *g, const bbm_contact list[], int n, int what)
     const int count = g->look.n + 3;
     int *before = g->before;
 
-    if (what == PAGE_LISTED && (before = realloc(before, ((size_t)n + 1) * sizeof *before)) != NULL) {
+    if (what == PAGE_LISTED)
+        before = realloc(before, ((size_t)n + 1) * sizeof *before);
+    if (what == PAGE_LISTED && before) {
         g->before = before;
         g->listed = n;
     }

@@ -1,5 +1,5 @@
-/* page.h - the calls of the page: load a model, step, look. What computes is the library, what reads
- * and runs is program/.
+/* page.h - the calls of the page: load a model, step, look. What computes is the library, what
+ * reads and runs is program/.
  *
  *     page *g = page_load("arch.model", "phi=20\nA=3");
  *     while (page_state(g) == 0)
@@ -22,8 +22,8 @@ void  page_free(page *g);                               /* takes NULL */
 int   page_state(const page *g);
 int   page_step(page *g);       /* one step, if there is one left; the state */
 
-/* m: why it failed; t: the title; b, e, o: name of a block, element, monitor; n: of a vertex's node;
- * x: expectation k beside what came out. What is not there is "". */
+/* m: why it failed; t: the title; b, e, o: name of a block, element, monitor; n: of the node of a
+ * vertex; x: expectation k beside what came out. What is not there is "". */
 const char *page_text(page *g, int what, int k);
 
 /* Gathers numbers; how many, or -1: no memory. JavaScript has the same list, page/model.js.

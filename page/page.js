@@ -30,7 +30,7 @@ function scrollLines() {
   is('bar').style.top = `${6 + 20 * (is('bar').dataset.line - 1) - is('text').scrollTop}px`;
 }
 
-/* Each `let` with a number; its range is in a comment `# 0 .. 60`, or goes from 0 to twice its size. */
+/* Each `let` with a number; its range is in a comment `# 0 .. 60`, or from 0 to twice its size. */
 function findLets(text) {
   const number = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
   const form = RegExp(`^[ \\t]*let[ \\t]+(\\S+)[ \\t]+(${number})[ \\t]*(#.*)?$`, 'gm');
@@ -44,9 +44,11 @@ function findLets(text) {
 }
 
 function makeSliders() {
-  is('lets').replaceChildren(...findLets(is('text').value).map(({ name, value, low, high, step }) => {
+  const lets = findLets(is('text').value);
+  is('lets').replaceChildren(...lets.map(({ name, value, low, high, step }) => {
     const now = given[name] ?? value, word = make('input', { value: now, ariaLabel: name });
-    const slide = make('input', { type: 'range', min: low, max: high, step, value: now, ariaLabel: name });
+    const slide = make('input', { type: 'range', min: low, max: high, step, value: now,
+      ariaLabel: name });
     const set = other => event => {
       given[name] = other.value = event.target.value;
       const again = playing || run?.rows.length > 1;
@@ -61,7 +63,8 @@ function makeSliders() {
 
 /* Reads the text with the numbers of the sliders; the model that was there stays if it is wrong. */
 function load() {
-  const lets = findLets(is('text').value).filter(l => l.name in given).map(l => `${l.name}=${given[l.name]}`);
+  const lets = findLets(is('text').value).filter(l => l.name in given)
+    .map(l => `${l.name}=${given[l.name]}`);
   play(false);
   const said = loadModel(is('gallery').dataset.name, is('text').value, lets.join('\n'));
   showError(said && run ? `${said} (what is shown is the model before)` : said);
@@ -96,14 +99,16 @@ function choose(name, text = files.get('gallery/' + name) ?? `# there is no ${na
 
 /* An exercise shows a case, and runs when what will come out has been written down. */
 function chooseExercise(number, words = EXERCISES[number].cases[0]) {
-  const exercise = EXERCISES[number], cases = exercise.cases.map(c => new Option(c, c, c === words, c === words));
+  const exercise = EXERCISES[number];
+  const cases = exercise.cases.map(c => new Option(c, c, c === words, c === words));
   choose(exercise.model, modelOf(exercise, words, ''));
   is('gallery').value = number;
   setTask(exercise);
   is('exercise').hidden = false;
   is('exercise').replaceChildren(make('b', {}, `Exercise ${number}: ${exercise.title}`),
     make('p', {}, exercise.task), make('p', {}, exercise.equation),
-    make('select', { ariaLabel: 'case', onchange: e => chooseExercise(number, e.target.value) }, ...cases),
+    make('select', { ariaLabel: 'case', onchange: e => chooseExercise(number, e.target.value) },
+      ...cases),
     askFor(exercise, sentence => {
       is('text').value = modelOf(exercise, words, sentence);
       setTask(null);
@@ -154,7 +159,8 @@ function oneStep() {
 
 function where(f) {
   return !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}` :
-    `step ${f.step} of ${f.steps}${f.dynamic ? `  t = ${format(f.t)} s` : ''}${f.failed ? '  failed' : ''}`;
+    `step ${f.step} of ${f.steps}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
+    (f.failed ? '  failed' : '');
 }
 
 function show() {
@@ -167,7 +173,8 @@ function show() {
   if (run.failure)
     showError(`${run.name}: ${run.failure}`);
   is('expected').replaceChildren(...expectations(f).map(x => make('li',
-    { className: !isOver ? '' : x.met ? 'ok' : 'missed' }, `${isOver ? 'expected' : 'so far'}: ${x.said}`)));
+    { className: !isOver ? '' : x.met ? 'ok' : 'missed' },
+      `${isOver ? 'expected' : 'so far'}: ${x.said}`)));
   drawPicture(f, picked, isPressed('inside') ? tellLook(f, lookAt, pickContact) : null);
   tell(f, picked);
   if (!isPressed('inside'))
@@ -247,19 +254,26 @@ function followLink() {
     press('full', true);
 }
 
-const KEYS = { ' ': oneStep, Enter: () => play(!playing), r: load, 0: () => setView({ zoom: 1, x: 0, y: 0 }),
-  '+': () => zoom(1.25), '-': () => zoom(0.8), f: () => press('full'), Escape: () => press('full', false),
+const KEYS = { ' ': oneStep, Enter: () => play(!playing), r: load,
+  0: () => setView({ zoom: 1, x: 0, y: 0 }), '+': () => zoom(1.25), '-': () => zoom(0.8),
+  f: () => press('full'), Escape: () => press('full', false),
   l: () => press('inside'), '[': () => moveLook(-1), ']': () => moveLook(1),
-  ArrowLeft: () => goTo((at < 0 ? run.frames.length - 1 : at) - 1), ArrowRight: () => at >= 0 && goTo(at + 1) };
-const CLICKS = { reset: load, step: oneStep, run: KEYS.Enter, inside: KEYS.l, full: KEYS.f, link: makeLink,
+  ArrowLeft: () => goTo((at < 0 ? run.frames.length - 1 : at) - 1),
+  ArrowRight: () => at >= 0 && goTo(at + 1) };
+const CLICKS = { reset: load, step: oneStep, run: KEYS.Enter, inside: KEYS.l, full: KEYS.f,
+  link: makeLink,
   theme: () => { setTheme(document.documentElement.dataset.theme !== 'dark'); show(); },
   before: KEYS['['], after: KEYS[']'] };
 const CHANGES = { gallery: name => (name in EXERCISES ? chooseExercise : choose)(name),
   colour: colour => setView({ colour }), element: k => pick(+k, null), contact: k => pickClosed(+k),
-  magnify: word => { is('magnify').dataset.own = +word > 0 ? '1' : ''; setView({ magnify: +word }); } };
+  magnify: word => {
+    is('magnify').dataset.own = +word > 0 ? '1' : '';
+    setView({ magnify: +word });
+  } };
 
 function pressKey(event) {
-  const { tagName } = event.target, isWritten = /TEXTAREA|INPUT|SELECT/.test(tagName) && event.key !== 'Escape';
+  const { tagName } = event.target;
+  const isWritten = /TEXTAREA|INPUT|SELECT/.test(tagName) && event.key !== 'Escape';
   if (isWritten || !(event.key in KEYS) || event.ctrlKey || event.metaKey ||
       (tagName === 'BUTTON' && /^( |Enter)$/.test(event.key)))
     return;
@@ -310,7 +324,8 @@ function listen() {
 
 async function start() {
   const models = [], bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
-  onerror = (event, file, line, column, error) => showError(`The page has failed: ${error ?? event}`);
+  onerror = (event, file, line, column, error) =>
+    showError(`The page has failed: ${error ?? event}`);
   onunhandledrejection = e => showError(`The page has failed: ${e.reason}`);
   setTheme(matchMedia('(prefers-color-scheme: dark)').matches);
   for (const { dataset: { file }, textContent } of document.querySelectorAll('[data-file]')) {
@@ -320,7 +335,8 @@ async function start() {
       models.push(new Option(file.replace('.model', ''), file));
   }
   is('gallery').append(make('optgroup', { label: 'models' }, ...models), make('optgroup',
-    { label: 'exercises: predict' }, ...Object.entries(EXERCISES).map(([n, e]) => new Option(`${n} ${e.title}`, n))));
+    { label: 'exercises: predict' }, ...Object.entries(EXERCISES).map(([n, e]) =>
+      new Option(`${n} ${e.title}`, n))));
   await startLibrary(bytes(document.querySelector('[data-file="bbm.wasm"]').textContent));
   listen();
   followLink();

@@ -1,4 +1,4 @@
-/* picture.js - the blocks on a canvas: tints, colours and symbols as in the SVGs of ./bbm (scene.c).
+/* picture.js - the blocks on a canvas, with the tints, colours and symbols of the SVGs (scene.c).
  *
  * `view` has what a person chooses; findShape gathers what stays as long as the model does. */
 'use strict';
@@ -53,33 +53,40 @@ function paint(g, path, { fill, line, width = 1.3, dash = [] }) {
 }
 
 /* The blocks: their elements, edges, boxes, tints, and whether all of one is held. Of held vertices
- * the directions, and the normal along which a support stands. */
+ * the directions; at a vertex, the outward normal of its block. */
 function findShape() {
-  const v = run.frames[0].v, directions = new Map(), normals = new Map(), blocks = [];
+  const v = run.frames[0].v, directions = new Map(), normals = new Map(), blocks = [], node = [],
+    blockOf = [];
   for (let k = 0; k < count(run.held, 'h'); k++)
     directions.set(...row(run.held, 'h', k));
   for (let e = 0; e < count(run.mesh, 'a'); e++) {
     const [first, n, b] = row(run.mesh, 'a', e);
-    const block = blocks[b] ??= { elements: [], edges: [], held: true, box: [1 / 0, 1 / 0, -1 / 0, -1 / 0] };
+    const block = blocks[b] ??= { elements: [], edges: [], held: true, box: [1 / 0, 1 / 0, -1 / 0,
+      -1 / 0] };
     block.elements.push(e);
     for (let k = first; k < first + n; k++) {
       const [x, y] = row(v, 'v', k), [x0, y0, x1, y1] = block.box;
       block.held &&= directions.get(k) === 3;
+      blockOf[k] = b;
+      node[k] = `${b} ${x} ${y}`;
       block.box = [Math.min(x0, x), Math.min(y0, y), Math.max(x1, x), Math.max(y1, y)];
     }
   }
   for (let d = 0; d < count(run.edges, 'd'); d++) {
-    const [a, b, block] = row(run.edges, 'd', d), [xa, ya] = row(v, 'v', a), [xb, yb] = row(v, 'v', b);
+    const [a, b, block] = row(run.edges, 'd', d), [xa, ya] = row(v, 'v', a), [xb, yb] = row(v, 'v',
+      b);
     const weight = directions.has(a) && directions.get(a) === directions.get(b) ? 1 : 1e-6;
     blocks[block].edges.push(d);
     for (const end of [a, b]) {
-      const [x, y] = normals.get(end) ?? [0, 0];
-      normals.set(end, [x + weight * (yb - ya), y + weight * (xa - xb), block]);
+      const [x, y] = normals.get(node[end]) ?? [0, 0];
+      normals.set(node[end], [x + weight * (yb - ya), y + weight * (xa - xb)]);
     }
   }
   blocks.forEach((block, k) => { block.tint = chooseTint(blocks.slice(0, k), block.box); });
-  const low = k => Math.min(...blocks.map(b => b.box[k])), high = k => -Math.min(...blocks.map(b => -b.box[k]));
-  run.shape = { blocks, directions, normals, box: [low(0), low(1), high(2), high(3)] };
+  const low = k => Math.min(...blocks.map(b => b.box[k])), high = k => -Math.min(...blocks.map(b =>
+    -b.box[k]));
+  const normalAt = k => normals.get(node[k]) ?? [0, 0];
+  run.shape = { blocks, directions, normalAt, blockOf, box: [low(0), low(1), high(2), high(3)] };
 }
 
 /* The one whose nearest block is farthest, as choose_tint in scene.c. */
@@ -96,16 +103,20 @@ function chooseTint(others, A) {
 
 /* 1, 2 or 5 times a power of ten: the largest displacement becomes about a tenth of the model. */
 function findMagnification(frame) {
-  const most = largest(times(count(frame.v, 'v'), k => Math.hypot(...row(frame.v, 'v', k).subarray(2))));
+  const most = largest(times(count(frame.v, 'v'), k => Math.hypot(...row(frame.v, 'v',
+    k).subarray(2))));
   const [x0, y0, x1, y1] = run.shape.box, size = Math.max(x1 - x0, y1 - y0);
-  const wanted = most > 1e-12 * size ? 0.1 * size / most : 1, ten = 10 ** Math.floor(Math.log10(wanted));
+  const wanted = most > 1e-12 * size ? 0.1 * size / most : 1,
+    ten = 10 ** Math.floor(Math.log10(wanted));
   return frame.scale || Math.max(1, ten * [5, 2, 1].find(f => f * ten <= wanted));
 }
 
 /* From metres to pixels, so that the model as it begins fits between the margins. */
 function findScale(w, h) {
-  const [x0, y0, x1, y1] = run.shape.box, s = view.zoom * Math.min((w - 60) / (x1 - x0), (h - 110) / (y1 - y0));
-  const x = w / 2 + view.x - s * (x0 + x1) / 2, y = h / 2 - 10 + view.y + s * (y0 + y1) / 2;
+  const [x0, y0, x1, y1] = run.shape.box, top = view.colour !== 'block' || view.magnify !== 1 ?
+    60 : 0;
+  const s = view.zoom * Math.min((w - 60) / (x1 - x0), (h - 110 - top) / (y1 - y0));
+  const x = w / 2 + view.x - s * (x0 + x1) / 2, y = (h + top) / 2 - 10 + view.y + s * (y0 + y1) / 2;
   return { s, to: (X, Y) => [x + s * X, y - s * Y] };
 }
 
@@ -127,7 +138,8 @@ function painter(frame) {
 }
 
 function hatch() {
-  const tile = Object.assign(document.createElement('canvas'), { width: 8, height: 8 }), g = tile.getContext('2d');
+  const tile = Object.assign(document.createElement('canvas'), { width: 8, height: 8 }),
+    g = tile.getContext('2d');
   paint(g, () => g.rect(0, 0, 8, 8), { fill: css('--held') });
   for (const x of [-8, 0, 8])
     paint(g, () => trace(g, [[x, 8], [x + 8, 0]]), { line: css('--hatch'), width: 1.5 });
@@ -140,9 +152,11 @@ function drawBlocks({ g, frame, outline, at }) {
   const values = of ? times(count(run.mesh, 'a'), e => of(row(frame.e, 'e', e))) : [];
   const low = Math.min(...values), high = Math.max(...values);
   for (const block of run.shape.blocks) {
-    const edges = () => block.edges.forEach(d => trace(g, [0, 1].map(k => at(run.edges[3 * d + k]))));
+    const edges = () => block.edges.forEach(d => trace(g,
+      [0, 1].map(k => at(run.edges[3 * d + k]))));
     for (const e of of && !block.held ? block.elements : [])
-      paint(g, () => outline(e), { fill: viridis(high > low ? (values[e] - low) / (high - low) : 0.5) });
+      paint(g, () => outline(e),
+        { fill: viridis(high > low ? (values[e] - low) / (high - low) : 0.5) });
     paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5,
       fill: block.held ? held : of ? null : TINTS[block.tint] });
     paint(g, edges, { line: css('--ink') });
@@ -150,21 +164,24 @@ function drawBlocks({ g, frame, outline, at }) {
   return name && { name, unit, low, high };
 }
 
-/* Supports stand outside: a triangle holds both directions, a circle one; 8 pixels apart or more. */
+/* A triangle holds both directions, a circle one; they stand 8 pixels apart or more. */
 function drawSupports({ g, at }) {
   const last = {}, style = { fill: css('--paper'), line: css('--ink'), width: 1 };
   for (const [v, held] of run.shape.directions) {
-    let [nx, ny, block] = run.shape.normals.get(v) ?? [0, 0, 0];
+    let [nx, ny] = run.shape.normalAt(v);
     const [x, y] = at(v), [lx, ly] = last[held] ?? [-99, -99];
-    if (run.shape.blocks[block].held || nx === 0 && ny === 0 || Math.hypot(x - lx, y - ly) < 8)
+    if (run.shape.blocks[run.shape.blockOf[v]].held || Math.hypot(x - lx, y - ly) < 8)
       continue;
     last[held] = [x, y];
     if (held !== 3)
       [nx, ny] = held === 1 ? [nx < 0 ? -1 : 1, 0] : [0, ny > 0 ? 1 : -1];
+    else if (nx === 0 && ny === 0)
+      ny = -1;
     const l = 11 / Math.hypot(nx, ny), dx = l * nx, dy = -l * ny;
     paint(g, () => {
       if (held === 3)
-        trace(g, [[x, y], [x + dx - dy / 2, y + dy + dx / 2], [x + dx + dy / 2, y + dy - dx / 2]], true);
+        trace(g, [[x, y], [x + dx - dy / 2, y + dy + dx / 2], [x + dx + dy / 2, y + dy - dx / 2]],
+          true);
       else
         g.arc(x + dx / 2, y + dy / 2, 5.5, 0, 7);
       trace(g, [[x + dx - 0.7 * dy, y + dy + 0.7 * dx], [x + dx + 0.7 * dy, y + dy - 0.7 * dx]]);
@@ -190,24 +207,30 @@ function drawArrows(g, arrows, most, line, dash) {
 
 /* Loads, spread along their edges; the forces on what is carried, so they point up. */
 function drawForces(p) {
-  const legend = [], loads = [[], []], blue = css('--lock'), orange = css('--slide'), pink = css('--load');
+  const legend = [], loads = [[], []], blue = css('--lock'), orange = css('--slide'),
+    pink = css('--load');
   for (let k = 0; k < count(p.frame.l, 'l'); k++) {
-    const [a, b, fx, fy] = row(p.frame.l, 'l', k), [xa, ya] = p.at(a), [xb, yb] = b < 0 ? [xa, ya] : p.at(b);
+    const [a, b, fx, fy] = row(p.frame.l, 'l', k), [xa, ya] = p.at(a);
+    const [xb, yb] = b < 0 ? [xa, ya] : p.at(b);
     const n = b < 0 ? 1 : Math.max(1, Math.floor(Math.hypot(xb - xa, yb - ya) / 16));
-    const [nx, ny] = b < 0 ? run.shape.normals.get(a) ?? [0, 0] : [ya - yb, xb - xa];
+    const [nx, ny] = b < 0 ? run.shape.normalAt(a) : [ya - yb, xb - xa];
     loads[+(b >= 0)].push(...times(n, i => ({ fx, fy, ends: fx * nx - (b < 0 ? -fy : fy) * ny < 0,
       x: xa + (i + 0.5) / n * (xb - xa), y: ya + (i + 0.5) / n * (yb - ya) })));
   }
   loads.forEach((list, k) => list.length && legend.push([pink, [],
     `load ${quantity(drawArrows(p.g, list, k ? 24 : 40, pink, []), k ? 'N/m' : 'N')}`]));
   const forces = times(count(p.frame.c, 'c'), k => {
-    const [corner, , state, , , fx, fy] = row(p.frame.c, 'c', k), [x, y] = p.corner(corner), up = fy < 0 ? -1 : 1;
+    const [corner, , state, , , fx, fy] = row(p.frame.c, 'c', k), [x, y] = p.corner(corner),
+      up = fy < 0 ? -1 : 1;
     return { x, y, fx: up * fx, fy: up * fy, state };
   });
-  const closed = forces.filter(a => a.state), size = list => largest(list.map(a => Math.hypot(a.fx, a.fy)));
-  const free = run.shape.blocks.filter(b => !b.held).map(({ box: B }) => (B[2] - B[0]) * (B[3] - B[1]));
+  const closed = forces.filter(a => a.state);
+  const size = list => largest(list.map(a => Math.hypot(a.fx, a.fy)));
+  const free = run.shape.blocks.filter(b => !b.held).map(({ box: B }) =>
+    (B[2] - B[0]) * (B[3] - B[1]));
   const length = Math.max(16, Math.min(48, 0.9 * p.s * Math.sqrt(largest(free))));
-  for (const [state, name, colour, dash] of [[1, 'locked', blue, []], [2, 'sliding', orange, [4, 3]]]) {
+  const kinds = [[1, 'locked', blue, []], [2, 'sliding', orange, [4, 3]]];
+  for (const [state, name, colour, dash] of kinds) {
     const mine = closed.filter(a => a.state === state);
     drawArrows(p.g, mine, length * size(mine) / (size(closed) || 1), colour, dash);
     if (mine.length)
@@ -219,7 +242,8 @@ function drawForces(p) {
 /* A state as a shape, so that colour alone says nothing: a ring, a square, a triangle. */
 function drawState(g, [x, y], state, size) {
   paint(g, [() => g.arc(x, y, size - 1, 0, 7), () => g.rect(x - size, y - size, 2 * size, 2 * size),
-    () => trace(g, [[0, -1.3], [1.2, 0.9], [-1.2, 0.9]].map(([a, b]) => [x + size * a, y + size * b]), true)][state],
+    () => trace(g, [[0, -1.3], [1.2, 0.9], [-1.2, 0.9]]
+      .map(([a, b]) => [x + size * a, y + size * b]), true)][state],
   { fill: css(['--paper', '--lock', '--slide'][state]), line: css('--ink') });
 }
 
@@ -260,7 +284,8 @@ function drawPicture(frame, picked, look) {
 
 /* What lies at a pixel: a contact as [corner, edge], or an element. */
 function findAt(frame, x, y) {
-  const p = painter(frame), contacts = times(count(frame.c, 'c'), k => row(frame.c, 'c', k)).filter(c => c[2]);
+  const p = painter(frame), all = times(count(frame.c, 'c'), k => row(frame.c, 'c', k));
+  const contacts = all.filter(c => c[2]);
   const far = c => Math.hypot(p.corner(c[0])[0] - x, p.corner(c[0])[1] - y);
   const [near] = contacts.sort((a, b) => far(a) - far(b));
   if (near && far(near) < 10)

@@ -8,7 +8,7 @@ function wasi(files, memory) {
   const view = () => new DataView(memory().buffer);
   const bytes = (at, n) => new Uint8Array(memory().buffer, at, n);
   const put = (at, value) => view().setUint32(at, value, true);
-  /* Each of the n pieces of memory that a list names; the sum of what `each` returns goes to done. */
+  /* Each of the n pieces of memory of a list; the sum of what `each` returns goes to done. */
   const pieces = (list, n, done, each) => {
     let sum = 0;
     for (let k = 0; k < n; k++)

@@ -1,9 +1,9 @@
 # budget.awk - how large the project is in lines of code, and how large it may be:
 #     awk -f tests/budget.awk README.md FILE ...
 #
-# Lines are counted as cloc counts those of C, JavaScript, HTML, CSS, awk and the shell: a blank line and a line that holds
-# a comment alone are none. A comment of C that begins in a string counts as one, if it has an end,
-# and the lines that a comment joins are one. The sums must keep to their bounds, and the README must
+# Lines are counted as cloc counts those of C, JavaScript, HTML, CSS, awk and the shell: a blank line
+# and a line that holds a comment alone are none. A comment of C that begins in a string counts as
+# one, if it has an end, and the lines that a comment joins are one. The sums must keep to their bounds, and the README must
 # have the table that is made here.
 
 # The last part of each sum, and the bound of the sum.
@@ -16,7 +16,7 @@ function set_bounds()
     bound["beyond"] = 5410
     bound["program"] = 6800
     bound["tests"] = 16000
-    bound["page"] = 1000
+    bound["page"] = 1400
     says["base"] = " with the four files"
     says["beyond"] = " with both: the library"
     says["program"] = " with `cases/`"

@@ -1,5 +1,5 @@
-/* check_page.c - what the page shows is what the library has: its calls, compiled like all else. The
- * same in WebAssembly and in a browser: check_page.js, of `make check-page`. */
+/* check_page.c - what the page shows is what the library has: its calls, compiled like all else.
+ * The same in WebAssembly and in a browser: check_page.js, of `make check-page`. */
 #include <stdio.h>
 #include <string.h>
 

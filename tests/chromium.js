@@ -2,12 +2,14 @@
 'use strict';
 const { spawn } = require('child_process'), fs = require('fs'), path = require('path');
 
-/* Opens the page. do(text) evaluates an expression in it; until(text) waits for one to be true; shot(name)
- * takes a picture. `requests` are all that left it, `errors` what it threw. */
+/* Opens the page. do(text) evaluates an expression in it; until(text) waits for one to be true;
+ * shot(name) takes a picture. `requests` are all that left it, `errors` what it threw. */
 exports.open = async (url, folder) => {
   const waiting = [], requests = [], errors = [];
-  const browser = spawn('chromium', ['--headless=new', '--no-sandbox', '--disable-gpu', '--no-first-run',
-    '--remote-debugging-pipe', `--user-data-dir=${path.resolve(folder, 'profile')}`], { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
+  const browser = spawn('chromium', ['--headless=new', '--no-sandbox', '--disable-gpu',
+    '--no-first-run', '--remote-debugging-pipe',
+    `--user-data-dir=${path.resolve(folder, 'profile')}`],
+  { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
   let said = Buffer.alloc(0), sessionId;
   browser.on('error', e => { throw e; });
   browser.stdio[4].on('data', piece => {
@@ -29,18 +31,22 @@ exports.open = async (url, folder) => {
   ({ sessionId } = await send('Target.attachToTarget', { targetId, flatten: true }));
   for (const domain of ['Page', 'Runtime', 'Network'])
     await send(`${domain}.enable`);
-  await send('Emulation.setDeviceMetricsOverride', { width: 1280, height: 720, deviceScaleFactor: 1, mobile: false });
+  await send('Emulation.setDeviceMetricsOverride', { width: 1280, height: 720, deviceScaleFactor: 1,
+    mobile: false });
   const page = { send, requests, errors,
     async do(expression) {
-      const r = await send('Runtime.evaluate', { expression, awaitPromise: true, returnByValue: true });
+      const r = await send('Runtime.evaluate', { expression, awaitPromise: true,
+        returnByValue: true });
       if (r.exceptionDetails)
         throw Error(`${expression}: ${r.exceptionDetails.exception.description}`);
       return r.result.value;
     },
     async until(expression) {
-      for (const start = Date.now(); !await page.do(expression); await new Promise(r => setTimeout(r, 50)))
+      for (const start = Date.now(); !await page.do(expression);) {
+        await new Promise(done => setTimeout(done, 50));
         if (Date.now() - start > 60e3)
           throw Error(`after a minute not yet: ${expression}`);
+      }
     },
     async go(to) {
       for (const next of ['about:blank', to])
