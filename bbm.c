@@ -480,7 +480,7 @@ void bbm_assemble(bbm_model *m)
 bbm_status bbm_begin_step(bbm_model *m)
 {
     m->detections = 0;
-    bbm_matrix_keep(m->K, 0);
+    m->K->is_kept = 0;
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
@@ -528,7 +528,7 @@ static bbm_status open_close(bbm_model *m, int *changed)
 {
     const bbm_pass pass = bbm_open_close(m);
 
-    bbm_matrix_keep(m->K, pass == BBM_PASS_SAME_K);
+    m->K->is_kept = pass == BBM_PASS_SAME_K;
     *changed = pass == BBM_PASS_SAME_K || (pass == BBM_PASS_AGAIN && !bbm_is_spent(m));
     return pass == BBM_PASS_DONE || *changed ? BBM_OK : bbm_say_what_failed(m, BBM_OPEN_CLOSE);
 }

@@ -362,7 +362,6 @@ static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->compo
 /* solver.c: K D = F, section 4. Rows that no pairs connect, however indirectly, are solved apart:
  * neither changes a bit of the other's D. */
 void       bbm_matrix_clear(bbm_matrix *K);
-static inline void bbm_matrix_keep(bbm_matrix *K, int keep) { K->is_kept = keep; }
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
                                    what the pattern does not have fails here and in bbm_solve   */
 void       bbm_matrix_measure(bbm_matrix *K, const double *F);

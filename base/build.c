@@ -69,14 +69,15 @@ void bbm_model_free(bbm_model *m)
     free(m);
 }
 
-/* Remembers the first error of building, and says what it is. */
-#define REFUSE(m, ...) ((m)->status = bbm_fail(m, __VA_ARGS__))
+/* Remembers the first error of building, and says what it is. A model that has one takes no more:
+ * what follows is not done, and gives that error. */
+#define REFUSE(m, ...) ((m)->status = (m)->status ? (m)->status : bbm_fail(m, __VA_ARGS__))
 
 /* Puts a copy of an entry at the end of an array of the model, which is to be prepared anew, counts
  * it, and gives its index. */
 #define APPEND(m, array, count, entry, index) \
-    ((m)->is_prepared = 0, \
-     (m)->status = bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index))
+    ((m)->is_prepared = 0, (m)->status = (m)->status ? (m)->status : \
+     bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index))
 
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {
@@ -84,8 +85,6 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
         { "E", a->E }, { "density", a->density }, { "thickness", a->thickness } };
     const int n = m->materials;
 
-    if (m->status)
-        return m->status;
     if (!isfinite(a->E) || !isfinite(a->nu) || !isfinite(a->density) || !isfinite(a->thickness))
         return REFUSE(m, BBM_NOT_FINITE, "material %d", n);
     for (int k = 0; k < 3; k++)
@@ -99,14 +98,13 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
 {
-    if (m->status)
-        return m->status;
     if (!isfinite(x) || !isfinite(y))
         return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
     return APPEND(m, m->node, m->nodes, (&(bbm_node){ .x = x, .y = y }), index);
 }
 
-static int is_node(const bbm_model *m, int node) { return node >= 0 && node < m->nodes; }
+/* A model with an error takes none. */
+static int is_node(const bbm_model *m, int n) { return n >= 0 && n < m->nodes && !m->status; }
 
 /* The signed area of a polygon, and whether the polygon is degenerate: the areas of the triangles
  * at vertex 0, without their signs, are compared with the square of the longest distance from
@@ -135,8 +133,6 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
     const int e = m->elements, first = m->vertices;
     int flat;
 
-    if (m->status)
-        return m->status;
     if (material < 0 || material >= m->materials)
         return REFUSE(m, BBM_BAD_INDEX, "element %d has material %d of %d", e, material,
                       m->materials);
@@ -148,7 +144,7 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
     const double area = polygon_area(m, n, node, &flat);
     if (flat)
         return REFUSE(m, BBM_BAD_ELEMENT, "element %d has no area, %g m^2", e, area);
-    if (m->hook->check_polygon && m->hook->check_polygon(m, n, node))
+    if (!m->status && m->hook->check_polygon && m->hook->check_polygon(m, n, node))
         return m->status = BBM_SELF_CROSSING;
     if (e == 0) {
         const double grid = FAR * sqrt(fabs(area));
@@ -171,8 +167,6 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
 /* Holds a node in the given directions to a wall point displaced by (u, v). */
 bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v)
 {
-    if (m->status)
-        return m->status;
     if (!is_node(m, node))
         return REFUSE(m, BBM_BAD_INDEX, "fixed node %d of %d", node, m->nodes);
     if (directions < BBM_X || directions > BBM_XY)
@@ -189,8 +183,6 @@ bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double
 
 bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy)
 {
-    if (m->status)
-        return m->status;
     if (!is_node(m, node))
         return REFUSE(m, BBM_BAD_INDEX, "loaded node %d of %d", node, m->nodes);
     if (!isfinite(fx) || !isfinite(fy))
@@ -206,8 +198,6 @@ static bbm_status add_line(bbm_model *m, bbm_line_load load, bbm_field *f, const
 {
     const int p = load.node[0], q = load.node[1];
 
-    if (m->status)
-        return m->status;
     if (!is_node(m, p) || !is_node(m, q))
         return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", p, q, m->nodes);
     const bbm_node *a = &m->node[p], *b = &m->node[q];

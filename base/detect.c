@@ -214,13 +214,29 @@ void bbm_foresee_step(bbm_model *m)
 }
 
 /* How far the vertex that starts edge e moves by D. */
-static double way_of(const bbm_model *m, int e)
+static void move_start(const bbm_model *m, int e, double u[2])
 {
     const bbm_vertex *p = bbm_start_of(m, e);
-    double u[2];
 
     bbm_move(m, &m->element[p->element], &m->D[6 * p->element], p->x, p->y, u);
+}
+
+static double way_of(const bbm_model *m, int e)
+{
+    double u[2];
+
+    move_start(m, e, u);
     return hypot(u[0], u[1]);
+}
+
+/* How far two corners move past each other along t by D. */
+static double slip_between(const bbm_model *m, int P, int Q, bbm_direction t)
+{
+    double u[2], v[2];
+
+    move_start(m, P, u);
+    move_start(m, Q, v);
+    return fabs((u[0] - v[0]) * t.x + (u[1] - v[1]) * t.y);
 }
 
 /* Whether the solution moves further than the detection has foreseen. */
@@ -480,7 +496,7 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
  * side it does if P lies before the end of the other edge. Where both corners see the same joint, P
  * at Q and the edges in line, the contact that was closed stays; otherwise the one whose edge faces
  * up. Where two corners lie side by side, the one stays that has its projection on the other's
- * edge. */
+ * edge; both stay if neither was closed and they may pass each other in the step. */
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);
@@ -494,10 +510,11 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
         return end ? f.s >= t.length : g.s < u.length;
     const double beside = fabs(f.s - (end ? t.length : 0));
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
-    if (most > touch_between(m, p.corner, p.edge))
-        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond;
     const int here = find_closed(m, p.corner, p.edge, ITSELF) != NULL;
     const int there = find_closed(m, q.corner, q.edge, ITSELF) != NULL;
+    if (most > touch_between(m, p.corner, p.edge))
+        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
+            && (here || there || most > slip_between(m, p.corner, Q, t));
     return here != there ? there : !faces_up(t, u);
 }
 

@@ -94,26 +94,18 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
 /* A step that went well: right as far as one can tell, no corner passed, no energy from nowhere. */
 static bbm_status accept(bbm_model *m)
 {
-    bbm_status status = bbm_check_solution(m);
+    bbm_status status;
 
-    if (!status)
-        status = bbm_check_depth(m);
-    if (status)
+    if ((status = bbm_check_solution(m)) || (status = bbm_check_depth(m)))
         return status;
     bbm_find_reactions(m);
     bbm_model end = bbm_end_of_step(m);
-    status = bbm_check_reach(m, &end);
-    if (!status)
-        status = bbm_check_passing(m, &end);
-    if (!status)
-        status = bbm_jump(m, &end);
-    if (!status)
-        status = bbm_check_balance(m, &end);
-    if (!status) {
-        bbm_store_multipliers(m);
-        bbm_stop_supports(m);
-    }
-    return status;
+    if ((status = bbm_check_reach(m, &end)) || (status = bbm_check_passing(m, &end))
+        || (status = bbm_jump(m, &end)) || (status = bbm_check_balance(m, &end)))
+        return status;
+    bbm_store_multipliers(m);
+    bbm_stop_supports(m);
+    return BBM_OK;
 }
 
 /* The model has moved: with the velocities after the jump. */

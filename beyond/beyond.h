@@ -78,7 +78,6 @@ struct bbm_beyond {
     double gain;                /* -        the most that one made, against what was there      */
     double hit[2];              /* J        impact.c: of contacts that closed, before and after */
     double made;                /* -        the same of the step in hand, so far                */
-    const char *how;            /* statics.c: how the first blamed block parts from the second  */
 };
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
@@ -172,7 +171,6 @@ bbm_status bbm_check_settings(bbm_model *m);
 int        bbm_contact_turns_over(const bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
 double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m                    */
-double     bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest);
 bbm_status bbm_check_depth(bbm_model *m);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
 bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */

@@ -106,31 +106,20 @@ bbm_status bbm_check_solution(bbm_model *m)
                                                  : "a smaller dt, velocity or load helps");
 }
 
-/* The closed contact that is deepest against the size of its smaller block; returns that share, or
- * 0 if none is closed. */
-double bbm_deepest_contact(const bbm_model *m, const bbm_contact **deepest)
-{
-    const bbm_contact *c = m->scratch->contact;
-    double most = 0;
-
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        const double share = -c[k].d_n / bbm_size_at(m, &c[k]);
-        if (c[k].state != BBM_OPEN && share > most) {
-            most = share;
-            *deepest = &c[k];
-        }
-    }
-    return most;
-}
-
 /* Whether the springs of all contacts keep their blocks apart. */
 bbm_status bbm_check_depth(bbm_model *m)
 {
-    const bbm_contact *c = NULL;
+    const bbm_contact *deepest = NULL;
+    double most = DEEP;
 
-    if (!(bbm_deepest_contact(m, &c) > DEEP))
+    for (const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts; c < end; c++)
+        if (c->state != BBM_OPEN && -c->d_n / bbm_size_at(m, c) > most) {
+            most = -c->d_n / bbm_size_at(m, c);
+            deepest = c;
+        }
+    if (!deepest)
         return BBM_OK;
     return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in block %d, a "
                     "tenth of the smaller one; larger stiffnesses p_n, p_s help", m->info.step + 1,
-                    m->edge[c->corner].block, -c->d_n, m->edge[c->edge].block);
+                    m->edge[deepest->corner].block, -deepest->d_n, m->edge[deepest->edge].block);
 }

@@ -28,15 +28,13 @@
  * BALANCED [-] what forces may lack of balance, against the largest: a state of contacts is no more
  *              exact
  * LONG [-]     the first step against a swing on a contact spring; the shortest is the inverse
- * DRIFT [-]    by which, in each step, what was tried is forgotten
- * BLUNT [-]    the cosine by which a corner's sides turn less than 45 degrees */
+ * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
 #define FAR 0.02
 #define BALANCED 1e-9
 #define LONG 1e3
 #define DRIFT 0.9
-#define BLUNT 0.7
 
 /* ------------------------------------------------------------------------- what holds a body */
 
@@ -168,30 +166,15 @@ bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end)
                     m->info.step + 1, m->edge[worst.corner].block, m->edge[worst.edge].block, most);
 }
 
-/* What two blocks that have parted at a contact do, from where they touch now and parted least: if
- * the turn takes them further apart than that, they tip, or over a blunt corner roll. */
-static const char *find_how(const bbm_model *from, const bbm_model *m, const bbm_contact *worst)
+/* How two blocks part at a contact: along the edge without much of a turn, or else away from it. */
+static const char *find_how(const bbm_model *from, const bbm_model *m, const bbm_contact *c)
 {
-    const int i = m->edge[worst->corner].block, j = m->edge[worst->edge].block;
-    double u[2], turn, least = INFINITY;
-    const bbm_contact *stays = worst;
+    const bbm_direction t = m->edge[c->edge].along;
+    double u[2], turn;
 
-    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
-        const int k = m->edge[c->corner].block, l = m->edge[c->edge].block;
-        const double parted = find_parting(from, m, c, u, &turn);
-        if (c->state != BBM_OPEN && parted < least && ((k == i && l == j) || (k == j && l == i))) {
-            least = parted;
-            stays = c;
-        }
-    }
-    if (isinf(least))
-        return "leaves";
-    find_parting(from, m, stays, u, &turn);
-    const bbm_direction before = m->edge[m->edge[stays->corner].before].along;
-    const bbm_direction after = m->edge[stays->corner].along;
-    if (fabs(turn) * bbm_size_at(m, stays) < hypot(u[0], u[1]))
-        return "slides on";
-    return before.x * after.x + before.y * after.y > BLUNT ? "rolls on" : "tips on";
+    find_parting(from, m, c, u, &turn);
+    const double across = fmax(fabs(u[0] * t.y - u[1] * t.x), fabs(turn) * bbm_size_at(m, c));
+    return fabs(u[0] * t.x + u[1] * t.y) > across ? "slides on" : "lifts off";
 }
 
 static double way_of(const bbm_model *from, const bbm_model *m, int i)
@@ -208,10 +191,9 @@ static bbm_status blame(bbm_model *m, const bbm_model *from, const bbm_contact *
     const int k = way_of(from, m, p[1]) > way_of(from, m, p[0]);
     const int i = m->blamed[0] = p[k], j = m->blamed[1] = p[!k];
 
-    m->beyond->how = find_how(from, m, c);
     return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d (element %d) %s block %d (element "
                     "%d), and goes on", from->info.step + 1, m->element[i].block, i,
-                    m->beyond->how, m->element[j].block, j);
+                    find_how(from, m, c), m->element[j].block, j);
 }
 
 /* ------------------------------------------------------------------------ steps from rest */
@@ -324,10 +306,7 @@ static size_t copy_state(const bbm_model *m, char *to, int back)
 /* Makes the model what it was, but for its message; `list`, its contacts, is the model's again. */
 static void restore(bbm_model *m, const bbm_model *from, char *was, bbm_contact *list)
 {
-    const char *how = m->beyond->how;
-
     copy_state(m, was, 1);
-    m->beyond->how = how;
     free(m->scratch->contact);
     m->scratch->contact = list;
     m->scratch->contacts = from->contacts;

@@ -182,22 +182,6 @@ double case_quantity(const bbm_result *r, const char *quantity)
 
 /* ---------------------------------------------------------------------------- blocks that touch */
 
-bbm_model *case_moving_model(const case_blocks *b)
-{
-    bbm_model *m = case_model();
-
-    bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
-    bbm_add_material(m, &(bbm_material){ b->E, b->nu, 2500, 1 }, NULL);
-    m->par.dt = b->dt;
-    m->par.velocity_factor = 1;
-    m->par.gravity[1] = -9.81;
-    m->par.p_n = b->p_n;
-    m->par.p_s = 0.4 * b->p_n;
-    m->par.friction = b->friction;
-    m->par.pcg.tolerance = b->tolerance;
-    return m;
-}
-
 void case_step(bbm_model *m, scene *s)
 {
     case_must(m, bbm_step(m));
@@ -356,15 +340,6 @@ bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run
     return m;
 }
 
-double case_compare(case_results *r, const char *name, double computed, double reference)
-{
-    const double nowhere[2] = { NAN, NAN };
-    const double error = case_row(r, name, nowhere, computed, reference, "theory");
-
-    printf("| %s | %.10g | %.10g | %.1e |\n", name, computed, reference, error);
-    return error;
-}
-
 void case_write_curves(case_results *r, const char *file, const char *header, int rows,
                        int columns, const double *table)
 {
@@ -393,8 +368,40 @@ int case_draw(case_results *r, int done)
     return done;
 }
 
-void case_draw_maps(case_results *r, const bbm_model *m, int n, const case_map map[])
+/* The largest values of a field, and the largest difference at a grid point. */
+static void print_difference(const bbm_model *m, const bbm_model *fem, const scene_map *map)
+{
+    const field *f = field_find(map->field);
+    double most[3] = { 0 };
+
+    for (int i = 0; i < m->nodes; i++) {
+        const double a = field_of_node(f, m, i), b = field_of_node(f, fem, i);
+        most[0] = fmax(most[0], fabs(a));
+        most[1] = fmax(most[1], fabs(b));
+        most[2] = fmax(most[2], fabs(a - b));
+    }
+    printf("| %s | %.5g | %.5g | %.2f %% |\n", map->title, most[0], most[1],
+           100 * most[2] / most[1]);
+}
+
+/* fem: the same beside a finite element on the same mesh, or NULL. */
+void case_draw_maps(case_results *r, const bbm_model *m, const bbm_model *fem, int n,
+                    const case_map map[])
 {
     for (int k = 0; k < n; k++)
         case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+    if (!fem)
+        return;
+    printf("\n## With beyond/: the figures beside the constant-strain finite element, fem_*.svg\n\n"
+           "| largest [m, Pa] | BBM | FEM | largest difference |\n|---|---|---|---|\n");
+    for (int k = 0; k < n && map[k].map.scale < 0; k++) {
+        scene_map both = map[k].map;
+        char file[40];
+        both.other = fem;
+        both.name[0] = "BBM, the paper's way";
+        both.name[1] = "FEM: constant-strain triangles";
+        snprintf(file, sizeof file, "fem_%s", map[k].file);
+        case_draw(r, scene_write_map(m, case_path(r, file), &both));
+        print_difference(m, fem, &both);
+    }
 }

@@ -206,6 +206,20 @@ static void print_table_3(const bbm_model *const m[RUNS], const case_reference r
         }
 }
 
+/* Fig. 13 at two points of the upper face, where (70) has P (L - x) H/(2 I). */
+static void print_stress(const bbm_model *m, const case_reference *ref)
+{
+    printf("\nFig. 13 - von Mises stress [Pa], load a; FEM: six-node triangles\n\n"
+           "| | BBM | FEM | FEM, converged | theory (70) | against converged |\n"
+           "|---|---|---|---|---|---|\n");
+    for (int x = 12; x <= 24; x += 12) {
+        const struct case_value *f = case_find(ref, "svm", x, 6);
+        const double value = computed(m, "svm", x, 6);
+        printf("| mises(%d,6) | %.1f | %.1f | %.1f | %.1f | %+.1f %% |\n", x, value, f->six_node,
+               f->converged, P * (L - x) * H / (2 * I), case_percent(value, f->converged));
+    }
+}
+
 /* What the experiment comes to. */
 static void print_summary(const bbm_model *const m[RUNS], const case_reference ref[RUNS])
 {
@@ -227,10 +241,12 @@ static void print_summary(const bbm_model *const m[RUNS], const case_reference r
 
 /* Fig. 11-13: contours, and the deformed mesh. */
 static const case_map map[] = {
-    { "fig11.svg", { "Fig. 11: displacement u, load a", "u", -1 } },
-    { "fig12.svg", { "Fig. 12: displacement v, load a", "v", -1 } },
-    { "fig13.svg", { "Fig. 13: von Mises stress, load a", "mises", -1 } },
-    { "deformed.svg", { "Deformed beam, von Mises stress", "mises", 0 } },
+    { "fig11.svg", { .title = "Fig. 11: displacement u, load a", .field = "u", .scale = -1 } },
+    { "fig12.svg", { .title = "Fig. 12: displacement v, load a", .field = "v", .scale = -1 } },
+    { "fig13.svg", { .title = "Fig. 13: von Mises stress, load a",
+                     .field = "mises", .scale = -1 } },
+    { "deformed.svg", { .title = "Deformed beam, von Mises stress",
+                        .field = "mises", .scale = 0 } },
 };
 
 /* The error of v(24,0), load b, the paper's way. */
@@ -251,7 +267,7 @@ int main(int argc, char **argv)
 {
     case_results r;
     case_reference ref[RUNS];
-    bbm_model *m[RUNS], *dda;
+    bbm_model *m[RUNS], *dda, *fem;
 
     if (argc > 1 && strcmp(argv[1], "converge") == 0) {
         case_converge("Experiment I, load b, the paper's way: error of v(24,0) against the "
@@ -268,9 +284,13 @@ int main(int argc, char **argv)
     print_table_2(dda, m[0]);
     show_deflection(&r, dda, m[0], &ref[0]);
     print_table_3((const bbm_model *const *)m, ref);
+    print_stress(m[0], &ref[0]);
     print_summary((const bbm_model *const *)m, ref);
+    fem = case_augmented_model();
+    if (fem)
+        exp1_solve(fem, "a", CELL_CROSSED, 2, 1000);
     exp1_show_beyond(&ref[1]);
-    case_draw_maps(&r, m[0], LENGTH(map), map);
+    case_draw_maps(&r, m[0], fem, LENGTH(map), map);
     printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, "
            "deformed.svg\n", r.folder);
     for (int k = 0; k < RUNS; k++) {
@@ -278,5 +298,6 @@ int main(int argc, char **argv)
         case_free_reference(&ref[k]);
     }
     bbm_model_free(dda);
+    bbm_model_free(fem);
     return case_close(&r);
 }

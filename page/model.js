@@ -9,10 +9,11 @@ const FACTS = ('step t steps dynamic settling settle begun dt passes iterations 
   'contacts penetration candidates change kinetic elastic springs work gained scale').split(' ');
 const ROOM = 150e6;                             /* bytes of all frames */
 const files = new Map();
-let wasm, run = null;
+let wasm, run = null, warnings = '';            /* what is allowed and hardly meant, a line each */
 
 async function startLibrary(bytes) {
-  const imports = { wasi_snapshot_preview1: wasi(files, () => wasm.memory) };
+  const imports = { wasi_snapshot_preview1: wasi(files, () => wasm.memory,
+    text => { warnings += text; }) };
   wasm = (await WebAssembly.instantiate(bytes, imports)).instance.exports;
   wasm._initialize();
 }
@@ -44,6 +45,7 @@ const row = (array, what, k) => array.subarray(STRIDE[what] * k, STRIDE[what] * 
 /* The message of what is wrong, or ''. Then the model that was there stays. */
 function loadModel(name, text, lets) {
   files.set(name, text);
+  warnings = '';
   const a = putText(name), b = putText(lets), handle = wasm.page_load(a, b);
   wasm.free(a);
   wasm.free(b);

@@ -7,6 +7,7 @@
 #include "../program/run.h"
 #include "../program/scene.h"
 #include "../program/statements.h"
+#include "../program/warn.h"
 #include "page.h"
 
 /* Numbers of the command line; s that a step may take; numbers of the looks at a step. */
@@ -119,6 +120,7 @@ page *page_load(const char *path, char *lets)
     g->r = (run){ .p = &g->p, .settling = g->p.settle };
     g->p.m->monitor = before_solution;
     g->p.m->monitor_context = g;
+    warn_before(&g->p, path);
     return g;
 }
 
@@ -142,6 +144,8 @@ int page_step(page *g)
     g->began = clock();
     g->look.n = 0;
     g->status = run_step(&g->r);
+    if (g->r.is_over)
+        warn_after(&g->p, "the run");
     if (g->status)
         run_says(&g->r, g->status, g->said);
     else if (g->look.n > 0)

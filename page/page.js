@@ -172,7 +172,8 @@ function show() {
   is('say').textContent = where(f);
   if (run.failure)
     showError(`${run.name}: ${run.failure}`);
-  is('expected').replaceChildren(...expectations(f).map(x => make('li',
+  is('expected').replaceChildren(...warnings.split('\n').filter(line => line).map(line =>
+    make('li', {}, line)), ...expectations(f).map(x => make('li',
     { className: !isOver ? '' : x.met ? 'ok' : 'missed' },
       `${isOver ? 'expected' : 'so far'}: ${x.said}`)));
   drawPicture(f, picked, isPressed('inside') ? tellLook(f, lookAt, pickContact) : null);

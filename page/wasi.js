@@ -2,7 +2,7 @@
  * by their names. memory(): asked for each time, since memory that grows is another buffer. */
 'use strict';
 
-function wasi(files, memory) {
+function wasi(files, memory, say) {
   const BAD_FILE = 8, NOT_THERE = 44, NO_SEEK = 70, FOLDER = 3;
   const open = new Map();
   const view = () => new DataView(memory().buffer);
@@ -61,7 +61,12 @@ function wasi(files, memory) {
         return part.length;
       }) : BAD_FILE;
     },
-    fd_write(fd, list, n, done) { return pieces(list, n, done, piece => piece.length); },
+    fd_write(fd, list, n, done) {                 /* messages: stdout and stderr */
+      return pieces(list, n, done, piece => {
+        say(new TextDecoder().decode(piece));
+        return piece.length;
+      });
+    },
     fd_close(fd) { return open.delete(fd) ? 0 : BAD_FILE; },
   };
 }

@@ -690,7 +690,7 @@ static int open_page(film *f, const char *path, int n, double below)
 {
     layout *l = &f->l;
 
-    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0, .over = is_timed(f) ? OVER : 14 };
+    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0, .over = n > 1 || is_timed(f) ? OVER : 14 };
     measure(f, n);
     const double width = fmax(l->columns * l->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
     const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;
@@ -983,27 +983,53 @@ static void draw_field(film *f, const nodal *n, const plot_axis *bar)
     draw_outlines(f, 1, "#000000");
 }
 
-static int write_field(film *f, const char *path, const nodal *n, const field *shown)
+/* A panel for each model, of the values n [models][nodes]. */
+static int write_field(film *f, const char *path, const nodal *n, const scene_map *map,
+                       const field *shown)
 {
     const plot_quantity q = { .name = shown->label, .unit = shown->unit };
+    const int panels = map->other ? 2 : 1;
     double range[2] = { INFINITY, -INFINITY };
+    plot_box b = { 0 };
 
     if (!begin_film(f))
         return 0;
-    for (int b = 0; b < f->bodies; b++)
-        for (int i = 0; i < f->body[b].n && !f->body[b].held; i++)
-            plot_widen(range, n[f->m->vertex[f->vertex[f->body[b].first + i]].node].value);
+    for (int k = 0; k < f->bodies; k++)
+        for (int i = 0; i < f->body[k].n * panels && !f->body[k].held; i++) {
+            const int v = f->vertex[f->body[k].first + i / panels];
+            plot_widen(range, n[f->m->vertex[v].node + i % panels * f->m->nodes].value);
+        }
     if (range[0] > range[1])
         range[0] = range[1] = 0;
-    if (!open_page(f, path, 1, BAR))
+    if (!open_page(f, path, panels, BAR))
         return 0;
     const plot_axis bar = plot_bar_axis(&q, range);
-    const plot_box b = begin_panel(f, 0);
-    draw_field(f, n, &bar);
-    end_panel(f, b);
-    draw_state(f, b, 1);
-    plot_draw_bar(&f->p, (plot_box){ b.x, b.y + b.h + UNDER + 4, b.w, 16 }, &bar, range);
+    for (int k = 0; k < panels; k++) {
+        b = begin_panel(f, k);
+        draw_field(f, n + k * f->m->nodes, &bar);
+        end_panel(f, b);
+        draw_state(f, b, 1);
+        if (map->other)
+            plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", map->name[k]);
+    }
+    const double left = f->l.left + LEFT;
+    plot_draw_bar(&f->p, (plot_box){ left, b.y + b.h + UNDER + 4, b.x + b.w - left, 16 }, &bar,
+                  range);
     return plot_close(&f->p);
+}
+
+/* Whether all are finite. */
+static int find_values(const bbm_model *m, const field *shown, nodal *n)
+{
+    int finite = 1;
+
+    for (int i = 0; i < m->nodes; i++) {
+        bbm_result r;
+        bbm_nodal_result(m, i, -1, &r);
+        n[i] = (nodal){ r.u, r.v, field_of_node(shown, m, i) };
+        finite &= isfinite(r.u + r.v + n[i].value);
+    }
+    return finite;
 }
 
 int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
@@ -1011,22 +1037,18 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
     const field *shown = field_find(map->field ? map->field : "mises");
     const size_t all = (size_t)m->vertices;
     double (*place)[2] = malloc(2 * all * sizeof *place);       /* as at the start, and magnified */
-    nodal *n = malloc((size_t)m->nodes * sizeof *n);
+    nodal *n = malloc(2 * (size_t)m->nodes * sizeof *n);
     scene_frame state[2] = { { m->info.t, .at = place },
                              { m->info.t, .at = place ? place + all : NULL } };
     scene s = { .frames = 2, .vertices = m->vertices, .frame = state };
     film f = { .s = &s, .m = m };
     char title[300];
-    int done = 0, finite = 1;
+    int done = 0;
 
     errno = ENOMEM;
     if (place && n) {
-        for (int i = 0; i < m->nodes; i++) {
-            bbm_result r;
-            bbm_nodal_result(m, i, -1, &r);
-            n[i] = (nodal){ r.u, r.v, field_of_node(shown, m, i) };
-            finite &= isfinite(r.u + r.v + n[i].value);
-        }
+        const int finite = find_values(m, shown, n)
+                           && (!map->other || find_values(map->other, shown, n + m->nodes));
         const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
         for (int v = 0; v < 2 * m->vertices; v++) {
             const int i = m->vertex[v % m->vertices].node;
@@ -1038,7 +1060,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
                  map->title ? ", " : "", scale);
         s.title = scale == 0 || scale == 1 ? map->title : title;
         errno = EDOM;
-        done = finite && write_field(&f, path, n, shown);
+        done = finite && write_field(&f, path, n, map, shown);
     }
     end_film(&f);
     free(place);

@@ -310,7 +310,7 @@ static void draw_now(write_results *w, const char *name)
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    scene_map map = { w->p->title, w->p->field, w->p->scale };
+    scene_map map = { .title = w->p->title, .field = w->p->field, .scale = w->p->scale };
     char path[LONGEST], name[100];
 
     draw_now(w, "contacts.svg");

@@ -548,7 +548,7 @@ START_TEST(of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_t
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -1, .w = 1, .h = 1 });
     add_polygon(m, 1, 4, above);
     ck_ok(bbm_prepare(m), m);
-    set_velocity(m, 1, 0, -1);
+    set_velocity(m, 1, 0, -0.95);
     start_step(m, &n);
     ck_assert_int_eq(find_listed(m, 1, 1, 0, 2) != NULL, _i);
     ck_assert_int_eq(find_listed(m, 0, 2, 1, 0) != NULL, !_i);

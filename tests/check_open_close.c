@@ -435,7 +435,7 @@ START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
     if (_i >= 2)
         ck_ok(bbm_add_load(m, m->vertex[m->element[1].first].node, 1, 0), m);
     for (int k = 0; k < 3; k++) {
-        bbm_matrix_keep(m->K, k == 2 && _i == 3);
+        m->K->is_kept = k == 2 && _i == 3;
         m->D[6] = k < 2 ? 0 : -turn / 2;
         m->D[7] = -0.01;
         m->D[8] = k < 2 ? 0 : turn;

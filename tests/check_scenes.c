@@ -125,11 +125,12 @@ END_TEST
  * contacts of a flush joint is dropped; a corner slides along a bent side; a block that leans loses its closed contact; a
  * corner opens inside and comes back; a grid point lies in a hollow; a contact cannot come back beyond the end
  * of its edge; an edge is longer at the end of the step; a corner passes while another one of its block is held, or comes
- * in over a line on which it is neither at the start nor at the end of the step. */
+ * in over a line on which it is neither at the start nor at the end of the step; two corners pass each other in a step. */
 static const struct { int kind, seed; } FAULTS[] = {
     { SCENE_BOX, 4 }, { SCENE_BOX, 437 }, { SCENE_WALL, 404 }, { SCENE_BONDED, 182 }, { SCENE_WALL, 63 },
     { SCENE_CORNERS_MEET, 660 }, { SCENE_STACK, 18 },
     { SCENE_BOX, 735 }, { SCENE_BOX, 296 }, { SCENE_WALL, 10156 }, { SCENE_BOX, 1503 }, { SCENE_CLOUD, 10496 },
+    { SCENE_STACK, 10039 }, { SCENE_BOX, 512 }, { SCENE_WALL, 722 },
 };
 
 START_TEST(scenes_that_once_showed_a_fault_show_none)

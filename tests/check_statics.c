@@ -99,7 +99,7 @@ static bbm_model *stop(double f)
 }
 
 static const struct { bbm_model *(*build)(double f); const char *how; } LIMIT[] = {
-    { portal, "tips on" }, { tall, "tips on" }, { flat, "slides on" }, { arch, "tips on" },
+    { portal, "lifts off" }, { tall, "lifts off" }, { flat, "slides on" }, { arch, "lifts off" },
     { wedge, "slides on" }, { bar, "slides on" }, { stop, "slides on" },
 };
 

@@ -5,6 +5,7 @@
 # In a block of the kind "console" a line "$ COMMAND" is run by the shell in the project's top folder
 # (it goes on in the next line after a backslash); the lines below it are what it prints, letter for
 # letter. "..." stands for any number of lines. Programs are taken from the folder O.
+# A comment "<!-- $ COMMAND -->" does the same for the table in the lines below it.
 
 function fail(why)
 {
@@ -25,10 +26,10 @@ function follow_links(line,    path, folder)
     }
 }
 
-# Each `bbm_name` is a word of the sources.
+# Each `bbm_name` is a word of the sources, and so is each name of four words, as those of tests.
 function check_names(line,    name)
 {
-    while (match(line, /`bbm_[a-z_0-9]+`/)) {
+    while (match(line, /`(bbm_[a-z_0-9]+|[A-Za-z]+_[A-Za-z0-9]+_[A-Za-z0-9]+_[A-Za-z0-9_]+)`/)) {
         name = substr(line, RSTART + 1, RLENGTH - 2)
         line = substr(line, RSTART + RLENGTH)
         if (!(name in known))
@@ -70,7 +71,7 @@ function finish()
 }
 
 BEGIN {
-    words = "cat *.h *.c */*.h */*.c | grep -o 'bbm_[a-z_0-9]*' | sort -u"
+    words = "cat *.h *.c */*.h */*.c | grep -oE '[A-Za-z]+_[A-Za-z0-9_]+' | sort -u"
     while ((words | getline word) > 0)
         known[word] = 1
 }
@@ -87,6 +88,9 @@ inside && /^\$ / {
     run(command)
     next
 }
+/^<!-- \$ .* -->$/ { table = 1; run(substr($0, 8, length($0) - 11)); running = 1; next }
+table && !/^[|]/ { finish(); table = 0 }
+table { compare($0); next }
 inside && /^\.\.\.$/ { skip = 1; next }
 inside { compare($0); next }
 { follow_links($0); check_names($0) }

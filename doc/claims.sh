@@ -1,0 +1,104 @@
+# claims.sh - numbers of 08-experiments.md that no experiment prints, by models of beam.awk and
+# plate.awk and by tables of the experiments:
+#     BBM=./bbm sh doc/claims.sh stress|plate|held|arc|areas|iterations|blocks
+set -e
+mkdir -p out/claims
+
+# A beam of $1 x $2 cells, alpha $3, $4 rounds of multipliers; what more beam.awk takes.
+beam()
+{
+    awk -v nx=$1 -v ny=$2 -v alpha=$3 -v augment=$4 $5 -f doc/beam.awk
+}
+
+run()
+{
+    cat > out/claims/claim.model
+    $BBM -q out/claims/claim.model -o out/claims
+}
+
+# The von Mises stress at (24,6), 1000 Pa, for cells of three sizes.
+stress()
+{
+    for n in 2 4 8; do
+        for a in 10 1000; do
+            beam $((4 * n)) $n $a 0 | run
+            awk -F, '$3 == 24 && $4 == 6 { print $10 / 10 - 100 }' out/claims/nodes.csv
+        done | xargs printf "$n cells high: alpha 10 %+.1f %%, alpha 1000 %+.1f %%\n"
+    done
+}
+
+# What the size of the plate does to sxx at the corners of the quarter.
+plate()
+{
+    for size in "5 5" "10 10" "20 20" "40 5" "5 40"; do
+        set -- $size
+        v="-v b=$1 -v h=$2 -v nx=60 -v ny=48"
+        awk $v -f doc/plate.awk | run
+        awk -F, $v -f doc/plate-stress.awk out/claims/elements.csv out/claims/nodes.csv
+    done
+}
+
+# Displacements across the lines of symmetry.
+held()
+{
+    for n in 0 2; do
+        { awk -v b=5 -v nx=32 -v ny=24 -v tri=1 -f doc/plate.awk; echo "bond alpha 1000 augment $n"; } | run
+        tail -1 out/claims/history.csv | awk -F, -v n=$n '{
+            printf "%d rounds:", n
+            split($4 " " $5 " " $8 " " $9, x, " ")
+            for (k = 1; k <= 4; k++)
+                printf " %s", x[k]^2 < 1e-24 ? "below_1e-12" : sprintf("%.1e", x[k])
+            print ""
+        }'
+    done
+}
+
+# Stresses on the hole, plate k5, against (72).
+arc()
+{
+    for f in fig19 fig19hoop; do
+        awk -F, -v f=$f 'NR > 1 && ($3 - $4)^2 > d * d { d = $3 - $4; at = $1; s = $4 }
+        END { printf "%s: %+.2f MPa at %.0f degrees, theory %.2f\n", f, d / 1e6, at, s / 1e6 }' out/exp2/$f.csv
+    done
+}
+
+# The way of the tip that is the springs', for alpha 10, 100, 1000, on columns that grow.
+areas()
+{
+    for r in 1 10 100 1000; do
+        for x in "10 0" "100 0" "1000 0" "1000 2"; do
+            beam 24 6 $x "-v ratio=$r" | sed '/^monitor/s/24/48/' | run
+            tail -1 out/claims/history.csv
+        done | awk -F, -v r=$r '{ v[NR] = $4 } END {
+            printf "ratio %4d:", r
+            for (k = 1; k <= 3; k++)
+                printf " %.*f %%", k - 1, 100 * (v[k] / v[4] - 1)
+            print ""
+        }'
+    done
+}
+
+# SSOR-PCG; digits that rounding decides are left out.
+iterations()
+{
+    for a in 10 1000 100000; do
+        beam 32 8 $a 0 | sed 's/^pcg.*/pcg coarse off/' | run
+        tail -1 out/claims/summary.csv | awk -F, -v a=$a '{
+            printf "alpha %6d: %2.0f hundred iterations, residual 1e%d\n", a, $4 / 100, log($5) / log(10) - 1
+        }'
+    done
+}
+
+# Triangles bonded, and as blocks in contact.
+blocks()
+{
+    for kn in 0 1e9; do
+        beam 8 2 1000 0 "-v kn=$kn" | run
+        tail -1 out/claims/summary.csv | awk -F, -v v=$(tail -1 out/claims/history.csv | cut -d, -f4) '{
+            printf "%s contacts: v(24,0) %.2f mm, %s\n", ($6 > 300 ? "over 300" : $6), 1000 * v,
+                ($3 > 3 ? "several solutions" : $3 " solution")
+        }'
+    done
+}
+
+$1
