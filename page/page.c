@@ -22,6 +22,7 @@ struct page {
     int wrong;                          /* it could not be read */
     char said[700], sentence[300];
     numbers out, look;
+    int rounds;                         /* of multipliers, at the last look */
     int *before, listed;                /* [listed] states of the contacts at the last look */
     clock_t began;                      /* the step in hand */
 };
@@ -95,9 +96,11 @@ static int before_solution(const bbm_model *m, void *context)
 {
     const bbm_contact_scratch *w = m->scratch;
     page *g = context;
+    const int more = m->beyond->rounds_done > g->rounds;
 
+    g->rounds = m->beyond->rounds_done;
     note_look(g, w->contact, w->contacts, w->friction_passes ? PAGE_FRICTION
-              : m->K->is_kept ? PAGE_SAME_K : w->passes ? PAGE_JUDGED : PAGE_LISTED);
+              : more ? PAGE_SAME_K : w->passes ? PAGE_JUDGED : PAGE_LISTED);
     return clock() - g->began > (clock_t)LIMIT * CLOCKS_PER_SEC;
 }
 
