@@ -53,7 +53,7 @@ make_suite formulas_suite, elastic_suite, steps_suite, mesh_suite, input_suite, 
     repeat_suite, solver_suite, coarse_suite, beyond_suite, motion_suite, bars_suite,
     statics_suite, refused_suite, theory_suite, equations_suite, run_suite, impact_suite,
     cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
-    pictures_suite;
+    pictures_suite, page_suite;
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

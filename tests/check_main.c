@@ -56,7 +56,7 @@ static make_suite *const SUITES[] = {
 #endif
 #ifdef CASES
     cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
-    pictures_suite,
+    pictures_suite, page_suite,
 #endif
 };
 
