@@ -1,5 +1,5 @@
-# answers.sh - numbers of the answers to the exercises of chapter 6, by the models of the exercises:
-#     BBM=./bbm sh doc/answers.sh slope|start|passes|drop|rock|thickness|friction
+# answers.sh - numbers of the answers to the exercises of chapters 6 and 7, by their models:
+#     BBM=./bbm sh doc/answers.sh slope|start|passes|drop|rock|thickness|friction|iterations
 set -e
 HERE=out/answers
 mkdir -p $HERE
@@ -92,6 +92,20 @@ friction()
     for phi in 19 19.5; do
         if stands 1.5 $phi; then echo "$phi: stands"; else echo "$phi: falls"; fi
     done
+}
+
+# 7.2: iterations on three meshes, alpha = 1 and 100.
+iterations()
+{
+    sed 's/^pcg.*/pcg tolerance 1e-10 coarse off/' doc/beam.model > $HERE/solver.model
+    for n in 4 8 16; do
+        for alpha in 1 100; do
+            run $HERE/solver.model -d nx=$((4 * n)) -d ny=$n -d alpha=$alpha -d augment=0 > $HERE/row
+            tail -1 $HERE/summary.csv | cut -d, -f4
+        done
+    done | awk '{ n = 2 ^ int((NR + 3) / 2); i[NR] = $1 }
+        NR % 2 == 0 { printf "%d x %d: alpha x 100 costs %.1f times the iterations\n", 4 * n, n, $1 / i[NR - 1] }
+        END { printf "64 x 16 after 16 x 4: %.1f times the iterations\n", i[5] / i[1] }'
 }
 
 $1
