@@ -182,22 +182,6 @@ double case_quantity(const bbm_result *r, const char *quantity)
 
 /* ---------------------------------------------------------------------------- blocks that touch */
 
-bbm_model *case_moving_model(const case_blocks *b)
-{
-    bbm_model *m = case_model();
-
-    bbm_add_material(m, &(bbm_material){ 1e14, 0.25, 2500, 1 }, NULL);
-    bbm_add_material(m, &(bbm_material){ b->E, b->nu, 2500, 1 }, NULL);
-    m->par.dt = b->dt;
-    m->par.velocity_factor = 1;
-    m->par.gravity[1] = -9.81;
-    m->par.p_n = b->p_n;
-    m->par.p_s = 0.4 * b->p_n;
-    m->par.friction = b->friction;
-    m->par.pcg.tolerance = b->tolerance;
-    return m;
-}
-
 void case_step(bbm_model *m, scene *s)
 {
     case_must(m, bbm_step(m));
@@ -354,15 +338,6 @@ bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run
     p->solve(m, run->variant, run->beyond ? CELL_QUADS : CELL_CROSSED, run->beyond ? 4 : 2, 1000);
     compare_all(r, p, m, run, ref);
     return m;
-}
-
-double case_compare(case_results *r, const char *name, double computed, double reference)
-{
-    const double nowhere[2] = { NAN, NAN };
-    const double error = case_row(r, name, nowhere, computed, reference, "theory");
-
-    printf("| %s | %.10g | %.10g | %.1e |\n", name, computed, reference, error);
-    return error;
 }
 
 void case_write_curves(case_results *r, const char *file, const char *header, int rows,

@@ -49,10 +49,6 @@ void   case_add_grid(bbm_model *m, case_grid *g);
 typedef struct { int block, material, nx, ny; double x, y, w, h, turn; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
 void   case_fix_block(bbm_model *m, int block);                 /* every node of it             */
-/* A model of blocks that move: material 0 is rigid, 1 has E and nu, both 2500 kg/m^3; p_s = 0.4 p_n
- * and gravity. The friction angle in degrees. */
-typedef struct { double E, nu, dt, p_n, friction, tolerance; } case_blocks;
-bbm_model *case_moving_model(const case_blocks *b);
 bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */
 /* u, v, sxx, syy, sxy, svm */
 double case_quantity(const bbm_result *r, const char *quantity);
@@ -96,8 +92,6 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
  * results.csv. NULL where there is no beyond/. */
 bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run *run,
                           case_reference *ref);
-/* The row `| name | computed | theory | error |` on stdout and in results.csv (without a place). */
-double case_compare(case_results *r, const char *name, double computed, double reference);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
 /* table [rows][columns] as CSV */
 void   case_write_curves(case_results *r, const char *file, const char *header, int rows,

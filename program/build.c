@@ -133,7 +133,7 @@ int model_build(model_reader *r)
     model *p = r->p;
 
     if (r->elements == 0)
-        return model_fail(r, (model_place){ r->path, 0 },
+        return model_fail(r, (model_place){ .file = r->path },
                           "the model has no element, expected: block ..., grid ..., mesh FILE or "
                           "element ...");
     if (!give_materials(r) || !copy_nodes(r) || !add_nodes(r))
@@ -218,21 +218,27 @@ static int find_nearest(const model_reader *r, const selection *w, int *others)
     return found;
 }
 
-/* That others lie there as well is said. */
+/* That others lie there as well is said, and that it is far away: by more than a tenth of the model. */
 static void choose_nearest(model_reader *r, const selection *w)
 {
     int others;
     const int found = find_nearest(r, w, &others);
+    double far = 0;
 
     if (found < 0)
         return;
     choose(r, w, found);
+    const model_node *at = &r->node[found];
+    const double d = hypot(at->x - w->x[0], at->y - w->x[1]);
+    for (int n = 0; n < r->nodes; n++)
+        far = fmax(far, hypot(r->node[n].x - at->x, r->node[n].y - at->y));
+    if (d > far / 10)
+        model_note(r, "warning: the nearest node, %.60s at %g %g, is %.3g m away from %g %g", at->id,
+                   at->x, at->y, d, w->x[0], w->x[1]);
     if (others > 0)
-        fprintf(stderr,
-                "%s:%d: note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
-                "takes another\n",
-                r->s->at.file, r->s->at.line, others + 1, r->node[found].id,
-                r->block[r->copy[r->node[found].first].block].name);
+        model_note(r, "note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
+                   "takes another", others + 1, r->node[found].id,
+                   r->block[r->copy[r->node[found].first].block].name);
 }
 
 static int is_there(const model_reader *r, const selection *w, const model_node *n)
@@ -469,7 +475,7 @@ int model_joint(model_reader *r)
         if (!model_skip(r, "*") && (block[k] = model_next_block(r)) < 0)
             return 0;
     }
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, LENGTH(o), o) || !model_note_friction(r, friction))
         return 0;
     if (block[0] >= 0 && block[0] == block[1])
         return model_blame(r, "a joint of a block with itself, expected two blocks");
@@ -477,8 +483,7 @@ int model_joint(model_reader *r)
         const int *a = b->joint[k].block;
         if (((a[0] < 0 || a[0] == block[0]) && (a[1] < 0 || a[1] == block[1]))
             || ((a[0] < 0 || a[0] == block[1]) && (a[1] < 0 || a[1] == block[0])))
-            fprintf(stderr, "%s:%d: warning: this joint never counts, below one that fits the same "
-                            "blocks\n", r->s->at.file, r->s->at.line);
+            model_note(r, "warning: this joint never counts, below one that fits the same blocks");
     }
     r->p->slippery = 0;
     if (r->no_shear)
@@ -560,7 +565,7 @@ static int blame_free(model_reader *r)
             snprintf(near, sizeof near, "; block '%.60s' is %.3g m away",
                      r->p->block[m->element[own ? j : i].block], gap);
         }
-    return model_fail(r, (model_place){ r->path, 0 }, "block '%.60s' is free to move, expected "
+    return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, expected "
                       "fix, fixblock or a contact that holds it in statics%s",
                       r->p->block[m->element[loose].block], near);
 }

@@ -14,27 +14,34 @@
 #include <unistd.h>
 
 #include "field.h"
+#include "find.h"
 #include "length.h"
+#include "run.h"
 #include "statements.h"
+#include "warn.h"
 #include "write.h"
 
 /* The signal that came. Signals have no other way to say something: this variable, and it alone,
  * has file scope. */
 static volatile sig_atomic_t stopped;
-enum { NAMED = 10, SHOWN = 30 };     /* pieces of a block that a warning names, blocks of --check */
+enum { SHOWN = 30 };                 /* blocks of --check */
 
 typedef struct {
     const char *model, *matrix;
     char folder[1024], **let;                   /* let: [lets] NAME=VALUE */
     int lets, quiet, check, exit;               /* exit: -1, go on */
+    find find;                                  /* name: NULL, none */
 } arguments;
 
 static const char *usage(void)
 {
     return "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
+           "       bbm [-q] [-d NAME=VALUE] --find NAME LOW HIGH MODEL\n"
            "  MODEL       a model file; -: standard input\n"
            "  -d          takes the place of `let NAME`; may be given several times\n"
            "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
+           "  --find NAME LOW HIGH\n"
+           "              bisects `let NAME` until its expectations change; writes no results\n"
            "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
            "  -m FILE.mtx the matrix of the first solution (Matrix Market), and its right-hand "
            "side as FILE.mtx.rhs\n"
@@ -61,6 +68,21 @@ static int name_folder(arguments *a, const char *given)
     memcpy(a->folder, base, n);
     a->folder[n] = '\0';
     return 0;
+}
+
+/* NAME LOW HIGH; 0: they are not. */
+static int read_find(find *f, char *word[])
+{
+    char *end[2] = { "?", "?" };
+
+    for (int k = 0; k < 3; k++)
+        if (!word[k])
+            return 0;
+    f->name = word[0];
+    f->low = strtod(word[1], &end[0]);
+    f->high = strtod(word[2], &end[1]);
+    return *word[1] && *word[2] && !*end[0] && !*end[1] && isfinite(f->low) && isfinite(f->high)
+           && f->low != f->high;
 }
 
 /* The options may stand before and after the model; behind `--` a name may begin with a dash. */
@@ -90,6 +112,10 @@ static int read_arguments(arguments *a, int argc, char *argv[])
             return printf("bbm %s\n", BBM_VERSION), a->exit = 0;
         } else if (strcmp(word, "--check") == 0) {
             a->check = 1;
+        } else if (strcmp(word, "--find") == 0) {
+            if (!read_find(&a->find, argv + k + 1))
+                return complain(a, "--find needs a name and two different numbers");
+            k += 3;
         } else if (word[1] == 'o' || word[1] == 'm' || word[1] == 'd') {
             if (word[1] != 'd')
                 value = word[1] == 'o' ? &folder : &a->matrix;
@@ -106,6 +132,9 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     const size_t n = a->matrix ? strlen(a->matrix) : 0;
     if (a->matrix && (n < 5 || strcmp(a->matrix + n - 4, ".mtx") != 0))
         return complain(a, "-m needs a name that ends in .mtx");
+    if (a->find.name && (folder || a->matrix || a->check || (a->model && strcmp(a->model, "-") == 0)))
+        return complain(a, "--find reads a file several times and writes none: without -o, -m, "
+                           "--check and -");
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
 }
 
@@ -114,25 +143,34 @@ static int read_arguments(arguments *a, int argc, char *argv[])
 static const char *plural(int n) { return n == 1 ? "" : "s"; }
 
 typedef struct {
-    int shown, steps, begun;                    /* begun: a line without its end */
-    clock_t start, last;
+    int shown, steps, settling, begun;          /* steps, settling: in all; begun: a line without its end */
+    int warned;
+    double each;                                /* s            a step takes at present */
+    clock_t now, last;                          /* CPU time at the last step, at the last line */
     time_t said;
 } progress;
 enum { SILENCE = 10 };                          /* s between lines of progress that go to a file */
 
-static void show_progress(progress *s, const bbm_model *m, int step)
+/* What a step takes is the mean of the last ones, of about a tenth of those done: contacts come and
+ * go. */
+static void show_progress(progress *s, const bbm_model *m, int settling, int step)
 {
-    const double each = (double)(clock() - s->start) / CLOCKS_PER_SEC / (step > 0 ? step : 1);
+    const int done = step + s->settling - settling;
+    const double took = (double)(clock() - s->now) / CLOCKS_PER_SEC;
 
-    if (!s->shown || (isatty(2) ? clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps
-                                : time(NULL) < s->said + SILENCE))
+    s->now = clock();
+    s->each += (took - s->each) / (done < 10 ? fmax(1, done) : 1 + done / 10);
+    if (!s->shown || done == 0
+        || (isatty(2) ? clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps
+                      : time(NULL) < s->said + SILENCE))
         return;
     s->last = clock();
     s->said = time(NULL);
     s->begun = isatty(2);
-    fprintf(stderr, "%sstep %d of %d, %d open-close pass%s, %d contact%s, %.0f s left%s",
-            s->begun ? "\r" : "", step, s->steps, m->info.passes, m->info.passes == 1 ? "" : "es",
-            m->info.contacts, plural(m->info.contacts), each * (s->steps - step),
+    fprintf(stderr, "%s%sstep %d of %d, %d open-close pass%s, %d contact%s, %.0f s left%s",
+            s->begun ? "\r" : "", settling ? "settling, " : "", settling ? done : step,
+            settling ? s->settling : s->steps, m->info.passes, m->info.passes == 1 ? "" : "es",
+            m->info.contacts, plural(m->info.contacts), s->each * (s->steps - step + settling),
             s->begun ? "   " : "\n");
     fflush(stderr);
 }
@@ -162,59 +200,32 @@ static void describe(const model *p, const char *path)
     fflush(stdout);
 }
 
-static void put_warning(const char *path, const char *text)
-{
-    fprintf(stderr, "%s: warning: %s\n", path, text);
-}
-
-/* What the file leaves out and hardly means. */
-static void warn(const model *p, const char *path, int checking)
-{
-    const bbm_model *m = p->m;
-    int held = 0, load = m->beyond->edge_loads > 0 || p->moving || m->beyond->shake[0] != 0
-                         || m->beyond->shake[1] != 0;
-
-    for (int n = 0; n < m->nodes; n++) {
-        held |= m->node[n].held || m->beyond->edge_loads > 0;
-        load |= m->node[n].load[0] != 0 || m->node[n].load[1] != 0;
-    }
-    for (int b = 0; b < p->blocks; b++)
-        load |= p->velocity[b].given;
-    for (int e = 0; e < m->elements; e++)
-        for (int k = 0; k < 3; k++)
-            load |= m->element[e].stress[k] != 0;
-    if (checking && !load && m->par.gravity[0] == 0 && m->par.gravity[1] == 0)
-        put_warning(path, "nothing loads the model; gravity, load, traction, pressure or fix ... "
-                          "by does");
-    if (!held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))
-        put_warning(path, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds "
-                          "them");
-    if (p->slippery)
-        put_warning(path, "no friction between blocks: `contact friction DEGREES` gives it");
-}
-
 static void summarise(const model *p, const char *folder)
 {
     const bbm_model *m = p->m;
     const field *mises = field_find("mises");
     double far = 0, most = 0;
     int v_far = 0, e_most = 0;
+    bbm_energy e;
 
     for (int v = 0; v < m->vertices; v++)
         if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
-    for (int e = 0; e < m->elements; e++)
-        if (field_of_element(mises, m, e) > most)
-            most = field_of_element(mises, m, e), e_most = e;
+    for (int k = 0; k < m->elements; k++)
+        if (field_of_element(mises, m, k) > most)
+            most = field_of_element(mises, m, k), e_most = k;
     printf("%d step%s, ", m->info.step, plural(m->info.step));
     if (p->dynamic)
         printf("t = %g s, ", m->info.t);
     printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
            m->info.pcg.residual);
-    if (p->dynamic)
+    if (p->dynamic && m->beyond->gain > 1e-12)              /* below it is rounding */
         printf("no step made more than %.1e of its energy beyond the work of loads\n",
                m->beyond->gain);
-    if (p->dynamic && m->beyond->hit[0] > 0)
+    else if (p->dynamic)
+        printf("no step made energy beyond the work of loads\n");
+    bbm_energies(m, &e);
+    if (p->dynamic && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
         printf("hits came with %.3g J in their normal velocities, %.0f %% of it was given back\n",
                m->beyond->hit[0], 100 * m->beyond->hit[1] / m->beyond->hit[0]);
     printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
@@ -222,41 +233,17 @@ static void summarise(const model *p, const char *folder)
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
 }
 
-static void warn_of_turns(const model *p, const char *path)
-{
-    double most = 0;
-
-    for (int e = 0; e < p->m->elements && !p->dynamic; e++)
-        most = fmax(most, fabs(p->m->element[e].sum[2]));
-    if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
-        put_warning(path, "elements turn by more than 0.1 rad, which statics takes as small: "
-                          "lengths are wrong; dynamic with velocity_factor 0 has them right");
-}
-
 /* What came out beside what was expected of it; the number of those not met. */
 static int report_expectations(const model *p, int quiet)
 {
-    static const char *const kind[] = { "u", "v", "moves", "stays" };
+    char text[300];
     int missed = 0;
 
     for (int k = 0; k < p->expectations; k++) {
-        const model_expected *e = &p->expected[k];
-        const int value = e->kind == MODEL_U || e->kind == MODEL_V;
-        double u[2];
-        model_displacement(p, &p->monitor[e->monitor], u);
-        const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
-        const int met = value ? fabs(got - e->value) <= e->within
-                      : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
+        const int met = run_is_met(p, k, text);
         missed += !met;
-        if (met && quiet)
-            continue;
-        printf("expected: %s %s ", p->monitor[e->monitor].name, kind[e->kind]);
-        if (value)
-            printf("%.6g within %.2g m; computed: %.6g m: ", e->value, e->within, got);
-        else
-            printf("by %s than %.6g m; computed: %.6g m: ",
-                   e->kind == MODEL_MOVES ? "more" : "less", e->within, got);
-        printf("%s\n", met ? "ok" : "NOT MET");
+        if (!met || !quiet)
+            printf("expected: %s\n", text);
     }
     return missed;
 }
@@ -283,101 +270,42 @@ static void describe_blocks(const model *p)
         printf("... and %d more\n", p->blocks - SHOWN);
 }
 
-/* A block whose elements nothing bonds together may be meant, but is said: with an element of
- * each piece. */
-static void warn_of_pieces(const model *p, const char *path)
-{
-    const bbm_model *m = p->m;
-    int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece);
-
-    if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
-        free(piece);
-        return;
-    }
-    int *count = piece + m->elements;
-    for (int e = 0; e < m->elements; e++)
-        count[m->element[e].block] += piece[e] == e;
-    for (int b = 0; b < p->blocks; b++) {
-        int left = NAMED;
-        if (count[b] < 2)
-            continue;
-        fprintf(stderr,
-                "%s: warning: block '%.60s' is in %d pieces that no bond joins, with the elements",
-                path, p->block[b], count[b]);
-        for (int e = 0; e < m->elements && left > 0; e++)
-            if (piece[e] == e && m->element[e].block == b)
-                fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
-        fprintf(stderr, "%s; elements are bonded along sides whose two nodes they share\n",
-                count[b] > NAMED ? " ..." : "");
-    }
-    free(piece);
-}
-
 /* -------------------------------------------------------------------------------------- the run */
 
-/* Quasi-static steps without shaking. */
-static bbm_status settle(model *p)
+/* All steps, with rows in the tables for the start and each one of the model. What went wrong is in
+ * the library's message or in w. */
+static bbm_status run_all(run *r, write_results *w, progress *s)
 {
-    bbm_model *m = p->m;
-    const bbm_parameters par = m->par;
-    double *now = m->beyond->shake;
-    const double shake[2] = { now[0], now[1] };
+    const bbm_info *i = &r->p->m->info;
     bbm_status status = BBM_OK;
 
-    m->par.velocity_factor = now[0] = now[1] = 0;
-    for (int k = 0; k < p->settle && !status && !stopped; k++)
-        status = bbm_step(m);
-    m->par = par;
-    memcpy(now, shake, sizeof shake);
+    while (!status && !r->is_over && !stopped && (!r->has_begun || !w->status)) {
+        status = run_step(r);
+        if (status)
+            break;
+        if (r->has_begun)
+            write_step(w, i->step);
+        warn_in_step(r->p, w->source, i->step, &s->warned);
+        show_progress(s, r->p->m, r->settling, !r->has_begun ? 0 : r->is_over ? s->steps : i->step);
+    }
     return status;
 }
 
-/* All steps, or until (71) is met; what went wrong is in the library's message or in w. */
-static bbm_status run_steps(write_results *w, progress *s)
+/* The message of a run that failed or was stopped. */
+static void report(const run *r, bbm_status status, const arguments *a)
 {
-    bbm_model *m = w->p->m;
-    const bbm_parameters *par = &m->par;
-    bbm_status status = BBM_OK;
-    int met = 0;
+    const bbm_model *m = r->p->m;
+    char text[500];
 
-    if (!model_start(w->p))
-        status = BBM_NO_MEMORY;
-    if (!status)
-        write_step(w, 0);
-    for (int step = 1; step <= par->steps && !status && !w->status && !met && !stopped; step++) {
-        model_move_supports(w->p, w->p->dynamic ? step * par->dt : INFINITY);
-        status = bbm_step(m);
-        if (!status)
-            write_step(w, step);
-        met = !status && par->tolerance > 0 && m->info.change <= par->tolerance;
-        show_progress(s, m, met ? s->steps : step);
-    }
-    return !status && !w->status && !stopped && par->tolerance > 0 && !met ? BBM_STEPS_EXHAUSTED
-                                                                           : status;
-}
-
-/* The message of a run that failed; `when`: in which part of it. The library's own message may
- * name the step. */
-static void report(const model *p, bbm_status status, const char *when, const arguments *a)
-{
-    const bbm_model *m = p->m;
-    char text[400];
-    const char *message = model_says(p, status, text);
-
+    run_says(r, status, text);
     if (stopped)
         fprintf(stderr,
                 "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in "
                 "%s\n",
-                a->model, when, m->info.step, *when ? p->settle : m->par.steps, m->info.t,
-                a->folder);
-    else if (status == BBM_STEPS_EXHAUSTED)
-        fprintf(stderr,
-                "%s: step %d: no equilibrium, change %.2g, expected %.2g; more steps may help\n",
-                a->model, m->info.step, m->info.change, m->par.tolerance);
-    else if (status && strstr(message, "step "))
-        fprintf(stderr, "%s: %s%s\n", a->model, when, message);
+                a->model, r->has_begun ? "" : "settling, ", m->info.step,
+                r->has_begun ? m->par.steps : r->p->settle, m->info.t, a->folder);
     else if (status)
-        fprintf(stderr, "%s: %sstep %d: %s\n", a->model, when, m->info.step + 1, message);
+        fprintf(stderr, "%s: %s\n", a->model, text);
 }
 
 /* Looked at before each solution: the matrix if it is wanted, and whether to stop. */
@@ -441,8 +369,7 @@ static int check(model *p, const arguments *a)
 
     if (status)
         return fprintf(stderr, "%s: %s\n", a->model, bbm_status_text(status)), 1;
-    warn(p, a->model, 1);
-    warn_of_pieces(p, a->model);
+    warn_before(p, a->model);
     if (!a->quiet) {
         describe(p, a->model);
         describe_blocks(p);
@@ -457,7 +384,7 @@ static int check(model *p, const arguments *a)
     return 0;
 }
 
-static int run(model *p, const arguments *a, clock_t start)
+static int run_model(model *p, const arguments *a, clock_t start)
 {
     write_results w = { .p = p,
                         .source = a->model,
@@ -465,45 +392,56 @@ static int run(model *p, const arguments *a, clock_t start)
                         .matrix = a->matrix,
                         .start = start,
                         .reading = clock() - start };
-    progress s = { !a->quiet, p->m->par.steps, 0, clock(), 0, time(NULL) };
+    progress s = { .shown = !a->quiet, .steps = p->m->par.steps, .settling = p->settle,
+                   .now = clock(), .said = time(NULL) };
     bbm_status status = BBM_OK;
-    const char *when = "settling, ";
+    run r = { .p = p, .settling = p->settle };
 
     catch_signals();
-    warn(p, a->model, 0);
-    warn_of_pieces(p, a->model);
+    warn_before(p, a->model);
     p->m->monitor = before_solution;
     p->m->monitor_context = &w;
     if (!a->quiet)
         describe(p, a->model);
     if (write_open(&w)) {
-        status = settle(p);
-        if (!status && !stopped) {
-            when = "";
-            p->m->info.t = p->m->info.step = 0;
-            status = run_steps(&w, &s);
-        }
+        status = run_all(&r, &w, &s);
         end_progress(&s);
         write_close(&w);
-        report(p, status, when, a);
+        report(&r, status, a);
     }
     if (stopped || status || w.status)
         return stopped ? 128 + (int)stopped : 1;
     if (!a->quiet)
         summarise(p, a->folder);
-    warn_of_turns(p, a->model);
+    warn_after(p, a->model);
     return report_expectations(p, a->quiet) > 0 ? 3 : 0;
+}
+
+/* Looked at by --find. */
+static int is_stopped(const bbm_model *m, void *none)
+{
+    (void)m, (void)none;
+    return stopped != 0;
 }
 
 static int read_and_run(const arguments *a, clock_t start)
 {
     model p;
-    int status = model_read(a->model, a->lets, a->let, &p);
+    find f = a->find;
 
+    if (f.name) {
+        f.model = a->model, f.quiet = a->quiet, f.lets = a->lets, f.let = a->let, f.stop = is_stopped;
+        catch_signals();
+        const int status = find_limit(&f);
+        return stopped ? 128 + (int)stopped : status;
+    }
+    int status = model_read(a->model, a->lets, a->let, &p);
+    for (int k = 0; k < p.notes && !status; k++)
+        fprintf(stderr, "%s\n", p.note[k]);
     if (status)
         fprintf(stderr, "%s\n", p.message);
     else
-        status = a->check ? check(&p, a) : run(&p, a, start);
+        status = a->check ? check(&p, a) : run_model(&p, a, start);
     model_free(&p);
     return status;
 }

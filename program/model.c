@@ -94,6 +94,7 @@ void model_free(model *p)
         free(p->monitor[k].node);
     free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
         free((void *)p->element);
-    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to);
+    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to),
+        free(p->note);
     *p = (model){ 0 };
 }

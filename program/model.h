@@ -42,6 +42,8 @@ typedef struct {
     double ramp;                /* s            in which; 0: at once */
     int    texts;
     char **text;                /* [texts]      the files read: names and ids are words of them */
+    int    notes;
+    char **note;                /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
     int    status;              /* 0, 1: failed, 2: the input is wrong */
     char   message[600];
 } model;

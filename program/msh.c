@@ -465,7 +465,7 @@ static int read_sections(mesh *m)
 
 int model_read_mesh(model_reader *r, const char *path, model_place statement)
 {
-    mesh m = { .r = r, .at = { path, 1 }, .statement = statement, .line = 1 };
+    mesh m = { .r = r, .at = { .file = path, .line = 1 }, .statement = statement, .line = 1 };
     size_t size;
     int good = 0;
 

@@ -36,6 +36,8 @@ static int note(model_reader *r, model_place at, const char *format, va_list arg
     if (at.line > 0)
         used += (size_t)snprintf(message + used, room - used, "%d:", at.line);
     message[used++] = ' ';
+    if (at.round)
+        used += (size_t)snprintf(message + used, room - used, "%.100s: ", at.round);
     vsnprintf(message + used, room - used, format, args);
     model_clean(message);
     return 0;
@@ -61,9 +63,25 @@ int model_blame(model_reader *r, const char *format, ...)
     return 0;
 }
 
+int model_note(model_reader *r, const char *format, ...)
+{
+    enum { ROOM = 600 };
+    char *text = model_text(r, ROOM);
+    va_list args;
+
+    if (!text)
+        return 0;
+    const int used = snprintf(text, ROOM, "%.200s:%d: ", r->s->at.file, r->s->at.line);
+    va_start(args, format);
+    vsnprintf(text + used, (size_t)(ROOM - used), format, args);
+    va_end(args);
+    model_clean(text);
+    return model_add(r, &r->p->note, &r->p->notes, sizeof text, &text);
+}
+
 int model_out_of_memory(model_reader *r)
 {
-    model_fail(r, (model_place){ r->path, 0 }, "out of memory");
+    model_fail(r, (model_place){ .file = r->path }, "out of memory");
     r->p->status = 1;
     return 0;
 }
@@ -72,7 +90,7 @@ int model_out_of_memory(model_reader *r)
 int model_refused(model_reader *r, bbm_status status)
 {
     const int overlap = status == BBM_OVERLAP || status == BBM_BLOCKS_OVERLAP;
-    const model_place none = { r->path, 0 };
+    const model_place none = { .file = r->path };
     char text[400];
 
     if (status == BBM_NO_MEMORY)
@@ -279,12 +297,27 @@ const char *model_hint(const char *word)
     while (*c > 0 && *c < 127)
         c++;
     return strncmp(word, "//", 2) == 0 ? "; a comment begins with #"
+         : strpbrk(word, "(*/^") ? "; arithmetic is $(...)"
          : *c ? "; it has letters beyond ASCII: minus is -" : "";
+}
+
+/* What the file has in place of a word of the statement, or NULL: the same. */
+static const char *source_of(const model_reader *r, const char *word)
+{
+    for (int k = r->s->first; k < r->s->first + r->s->n; k++)
+        if (r->word[k] == word && r->given[k].text != word)
+            return r->given[k].text;
+    return NULL;
 }
 
 int model_wrong(model_reader *r, const char *what, const char *word)
 {
-    return model_blame(r, "%s '%.60s', expected: %s%s", what, word, r->s->form, model_hint(word));
+    const char *source = source_of(r, word);
+
+    return model_blame(r, "%s '%.60s'%s%.60s, expected: %s%s", what, word, source ? ", from " : "",
+                       source ? source : "", r->s->form,
+                       model_find(&r->let_of, word) >= 0 ? "; $ stands before the name of a number"
+                                                         : model_hint(word));
 }
 
 /* The word that comes next stays; NULL at the end. */
@@ -327,9 +360,21 @@ int model_at_end(model_reader *r)
     return model_look(r) ? model_wrong(r, "surplus word", model_look(r)) : 1;
 }
 
+/* A word that is to be a number: none that is put together, as 2$p. */
+static char *number_word(model_reader *r)
+{
+    char *word = model_word(r);
+    const int at = r->s->first + r->next - 1;
+
+    if (word && r->given[at].glued)
+        return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or $(2*p)",
+                           r->given[at].text, word), NULL;
+    return word;
+}
+
 int model_number(model_reader *r, double *x)
 {
-    char *word = model_word(r), *end;
+    char *word = number_word(r), *end;
 
     if (!word)
         return 0;
@@ -354,7 +399,7 @@ int model_numbers(model_reader *r, int n, double x[])
 
 int model_whole(model_reader *r, const char *what, int least, int *n)
 {
-    char *word = model_word(r), *end;
+    char *word = number_word(r), *end;
 
     if (!word)
         return 0;
@@ -406,6 +451,14 @@ int model_next_block(model_reader *r)
     return model_known(r, &r->block_of, "block", model_word(r));
 }
 
+/* Angles are in degrees; tan(phi) is given elsewhere. */
+int model_note_friction(model_reader *r, double friction)
+{
+    return !(friction > 0 && friction < 1)
+           || model_note(r, "warning: a friction of %g degrees; if it is meant as tan(phi), phi is %.3g "
+                         "degrees", friction, atan(friction) * 180 / acos(-1));
+}
+
 int model_is_new(model_reader *r, const model_table *t, const char *what, const char *word)
 {
     if (model_find(t, word) >= 0)
@@ -435,9 +488,9 @@ static int in_range(model_reader *r, const model_option *o)
     const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
                      && (o->rim[1] == ']' ? x <= o->high : x < o->high);
 
-    const int at = r->s->first + r->next - 1, same = r->given[at] == r->word[at];
+    const char *source = source_of(r, r->word[r->s->first + r->next - 1]);
     return good ? 1 : model_blame(r, "%s is %g%s%.60s, expected %s", o->name, x,
-                                  same ? "" : ", from ", same ? "" : r->given[at], o->expected);
+                                  source ? ", from " : "", source ? source : "", o->expected);
 }
 
 static int option_value(model_reader *r, model_option *o)

@@ -1,8 +1,8 @@
-/* reader.h - what the readers of model files share: statements.c, build.c, msh.c.
+/* reader.h - what the readers of model files share: statements.c, numbers.c, build.c, msh.c.
  *
- * Reading has three steps: the file is cut into statements and words; the statements are carried
- * out in an order in which each finds what it needs; the first error ends it all with one
- * sentence, FILE:LINE: what is wrong, and what was expected. msh.c does the same for mesh files
+ * Reading has four steps: the file is cut into statements and words; numbers take the place of
+ * their names, and what is repeated is written out; the statements are carried out in an order in
+ * which each finds what it needs; the first error ends it all with one sentence, FILE:LINE: what is wrong, and what was expected. msh.c does the same for mesh files
  * and puts nodes, elements and sets in the same reader.
  *
  * Every function of a statement takes its words one by one and returns 1, or 0 after model_fail.
@@ -16,7 +16,8 @@
 #include "length.h"
 #include "model.h"
 
-typedef struct { const char *file; int line; } model_place;     /* line 0: none is to blame */
+/* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */
+typedef struct { const char *file; int line; const char *round; } model_place;
 typedef struct {                /* from a word to a number                                          */
     int room, count, *value;
     const char **key;
@@ -25,8 +26,11 @@ typedef struct {                /* from a word to a number                      
 typedef struct {                /* words first .. first+n-1                                         */
     model_place at;
     int first, n, kind;         /* kind: its row in the table of statements.c */
-    const char *form;           /* what it looks like, for messages */
+    const char *name, *form;    /* its first word; what it looks like, for messages */
 } model_statement;
+
+typedef struct { char *text; int glued; } model_given;      /* glued: of several pieces, no number */
+typedef struct { const char *name, *value; } model_local;   /* a number of a round */
 
 typedef struct {
     const char *id;
@@ -58,7 +62,14 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    char **word, **given;                   /* [words]      $NAME replaced; as the file gives them */
+    int cuts, cut_words, locals, depth, repeated;
+    model_statement *cut;                   /* [cuts]       as the file has them, and their words */
+    char **cut_word;                        /* [cut_words]  */
+    model_local *local;                     /* [locals]     of the round in hand */
+    const char *round;
+    double grown;                           /* bytes of the values of numbers */
+    char **word;                            /* [words]      with their values */
+    model_given *given;                     /* [words]      as the file gives them */
     model_statement *statement;             /* [statements] */
     model_node *node;
     model_element *element;
@@ -74,6 +85,7 @@ typedef struct {
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
                                             /* many nodes of the file */
     double margin;                          /* m            lengths below it are none */
+    const model_statement *light;           /* of a material that weighs next to nothing */
     const model_statement *s;               /* in hand, and its next word */
     int next;
     model_place *seen;                      /* [kinds]      where the last of a kind stands */
@@ -83,6 +95,7 @@ typedef struct {
 /* They return 0; the first message stays. model_blame: at the statement in hand. */
 int   model_fail(model_reader *r, model_place at, const char *format, ...);
 int   model_blame(model_reader *r, const char *format, ...);
+int   model_note(model_reader *r, const char *format, ...);     /* what is no error, of it */
 int   model_out_of_memory(model_reader *r);
 int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
 void  model_clean(char *text);                          /* of what a terminal would obey */
@@ -117,6 +130,7 @@ const char *model_id(model_reader *r);
 int   model_known(model_reader *r, const model_table *t, const char *what, const char *word);
 int   model_is_new(model_reader *r, const model_table *t, const char *what, const char *word);
 int   model_next_block(model_reader *r);
+int   model_note_friction(model_reader *r, double friction);    /* of less than a degree */
 int   model_choice(model_reader *r, const char *choices, int *n);
 
 /* `word value`, in any order, each once. One of: a number (low to high, with the rims of `rim`), a

@@ -2,7 +2,7 @@
  * function that carries it out and the phase in which it does, so that a file may have them in
  * any order.
  *
- *     NUMBERS          let                        before all others: $NAME is replaced in them
+ *     NUMBERS          let, repeat, end           before all others: numbers.c
  *     NOTHING_NEEDED   title, node, mesh, material, and all that goes into the parameters
  *     NODES            element                    needs nodes and materials
  *     MADE             block, grid                number on from the largest ids
@@ -19,115 +19,13 @@
 #include "cell.h"
 #include "field.h"
 #include "msh.h"
+#include "numbers.h"
 #include "statements.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 
-/* Letters of an id, of a name; cells of a grid; memory for each element, at least. */
-enum { ID_ROOM = 24, NAME_ROOM = 100, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
-
-/* -------------------------------------------------------------------------- numbers with a name */
-
-/* What the command line says of a name, the last time, or NULL. */
-static char *given(const model_reader *r, const char *name)
-{
-    const size_t n = strlen(name);
-
-    for (int k = r->lets; k-- > 0; )
-        if (strncmp(r->let[k], name, n) == 0 && r->let[k][n] == '=')
-            return r->let[k] + n + 1;
-    return NULL;
-}
-
-/* The value of the $NAME at `dollar`, and how many letters its name has; NULL: no such name. */
-static const char *value_of(model_reader *r, const char *dollar, size_t *n)
-{
-    char name[NAME_ROOM], text[200];
-
-    *n = strspn(dollar + 1, MODEL_NAME);
-    snprintf(name, sizeof name, "%.*s", (int)*n, dollar + 1);
-    const int at = *n < sizeof name ? model_find(&r->let_of, name) : -1;
-    if (at >= 0)
-        return r->word[at];
-    model_blame(r, "no `let` says what $%.60s is%s%s", name,
-                r->let_of.count ? ", expected one such as $" : "",
-                model_nearest_of(&r->let_of, name, text));
-    return NULL;
-}
-
-/* Puts the value in place of each $NAME of a word. */
-static int expand(model_reader *r, char **word)
-{
-    size_t n, size = strlen(*word);
-    const char *from = strchr(*word, '$');
-
-    if (!from)
-        return 1;
-    for (; from; from = strchr(from + 1, '$')) {
-        const char *value = value_of(r, from, &n);
-        if (!value)
-            return 0;
-        size += strlen(value);
-    }
-    char *text = model_text(r, size), *to = text;
-    for (from = *word; text && *from; from += n) {
-        const char *value = *from == '$' ? value_of(r, from, &n) : from;
-        const size_t length = value == from ? n = strcspn(from, "$") : strlen(value);
-        n += value != from;
-        memcpy(to, value, length);
-        to += length;
-    }
-    *word = text ? text : *word;
-    return text != NULL;
-}
-
-static int expand_statement(model_reader *r)
-{
-    int good = 1;
-
-    for (int k = 0; k < r->s->n && good; k++)
-        good = expand(r, &r->word[r->s->first + k]);
-    return good;
-}
-
-/* The number is the word behind the name, or that of the command line in its place. */
-static int read_let(model_reader *r)
-{
-    const char *word = expand_statement(r) ? model_name(r) : NULL;
-    char *other = word ? given(r, word) : NULL;
-    const int at = r->s->first + r->next;
-    double x;
-
-    if (!word || !model_is_new(r, &r->let_of, "let", word) || !model_numbers(r, 1, &x))
-        return 0;
-    if (other) {
-        r->word[at] = other;
-        r->next--;
-        if (!model_number(r, &x))
-            return 0;
-    }
-    return model_enter(r, &r->let_of, word, at);
-}
-
-/* All statements get the numbers; each -d needs its let. */
-static int give_numbers(model_reader *r)
-{
-    for (int k = 0; k < r->statements; k++) {
-        r->s = &r->statement[k];
-        if (!expand_statement(r))
-            return 0;
-    }
-    for (int k = 0; k < r->lets; k++) {
-        char name[NAME_ROOM], text[200];
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
-        if (!strchr(r->let[k], '=') || model_find(&r->let_of, name) < 0)
-            return model_fail(r, (model_place){ r->path, 0 },
-                              "-d %.60s: expected NAME=VALUE with a name of a `let`%s%s", r->let[k],
-                              r->let_of.count ? ", such as " : "; the model has none",
-                              model_nearest_of(&r->let_of, name, text));
-    }
-    return 1;
-}
+/* Letters of an id; cells of a grid; memory for each element, at least. */
+enum { ID_ROOM = 24, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
 
 /* ----------------------------------------------------------------- statements that need nothing */
 
@@ -175,8 +73,10 @@ static int read_material(model_reader *r)
     };
 
     o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
-    return word && model_is_new(r, &r->material_of, "material", word)
-           && model_options(r, LENGTH(o), o)
+    if (!word || !model_is_new(r, &r->material_of, "material", word) || !model_options(r, LENGTH(o), o))
+        return 0;
+    r->light = m.density < 10 ? r->s : r->light;
+    return 1
            && model_enter(r, &r->material_of, word, r->materials)
            && model_add(r, &r->material, &r->materials, sizeof m, &m);
 }
@@ -207,7 +107,7 @@ static int read_contact(model_reader *r)
         RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
     };
 
-    return model_options(r, LENGTH(o), o);
+    return model_options(r, LENGTH(o), o) && model_note_friction(r, p->friction);
 }
 
 static int read_static(model_reader *r)
@@ -535,8 +435,11 @@ static int read_expect(model_reader *r)
     char *last = model_look(r);
     const size_t n = last ? strlen(last) : 0;
     const int percent = value && n > 1 && last[n - 1] == '%';
-    if (percent)
-        last[n - 1] = '\0';
+    if (percent) {                              /* the word may stand in other rounds, too */
+        if (!(r->word[r->s->first + r->next] = model_text(r, n)))
+            return 0;
+        memcpy(r->word[r->s->first + r->next], last, n - 1);
+    }
     if (!model_number(r, &e.within))
         return 0;
     if (e.within <= 0)
@@ -553,7 +456,9 @@ static const struct kind {
     int (*read)(model_reader *r);
     int phase, once;
 } kinds[] = {
-    { "let", "let NAME VALUE", read_let, NUMBERS, 0 },
+    { "let", "let NAME VALUE", NULL, NUMBERS, 0 },
+    { "repeat", "repeat NAME FROM TO, statements, end", NULL, NUMBERS, 0 },
+    { "end", "end", NULL, NUMBERS, 0 },
     { "title", "title TEXT", read_title, NOTHING_NEEDED, 1 },
     { "node", "node ID X Y", read_node, NOTHING_NEEDED, 0 },
     { "mesh", "mesh FILE.msh", read_mesh, NOTHING_NEEDED, 0 },
@@ -598,6 +503,29 @@ static const struct kind {
       read_expect, MONITORS, 0 },
 };
 
+/* What other programs have, and what there is here instead; NULL: not known. */
+static const char *find_other(const char *word)
+{
+    static const struct { const char *words, *here; } other[] = {
+        { " anchor bolt cable spring ", "a spring between two points is doc/exercises/24-bolt.md" },
+        { " excavate remove stage ", "a file with the block and one without are two runs" },
+        { " accelerogram earthquake pulse ", "see shake, which is a sine" },
+        { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
+        { " var define ", "see let" }, { " force ", "see load" },
+        { " support boundary fixed ", "see fix, fixblock" }, { " polygon ", "see block, grid" },
+        { " time step steps solve run damping ", "see static, dynamic" },
+        { " friction cohesion tension kn ks ", "see contact, joint" },
+        { " plot print history ", "see monitor, output" },
+    };
+    const size_t n = strlen(word);
+
+    for (int k = 0; k < LENGTH(other); k++)
+        for (const char *at = other[k].words; (at = strstr(at, word)); at++)
+            if (n > 0 && at[-1] == ' ' && at[n] == ' ')
+                return other[k].here;
+    return NULL;
+}
+
 /* Finds the statement that begins with the word; whether it may stand here. */
 static int begin_statement(model_reader *r, const char *word, model_place at)
 {
@@ -607,17 +535,41 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
         k++;
     if (k == LENGTH(kinds)) {
         char text[200];
+        const char *other = find_other(word);
+        if (other)
+            return model_fail(r, at, "there is no statement '%.60s'; %s", word, other);
         return model_fail(r, at, "there is no statement '%.60s'; the nearest are %s, and all are "
                           "in doc/model-file.md%s", word,
                           model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text),
                           model_hint(word));
     }
-    if (kinds[k].once && r->seen[k].line > 0)
-        return model_fail(r, at, "%s for the second time, after line %d, expected it once", word,
-                          r->seen[k].line);
-    r->seen[k] = at;
-    const model_statement s = { at, r->words, 0, k, kinds[k].form };
-    return model_add(r, &r->statement, &r->statements, sizeof s, &s);
+    const model_statement s = { at, r->cut_words, 0, k, kinds[k].name, kinds[k].form };
+    return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
+}
+
+/* Where each kind stands for the last time; some stand once. */
+static int note_places(model_reader *r)
+{
+    for (int i = 0; i < r->statements; i++) {
+        const model_statement *s = &r->statement[i];
+        if (kinds[s->kind].once && r->seen[s->kind].line > 0)
+            return model_fail(r, s->at, "%s for the second time, after line %d, expected it once",
+                              s->name, r->seen[s->kind].line);
+        r->seen[s->kind] = s->at;
+    }
+    return 1;
+}
+
+/* The end of a word: a blank that is not between the parentheses of $(...). */
+static char *find_word_end(char *word, const char *blanks)
+{
+    int open = 0;
+
+    for (; *word && (open || !strchr(blanks, *word)); word++) {
+        open += *word == '$' && word[1] == '(' ? word++, 1 : open && *word == '(';
+        open -= open && *word == ')';
+    }
+    return word;
 }
 
 /* One line without its end: the statement and its words. The text of a title is one word. */
@@ -627,17 +579,17 @@ static int cut_line(model_reader *r, char *line, model_place at)
 
     line[strcspn(line, "#")] = '\0';
     for (int k = 0; *(line += strspn(line, blanks)) != '\0'; k++) {
-        char *end = line + strcspn(line, blanks);
-        const int title = k == 1 && kinds[r->statement[r->statements - 1].kind].read == read_title;
+        char *end = find_word_end(line, blanks);
+        const int title = k == 1 && kinds[r->cut[r->cuts - 1].kind].read == read_title;
         if (title)
             for (end = line + strlen(line); strchr(blanks, end[-1]); )
                 end--;
         const int more = *end != '\0';
         *end = '\0';
         if (k == 0 ? !begin_statement(r, line, at)
-                   : !model_add(r, &r->word, &r->words, sizeof line, &line))
+                   : !model_add(r, &r->cut_word, &r->cut_words, sizeof line, &line))
             return 0;
-        r->statement[r->statements - 1].n = k;
+        r->cut[r->cuts - 1].n = k;
         line = end + more;
     }
     return 1;
@@ -646,7 +598,7 @@ static int cut_line(model_reader *r, char *line, model_place at)
 static int cut_file(model_reader *r, char *text, size_t size)
 {
     char *end = text + size;
-    model_place at = { r->path, 1 };
+    model_place at = { r->path, 1, NULL };
 
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)     /* UTF-8's mark of some editors */
         text += 3;
@@ -693,7 +645,7 @@ static int check_kind(model_reader *r)
         return model_fail(r, s->line > d->line ? *s : *d,
                           "static and dynamic, expected one of them");
     if (!s->line && !d->line)
-        return model_fail(r, (model_place){ r->path, 0 },
+        return model_fail(r, (model_place){ .file = r->path },
                           "neither static nor dynamic, expected one of them, such as: static, or: "
                           "dynamic dt 1e-3 steps 1000");
     if (s->line && (v->line || a->line))
@@ -713,25 +665,24 @@ static void free_reader(model_reader *r)
     }
     for (int k = 0; k < r->sets; k++)
         free(r->set[k].node);
-    free(r->word), free(r->given), free(r->statement), free(r->node), free(r->element), free(r->corner),
-        free(r->block);
+    free(r->cut), free(r->cut_word), free(r->local), free(r->word), free(r->given);
+    free(r->statement), free(r->node), free(r->element), free(r->corner), free(r->block);
     free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
 }
 
 static int read_all(model_reader *r)
 {
     size_t size;
-    char *text = model_load(r, r->path, (model_place){ r->path, 0 }, &size);
+    char *text = model_load(r, r->path, (model_place){ .file = r->path }, &size);
 
-    if (!text || !cut_file(r, text, size) || !check_kind(r)
-        || !(r->given = model_room(r, r->words, sizeof *r->given)))
+    if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;
-    if (r->words)
-        memcpy(r->given, r->word, (size_t)r->words * sizeof *r->given);
-    for (int phase = 0; phase < PHASES; phase++)
-        if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase)
-            || (phase == NUMBERS && !give_numbers(r)))
+    for (int phase = NUMBERS + 1; phase < PHASES; phase++)
+        if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase))
             return 0;
+    r->s = r->light;
+    if (r->light && (r->p->m->par.gravity[0] != 0 || r->p->m->par.gravity[1] != 0))
+        model_note(r, "warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?");
     return model_finish(r);
 }
 

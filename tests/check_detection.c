@@ -707,6 +707,7 @@ START_TEST(a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step)
         add_rectangle(m, 2 + k, ROCK, (rectangle){ .x = 5.0 * k, .y = 5.0 * k, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
     start_step(m, &n);
+    m->info.step = 1;
     ck_assert_int_eq(look_at(m, 2, 0, -1e-3), 2);
     for (int k = 0; k < 2; k++)
         shift_element(m, 2 + k, MOVES[_i].x[k] - 5 * k, MOVES[_i].y[k] - 5 * k);

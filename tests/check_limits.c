@@ -3,7 +3,7 @@
  *
  * The oracles are closed forms: waves in a bar, the weight above an interface, the same slide over
  * a base in one piece. Limit loads - arches, a slope, a wall that is tilted - and the rocking block
- * are cases of the gallery, each with an oracle of its own; check_cases.c holds them to it. */
+ * are cases of the gallery, each with an oracle of its own; check_statements.c holds them to it. */
 #include <string.h>
 
 #include "../beyond/beyond.h"

@@ -17,8 +17,8 @@ typedef struct { const char *name, *message; } wrong;
 #define NEITHER "neither static nor dynamic, expected one of them, such as: static, or: dynamic dt 1e-3 steps 1000"
 
 static const wrong wrongs[] = {
-    { "unknown-statement", ".model:9: there is no statement 'elephant'; the nearest are element, expect, "
-      "let, and all are in doc/model-file.md" },
+    { "unknown-statement", ".model:9: there is no statement 'elephant'; the nearest are element, repeat, "
+      "expect, and all are in doc/model-file.md" },
     { "blocks-overlap", ".model:11: blocks overlap: 0.005 m deep at (0.5, 0.995): block 'base' with element 1, block "
       "'stone' with element 9" },
     { "unknown-option", ".model:5: unknown option 'colour', expected: material NAME E VALUE nu VALUE density VALUE "
@@ -212,7 +212,7 @@ static const wrong wrongs[] = {
     { "joint-option", ".model:7: unknown option 'strength', expected: joint BLOCK BLOCK [friction DEGREES] "
       "[cohesion PASCAL] [tension PASCAL]" },
     { "joint-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
-    { "let-below", ".model:7: no `let` says what $b is" },
+    { "let-below", ".model:7: no `let` above says what $b is" },
     { "let-dollar", ".model:7: no `let` says what $ is" },
     { "let-longer-name", ".model:10: no `let` says what $p0 is, expected one such as $p" },
     { "let-out-of-range", ".model:10: friction is 95, from $phi, expected 0 to less than 90 degrees" },
@@ -222,6 +222,40 @@ static const wrong wrongs[] = {
     { "let-surplus", ".model:7: surplus word '40', expected: let NAME VALUE" },
     { "let-twice", ".model:8: let 'phi' for the second time, expected a new one" },
     { "let-unknown", ".model:8: no `let` says what $psi is, expected one such as $phi" },
+    { "repeat-open", ".model:6: repeat without its `end`, expected: repeat NAME FROM TO, "
+      "statements, end" },
+    { "repeat-end", ".model:6: end without `repeat`, expected: end" },
+    { "repeat-round", ".model:8: j = 1, i = 2: '$(1/(i - 2))' has no value, it is infinite" },
+    { "repeat-later", ".model:7: i = 7: unknown material 'rok', expected one that the model "
+      "has, such as rock" },
+    { "repeat-half", ".model:6: not a whole number: '0.75', from $(t/2), expected: repeat NAME "
+      "FROM TO, statements, end" },
+    { "repeat-endless", ".model:9: i = 1, j = 999, k = 3: repetitions make more than 1000000 "
+      "statements, expected fewer" },
+    { "repeat-long", ".model:8: i = 223: the values of numbers take more than 67108864 bytes, "
+      "expected less" },
+    { "repeat-deep", ".model:26: i0 = 1, i1 = 1, i2 = 1, i3 = 1, i4 = 1, i5 = 1, i6 = 1, i7 = "
+      "1, i8 = 1, i9 = 1, i10 = 1, i11 = 1, i1: more than 20 times repeat in repeat, expected fewer" },
+    { "repeat-let", ".model:7: i = 1: let 't' for the second time, expected a new one" },
+    { "repeat-counter", ".model:7: i = 1: 'i' for the second time in one round, expected a new "
+      "name" },
+    { "repeat-twice", ".model:7: i = 2: gravity for the second time, after line 7, expected it "
+      "once" },
+    { "number-glued", ".model:6: '2$t' would be '21.5'; a number is one piece, as 5, $p, -$p or $(2*p)" },
+    { "number-longer", ".model:6: no `let` says what $t0 is, expected one such as $t" },
+    { "number-open", ".model:6: an operator or ) is missing at '0' in '$(sin(30) 0'" },
+    { "number-function", ".model:6: no function is called so (there are sqrt sin cos tan asin "
+      "acos atan abs floor min max), or a * is missing, at 'sqr(t))' in '$(sqr(t))'" },
+    { "number-bare", ".model:6: a function without its ( at 'sin 30)' in '$(sin 30)'" },
+    { "number-operator", ".model:6: an operator or ) is missing at 't)' in '$(2t)'" },
+    { "number-missing", ".model:6: a number is missing at ')' in '$(2 + )'" },
+    { "number-second", ".model:6: a second number is missing at ')' in '$(min(3))'" },
+    { "number-surplus", ".model:6: one number too many before at ')' in '$(sqrt(1, 2))'" },
+    { "number-root", ".model:6: '$(sqrt(-1))' has no value, it is no number" },
+    { "number-plain", ".model:6: not a number: 't*2', expected: gravity GX GY; arithmetic is "
+      "$(...)" },
+    { "number-deep", ".model:6: too many parentheses or signs at "
+      "'((((((((((((((((((((((((((((((' in '$((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((((('" },
     { "of-missing", ".model:7: a word is missing, expected: fix WHERE [of BLOCK] [x [by U]] [y [by V]]" },
     { "of-other-block", ".model:7: no node there of block b, the nearest is node 5 at 0.5 1" },
     { "of-unknown", ".model:7: unknown block 'c', expected one that the model has, such as a, b" },
@@ -515,7 +549,7 @@ START_TEST(a_block_in_pieces_is_said)
     ck_assert_int_eq(run_text("pieces", "node 1 0 0\nnode 2 2 0\nnode 3 2 1\nnode 4 1 1\nnode 5 0 1\nnode 6 2 2\n"
                               "node 7 1 2\nnode 8 0 2\nmaterial rock E 1e10 nu 0.25 density 2500\n"
                               "element 10 beam rock 1 2 3 5\nelement 20 beam rock 5 4 7 8\n"
-                              "element 30 beam rock 4 3 6 7\nfixblock beam\ndynamic dt 0.01 steps 1\n"), 0);
+                              "element 30 beam rock 4 3 6 7\nfixblock beam\ngravity 0 -10\ndynamic dt 0.01 steps 1\n"), 0);
     ck_assert_str_eq(slurp("out/model/pieces.err", said), "out/model/pieces.model: warning: block 'beam' is in 2 pieces "
                      "that no bond joins, with the elements 10, 20; elements are bonded along sides whose two nodes they "
                      "share\n");

@@ -226,7 +226,8 @@ static int run_with(const char *model, const char *lets)
 /* Both sides of limits: 0.02 degrees from the least friction angle of the slope by limit equilibrium,
  * 38.13392 degrees; g (sin a, -cos a) with a thousandth more and less than the wall's 28.98456
  * degrees; the spread of 0.589 m to each side at which the arch falls by limit analysis; the spin
- * that gives the first domino energy enough. `rotation exact` alone leads a corner to its place,
+ * that gives the first domino energy enough; half a per cent of the arch's least thickness, by
+ * doc/thrust.awk; a drop rebounds by theory, whatever dt. `rotation exact` alone leads a corner to its place,
  * whatever the step. */
 static const struct { const char *model, *lets; int status; } limits[] = {
     { "slope", "-d phi=38.11392", 3 }, { "slope", "-d phi=38.15392", 0 },
@@ -234,6 +235,11 @@ static const struct { const char *model, *lets; int status; } limits[] = {
     { "spread", "-d half=0.601", 3 }, { "spread", "-d half=0.577", 0 },
     { "dominoes", "-d spin=-1.45", 3 }, { "dominoes", "-d spin=-1.6", 0 },
     { "turning", "", 0 }, { "turning", "-d dt=0.001 -d steps=2000", 0 },
+    { "arch", "-d n=9 -d t=1.010 -d steps=400", 3 }, { "arch", "-d n=9 -d t=1.020 -d steps=400", 0 },
+    { "arch", "-d n=11 -d t=1.041 -d steps=400", 3 }, { "arch", "-d n=11 -d t=1.051 -d steps=400", 0 },
+    { "arch", "-d n=16 -d t=1.066 -d steps=400", 3 }, { "arch", "-d n=16 -d t=1.077 -d steps=400", 0 },
+    { "arch", "-d n=21 -d t=1.062 -d steps=400", 3 }, { "arch", "-d n=21 -d t=1.072 -d steps=400", 0 },
+    { "drop", "", 0 }, { "drop", "-d dt=0.001", 0 }, { "drop", "-d dt=0.0002", 0 }, { "drop", "-d dt=0.00005", 0 },
 };
 
 START_TEST(a_shipped_model_stands_to_its_limit_and_falls_beyond)
@@ -244,6 +250,99 @@ START_TEST(a_shipped_model_stands_to_its_limit_and_falls_beyond)
         ck_relative(sum("slope", "contacts.csv", "normal", "^c6,c7,")
                         + sum("slope", "contacts.csv", "normal", "^c7,c6,"),
                     4803220, 5e-3);
+}
+END_TEST
+
+/* Between bounds that bisection narrows to a thousandth of where it began: a; atan(k); the formula of
+ * topple.model; limit analysis of the arch (doc/thrust.awk). */
+static const struct { const char *call; double limit, within; } found[] = {
+    { "topple.model --find phi 10 40", 20, 0.05 },
+    { "topple.model --find phi 40 10 -d a=25", 25, 0.05 },
+    { "topple.model -d phi=60 --find a 10 40", 26.5651, 0.05 },
+    { "topple.model -d k=1 -d phi=60 --find a 30 60", 45, 0.15 },      /* its springs sway */
+    { "topple.model -d a=40 -d sway=1 --find phi 20 40", 29.9808, 0.05 },
+    { "topple.model -d a=60 -d sway=1 --find phi 20 60", 35.9393, 0.05 },
+    { "arch.model -d steps=400 --find t 0.95 1.2", 1.061, 0.002 },
+    { "arch.model -d steps=400 --find phi 15 30", 19.2071, 0.02 },
+    { "arch.model -d steps=400 -d t=1.07 --find phi 15 30", 21.5303, 0.02 },
+};
+
+START_TEST(a_limit_is_found_by_bisection)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("%s/bbm -q cases/models/%s > out/model/said", BUILD, found[_i].call), 0);
+    slurp("out/model/said", said);
+    ck_assert_msg(strstr(said, "; 12 runs\n"), "%s", said);
+    ck_near(strtod(strstr(said, " = ") + 3, NULL), found[_i].limit, 1, found[_i].within);
+}
+END_TEST
+
+/* Both ends alike; no expectation; no such let; a number that it cannot be; no file. */
+START_TEST(what_has_no_limit_is_said)
+{
+    static const struct { const char *call; int status; const char *said; } table[] = {
+        { "topple.model --find phi 30 40", 3, "the expectations are met at phi = 30 and 40, 2 runs; expected" },
+        { "exp1.model --find phi 3 4", 2, "'phi=3' of -d or --find, expected NAME=VALUE with a name of a `let`; " },
+        { "topple.model --find phi 30 x", 2, "--find needs a name and two different numbers" },
+        { "topple.model --find phi 30", 2, "--find needs a name and two different numbers" },
+        { "arch.model --find n 15 20", 3, "" }, { "topple.model --find phi 80 90", 2, "friction is 90, from $phi" },
+        { "topple.model --find phi 10 20 -o x", 2, "--find reads a file several times and writes none" },
+    };
+    char said[LONG];
+
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        ck_assert_int_eq(shell("%s/bbm -q cases/models/%s > out/model/said 2>&1", BUILD, table[k].call),
+                         table[k].status);
+        ck_assert_msg(strstr(slurp("out/model/said", said), table[k].said), "%s", said);
+    }
+}
+END_TEST
+
+/* What runs, and is hardly meant: the line that takes the place of one of these, and what is said. */
+#define TWO ROCK "block base rock 0 0 10 0 10 1 0 1\nfixblock base\n"
+static const struct { const char *text, *said; } doubtful[] = {
+    { TWO "block stone rock 4 1.001 5 1.001 5 2 4 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "block 'stone' touches nothing that is held: it falls; between it and block 'base' there is a gap of 0.001 m" },
+    { TWO "block a rock 4 3 5 3 5 4 4 4\nblock b rock 5 3 6 3 6 4 5 4\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\n"
+      "contact friction 30\n", "block 'a' and 1 more touch nothing that is held: they fall" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "nothing loads the model; " },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "gravity is not downward; " },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 1 steps 2\ncontact friction 30\n",
+      "a step of 1 s is long: a block falls by its own size in 0.45 s" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 1e-9 steps 2\ncontact friction 30\n",
+      "the run of 2e-09 s is short: a wave needs 0.0005 s through an element" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\nvelocity stone 0 200\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
+      "step 1: element 2 of block 'stone' moved by 2 m, more than its own size" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 0.6\n",
+      ":7: warning: a friction of 0.6 degrees; if it is meant as tan(phi), phi is 31 degrees" },
+    { TWO "block stone rock 4 1 5 1 5 2 4 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n"
+      "monitor far at 50 3\n", ":8: warning: the nearest node, 3 at 10 1, is 40 m away from 50 3" },
+    { "material rock E 1e10 nu 0.2 density 2.5\nblock a rock 0 0 1 0 1 1 0 1\nfixblock a\ngravity 0 -9.81\nstatic\n",
+      ":1: warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?" },
+    { "material rock E 1e6 nu 0.2 density 2500\nblock a rock 0 0 1 0 1 1 0 1\nfix at 0 0\nfix at 1 0 y\ngravity 0 -9.81\n"
+      "static\n", "its own weight would make block 'a' 2.5 % lower: E is 1e+06 Pa; is it in Pa?" },
+    { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\nfix set a.left\nfix set b.right\ngravity 0 -9.81\n"
+      "contact friction 30\nstatic\n", "blocks 'b' and 'a' have nodes in the same places, but blocks are never bonded" },
+};
+
+START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
+{
+    char said[LONG];
+
+    run_text("doubtful", doubtful[_i].text);
+    const char *at = strstr(slurp("out/model/doubtful.err", said), doubtful[_i].said);
+    ck_assert_msg(at && strchr(at, '\n') && strchr(at, '\n')[1] == '\0' && strncmp(said, "out/model/doubtful.model:", 25) == 0,
+                  "%s", said);
+}
+END_TEST
+
+START_TEST(shipped_models_give_no_warning)
+{
+    ck_assert_int_eq(shell("for m in cases/models/*.model; do %s/bbm --check -q $m -o out/model/quiet 2>&1; done "
+                           "| grep warning", BUILD), 1);
 }
 END_TEST
 
@@ -418,8 +517,8 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
                      0);
     ck_relative(cell("let", "history.csv", "50,", "a_v"), -20 * 0.125, 1e-9);
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d f=20 2> out/model/err", BUILD), 2);
-    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model: -d f=20: expected "
-                                                   "NAME=VALUE with a name of a `let`, "
+    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model: 'f=20' of -d or --find, "
+                                                   "expected NAME=VALUE with a name of a `let`, "
                                                    "such as g, steps, twice\n");
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=1O 2> out/model/err", BUILD), 2);
     ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model:2: not a number: '1O', "
@@ -431,6 +530,41 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
     ck_assert_int_eq(shell("sed -i '/^title/s/.*/title '$(printf '$g%%.0s' $(seq 3000))/ "
                            "out/model/let.model; TEST_ALLOCATIONS=2000 %s/failing/bbm -q "
                            "out/model/let.model -o out/model/let 2> out/model/err", BUILD), 0);
+}
+END_TEST
+
+START_TEST(arithmetic_has_its_value_to_15_digits)
+{
+    char said[LONG];
+
+    write_text("out/model/sums.model", "title $(1 + 2*3) $(2^3^2) $(-2^2) $(2^-1) $(7/2 - -1) $((1+2)*3) $t$(t)$a-b "
+               "$(a-b) $(a - b) $(0.1+0.2) $(sin(30)) $(cos(90)) $(tan(45)) $(asin(-1)) $(acos(0)) $(atan(1)) "
+               "$(sqrt(2)) $(abs(-3)) $(floor(-1.5)) $(min(3,1, 2)) $(max(t, 5)) $(pi) $(1e3) $(-0) $t.left\n"
+               "let t 1.5\nlet a 5\nlet b 2\nlet a-b 7\n" ROCK "block x rock 0 0 1 0 1 1\ndynamic dt 1 steps 1\n");
+    ck_assert_int_eq(shell("%s/bbm out/model/sums.model -o out/model/sums | head -1 > out/model/said", BUILD), 0);
+    ck_assert_str_eq(slurp("out/model/said", said), "out/model/sums.model: 7 512 -4 0.5 4.5 9 1.51.57 7 3 0.3 0.5 0 1 "
+                     "-90 90 45 1.4142135623731 3 -2 1 5 3.14159265358979 1000 0 1.5.left\n");
+}
+END_TEST
+
+/* A wall in a triangle by rounds, of which the first has none, and by hand. */
+START_TEST(what_is_repeated_is_what_stands_there_so_often)
+{
+    static const char *const by[] = {
+        "let n 2\nrepeat j 0 $n\nlet x $(2*j)\nrepeat i 1 $j\nblock v$i-$j rock $x $i $(x + 1) $i $x $(i + 0.5)\n"
+        "monitor top$j.$i at $x $i of v$i-$j\nexpect top$j.$i u 1 within $(50*n)%\nend\nend\n",
+        "block v1-1 rock 2 1 3 1 2 1.5\nblock v1-2 rock 4 1 5 1 4 1.5\nblock v2-2 rock 4 2 5 2 4 2.5\n",
+    };
+    char text[LONG];
+
+    for (int k = 0; k < 2; k++) {
+        snprintf(text, sizeof text, ROCK "%svelocity v1-1 1 0\nvelocity v1-2 1 0\nvelocity v2-2 1 0\n"
+                 "dynamic dt 0.1 steps 10\n", by[k]);
+        ck_assert_int_eq(run_text(k ? "hand" : "rounds", text), 0);
+    }
+    ck_assert_int_eq(shell("cd out/model && cmp rounds/nodes.csv hand/nodes.csv && "
+                           "cmp rounds/elements.csv hand/elements.csv"), 0);
+    ck_relative(cell("rounds", "history.csv", "10,", "top2.2_u"), 1, 1e-9);
 }
 END_TEST
 
@@ -484,6 +618,10 @@ Suite *statements_suite(void)
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
     tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0,
                         sizeof limits / sizeof *limits);
+    tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, sizeof found / sizeof *found);
+    tcase_add_test(t, what_has_no_limit_is_said);
+    tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, sizeof doubtful / sizeof *doubtful);
+    tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
@@ -491,6 +629,8 @@ Suite *statements_suite(void)
     tcase_add_test(t, of_block_takes_the_nodes_of_one_block);
     tcase_add_loop_test(t, what_is_expected_is_compared, 0, 8);
     tcase_add_test(t, a_number_of_the_command_line_takes_the_place_of_let);
+    tcase_add_test(t, arithmetic_has_its_value_to_15_digits);
+    tcase_add_test(t, what_is_repeated_is_what_stands_there_so_often);
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_set_timeout(t, 60);

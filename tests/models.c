@@ -566,7 +566,10 @@ bbm_contact *start_step(bbm_model *m, int *n)
     bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
-    return list_contacts(m, n);
+    bbm_contact *list = list_contacts(m, n);
+    for (int k = 0; k < *n; k++)
+        list[k].state = list[k].touches ? BBM_OPEN : list[k].state;
+    return list;
 }
 
 int look_at(bbm_model *m, int e, double u, double v)

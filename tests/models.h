@@ -192,7 +192,7 @@ bbm_status fall(bbm_model *m);
 /* The contacts of the step in hand. */
 bbm_contact *list_contacts(const bbm_model *m, int *n);
 
-/* Starts a step: what it foretells, and its list. */
+/* Starts a step: what it foretells, and its list; what touches as the run begins is open. */
 bbm_contact *start_step(bbm_model *m, int *n);
 
 /* A look at a solution in which one element moves by (u, v) and nothing else; the closed

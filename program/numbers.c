@@ -1,0 +1,462 @@
+/* numbers.c - numbers with a name, arithmetic and repetition: makes of the statements of the file
+ * those that are carried out.
+ *
+ *     let NAME VALUE              $NAME stands for the number, in any statement
+ *     $(...)                      stands for its value, with 15 digits:
+ *
+ *         sum      = product { (+|-) product }
+ *         product  = factor { (*|/) factor }
+ *         factor   = (+|-) factor | primary [ ^ factor ]             -2^2 is -4, 2^3^2 is 2^9
+ *         primary  = number | NAME | $NAME | pi | function(sum {, sum}) | (sum)
+ *
+ *     repeat NAME FROM TO         the statements up to its `end`, for each whole number from FROM
+ *       ...                       to TO, which is $NAME in them; a `let` there is that of the
+ *     end                         round alone
+ *
+ * The `let`s outside of `repeat` are read first, so that statements above them may use them. */
+#include <ctype.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numbers.h"
+
+/* Letters of a name, of a number; parentheses, and repetitions, in one another; statements that
+ * repetitions make; bytes that the values of numbers take. */
+enum {
+    NAME_ROOM = 100, NUMBER_ROOM = 32, DEEPEST = 100, DEEPEST_REPEAT = 20, MOST_REPEATED = 1000000,
+    MOST_BYTES = 1 << 26
+};
+
+/* ---------------------------------------------------------------------------------------- names */
+
+/* What the command line says of a name, the last time, or NULL. */
+static char *given(const model_reader *r, const char *name)
+{
+    const size_t n = strlen(name);
+
+    for (int k = r->lets; k-- > 0; )
+        if (strncmp(r->let[k], name, n) == 0 && r->let[k][n] == '=')
+            return r->let[k] + n + 1;
+    return NULL;
+}
+
+/* The value of a name: of the round, or of the file; NULL: there is none. */
+static const char *value_of_name(const model_reader *r, const char *name)
+{
+    for (int k = r->locals; k-- > 0; )
+        if (strcmp(r->local[k].name, name) == 0)
+            return r->local[k].value;
+    const int at = model_find(&r->let_of, name);
+    return at >= 0 ? r->word[at] : NULL;
+}
+
+/* The value of the longest name that the text begins with and that ends where its letters end, and
+ * its length; NULL: the file has none. */
+static const char *find_value(const model_reader *r, const char *text, size_t *n)
+{
+    char name[NAME_ROOM];
+    const size_t letters = strspn(text, MODEL_NAME);
+
+    for (*n = letters < NAME_ROOM ? letters : NAME_ROOM - 1; *n > 0; --*n) {
+        if (isalnum((unsigned char)text[*n]) || text[*n] == '_')
+            continue;
+        snprintf(name, sizeof name, "%.*s", (int)*n, text);
+        const char *value = value_of_name(r, name);
+        if (value)
+            return value;
+    }
+    return NULL;
+}
+
+static int blame_name(model_reader *r, const char *name)
+{
+    char text[200];
+    const int n = (int)strspn(name, MODEL_NAME);
+
+    return model_blame(r, "no `let`%s says what $%.*s is%s%s",
+                       strcmp(r->s->name, "let") == 0 ? " above" : "", n < 60 ? n : 60, name,
+                       r->let_of.count ? ", expected one such as $" : "",
+                       model_nearest_of(&r->let_of, name, text));
+}
+
+/* ----------------------------------------------------------------------------------- arithmetic */
+
+typedef struct {
+    model_reader *r;
+    const char *text, *at;      /* all of it, for messages; what comes next */
+    int depth;
+} formula;
+
+static double sum(formula *f);
+
+static double blame_formula(formula *f, const char *what)
+{
+    model_blame(f->r, "%s at '%.30s' in '%.80s'", what, f->at, f->text);
+    return 0;
+}
+
+/* Takes the next letter if it is one of these, after blanks; after an error there is none. */
+static char take(formula *f, const char *letters)
+{
+    f->at += strspn(f->at, " \t");
+    return !f->r->p->status && *f->at && strchr(letters, *f->at) ? *f->at++ : 0;
+}
+
+static double radians(double degrees) { return degrees * (acos(-1) / 180); }
+static double degrees(double radian) { return radian / (acos(-1) / 180); }
+
+/* Multiples of 90 degrees have their exact values. */
+static double sine(double x) { return fmod(x, 180) == 0 ? 0 : sin(radians(x)); }
+static double cosine(double x) { return fmod(fabs(x), 180) == 90 ? 0 : cos(radians(x)); }
+static double tangent(double x) { return sine(x) / cosine(x); }
+static double arc_sine(double x) { return degrees(asin(x)); }
+static double arc_cosine(double x) { return degrees(acos(x)); }
+static double arc_tangent(double x) { return degrees(atan(x)); }
+
+/* A function of one number; or of two and more, pair by pair. */
+typedef struct { const char *name; double (*one)(double), (*two)(double, double); } function;
+
+static const function functions[] = {
+    { "sqrt", sqrt, NULL }, { "sin", sine, NULL }, { "cos", cosine, NULL },
+    { "tan", tangent, NULL }, { "asin", arc_sine, NULL }, { "acos", arc_cosine, NULL },
+    { "atan", arc_tangent, NULL }, { "abs", fabs, NULL }, { "floor", floor, NULL },
+    { "min", NULL, fmin }, { "max", NULL, fmax },
+};
+
+static const function *find_function(const char *text, size_t n)
+{
+    for (int k = 0; k < LENGTH(functions); k++)
+        if (strlen(functions[k].name) == n && strncmp(functions[k].name, text, n) == 0)
+            return &functions[k];
+    return NULL;
+}
+
+/* The numbers in its parentheses, whose first is taken. */
+static double call(formula *f, const function *of)
+{
+    double x = sum(f);
+    int numbers = 1;
+
+    for (; take(f, ","); numbers++) {
+        const double y = sum(f);
+        x = of->two ? of->two(x, y) : x;
+    }
+    if (!take(f, ")"))
+        return blame_formula(f, "an operator or ) is missing");
+    if (of->one ? numbers > 1 : numbers < 2)
+        return blame_formula(f, of->one ? "one number too many before"
+                                        : "a second number is missing");
+    return of->one ? of->one(x) : x;
+}
+
+static double name(formula *f)
+{
+    const size_t letters = strcspn(f->at, "+-*/^(),$ \t");
+    const function *of = find_function(f->at, letters);
+    size_t n;
+
+    if (of && f->at[letters + strspn(f->at + letters, " \t")] == '(') {
+        f->at += letters;
+        return take(f, "("), call(f, of);
+    }
+    const char *value = find_value(f->r, f->at, &n);
+    if (value)
+        return f->at += n, strtod(value, NULL);
+    if (letters == 2 && strncmp(f->at, "pi", 2) == 0)
+        return f->at += 2, acos(-1);
+    if (of)
+        return blame_formula(f, "a function without its (");
+    if (f->at[letters] == '(')
+        return blame_formula(f, "no function is called so (there are sqrt sin cos tan asin acos "
+                                "atan abs floor min max), or a * is missing,");
+    return blame_name(f->r, f->at);
+}
+
+static double primary(formula *f)
+{
+    char *end;
+
+    if (take(f, "(")) {
+        const double x = sum(f);
+        return take(f, ")") ? x : blame_formula(f, "an operator or ) is missing");
+    }
+    take(f, "$");
+    if (isalpha((unsigned char)*f->at) || *f->at == '_')
+        return name(f);
+    if (!isdigit((unsigned char)*f->at) && *f->at != '.')
+        return blame_formula(f, "a number is missing");
+    const double x = strtod(f->at, &end);
+    if (end == f->at || memchr(f->at, 'x', (size_t)(end - f->at)))
+        return blame_formula(f, "not a number");
+    f->at = end;
+    return x;
+}
+
+static double factor(formula *f)
+{
+    const char sign = take(f, "+-");
+
+    if (++f->depth > DEEPEST)
+        return blame_formula(f, "too many parentheses or signs");
+    double x = sign ? factor(f) : primary(f);
+    if (!sign && take(f, "^"))
+        x = pow(x, factor(f));
+    f->depth--;
+    return sign == '-' ? -x : x;
+}
+
+static double product(formula *f)
+{
+    double x = factor(f);
+
+    for (char c; (c = take(f, "*/")); )
+        x = c == '*' ? x * factor(f) : x / factor(f);
+    return x;
+}
+
+static double sum(formula *f)
+{
+    double x = product(f);
+
+    for (char c; (c = take(f, "+-")); )
+        x = c == '+' ? x + product(f) : x - product(f);
+    return x;
+}
+
+/* The value of the $(...) that the text begins with, as text, and its length. */
+static const char *evaluate(model_reader *r, const char *text, char number[NUMBER_ROOM], size_t *n)
+{
+    formula f = { r, text, text + 2, 0 };
+    const double x = sum(&f) + 0.0;             /* -0 is 0 */
+
+    if (!r->p->status && !take(&f, ")"))
+        blame_formula(&f, "an operator or ) is missing");
+    if (!r->p->status && !isfinite(x))
+        model_blame(r, "'%.80s' has no value, it is %s", text, isnan(x) ? "no number" : "infinite");
+    snprintf(number, NUMBER_ROOM, "%.15g", x);
+    *n = (size_t)(f.at - text);
+    return r->p->status ? NULL : number;
+}
+
+/* ------------------------------------------------------------------------- a word, a statement */
+
+/* The text of the next piece of a word, $NAME, $(...) or what stands between, and its length; the
+ * piece after it begins at *from. NULL after an error. */
+static const char *next_piece(model_reader *r, const char **from, char number[NUMBER_ROOM],
+                              size_t *length)
+{
+    const char *at = *from, *value = at;
+    size_t n = strcspn(at, "$");
+
+    if (*at == '$') {
+        value = at[1] == '(' ? evaluate(r, at, number, &n) : find_value(r, at + 1, &n);
+        if (!value)
+            return r->p->status ? NULL : (blame_name(r, at + 1), NULL);
+        n += at[1] != '(';
+    }
+    *length = value == at ? n : strlen(value);
+    *from += n;
+    return value;
+}
+
+/* The word with the value in place of each piece that has one; NULL after an error. glued: it has
+ * several pieces, but for a sign or %, and is no number. */
+static char *expand(model_reader *r, char *word, int *glued)
+{
+    const char *from = word, *value;
+    char number[NUMBER_ROOM];
+    size_t length, size = 0;
+    int pieces = 0;
+
+    *glued = 0;
+    if (!strchr(word, '$'))
+        return word;
+    for (; *from; size += length, pieces += length != 1 || !strchr("+-%", *value))
+        if (!(value = next_piece(r, &from, number, &length)))
+            return NULL;
+    r->grown += (double)size;
+    if (r->grown > MOST_BYTES)
+        return model_blame(r, "the values of numbers take more than %d bytes, expected less",
+                           MOST_BYTES), NULL;
+    *glued = pieces > 1;
+    char *text = model_text(r, size), *to = text;
+    for (from = word; text && *from; to += length) {
+        value = next_piece(r, &from, number, &length);
+        memcpy(to, value, length);
+    }
+    return text;
+}
+
+/* Adds the statement with its words as they are now; it is then the one in hand. */
+static int add_statement(model_reader *r, const model_statement *source)
+{
+    model_statement s = *source;
+
+    s.at.round = r->round;
+    s.first = r->words;
+    if (!model_add(r, &r->statement, &r->statements, sizeof s, &s))
+        return 0;
+    r->s = &r->statement[r->statements - 1];
+    r->next = 0;
+    if (r->round && ++r->repeated > MOST_REPEATED)
+        return model_blame(r, "repetitions make more than %d statements, expected fewer",
+                           MOST_REPEATED);
+    for (int k = 0; k < s.n; k++) {
+        model_given w = { r->cut_word[source->first + k], 0 };
+        char *word = expand(r, w.text, &w.glued);
+        int words = r->words;
+        if (!word || !model_add(r, &r->given, &words, sizeof w, &w)
+            || !model_add(r, &r->word, &r->words, sizeof word, &word))
+            return 0;
+    }
+    return 1;
+}
+
+/* ----------------------------------------------------------------------------- let, repeat, end */
+
+static int is(const model_statement *s, const char *word) { return strcmp(s->name, word) == 0; }
+
+static int is_new(model_reader *r, const char *word)
+{
+    for (int k = 0; k < r->locals; k++)
+        if (strcmp(r->local[k].name, word) == 0)
+            return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
+                               word);
+    return model_is_new(r, &r->let_of, "let", word);
+}
+
+/* The number is the word behind the name, or that of the command line in its place. In a round it
+ * is the round's. */
+static int read_let(model_reader *r)
+{
+    const char *word = model_name(r);
+    char *other = word && !r->round ? given(r, word) : NULL;
+    const int at = r->s->first + r->next;
+    double x;
+
+    if (!word || !is_new(r, word) || !model_numbers(r, 1, &x))
+        return 0;
+    if (r->round) {
+        const model_local l = { word, r->word[at] };
+        return model_add(r, &r->local, &r->locals, sizeof l, &l);
+    }
+    if (other) {
+        r->word[at] = r->given[at].text = other;
+        r->next--;
+        if (!model_number(r, &x))
+            return 0;
+    }
+    return model_enter(r, &r->let_of, word, at);
+}
+
+/* The `end` of the `repeat` at k; -1: there is none. */
+static int find_end(const model_reader *r, int k)
+{
+    for (int open = 0; k < r->cuts; k++) {
+        open += is(&r->cut[k], "repeat") - is(&r->cut[k], "end");
+        if (open == 0)
+            return k;
+    }
+    return -1;
+}
+
+static int walk(model_reader *r, int from, int to);
+
+/* "i = 7, j = 2" of the round, for messages. */
+static const char *describe_round(model_reader *r, const char *outer, const char *name, int i)
+{
+    const size_t room = strlen(name) + NUMBER_ROOM + (outer ? strlen(outer) : 0);
+    char *text = model_text(r, room);
+
+    if (text)
+        snprintf(text, room, "%s%s%s = %d", outer ? outer : "", outer ? ", " : "", name, i);
+    return text;
+}
+
+/* The statements between the `repeat` at `from` and its `end`, round by round. */
+static int repeat(model_reader *r, int from, int end)
+{
+    const char *outer = r->round;
+    const int locals = r->locals;
+    int low, high;
+
+    if (!add_statement(r, &r->cut[from]))
+        return 0;
+    const char *word = model_name(r);
+    if (!word || !is_new(r, word) || !model_whole(r, "FROM", -INT_MAX / 2, &low)
+        || !model_whole(r, "TO", -INT_MAX / 2, &high) || !model_at_end(r))
+        return 0;
+    if (++r->depth > DEEPEST_REPEAT)
+        return model_blame(r, "more than %d times repeat in repeat, expected fewer",
+                           DEEPEST_REPEAT);
+    for (int i = low; i <= high; i++) {
+        char *value = model_text(r, NUMBER_ROOM);
+        const model_local l = { word, value };
+        if (!value || !(r->round = describe_round(r, outer, word, i))
+            || !model_add(r, &r->local, &r->locals, sizeof l, &l))
+            return 0;
+        snprintf(value, NUMBER_ROOM, "%d", i);
+        if (!walk(r, from + 1, end) || !add_statement(r, &r->cut[end]) || !model_at_end(r))
+            return 0;
+        r->locals = locals;
+    }
+    r->round = outer;
+    r->depth--;
+    return 1;
+}
+
+/* The statements from .. to-1; the `let`s of the file have been read before. */
+static int walk(model_reader *r, int from, int to)
+{
+    for (int k = from; k < to; k++) {
+        const model_statement *s = &r->cut[k];
+        const int end = is(s, "repeat") ? find_end(r, k) : k;
+        if (is(s, "repeat") ? !repeat(r, k, end)
+            : is(s, "let") ? r->round && (!add_statement(r, s) || !read_let(r))
+            : !add_statement(r, s))
+            return 0;
+        k = end;
+    }
+    return 1;
+}
+
+/* Reads each `let` outside of `repeat`; each `repeat` has its `end`. */
+static int read_lets(model_reader *r)
+{
+    for (int k = 0; k < r->cuts; k++) {
+        const model_statement *s = &r->cut[k];
+        const int end = is(s, "repeat") ? find_end(r, k) : k;
+        if (end < 0)
+            return model_fail(r, s->at, "repeat without its `end`, expected: %s", s->form);
+        if (is(s, "end"))
+            return model_fail(r, s->at, "end without `repeat`, expected: %s", s->form);
+        if (is(s, "let") && (!add_statement(r, s) || !read_let(r)))
+            return 0;
+        k = end;
+    }
+    return 1;
+}
+
+/* Each -d needs its let. */
+static int check_given(model_reader *r)
+{
+    for (int k = 0; k < r->lets; k++) {
+        char word[NAME_ROOM], text[200];
+        snprintf(word, sizeof word, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
+        if (!strchr(r->let[k], '=') || model_find(&r->let_of, word) < 0)
+            return model_fail(r, (model_place){ .file = r->path },
+                              "'%.60s' of -d or --find, expected NAME=VALUE with a name of a "
+                              "`let`%s%s", r->let[k],
+                              r->let_of.count ? ", such as " : "; the model has none",
+                              model_nearest_of(&r->let_of, word, text));
+    }
+    return 1;
+}
+
+int model_expand(model_reader *r)
+{
+    return read_lets(r) && check_given(r) && walk(r, 0, r->cuts);
+}

@@ -1,0 +1,80 @@
+/* run.c - a run of a model file, step by step, and what came out of it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "run.h"
+
+/* A quasi-static step without shaking. */
+static bbm_status settle(run *r)
+{
+    bbm_model *m = r->p->m;
+    const bbm_parameters par = m->par;
+    double *now = m->beyond->shake;
+    const double shake[2] = { now[0], now[1] };
+
+    m->par.velocity_factor = now[0] = now[1] = 0;
+    const bbm_status status = bbm_step(m);
+    m->par = par;
+    memcpy(now, shake, sizeof shake);
+    r->settling -= !status;
+    return status;
+}
+
+bbm_status run_step(run *r)
+{
+    bbm_model *m = r->p->m;
+    const bbm_parameters *par = &m->par;
+
+    if (r->settling)
+        return settle(r);
+    if (!r->has_begun) {
+        r->has_begun = 1;
+        m->info.t = m->info.step = 0;
+        return model_start(r->p) ? BBM_OK : BBM_NO_MEMORY;
+    }
+    if (m->info.step == par->steps)
+        return BBM_STEPS_EXHAUSTED;
+    model_move_supports(r->p, r->p->dynamic ? (m->info.step + 1) * par->dt : INFINITY);
+    const bbm_status status = bbm_step(m);
+    r->is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
+                                                : m->info.step == par->steps);
+    return status;
+}
+
+/* The library's own message may name the step. */
+void run_says(const run *r, bbm_status status, char out[500])
+{
+    const bbm_model *m = r->p->m;
+    char text[400], step[30];
+
+    snprintf(step, sizeof step, "step %d: ", m->info.step + 1);
+    if (status == BBM_STEPS_EXHAUSTED)
+        snprintf(out, 500, "step %d: no equilibrium, change %.2g, expected %.2g; more steps may "
+                 "help", m->info.step, m->info.change, m->par.tolerance);
+    else
+        snprintf(out, 500, "%s%s%s", r->has_begun ? "" : "settling, ",
+                 strstr(model_says(r->p, status, text), "step ") ? "" : step, text);
+}
+
+int run_is_met(const model *p, int k, char out[300])
+{
+    static const char *const kind[] = { "u", "v", "moves", "stays" };
+    const model_expected *e = &p->expected[k];
+    const int value = e->kind == MODEL_U || e->kind == MODEL_V;
+    char what[100];
+    double u[2];
+
+    model_displacement(p, &p->monitor[e->monitor], u);
+    const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
+    const int met = value ? fabs(got - e->value) <= e->within
+                  : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
+    if (value)
+        snprintf(what, sizeof what, "%.6g within %.2g m", e->value, e->within);
+    else
+        snprintf(what, sizeof what, "by %s than %.6g m", e->kind == MODEL_MOVES ? "more" : "less",
+                 e->within);
+    snprintf(out, 300, "%s %s %s; computed: %.6g m: %s", p->monitor[e->monitor].name,
+             kind[e->kind], what, got, met ? "ok" : "NOT MET");
+    return met;
+}
