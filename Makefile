@@ -8,7 +8,7 @@
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
 # make page      out/bbm.html, the method in a browser (clang for wasm32); make check-page: beside ./bbm
 # make windows   ./bbm for Windows (mingw-w64)
-# make exercise N=07   a copy without one function, and its tests; doc/exercises
+# make exercise N=4.1  a copy without one function, and its tests; make hint N=4.1; make exercises lists them
 # make figures   draws doc/figures             make check-exercises   each red as it begins, green in the end
 # One goal is made with as many jobs as there are processors, unless -j says how many.
 
@@ -184,7 +184,7 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
-# --- exercises, see doc/exercises/README.md: a copy of a source in out/exercise/N, and its tests ---
+# --- the exercises in the chapters of doc/: a copy of a source in out/exercise/N, and its tests ---
 ALONE = $(CORE:%=$O/%.o)
 EXERCISE = O="$O" COMPILE="$(CC) $(STRICT) -Wno-unused -Wno-unused-parameter $(CPPFLAGS) $(CFLAGS) -O0" FAILING="$(FAILING)" \
 LINK="$(CC) $(CFLAGS) $(LDFLAGS)" LIBS="$(CHECK) -lm" TESTED="$O/tests/check_main.o $(TESTED)" ALONE="$(ALONE)" \
@@ -192,6 +192,12 @@ MAKE="$(MAKE) -s" sh tests/exercise.sh
 
 exercise:
 	+@$(EXERCISE) begin $(or $(N),0)
+
+hint:
+	@sh tests/exercise.sh hint $(or $(N),0) $(or $(STEP),1)
+
+exercises:
+	@sh tests/exercise.sh list
 
 check-exercises: $O/quick $(ALONE)
 	@$(EXERCISE) prove
@@ -211,7 +217,7 @@ check-documents: $O/figures $O/bbm experiments
 	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
 	@for f in $$(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do \
 	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
-	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
+	@awk -v O=$O -f tests/documents.awk README.md doc/*.md
 
 # How large the project is, and may be.
 CODE = $(wildcard *.[ch] page/*.html page/*.css $(foreach f,base beyond cases program page tests doc,$f/*.[ch] $f/*.js $f/*.awk $f/*.sh))
@@ -315,5 +321,5 @@ clean:
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
 .PHONY: page check-page
-.PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents check-budget experiments exercise figures $(CALLS)
+.PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents check-budget experiments exercise exercises hint figures $(CALLS)
 .DELETE_ON_ERROR:

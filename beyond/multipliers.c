@@ -8,7 +8,7 @@
  * it.
  *
  * In statics multipliers go on from step to step. In dynamics each step starts them from zero:
- * kept, they would be an integral controller, and in short steps unstable (doc/limits.md).
+ * kept, they would be an integral controller, and in short steps unstable (doc/beyond.md).
  */
 #include "beyond.h"
 

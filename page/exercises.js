@@ -1,21 +1,21 @@
-/* exercises.js - the exercises of the kind `predict`, doc/exercises: a person writes down what will
+/* exercises.js - the exercises of the kind `predict`, in the chapters of doc/: a person writes down what will
  * come out, as a line `expect`, before the page runs it. {m} is a number, {a|b} a choice. */
 'use strict';
 
 const EXERCISES = {
-  '01': { model: 'incline.model', title: 'A block on a slope',
+  '6.1': { model: 'incline.model', title: 'A block on a slope',
     equation: 's = 1/2 g (sin a - cos a tan phi) t^2 for phi < a,  u = -s cos a',
     task: 'The slope has a = 30 degrees, the run takes 1 s. Where will the lower corner of the ' +
       'block be? What moves at 31 and 40 degrees, and what sets how far?',
     cases: ['phi 0', 'phi 20', 'phi 29', 'phi 31', 'phi 40'], place: /^let phi .*/m,
     words: 'let {}', ask: 'expect corner u {m} within 0.005' },
-  '02': { model: 'arch.model', title: 'What holds an arch',
+  '6.10': { model: 'arch.model', title: 'What holds an arch',
     equation: 'a joint at the springing holds while H <= W tan phi; thrust H, half the weight W',
     task: 'The arch has t/R = 0.15. What does the crown do with less friction: stay, sink ' +
       'a little, fall? Which joints move?',
     cases: ['phi 35', 'phi 20', 'phi 19', 'phi 15'], place: /^let phi .*/m,
     words: 'let {}', ask: 'expect crown {stays|moves} by {m}' },
-  '03': { model: 'exp1.model', title: 'Quadrilaterals that lock',
+  '8.2': { model: 'exp1.model', title: 'Quadrilaterals that lock',
     equation: 'without gaps at their vertices, rectangles can have u, v = f(x) + g(y) alone',
     task: 'Theory has -8.90e-3 m at the tip of the cantilever. Can u = -y v\'(x), bending, be ' +
       'written like that? What will the tip do with the bonds of the paper, and with a moment?',

@@ -157,13 +157,15 @@ async function checkErrors() {
   assert(!await p.do('typeof hacked !== "undefined" || document.querySelector("img") !== null'));
 }
 
+/* The chapter that has the exercise. */
+const chapter = number => fs.readdirSync('doc').find(f => /^0.*md$/.test(f) &&
+  read(`doc/${f}`).includes(`### Exercise ${number} `));
+
 async function checkExercises() {
-  const predictions = { '01': ['-2.1239', /ok$/], '02': ['0.005', /ok$/],
-    '03': ['-8.9e-3', /NOT MET$/] };
-  const listed = read('doc/exercises/README.md').match(/^\| \[\d+\].*\| predict \|/gm)
-    .map(l => l.slice(3, 5));
-  assert.deepEqual(await p.do('Object.keys(EXERCISES).sort()'), listed);
-  for (const number of listed) {
+  const predictions = { '6.1': ['-2.1239', /ok$/], '6.10': ['0.005', /ok$/],
+    '8.2': ['-8.9e-3', /NOT MET$/] };
+  for (const number of await p.do('Object.keys(EXERCISES)')) {
+    assert(/^(06-contact|08-experiments)/.test(chapter(number)));
     await type('#gallery', number);
     await push('run');
     await push('step');
