@@ -480,7 +480,6 @@ void bbm_assemble(bbm_model *m)
 bbm_status bbm_begin_step(bbm_model *m)
 {
     m->detections = 0;
-    m->K->is_kept = 0;
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
@@ -522,15 +521,13 @@ static bbm_status solve(bbm_model *m)
     return bbm_note_solution(m, bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg));
 }
 
-/* One pass of the open-close iteration. `changed`: K or F will be new, so solve again. A step that
- * has taken too much work ends as one that does not settle. */
-static bbm_status open_close(bbm_model *m, int *changed)
+/* One pass of the open-close iteration. A step that has taken too much work ends as one that does
+ * not settle. */
+static bbm_status open_close(bbm_model *m, bbm_pass *pass)
 {
-    const bbm_pass pass = bbm_open_close(m);
-
-    m->K->is_kept = pass == BBM_PASS_SAME_K;
-    *changed = pass == BBM_PASS_SAME_K || (pass == BBM_PASS_AGAIN && !bbm_is_spent(m));
-    return pass == BBM_PASS_DONE || *changed ? BBM_OK : bbm_say_what_failed(m, BBM_OPEN_CLOSE);
+    *pass = bbm_open_close(m);
+    return *pass == BBM_PASS_GIVE_UP || (*pass == BBM_PASS_AGAIN && bbm_is_spent(m))
+         ? bbm_say_what_failed(m, BBM_OPEN_CLOSE) : BBM_OK;
 }
 
 /* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
@@ -598,19 +595,20 @@ static bbm_status update(bbm_model *m)
 bbm_status bbm_try_step(bbm_model *m)
 {
     bbm_status status = bbm_begin_step(m);
-    int other = 0, changed = 0;
+    bbm_pass pass = BBM_PASS_DONE;
+    int other = 0;
 
     if (!status)
         status = bbm_detect(m, &other);             /* 3.7: which contacts may close            */
     do {
         do {
-            if (!status)
+            if (!status && pass != BBM_PASS_SAME_K)
                 bbm_assemble(m);                    /* K, F: 3.1 to 3.8                         */
             if (!status)
                 status = solve(m);                  /* K D = F: section 4                       */
             if (!status)
-                status = open_close(m, &changed);   /* 3.8: do the contacts fit the solution?   */
-        } while (!status && changed);
+                status = open_close(m, &pass);      /* 3.8: do the contacts fit the solution?   */
+        } while (!status && pass != BBM_PASS_DONE);
         if (!status)
             status = bbm_detect(m, &other);         /* too far for the list of contacts?        */
     } while (!status && other);

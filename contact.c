@@ -218,22 +218,27 @@ static int is_strong(const bbm_contact *c)
 }
 
 /* The state with which a contact begins the step: that of its last step. But one that touches when
- * the run begins is closed in statics, or if its joint has a strength. One that P1 has left past
- * the end of the edge is open. The anchor is placed anew if the contact is open or its edge is
- * another one. */
+ * the run begins is closed: what lies flush is so under load. In dynamics it is open where P can
+ * come in over several lines of a corner, unless its joint has a strength: its way shows over which
+ * one. One that P1 has left past the end of the edge is open. The anchor is placed anew if the
+ * contact is open or its edge is another one. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
+    int lines = 0;
+
     c->time_left = 1;
     c->N_of_friction = c->N;
     c->N_locked = c->T_locked = 0;
     c->closings = 0;
+    for (int k = 0; k < 4; k++)
+        lines += c->entrance[k] >= 0;
     if (c->has_left) {
         c->state = BBM_OPEN;
         c->N = c->T = c->slip = c->was_closed = c->inside = 0;
     }
     find_strength(m, c);
     if (c->touches && !c->has_left)
-        c->state = is_strong(c) || bbm_is_static(m) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
+        c->state = lines == 0 || is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
     if (!c->carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_motion_of(m) ? fmin(0, c->d_n0 + c->N / m->par.p_n) : 0;

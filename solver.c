@@ -53,8 +53,6 @@
 
 void bbm_matrix_clear(bbm_matrix *K)
 {
-    if (K->is_kept)
-        return;
     memset(K->D, 0, (size_t)(K->n + K->first[K->n]) * sizeof *K->D);
     K->ready = K->terms = K->lacks = 0;
 }
@@ -78,8 +76,6 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 {
     double (*to)[6] = find_block(K, i, j);
 
-    if (K->is_kept)
-        return BBM_OK;
     K->lacks |= !to;
     if (!to)
         return BBM_BAD_INDEX;

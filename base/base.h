@@ -325,7 +325,6 @@ struct bbm_matrix {
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
     int *component;             /* [n]       of a caller's row: 0 .. components-1               */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
-    int is_kept;                /* 1: clear and add leave K as it is                            */
     double *forces;             /* [n]       of each component, see bbm_matrix_measure; 0: none */
     int lacks;                  /* what was added to a block that the pattern does not have     */
     /* --- scratch of bbm_solve --- */

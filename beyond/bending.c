@@ -162,13 +162,13 @@ static void list_edge(bbm_model *m, int i, int j, const bbm_gap end[2], int dire
 
 /* The moment M that a quadrilateral asks for on its edge from vertex v on; returns n.M n with the
  * normal n of the edge. Where steps are exact M belongs to the starting shape: it is constant then,
- * and its forces have a potential. */
+ * found once, and its forces have a potential. */
 static double own_moment(const bbm_model *m, const bbm_element *e, int v, double M[2][2])
 {
     const int edge = v - e->first, exact = e->middle != NULL;
     bbm_element shape = *e;
     bbm_vertex at[5];
-    double own[2][2][2];
+    double now[2][2][2], (*own)[2][2] = exact ? m->beyond->moment[e - m->element] : now;
 
     shape.A = exact ? e->A0 : e->A;
     for (int k = 0; k < 5; k++) {
@@ -176,7 +176,8 @@ static double own_moment(const bbm_model *m, const bbm_element *e, int v, double
         at[k].x = exact ? m->node[at[k].node].x - m->origin[0] : at[k].x;
         at[k].y = exact ? m->node[at[k].node].y - m->origin[1] : at[k].y;
     }
-    bbm_bending_moments(&shape, at, own);
+    if (!exact || own[0][0][0] + own[0][1][1] == 0)
+        bbm_bending_moments(&shape, at, own);
     memcpy(M, own[edge % 2], 4 * sizeof M[0][0]);
     const double nx = at[edge + 1].y - at[edge].y, ny = at[edge].x - at[edge + 1].x;
     return nx * nx * M[0][0] + nx * ny * (M[0][1] + M[1][0]) + ny * ny * M[1][1];

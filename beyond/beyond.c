@@ -8,6 +8,7 @@
 static void free_prepared(bbm_beyond *b)
 {
     free(b->middle);
+    free(b->moment);
     free(b->end_element);
     free(b->end_vertex);
     free(b->support);
@@ -32,13 +33,15 @@ static bbm_status check(bbm_model *m)
 
     free_prepared(b);
     b->middle = calloc(n, sizeof *b->middle);
+    b->moment = calloc(n, sizeof *b->moment);
     b->end_element = calloc(n, sizeof *b->end_element);
     b->end_vertex = calloc((size_t)m->vertices, sizeof *b->end_vertex);
     b->support = calloc((size_t)m->nodes, sizeof *b->support);
     b->account = calloc(n, sizeof *b->account);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
-    if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account)
+    if (!b->middle || !b->moment || !b->end_element || !b->end_vertex || !b->support
+        || !b->account)
         return BBM_NO_MEMORY;
     bbm_note_springs(m, 0);
     return bbm_check_overlap(m);
@@ -84,11 +87,15 @@ static bbm_status listed(bbm_model *m)
  * unless K is kept; when all has settled, multipliers take over what the springs carry. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
+    const int is_round = m->beyond->is_round;
+
+    m->beyond->is_round = 0;
     if (bbm_contact_turns_over(m))
         return BBM_PASS_GIVE_UP;
-    if (!m->K->is_kept && bbm_renew_middle(m))
+    if (!is_round && bbm_renew_middle(m))
         return BBM_PASS_AGAIN;
-    return next == BBM_PASS_DONE && bbm_take_over(m) ? BBM_PASS_SAME_K : next;
+    m->beyond->is_round = next == BBM_PASS_DONE && bbm_take_over(m);
+    return m->beyond->is_round ? BBM_PASS_SAME_K : next;
 }
 
 /* A step that went well: right as far as one can tell, no corner passed, no energy from nowhere. */

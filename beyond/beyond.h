@@ -57,6 +57,7 @@ struct bbm_beyond {
     double reach;               /* -        statics.c: how far blocks may part in a static step */
     double restitution;         /* -        impact.c: -1: none, as the springs do               */
     int rounds_done;            /* in this step                                                 */
+    int is_round;               /* the solution in hand is one: K was kept                      */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
     int joints;
@@ -67,6 +68,7 @@ struct bbm_beyond {
     double h_before;            /* s        the last step                                       */
     bbm_contact *jump_of;       /* [contacts] impact.c: of the step that ends with the jump     */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
+    double (*moment)[2][2][2];  /* [elements], bending.c                                        */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     int edge_loads;

@@ -198,7 +198,6 @@ static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *en
     start_elements(m, end);
     start_gaps(m);
     start_contacts(m, step);
-    m->K->is_kept = 0;
     while (!status && pass == BBM_PASS_AGAIN) {
         bbm_assemble(m);
         m->hook->before_solution(m);

@@ -8,7 +8,7 @@
  * it.
  *
  * In statics multipliers go on from step to step. In dynamics each step starts them from zero:
- * kept, they would be an integral controller, and in short steps unstable (doc/limits.md).
+ * kept, they would be an integral controller, and in short steps unstable (doc/beyond.md).
  */
 #include "beyond.h"
 
@@ -44,7 +44,8 @@ static int needs_multipliers(const bbm_model *m)
     return needed;
 }
 
-/* The contacts have settled: f += W d, as often as was asked for. Returns 1 if it has done so. */
+/* The contacts have settled: f += W d, in F, too, as often as was asked for. Returns 1 if it has
+ * done so. */
 int bbm_take_over(bbm_model *m)
 {
     double d[2];
@@ -54,8 +55,14 @@ int bbm_take_over(bbm_model *m)
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         bbm_gap_length(m, g, d);
-        for (int r = 0; r < 2 && g->own.penalty; r++)
-            g->own.f[r] += g->own.W[r][0] * d[0] + g->own.W[r][1] * d[1];
+        for (int r = 0; r < 2 && g->own.penalty; r++) {
+            const double df = g->own.W[r][0] * d[0] + g->own.W[r][1] * d[1];
+            g->own.f[r] += df;
+            for (int a = 0; a < 6; a++) {
+                m->F[6 * g->i + a] -= df * g->Ti[r][a];
+                m->F[6 * (g->j < 0 ? g->i : g->j) + a] += df * g->Tj[r][a];     /* wall: T = 0 */
+            }
+        }
     }
     return 1;
 }

@@ -127,7 +127,8 @@ static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
     }
 }
 
-typedef struct { int element; double x, y, r; } circle;         /* around an element            */
+/* Around an element; it has a boundary edge; the place of the next one that has. */
+typedef struct { int element, outer, next; double x, y, r; } circle;
 
 static int compare_circles(const void *p, const void *q)
 {
@@ -151,27 +152,36 @@ static circle circle_of(const bbm_model *m, int e)
     return c;
 }
 
-/* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
- * none do. */
+/* Looks for the two elements of a prepared model, one of them with a boundary edge, that overlap
+ * deepest at the start; o->i = -1 if none do. The winding numbers of all elements round a point add
+ * up to that of all boundary edges, for internal edges cancel. So where elements overlap, the
+ * overlap ends at a boundary edge, whose element takes part. */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
 {
-    circle *s = malloc((size_t)m->elements * sizeof *s);
+    const int n = m->elements;
+    circle *s = malloc((size_t)n * sizeof *s);
     double length = 0;
 
     if (!s)
         return BBM_NO_MEMORY;
-    for (int e = 0; e < m->edges; e++)
-        length += m->edge[e].along.length;
-    *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
-    for (int e = 0; e < m->elements; e++)
+    for (int e = 0; e < n; e++)
         s[e] = circle_of(m, e);
-    qsort(s, (size_t)m->elements, sizeof *s, compare_circles);
-    for (int a = 0; a < m->elements; a++)
-        for (int b = a + 1; b < m->elements && s[b].x - s[b].r < s[a].x + s[a].r; b++)
+    for (int e = 0; e < m->edges; e++) {
+        length += m->edge[e].along.length;
+        s[m->edge[e].element].outer = 1;
+    }
+    *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
+    qsort(s, (size_t)n, sizeof *s, compare_circles);
+    for (int a = n - 1, outer = n; a >= 0; a--) {
+        s[a].next = outer;
+        outer = s[a].outer ? a : outer;
+        for (int b = s[a].outer ? a + 1 : outer; b < n && s[b].x - s[b].r < s[a].x + s[a].r;
+             b = s[a].outer ? b + 1 : s[b].next)
             if (hypot(s[b].x - s[a].x, s[b].y - s[a].y) < s[a].r + s[b].r) {
                 probe_element(m, s[a].element, s[b].element, o);
                 probe_element(m, s[b].element, s[a].element, o);
             }
+    }
     free(s);
     return BBM_OK;
 }

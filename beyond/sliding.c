@@ -255,8 +255,6 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
     bbm_shear_vectors(t, c->anchor, &s);
     bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
                              + c->sign * c->strength.shear, f);
-    if (m->K->is_kept)
-        return 1;
     k->row[0] = m->K->place[m->edge[c->corner].element];
     k->row[1] = m->K->place[m->edge[c->edge].element];
     for (int a = 0; a < 6; a++) {

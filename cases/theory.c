@@ -1,6 +1,6 @@
 /* theory.c - the textbook solutions of Experiments I and II: formulas alone, so that tests can
  * differentiate them; and the rebound of drop.model, derived in
- * doc/derivations.md, section 19. */
+ * doc/beyond-scenes.md. */
 #include <math.h>
 
 #include "theory.h"

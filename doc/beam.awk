@@ -1,4 +1,4 @@
-# beam.awk - the beam of Experiment I for 08-experiments.md and limits.md: nx x ny cells, each cut
+# beam.awk - the beam of Experiment I for 08-experiments.md and beyond.md: nx x ny cells, each cut
 # into four triangles by its diagonals, or whole with quads=1. With kn=1e9 each triangle is a block, held to
 # the next ones by unbroken joints: the sub-block DDA. With ratio=100 the columns grow towards the
 # tip, each by the same factor, until the last is 100 times as large as the first.

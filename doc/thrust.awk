@@ -1,6 +1,6 @@
 # thrust.awk - the line of thrust of a semicircular arch of n voussoirs, R = 1, for rho g = 1:
 #     awk -v n=15 -f doc/thrust.awk
-# prints the least t/R, and the least friction of thicker arches. Derivations, section 22.
+# prints the least t/R, and the least friction of thicker arches. doc/beyond-scenes.md.
 
 # W and W x of joint k <= n/2, counted from the right springing. A voussoir is a trapezium; of an odd
 # number one lies across the crown.

@@ -485,7 +485,7 @@ static const struct kind {
 static const char *find_other(const char *word)
 {
     static const struct { const char *words, *here; } other[] = {
-        { " anchor bolt cable spring ", "a spring between two points is doc/exercises/24-bolt.md" },
+        { " anchor bolt cable spring ", "a spring between two points is Exercise 9.1 in doc/09-limits.md" },
         { " excavate remove stage ", "a file with the block and one without are two runs" },
         { " accelerogram earthquake pulse ", "see shake, which is a sine" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },

@@ -91,6 +91,7 @@ enum { ROCK, BASE };            /* materials */
 /* Blocks of rock on a base that gives way 10^4 times less, under gravity, the solver as exact as it
  * can be. */
 bbm_model *new_blocks(void);
+bbm_model *weightless_blocks(void);
 
 /* A rectangle of nx times ny elements, 1 if not given: its lower left corner, sides, and the angle
  * [degree] by which all this is turned about the origin. */
@@ -192,7 +193,7 @@ bbm_status fall(bbm_model *m);
 /* The contacts of the step in hand. */
 bbm_contact *list_contacts(const bbm_model *m, int *n);
 
-/* Starts a step: what it foretells, and its list. */
+/* Starts a step: what it foretells, and its list; what touches as the run begins is open. */
 bbm_contact *start_step(bbm_model *m, int *n);
 
 /* A look at a solution in which one element moves by (u, v) and nothing else; the closed

@@ -1,5 +1,5 @@
 /* multipliers.c - Exercise 26: multipliers that are kept from step to step, for one mass on one
- * bond; derivations.md, section 27.
+ * bond; doc/beyond.md, Multipliers.
  *
  * The three numbers of a step are x, the gap; y = V dt; z = f/c, the multiplier over c = 2 m/dt^2.
  * W2 = k dt^2/m, so that k/c = W2/2; n is the number of rounds.
@@ -52,7 +52,7 @@ static double growth(double W2, int n)
     return exp(logarithm);
 }
 
-/* Whether the matrix is that of derivations.md. */
+/* Whether the matrix is that of doc/beyond.md. */
 static int check_matrix(double W2, int n)
 {
     const double a = 1 / (1 + W2 / 2), B = pow(a, n), A = a * B;

@@ -1,0 +1,86 @@
+# answers.sh - numbers of the answers to the exercises of chapters 6 and 7, by their models:
+#     BBM=./bbm sh doc/answers.sh slope|start|passes|drop|rock|iterations
+set -e
+HERE=out/answers
+mkdir -p $HERE
+
+# Runs the model of standard input, or of the file $1 with what follows it; prints its last row.
+run()
+{
+    if [ $# = 0 ]; then cat > $HERE/one.model; set -- $HERE/one.model; fi
+    $BBM -q "$@" -o $HERE > $HERE/said 2>&1 || :      # what a model expects may not be met
+    tail -1 $HERE/history.csv
+}
+
+INCLINE=cases/models/incline.model
+
+# 6.1: where the corner ends.
+slope()
+{
+    for phi in 0 20 29; do
+        run $INCLINE -d phi=$phi | awk -F, -v p=$phi '{ printf "%2d: u %.4f, v %.4f\n", p, $3, $4 }'
+    done
+}
+
+# 6.1: what it moves along the slope if it stays.
+start()
+{
+    for phi in 31 40; do
+        for dt in "0.01 steps 100" "0.001 steps 1000" "0.01 steps 100 settle 100"; do
+            sed "s/dt 0.01 steps 100/dt $dt/" $INCLINE > $HERE/start.model
+            run $HERE/start.model -d phi=$phi | awk -F, -v p=$phi -v d="$dt" \
+                '{ printf "%d, dt %s: %.0f um\n", p, d, -1e6 * (sqrt(3) / 2 * $3 + $4 / 2) }'
+        done
+    done
+}
+
+# 6.7: the solutions of the first step.
+passes()
+{
+    sed 's/E 1e10/E 1e14/; s/steps 100/steps 1/' $INCLINE > $HERE/first.model
+    for phi in 28 31 40; do
+        run $HERE/first.model -d phi=$phi > $HERE/row
+        tail -1 $HERE/summary.csv | awk -F, -v p=$phi '{ print p ":", $3, "solutions" }'
+    done
+}
+
+# 6.8: the fastest rise over the fastest fall.
+drop()
+{
+    for dt in 0.002 0.001 0.0005 0.0002 0.0001; do
+        run cases/models/drop.model -d dt=$dt > $HERE/row
+        awk -F, -v dt=$dt 'NR > 2 { V = ($4 - v) / ($2 - t); if (V < a) a = V; if (V > b) b = V }
+            { v = $4; t = $2 }
+            END { W = dt * sqrt(2e9 / 2500); c = (4 - W * W) / (2 * sqrt(4 + 2 * W * W))
+                  F = exp(-log(1 + W * W / 2) * atan2(0, -1) / (2 * atan2(sqrt(1 - c * c), c)))
+                  printf "dt %.4f: rebound/impact %.3f, formula %.3f\n", dt, -b / a, F }' $HERE/history.csv
+    done
+}
+
+# 6.9: a quarter of the period.
+rock()
+{
+    for share in 0.2 0.5 0.8 0.95; do
+        awk -v h=5 -v share=$share -f doc/exercises/rocking.awk | run > $HERE/row
+        awk -F, -v s=$share 'NR > 1 && $4 + sin(s * atan2(1, 5)) < 1e-9 {
+            x = 1 / (1 - s); p = sqrt(3 * 9.81 / (2 * sqrt(26)))
+            printf "share %.2f: T/4 %.3f s, formula %.3f s\n", s, $2, log(x + sqrt(x * x - 1)) / p
+            exit }' $HERE/history.csv
+    done
+}
+
+# 7.2: iterations on three meshes, alpha = 1 and 100.
+iterations()
+{
+    sed 's/^pcg.*/pcg tolerance 1e-10 coarse off/' doc/beam.model > $HERE/solver.model
+    for n in 4 8 16; do
+        for alpha in 1 100; do
+            run $HERE/solver.model -d nx=$((4 * n)) -d ny=$n -d alpha=$alpha -d augment=0 > $HERE/row
+            tail -1 $HERE/summary.csv | cut -d, -f4
+        done
+    done | awk '{ n = 2 ^ int((NR + 3) / 2); i[NR] = $1 }
+        NR % 2 == 0 { printf "%d x %d: alpha x 100 costs %.1f times the iterations\n", 4 * n, n, $1 / i[NR - 1] }
+        END { printf "64 x 16 after 16 x 4: %.1f times the iterations\n", i[5] / i[1] }'
+}
+
+$1
