@@ -5,7 +5,6 @@
 
 #include "../page/page.h"
 #include "../program/run.h"
-#include "../program/model.h"
 #include "check.h"
 
 enum { STEPS = 5 };
