@@ -6,7 +6,7 @@
 #include "../program/length.h"
 #include "../program/run.h"
 #include "../program/scene.h"
-#include "../program/statements.h"
+#include "../program/reader.h"
 #include "../program/warn.h"
 #include "page.h"
 

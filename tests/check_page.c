@@ -5,7 +5,7 @@
 
 #include "../page/page.h"
 #include "../program/run.h"
-#include "../program/statements.h"
+#include "../program/reader.h"
 #include "check.h"
 
 enum { STEPS = 5 };
