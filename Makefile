@@ -6,8 +6,9 @@
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
 # make converge  meshes against alpha          make sanitize  programs and tests under ASan and UBSan
+# make page      out/bbm.html, the method in a browser (clang for wasm32); make check-page: beside ./bbm
 # make windows   ./bbm for Windows (mingw-w64)
-# make exercise N=07   a copy without one function, and its tests; doc/exercises
+# make exercise N=4.1  a copy without one function, and its tests; make hint N=4.1; make exercises lists them
 # make figures   draws doc/figures             make check-exercises   each red as it begins, green in the end
 # One goal is made with as many jobs as there are processors, unless -j says how many.
 
@@ -28,19 +29,20 @@ RUN      = exp1 exp2 exp3
 CASES    = $(RUN)
 # Beyond their limits models do not do what is expected of them (status 3).
 BEYOND_LIMITS = arch:t=1 topple:phi=19 slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 shaken:phi=34 wall:A=8
-COMMON   = cases/case cases/theory $(addprefix program/,cell field output plot scene)
+COMMON   = cases/case cases/theory $(addprefix program/,cell field force output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
 READER   = $(addprefix program/,statements numbers build msh reader model cell field)
-PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene edge_load)
+PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene force edge_load)
 TORTURE  = scenes ledger trial
+PAGE     = page/page $(READER) $(addprefix program/,run warn force edge_load)
 PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures \
-           check_scenes $(TORTURE)
+           check_scenes check_page $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
-           check_coarse check_beyond check_motion check_bars check_limits check_statics check_refused \
+           check_coarse check_beyond check_motion check_bars check_statics check_refused \
            check_theory check_equations check_run check_impact
 SHARING  = models shapes systems programs
-HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h tests/*.h)
+HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h page/*.h tests/*.h)
 O        = out/build
 FAILING  = -Dmalloc=test_malloc -Dcalloc=test_calloc -Drealloc=test_realloc -Dfree=test_free
 CHECK   := $(shell pkg-config --libs check 2>/dev/null || echo -lcheck -lsubunit -lrt -lpthread)
@@ -123,6 +125,25 @@ $O/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
 	$(CC) $(STRICT) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
+# --- the page: the same sources as WebAssembly, in one HTML file that needs nothing else ---
+PAGE_CC    = clang --target=wasm32-wasi -mexec-model=reactor -flto -D_WASI_EMULATED_PROCESS_CLOCKS
+PAGE_CALLS = malloc free $(addprefix page_,load free state step text numbers data)
+EMPTY      =
+COMMA      = ,
+
+page: out/bbm.html
+
+out/bbm.wasm: $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(HEADERS) Makefile
+	@mkdir -p $(@D)
+	$(PAGE_CC) $(STRICT) -O2 -o $@ $(PAGE:%=%.c) $(LIBRARY:%=%.c) -Wl,$(subst $(EMPTY) $(EMPTY),$(COMMA),$(PAGE_CALLS:%=--export=%)) \
+	-Wl,--strip-all,--stack-first,-z,stack-size=1048576 -lm -lwasi-emulated-process-clocks
+
+PAGE_FILES = $(addprefix page/,page.html style.css assemble.awk wasi.js model.js picture.js graphs.js inspect.js exercises.js page.js)
+PAGE_DATA  = out/bbm.wasm $(wildcard cases/models/*.model cases/models/*.msh)
+
+out/bbm.html: $(PAGE_FILES) $(PAGE_DATA) Makefile
+	awk -f page/assemble.awk page/page.html $(PAGE_DATA) > $@
+
 # --- tests: the library once more, with an allocator that can be made to fail ---
 $O/failing/%.o: %.c $(HEADERS) Makefile
 	@mkdir -p $(@D)
@@ -150,7 +171,7 @@ TESTED = $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $O/tests/rock.o $O/t
 $O/quick: $O/tests/check_main.o $(TESTED) | $O/bbm
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
-$O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(TESTED)
+$O/check: $O/tests/check_all.o $(PROGRAMS:%=$O/tests/%.o) $(PAGE:%=$O/%.o) $(TESTED)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK) -lm
 
 $(SUITES:%=$O/tests/%.o) $(SHARING:%=$O/tests/%.o) $(PROGRAMS:%=$O/tests/%.o) $O/tests/test_alloc.o: | libcheck
@@ -163,7 +184,7 @@ libcheck:
 quick: $O/quick
 	$O/quick
 
-# --- exercises, see doc/exercises/README.md: a copy of a source in out/exercise/N, and its tests ---
+# --- the exercises in the chapters of doc/: a copy of a source in out/exercise/N, and its tests ---
 ALONE = $(CORE:%=$O/%.o)
 EXERCISE = O="$O" COMPILE="$(CC) $(STRICT) -Wno-unused -Wno-unused-parameter $(CPPFLAGS) $(CFLAGS) -O0" FAILING="$(FAILING)" \
 LINK="$(CC) $(CFLAGS) $(LDFLAGS)" LIBS="$(CHECK) -lm" TESTED="$O/tests/check_main.o $(TESTED)" ALONE="$(ALONE)" \
@@ -172,8 +193,23 @@ MAKE="$(MAKE) -s" sh tests/exercise.sh
 exercise:
 	+@$(EXERCISE) begin $(or $(N),0)
 
+hint:
+	@sh tests/exercise.sh hint $(or $(N),0) $(or $(STEP),1)
+
+exercises:
+	@sh tests/exercise.sh list
+
 check-exercises: $O/quick $(ALONE)
 	@$(EXERCISE) prove
+
+# The page in node and in Chromium, and natively with musl, whose libm is that of WASI.
+check-page: out/bbm.html $O/bbm $O/musl/page_native
+	@rm -rf out/page && mkdir -p out/page
+	node tests/check_page.js $O/bbm $O/musl/page_native out/page
+
+$O/musl/page_native: tests/page_native.c $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(HEADERS) Makefile
+	@mkdir -p $(@D)
+	musl-gcc $(STRICT) -O2 -o $@ $(filter %.c,$^) -lm
 
 # The figures of the documents, their commands and what these print.
 check-documents: $O/figures $O/bbm experiments
@@ -181,10 +217,10 @@ check-documents: $O/figures $O/bbm experiments
 	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
 	@for f in $$(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do \
 	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
-	@awk -v O=$O -f tests/documents.awk README.md doc/*.md doc/exercises/*.md
+	@awk -v O=$O -f tests/documents.awk README.md doc/*.md
 
 # How large the project is, and may be.
-CODE = $(wildcard *.[ch] $(foreach f,base beyond cases program tests doc,$f/*.[ch] $f/*.awk $f/*.sh))
+CODE = $(wildcard *.[ch] page/*.html page/*.css $(foreach f,base beyond cases program page tests doc,$f/*.[ch] $f/*.js $f/*.awk $f/*.sh))
 BUDGET = awk -f tests/budget.awk README.md $(CODE)
 
 check-budget:
@@ -284,5 +320,6 @@ clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
-.PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents check-budget experiments exercise figures $(CALLS)
+.PHONY: page check-page
+.PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents check-budget experiments exercise exercises hint figures $(CALLS)
 .DELETE_ON_ERROR:

@@ -2,18 +2,11 @@
 #include "../beyond/beyond.h"
 #include "case.h"
 
-bbm_model *case_model(void)
+bbm_model *case_beyond_model(int rounds)
 {
     bbm_model *m;
 
     case_must(NULL, bbm_beyond_new(&m));
-    return m;
-}
-
-bbm_model *case_augmented_model(void)
-{
-    bbm_model *m = case_model();
-
-    m->beyond->multiplier_rounds = 2;
+    m->beyond->multiplier_rounds = rounds;
     return m;
 }

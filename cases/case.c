@@ -71,23 +71,6 @@ void case_print_augmented(const bbm_model *m)
                "exact rotation");
 }
 
-void case_converge(const char *title, int triangles, void (*print_errors)(int k, double alpha))
-{
-    static const double alpha[4] = { 10, 100, 1000, 1e5 };
-
-    printf("\n%s\n\n"
-           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
-           "|---|---|---|---|---|\n", title);
-    for (int k = 1; k <= 3; k++) {
-        printf("| %d |", triangles * k * k);
-        for (int a = 0; a < 4; a++) {
-            print_errors(k, alpha[a]);
-            fflush(stdout);
-        }
-        printf("\n");
-    }
-}
-
 /* --------------------------------------------------------------------------------------- meshes */
 
 static int grid_node(const case_grid *g, int i, int j)
@@ -131,11 +114,9 @@ void case_add_grid(bbm_model *m, case_grid *g)
 static void place_in_box(double i, double j, const void *box, double xy[2])
 {
     const case_box *b = box;
-    const double x = b->x + b->w * i / b->nx, y = b->y + b->h * j / b->ny;
-    const double c = cos(b->turn), s = sin(b->turn);
 
-    xy[0] = c * x - s * y;
-    xy[1] = s * x + c * y;
+    xy[0] = b->x + b->w * i / b->nx;
+    xy[1] = b->y + b->h * j / b->ny;
 }
 
 int case_add_box(bbm_model *m, const case_box *b)
@@ -146,13 +127,6 @@ int case_add_box(bbm_model *m, const case_box *b)
 
     case_add_grid(m, &g);
     return first;
-}
-
-void case_fix_block(bbm_model *m, int block)
-{
-    for (int v = 0; v < m->vertices; v++)
-        if (m->element[m->vertex[v].element].block == block)
-            bbm_fix_node(m, m->vertex[v].node, BBM_XY, 0, 0);
 }
 
 bbm_result case_at(const bbm_model *m, double x, double y)
@@ -180,23 +154,6 @@ double case_quantity(const bbm_result *r, const char *quantity)
     return field_find(strcmp(quantity, "svm") ? quantity : "mises")->of_result(r);
 }
 
-/* ---------------------------------------------------------------------------- blocks that touch */
-
-void case_step(bbm_model *m, scene *s)
-{
-    case_must(m, bbm_step(m));
-    if (s)
-        scene_record(s, m);
-}
-
-void case_settle(bbm_model *m, int steps)
-{
-    m->par.velocity_factor = 0;
-    for (int i = 0; i < steps; i++)
-        case_step(m, NULL);
-    m->par.velocity_factor = 1;
-}
-
 /* ----------------------------------------------------------------------------- reference values */
 
 /* The number up to the next comma (NaN for an empty field); *p moves behind it. */
@@ -221,7 +178,7 @@ void case_read_reference(const char *problem, const char *variant, case_referenc
     while (fgets(line, sizeof line, f))
         if (strncmp(line, start, strlen(start)) == 0) {
             char *p = line + strlen(start), *end = p + strcspn(p, ",");
-            struct case_value v = { { 0 }, 0, 0, 0, 0, 0 };
+            struct case_value v = { .x = 0 };
             if (*end == ',')
                 *end++ = '\0';
             snprintf(v.quantity, sizeof v.quantity, "%s", p);
@@ -229,7 +186,6 @@ void case_read_reference(const char *problem, const char *variant, case_referenc
             v.y = next_number(&end);
             v.converged = next_number(&end);
             v.six_node = next_number(&end);
-            v.three_node = next_number(&end);
             void *more = realloc(r->value, ((size_t)r->values + 1) * sizeof *r->value);
             if (!more)
                 stop("cases/fem.csv", "out of memory");
@@ -237,11 +193,6 @@ void case_read_reference(const char *problem, const char *variant, case_referenc
             r->value[r->values++] = v;
         }
     fclose(f);
-}
-
-void case_free_reference(case_reference *r)
-{
-    free(r->value);
 }
 
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
@@ -272,7 +223,7 @@ static void make_folder(const char *path)
 void case_open(case_results *r, const char *name)
 {
     snprintf(r->folder, sizeof r->folder, "out/%s", name);
-    r->worst = r->failed = 0;
+    r->failed = 0;
     make_folder("out");
     make_folder(r->folder);
     r->csv = fopen(case_path(r, "results.csv"), "w");
@@ -301,11 +252,10 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
     else
         fprintf(r->csv, "%.9g,%.9g,", xy[0], xy[1]);
     fprintf(r->csv, "%.15g,%.15g,%s,%.3e\n", computed, reference, kind, error);
-    r->worst = fmax(r->worst, fabs(error));
     return error;
 }
 
-static void compare_all(case_results *r, const case_problem *p, const bbm_model *m,
+static void compare_all(case_results *r, const case_experiment *p, const bbm_model *m,
                         const case_run *run, const case_reference *ref)
 {
     for (int i = 0; i < ref->values; i++) {
@@ -326,10 +276,11 @@ static void compare_all(case_results *r, const case_problem *p, const bbm_model 
     }
 }
 
-bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run *run,
-                          case_reference *ref)
+/* Each reference value against the computed one is a row of results.csv. */
+static bbm_model *solve_run(case_results *r, const case_experiment *p, const case_run *run,
+                            case_reference *ref)
 {
-    bbm_model *m = run->beyond ? case_augmented_model() : case_paper_model();
+    bbm_model *m = run->beyond ? case_beyond_model(2) : case_paper_model();
 
     case_read_reference(p->name, run->variant, ref);
     if (!m)
@@ -341,7 +292,7 @@ bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run
 }
 
 void case_write_curves(case_results *r, const char *file, const char *header, int rows,
-                       int columns, const double *table)
+                       int columns, const double *const column[])
 {
     FILE *f = fopen(case_path(r, file), "w");
 
@@ -350,9 +301,8 @@ void case_write_curves(case_results *r, const char *file, const char *header, in
     fprintf(f, "%s\n", header);
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < columns; j++) {
-            const double value = table[i * columns + j];
-            if (!isnan(value))
-                fprintf(f, "%.15g", value);
+            if (!isnan(column[j][i]))
+                fprintf(f, "%.15g", column[j][i]);
             fputc(j + 1 < columns ? ',' : '\n', f);
         }
     if (ferror(f) | fclose(f))
@@ -384,24 +334,72 @@ static void print_difference(const bbm_model *m, const bbm_model *fem, const sce
            100 * most[2] / most[1]);
 }
 
-/* fem: the same beside a finite element on the same mesh, or NULL. */
-void case_draw_maps(case_results *r, const bbm_model *m, const bbm_model *fem, int n,
-                    const case_map map[])
+/* The maps of m, and those that show no displacements once more beside a finite element on the same
+ * mesh, the triangles with two rounds of multipliers, if there is beyond/. */
+static void draw_maps(case_results *r, const case_experiment *e, const bbm_model *m)
 {
-    for (int k = 0; k < n; k++)
-        case_draw(r, scene_write_map(m, case_path(r, map[k].file), &map[k].map));
+    bbm_model *fem = case_beyond_model(2);
+
+    for (int k = 0; k < e->maps; k++)
+        case_draw(r, scene_write_map(m, case_path(r, e->map[k].file), &e->map[k].map));
     if (!fem)
         return;
+    e->solve(fem, e->run[0].variant, CELL_CROSSED, 2, 1000);
     printf("\n## With beyond/: the figures beside the constant-strain finite element, fem_*.svg\n\n"
            "| largest [m, Pa] | BBM | FEM | largest difference |\n|---|---|---|---|\n");
-    for (int k = 0; k < n && map[k].map.scale < 0; k++) {
-        scene_map both = map[k].map;
+    for (int k = 0; k < e->maps && e->map[k].map.scale < 0; k++) {
+        scene_map both = e->map[k].map;
         char file[40];
         both.other = fem;
         both.name[0] = "BBM, the paper's way";
         both.name[1] = "FEM: constant-strain triangles";
-        snprintf(file, sizeof file, "fem_%s", map[k].file);
+        snprintf(file, sizeof file, "fem_%s", e->map[k].file);
         case_draw(r, scene_write_map(m, case_path(r, file), &both));
         print_difference(m, fem, &both);
     }
+    bbm_model_free(fem);
+}
+
+/* ---------------------------------------------------------------------------- Experiments I, II */
+
+static void print_convergence(const case_experiment *e)
+{
+    static const double alpha[4] = { 10, 100, 1000, 1e5 };
+
+    printf("\n%s\n\n"
+           "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
+           "|---|---|---|---|---|\n", e->errors);
+    for (int k = 1; k <= 3; k++) {
+        printf("| %d |", e->triangles * k * k);
+        for (int a = 0; a < 4; a++) {
+            e->print_errors(k, alpha[a]);
+            fflush(stdout);
+        }
+        printf("\n");
+    }
+}
+
+int case_main(const case_experiment *e, int argc, char **argv)
+{
+    case_results r;
+    case_reference ref[4];
+    bbm_model *m[4];
+
+    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
+        print_convergence(e);
+        return case_close(NULL);
+    }
+    printf("\n# %s, the paper's way\n\n", e->title);
+    case_open(&r, e->name);
+    for (int k = 0; k < e->runs; k++)
+        m[k] = solve_run(&r, e, &e->run[k], &ref[k]);
+    case_print_parameters(m[0]);
+    e->show(&r, (const bbm_model *const *)m, ref);
+    draw_maps(&r, e, m[0]);
+    printf("\nNumbers and pictures: %s/results.csv, %s\n", r.folder, e->files);
+    for (int k = 0; k < e->runs; k++) {
+        bbm_model_free(m[k]);
+        free(ref[k].value);
+    }
+    return case_close(&r);
 }

@@ -19,14 +19,13 @@ typedef struct {                    /* a grid of nx x ny cells, mapped by a func
 } case_grid;
 
 typedef struct {                    /* values of cases/fem.csv for one problem and variant      */
-    struct case_value { char quantity[32]; double x, y, converged, six_node, three_node; } *value;
+    struct case_value { char quantity[32]; double x, y, converged, six_node; } *value;
     int values;
 } case_reference;
 
 typedef struct {                    /* out/NAME/results.csv                                     */
     char folder[64], path[128];     /* path: of case_path, the last file                        */
     FILE *csv;
-    double worst;                   /* largest |relative error| of the rows since it was set to 0 */
     int failed;                     /* 1: a picture could not be made                           */
 } case_results;
 
@@ -37,18 +36,16 @@ void   case_must(const bbm_model *m, bbm_status s);
 /* A new model of the core alone: the paper's way. What the experiments print or draw is computed by
  * it, but for what has `beyond/` in its row or heading. */
 bbm_model *case_paper_model(void);
-/* beyond.c: a new model with all of beyond/; the same with two rounds of multipliers. NULL from
- * paper.c, which `make paper` has in its place. */
-bbm_model *case_model(void);
-bbm_model *case_augmented_model(void);
+/* beyond.c: a new model with all of beyond/, and so many rounds of multipliers. NULL from paper.c,
+ * which `make paper` has in its place. */
+bbm_model *case_beyond_model(int rounds);
 
 /* What is added is there, or the program has ended. */
 void   case_add_grid(bbm_model *m, case_grid *g);
-/* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h, then turned about the
- * origin by an angle. Returns its first element; element (i, j) is j nx + i further. */
-typedef struct { int block, material, nx, ny; double x, y, w, h, turn; } case_box;
+/* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h. Returns its first
+ * element; element (i, j) is j nx + i further. */
+typedef struct { int block, material, nx, ny; double x, y, w, h; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
-void   case_fix_block(bbm_model *m, int block);                 /* every node of it             */
 bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */
 /* u, v, sxx, syy, sxy, svm */
 double case_quantity(const bbm_result *r, const char *quantity);
@@ -56,28 +53,37 @@ void   case_solve(bbm_model *m);                                /* prepared and 
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
 double case_percent(double computed, double reference);
 
-void   case_step(bbm_model *m, scene *s);              /* one step, recorded unless s is NULL    */
-/* Quasi-static steps, to start a run in equilibrium: springs that are loaded suddenly would
- * swing. */
-void   case_settle(bbm_model *m, int steps);
-
 void   case_read_reference(const char *problem, const char *variant, case_reference *r);
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
                                    double y);
-void   case_free_reference(case_reference *r);
-/* What solves a variant on a grid of k times its cells; and of u, v, sxx, .. at a grid point the
- * computed value, and theory's, NaN where there is none. */
-typedef struct {
-    const char *name;
-    void (*solve)(bbm_model *m, const char *variant, int cut, int k, double alpha);
-    double (*computed)(const bbm_model *m, const char *quantity, double x, double y);
-    double (*theory)(const char *quantity, double x, double y);
-} case_problem;
-
 typedef struct {                    /* a solution of an experiment, alpha = 1000                */
     const char *variant, *label;
     int beyond;                     /* with beyond/: quadrilaterals, as many as the triangles   */
 } case_run;                         /* of the others, which are the paper's way                 */
+typedef struct { const char *file; scene_map map; } case_map;
+
+typedef struct {                    /* Experiment I or II                                       */
+    const char *name, *title;       /* of its folder, and of what it prints                     */
+    /* Solves a variant on a grid of k times its cells; and of u, v, sxx, .. at a grid point the
+     * computed value, and theory's, NaN where there is none. */
+    void (*solve)(bbm_model *m, const char *variant, int cut, int k, double alpha);
+    double (*computed)(const bbm_model *m, const char *quantity, double x, double y);
+    double (*theory)(const char *quantity, double x, double y);
+    int runs, maps;                 /* runs: 4 at most; maps: of the first                      */
+    const case_run *run;
+    const case_map *map;
+    /* Its tables and pictures, of each run, NULL where there is no beyond/, with its reference
+     * values. */
+    void (*show)(case_results *r, const bbm_model *const m[], const case_reference ref[]);
+    /* The table of convergence: so many triangles times k k; prints what a cell holds. */
+    const char *errors;
+    int triangles;
+    void (*print_errors)(int k, double alpha);
+    const char *files;              /* what it has written                                      */
+} case_experiment;
+
+/* All of it, or with the argument `converge` the table of convergence alone; the exit status. */
+int    case_main(const case_experiment *e, int argc, char **argv);
 
 /* Makes out/NAME and opens its results.csv. */
 void   case_open(case_results *r, const char *name);
@@ -88,27 +94,15 @@ int    case_close(case_results *r);
  * Returns the error. */
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
                 double reference, const char *kind);
-/* Reads its reference values and solves it; each of these against the computed one is a row of
- * results.csv. NULL where there is no beyond/. */
-bbm_model *case_solve_run(case_results *r, const case_problem *p, const case_run *run,
-                          case_reference *ref);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
-/* table [rows][columns] as CSV */
+/* column [columns][rows] as CSV */
 void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
-                         int columns, const double *table);
+                         int columns, const double *const column[]);
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);
-typedef struct { const char *file; scene_map map; } case_map;
-/* The maps of m, and those that show no displacements once more beside a finite element on the same
- * mesh: the triangles with two rounds of multipliers. */
-void   case_draw_maps(case_results *r, const bbm_model *m, const bbm_model *fem, int n,
-                      const case_map map[]);
 void   case_print_parameters(const bbm_model *m);       /* Table 1, and what the solution took  */
 void   case_print_augmented(const bbm_model *m);        /* what a row with beyond/ is; or NULL  */
 void   case_progress(const char *what);                 /* one line on stdout, at once          */
-/* The table of convergence: meshes k = 1 to 3 of so many triangles times k k, four values of alpha.
- * print_errors prints what a cell holds. */
-void   case_converge(const char *title, int triangles, void (*print_errors)(int k, double alpha));
 
 #endif

@@ -1,5 +1,5 @@
-/* exp.h - what Experiment I shows beyond the paper, in a file of its own, exp1_beyond.c. `make paper`
- * has paper.c in its place and leaves it out. */
+/* exp.h - what Experiment I shows beyond the paper, in a file of its own, exp1_beyond.c. `make
+ * paper` has paper.c in its place and leaves it out. */
 #ifndef EXP_H
 #define EXP_H
 

@@ -12,7 +12,7 @@
  * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
  * say so are by as many quadrilaterals with beyond/. More of that is in exp1_beyond.c. */
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "exp.h"
 #include "theory.h"
@@ -143,7 +143,7 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
                             const case_reference *ref)
 {
     enum { N = 9 };
-    double x[N], v[4][N], table[N][5];
+    double x[N], v[4][N];
 
     printf("\nFig. 10 - deflection v [mm] of the axis, load a (concentrated)\n\n"
            "| x [m] | DDA | BBM | FEM | FEM, converged | theory (70) | BBM against FEM |\n"
@@ -157,8 +157,6 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         v[1][i] = case_at(bbm, x[i], 0).v;
         v[2][i] = f->six_node;
         v[3][i] = theory("v", x[i], 0);
-        for (int c = 0; c < 5; c++)
-            table[i][c] = c ? v[c - 1][i] : x[i];
         if (i == 0)
             continue;
         printf("| %.0f | %.4f | %.4f | %.4f | ", x[i], 1e3 * v[0][i], 1e3 * v[1][i], 1e3 * v[2][i]);
@@ -173,9 +171,10 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         { .name = "DDA, one block", .n = N, .x = x, .y = v[0], .style = PLOT_BOTH, .look = 4 },
     };
     case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
-        .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0, 0, 0 },
-        .y = { "v", "m", 0, 0, 0 }, .count = LENGTH(s), .series = s }));
-    case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5, &table[0][0]);
+        .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0 },
+        .y = { "v", "m", 0 }, .count = LENGTH(s), .series = s }));
+    case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5,
+                      (const double *const[]){ x, v[0], v[1], v[2], v[3] });
 }
 
 /* Table 3: u and v at three points, for each way to load and to hold the beam. */
@@ -259,45 +258,30 @@ static void print_error(int k, double alpha)
     const double exact = case_find(&ref, "v", 24, 0)->converged;
     exp1_solve(m, "b", CELL_CROSSED, k, alpha);
     printf(" %+.3f %% |", case_percent(case_at(m, 24, 0).v, exact));
-    case_free_reference(&ref);
+    free(ref.value);
     bbm_model_free(m);
+}
+
+static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
+{
+    bbm_model *dda = solve_dda(1000);
+
+    print_table_2(dda, m[0]);
+    show_deflection(r, dda, m[0], &ref[0]);
+    print_table_3(m, ref);
+    print_stress(m[0], &ref[0]);
+    print_summary(m, ref);
+    exp1_show_beyond(&ref[1]);
+    bbm_model_free(dda);
 }
 
 int main(int argc, char **argv)
 {
-    case_results r;
-    case_reference ref[RUNS];
-    bbm_model *m[RUNS], *dda, *fem;
-
-    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
-        case_converge("Experiment I, load b, the paper's way: error of v(24,0) against the "
-                      "converged finite element", 600, print_error);
-        return case_close(NULL);
-    }
-    printf("\n# Experiment I: cantilever, the paper's way\n\n");
-    case_open(&r, "exp1");
-    dda = solve_dda(1000);
-    for (int k = 0; k < RUNS; k++)
-        m[k] = case_solve_run(&r, &(case_problem){ "exp1", exp1_solve, computed, theory }, &run[k],
-                              &ref[k]);
-    case_print_parameters(m[0]);
-    print_table_2(dda, m[0]);
-    show_deflection(&r, dda, m[0], &ref[0]);
-    print_table_3((const bbm_model *const *)m, ref);
-    print_stress(m[0], &ref[0]);
-    print_summary((const bbm_model *const *)m, ref);
-    fem = case_augmented_model();
-    if (fem)
-        exp1_solve(fem, "a", CELL_CROSSED, 2, 1000);
-    exp1_show_beyond(&ref[1]);
-    case_draw_maps(&r, m[0], fem, LENGTH(map), map);
-    printf("\nNumbers and pictures: %s/results.csv, fig10.csv, fig10.svg to fig13.svg, "
-           "deformed.svg\n", r.folder);
-    for (int k = 0; k < RUNS; k++) {
-        bbm_model_free(m[k]);
-        case_free_reference(&ref[k]);
-    }
-    bbm_model_free(dda);
-    bbm_model_free(fem);
-    return case_close(&r);
+    return case_main(&(case_experiment){
+        .name = "exp1", .title = "Experiment I: cantilever", .solve = exp1_solve,
+        .computed = computed, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .maps = LENGTH(map), .map = map, .triangles = 600, .print_errors = print_error,
+        .errors = "Experiment I, load b, the paper's way: error of v(24,0) against the converged "
+                  "finite element",
+        .files = "fig10.csv, fig10.svg to fig13.svg, deformed.svg" }, argc, argv);
 }

@@ -18,9 +18,7 @@ static void print_augmented(const case_reference *b)
     for (double alpha = 10; alpha <= 1000; alpha *= 10) {
         printf("| %g |", alpha);
         for (int rounds = 0; rounds <= 2; rounds++) {
-            bbm_model *m = rounds ? case_model() : case_paper_model();
-            if (rounds)
-                m->beyond->multiplier_rounds = rounds;
+            bbm_model *m = rounds ? case_beyond_model(rounds) : case_paper_model();
             exp1_solve(m, "b", CELL_CROSSED, 2, alpha);
             printf(" %+.4f %% |", deflection_error(m, b, 24));
             bbm_model_free(m);
@@ -40,7 +38,7 @@ static void place_uniform(double i, double j, const void *grid, double xy[2])
 /* The beam under load b on a uniform grid, with bonds that do not give. */
 static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
 {
-    bbm_model *m = case_augmented_model();
+    bbm_model *m = case_beyond_model(2);
     case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place_uniform };
 
     g.context = &g;

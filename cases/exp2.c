@@ -192,16 +192,16 @@ static int on_line(const line_of *l, const struct case_value *f)
 static void draw_line(case_results *r, const bbm_model *const m[RUNS], const case_reference *b5,
                       const line_of *l)
 {
-    double at[128], value[2][128], exact[128], table[128][4], fem_at[16], fem[16];
+    double at[128], value[2][128], exact[128], fem_at[16], fem[16];
     char csv[32], svg[32], header[80];
     int fems = 0;
 
     for (int i = 0; i < l->count; i++) {
         const bbm_node *n = &m[0]->node[l->first + i * l->step];
-        at[i] = table[i][0] = abscissa_of(l, n->x, n->y);
-        exact[i] = table[i][3] = theory(l->quantity, n->x, n->y);
+        at[i] = abscissa_of(l, n->x, n->y);
+        exact[i] = theory(l->quantity, n->x, n->y);
         for (int k = 0; k < 2; k++)
-            value[k][i] = table[i][1 + k] = computed(m[k], l->quantity, n->x, n->y);
+            value[k][i] = computed(m[k], l->quantity, n->x, n->y);
     }
     for (int i = 0; i < b5->values && fems < 16; i++)
         if (on_line(l, &b5->value[i])) {
@@ -222,10 +222,11 @@ static void draw_line(case_results *r, const bbm_model *const m[RUNS], const cas
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
     case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
         .title = l->title, .count = LENGTH(s) - !fems, .series = s,
-        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0, 0, 0 },
+        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0 },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
-               l->quantity[0] == 's' ? "Pa" : "m", 0, 0, 0 } }));
-    case_write_curves(r, csv, header, l->count, 4, &table[0][0]);
+               l->quantity[0] == 's' ? "Pa" : "m", 0 } }));
+    case_write_curves(r, csv, header, l->count, 4,
+                      (const double *const[]){ at, value[0], value[1], exact });
 }
 
 /* Fig. 15-19. */
@@ -269,37 +270,22 @@ static void print_errors(int k, double alpha)
     bbm_model_free(m);
 }
 
-int main(int argc, char **argv)
+static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
 {
-    case_results r;
-    case_reference ref[RUNS];
-    bbm_model *m[RUNS], *fem;
-
-    if (argc > 1 && strcmp(argv[1], "converge") == 0) {
-        case_converge("Experiment II, plate k5, the paper's way: error of u(1,0) | of sxx(0,1) "
-                      "against theory (72)", 816, print_errors);
-        return case_close(NULL);
-    }
-    printf("\n# Experiment II: plate with a hole, the paper's way\n\n");
-    case_open(&r, "exp2");
-    for (int k = 0; k < RUNS; k++)
-        m[k] = case_solve_run(&r, &(case_problem){ "exp2", solve_plate, computed, theory }, &run[k],
-                              &ref[k]);
-    case_print_parameters(m[0]);
     for (int k = 0; k < PAPER_RUNS; k++)
         print_tables(m[k], run[k].variant, &ref[k]);
-    print_summary((const bbm_model *const *)m);
-    draw_lines(&r, (const bbm_model *const *)m, &ref[0]);
-    fem = case_augmented_model();
-    if (fem)
-        solve_plate(fem, "b5", CELL_CROSSED, 2, 1000);
-    case_draw_maps(&r, m[0], fem, LENGTH(map), map);
-    printf("\nNumbers and pictures: %s/results.csv, fig15 to fig19 as csv and svg, fig20.svg to "
-           "fig23.svg, deformed.svg\n", r.folder);
-    for (int k = 0; k < RUNS; k++) {
-        bbm_model_free(m[k]);
-        case_free_reference(&ref[k]);
-    }
-    bbm_model_free(fem);
-    return case_close(&r);
+    print_summary(m);
+    draw_lines(r, m, &ref[0]);
+}
+
+int main(int argc, char **argv)
+{
+    return case_main(&(case_experiment){
+        .name = "exp2", .title = "Experiment II: plate with a hole", .solve = solve_plate,
+        .computed = computed, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .maps = LENGTH(map), .map = map, .triangles = 816, .print_errors = print_errors,
+        .errors = "Experiment II, plate k5, the paper's way: error of u(1,0) | of sxx(0,1) "
+                  "against theory (72)",
+        .files = "fig15 to fig19 as csv and svg, fig20.svg to fig23.svg, deformed.svg" },
+        argc, argv);
 }

@@ -808,7 +808,7 @@ static void draw_error(drawing *d)
                                .look = 1, .style = PLOT_DASHED };
     plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 460 }, &(plot_chart){
         .title = "Error of v(24,0): too soft on the left, too stiff on the right",
-        .x = { "alpha", NULL, 1, 0, 0 }, .y = { "error, its sign left out", "%", 1, 0, 0 },
+        .x = { "alpha", NULL, 1 }, .y = { "error, its sign left out", "%", 1 },
         .count = MESHES + 1, .series = s });
 }
 
@@ -858,7 +858,7 @@ static void draw_stress(drawing *d)
     if (m)
         plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 460 }, &(plot_chart){
             .title = "sxx at x = 24 m from the axis to the face, 1,024 triangles",
-            .x = { "y", "m", 0, 0, 0 }, .y = { "sxx", "Pa", 0, 0, 0 }, .count = 4,
+            .x = { "y", "m", 0 }, .y = { "sxx", "Pa", 0 }, .count = 4,
             .series = series });
     bbm_model_free(m);
 }

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build.h"
+#include "reader.h"
 
-/* Of the smallest element's size: nodes closer to a given place, or to the rim of a box, are there. */
+/* Of the smallest element's size: nodes closer to a given place, or to the rim of a box, are
+ * there. */
 #define NEAR 1e-6
 
 /* ----------------------------------------------------------------- building the library's model */
@@ -218,7 +219,8 @@ static int find_nearest(const model_reader *r, const selection *w, int *others)
     return found;
 }
 
-/* That others lie there as well is said, and that it is far away: by more than a tenth of the model. */
+/* That others lie there as well is said, and that it is far away: by more than a tenth of the
+ * model. */
 static void choose_nearest(model_reader *r, const selection *w)
 {
     int others;
@@ -233,8 +235,8 @@ static void choose_nearest(model_reader *r, const selection *w)
     for (int n = 0; n < r->nodes; n++)
         far = fmax(far, hypot(r->node[n].x - at->x, r->node[n].y - at->y));
     if (d > far / 10)
-        model_note(r, "warning: the nearest node, %.60s at %g %g, is %.3g m away from %g %g", at->id,
-                   at->x, at->y, d, w->x[0], w->x[1]);
+        model_note(r, "warning: the nearest node, %.60s at %g %g, is %.3g m away from %g %g",
+                   at->id, at->x, at->y, d, w->x[0], w->x[1]);
     if (others > 0)
         model_note(r, "note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
                    "takes another", others + 1, r->node[found].id,
@@ -434,14 +436,14 @@ static int load_edges(model_reader *r, const edge_load *l)
 
 int model_traction(model_reader *r)
 {
-    edge_load l = { { 0, 0 }, 0, 0, 0 };
+    edge_load l = { .weight = 0 };
 
     return where(r, 0) && model_numbers(r, 2, l.t) && load_edges(r, &l);
 }
 
 int model_pressure(model_reader *r)
 {
-    edge_load l = { { 0, 0 }, 0, 0, 0 };
+    edge_load l = { .weight = 0 };
 
     return where(r, 0) && model_numbers(r, 1, &l.pressure) && load_edges(r, &l);
 }
@@ -450,7 +452,7 @@ int model_water(model_reader *r)
 {
     const double *g = r->p->m->par.gravity;
     double density = 1000;
-    edge_load l = { { 0, 0 }, 0, 0, 0 };
+    edge_load l = { .weight = 0 };
     model_option o[] = { ABOVE_ZERO("density", &density) };
 
     if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, LENGTH(o), o))
@@ -515,8 +517,7 @@ int model_stress(model_reader *r)
     model_block *b = &r->block[block];
     if (b->stressed++)
         return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
-    return model_number(r, &b->stress[0]) && model_number(r, &b->stress[1])
-           && model_number(r, &b->stress[2]) && model_at_end(r);
+    return model_numbers(r, 3, b->stress);
 }
 
 int model_monitors(model_reader *r)
@@ -537,16 +538,6 @@ int model_monitors(model_reader *r)
     return 0;
 }
 
-/* How far the start of a boundary edge is from another edge, m. */
-static double distance(const bbm_model *m, int corner, int edge)
-{
-    const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, edge);
-    const bbm_direction t = m->edge[edge].along;
-    const double s = fmax(0, fmin(t.length, bbm_way_along(m, corner, edge)));
-
-    return hypot(P->x - a->x - s * t.x, P->y - a->y - s * t.y);
-}
-
 /* A body is free: which block of another one is nearest to it. */
 static int blame_free(model_reader *r)
 {
@@ -559,14 +550,14 @@ static int blame_free(model_reader *r)
         for (int f = 0; f < m->edges; f++) {
             const int i = bbm_element_of(m, e), j = bbm_element_of(m, f),
                       own = bbm_component_of(m->K, i) == body;
-            if (own == (bbm_component_of(m->K, j) == body) || distance(m, e, f) >= gap)
+            if (own == (bbm_component_of(m->K, j) == body) || model_distance(m, e, f) >= gap)
                 continue;
-            gap = distance(m, e, f);
+            gap = model_distance(m, e, f);
             snprintf(near, sizeof near, "; block '%.60s' is %.3g m away",
                      r->p->block[m->element[own ? j : i].block], gap);
         }
-    return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, expected "
-                      "fix, fixblock or a contact that holds it in statics%s",
+    return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, "
+                      "expected fix, fixblock or a contact that holds it in statics%s",
                       r->p->block[m->element[loose].block], near);
 }
 

@@ -4,12 +4,10 @@
  * not met them. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "find.h"
 #include "run.h"
-#include "statements.h"
 
 enum { NOT_MET, MET, WRONG, STOPPED };
 enum { HALVINGS = 10 };         /* 2^-10 of the interval is a thousandth */
@@ -45,17 +43,12 @@ static int run_model(const find *f, model *p, char text[520])
 static int try_number(const find *f, double x, int first)
 {
     char text[520] = "", number[200];
-    char **let = malloc(((size_t)f->lets + 1) * sizeof *let);
     model p;
     int answer = WRONG;
 
-    if (!let)
-        return fprintf(stderr, "%s: out of memory\n", f->model), WRONG;
-    for (int k = 0; k < f->lets; k++)
-        let[k] = f->let[k];
-    let[f->lets] = number;
+    f->let[f->lets] = number;
     snprintf(number, sizeof number, "%.100s=%.15g", f->name, x);
-    const int status = model_read(f->model, f->lets + 1, let, &p);
+    const int status = model_read(f->model, f->lets + 1, f->let, &p);
     for (int k = 0; k < p.notes && first && !status; k++)
         fprintf(stderr, "%s\n", p.note[k]);
     if (status)
@@ -68,7 +61,6 @@ static int try_number(const find *f, double x, int first)
         printf("%s = %-12.9g %s\n", f->name, x, text);
     fflush(stdout);
     model_free(&p);
-    free(let);
     return answer;
 }
 
@@ -89,7 +81,8 @@ int find_limit(const find *f)
     }
     if (answer > MET)
         return answer == STOPPED ? 1 : 2;
-    printf("the limit is %s = %.6g +- %.2g: the expectations are met at %.9g, not at %.9g; %d runs\n",
-           f->name, (x[0] + x[1]) / 2, fabs(x[1] - x[0]) / 2, x[low != MET], x[low == MET], runs);
+    printf("the limit is %s = %.6g +- %.2g: the expectations are met at %.9g, not at %.9g; %d "
+           "runs\n", f->name, (x[0] + x[1]) / 2, fabs(x[1] - x[0]) / 2, x[low != MET],
+           x[low == MET], runs);
     return 0;
 }

@@ -8,7 +8,7 @@ typedef struct {
     const char *model, *name;   /* the file; the name of a `let` */
     double low, high;
     int    lets, quiet;
-    char *const *let;           /* [lets]       NAME=VALUE of the command line */
+    char **let;                 /* [lets]       NAME=VALUE of the command line; room for one more */
     int  (*stop)(const bbm_model *m, void *none);       /* looked at before each solution */
 } find;
 

@@ -17,7 +17,6 @@
 #include "find.h"
 #include "length.h"
 #include "run.h"
-#include "statements.h"
 #include "warn.h"
 #include "write.h"
 
@@ -132,7 +131,8 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     const size_t n = a->matrix ? strlen(a->matrix) : 0;
     if (a->matrix && (n < 5 || strcmp(a->matrix + n - 4, ".mtx") != 0))
         return complain(a, "-m needs a name that ends in .mtx");
-    if (a->find.name && (folder || a->matrix || a->check || (a->model && strcmp(a->model, "-") == 0)))
+    if (a->find.name
+        && (folder || a->matrix || a->check || (a->model && strcmp(a->model, "-") == 0)))
         return complain(a, "--find reads a file several times and writes none: without -o, -m, "
                            "--check and -");
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
@@ -143,8 +143,8 @@ static int read_arguments(arguments *a, int argc, char *argv[])
 static const char *plural(int n) { return n == 1 ? "" : "s"; }
 
 typedef struct {
-    int shown, steps, settling, begun;          /* steps, settling: in all; begun: a line without its end */
-    int warned;
+    int shown, steps, settling;                 /* steps, settling: in all */
+    int begun, warned;                          /* begun: a line without its end */
     double each;                                /* s            a step takes at present */
     clock_t now, last;                          /* CPU time at the last step, at the last line */
     time_t said;
@@ -299,22 +299,21 @@ static void report(const run *r, bbm_status status, const arguments *a)
 
     run_says(r, status, text);
     if (stopped)
-        fprintf(stderr,
-                "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until then is in "
-                "%s\n",
-                a->model, r->has_begun ? "" : "settling, ", m->info.step,
+        fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until "
+                "then is in %s\n", a->model, r->has_begun ? "" : "settling, ", m->info.step,
                 r->has_begun ? m->par.steps : r->p->settle, m->info.t, a->folder);
     else if (status)
         fprintf(stderr, "%s: %s\n", a->model, text);
 }
 
-/* Looked at before each solution: the matrix if it is wanted, and whether to stop. */
+/* Looked at before each solution: the matrix if there are results and it is wanted, and whether to
+ * stop. */
 static int before_solution(const bbm_model *m, void *results)
 {
     write_results *w = results;
 
     (void)m;
-    if (w->matrix)
+    if (w && w->matrix)
         write_matrix(w);
     return stopped != 0;
 }
@@ -373,8 +372,8 @@ static int check(model *p, const arguments *a)
     if (!a->quiet) {
         describe(p, a->model);
         describe_blocks(p);
-        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s of "
-               "other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,
+        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s "
+               "of other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,
                m->beyond->joints, plural(m->beyond->joints));
     }
     if (!write_check(&w))
@@ -386,12 +385,8 @@ static int check(model *p, const arguments *a)
 
 static int run_model(model *p, const arguments *a, clock_t start)
 {
-    write_results w = { .p = p,
-                        .source = a->model,
-                        .folder = a->folder,
-                        .matrix = a->matrix,
-                        .start = start,
-                        .reading = clock() - start };
+    write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
+                        .start = start, .reading = clock() - start };
     progress s = { .shown = !a->quiet, .steps = p->m->par.steps, .settling = p->settle,
                    .now = clock(), .said = time(NULL) };
     bbm_status status = BBM_OK;
@@ -417,20 +412,14 @@ static int run_model(model *p, const arguments *a, clock_t start)
     return report_expectations(p, a->quiet) > 0 ? 3 : 0;
 }
 
-/* Looked at by --find. */
-static int is_stopped(const bbm_model *m, void *none)
-{
-    (void)m, (void)none;
-    return stopped != 0;
-}
-
 static int read_and_run(const arguments *a, clock_t start)
 {
     model p;
     find f = a->find;
 
     if (f.name) {
-        f.model = a->model, f.quiet = a->quiet, f.lets = a->lets, f.let = a->let, f.stop = is_stopped;
+        f.model = a->model, f.quiet = a->quiet, f.lets = a->lets, f.let = a->let;
+        f.stop = before_solution;
         catch_signals();
         const int status = find_limit(&f);
         return stopped ? 128 + (int)stopped : status;

@@ -60,6 +60,15 @@ void model_displacement(const model *p, const model_monitor *m, double u[2])
     }
 }
 
+double model_distance(const bbm_model *m, int corner, int edge)
+{
+    const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, edge);
+    const bbm_direction t = m->edge[edge].along;
+    const double s = fmax(0, fmin(t.length, bbm_way_along(m, corner, edge)));
+
+    return hypot(P->x - a->x - s * t.x, P->y - a->y - s * t.y);
+}
+
 /* Each block as a rigid body: v + spin x (X - barycentre of the block). */
 int model_start(model *p)
 {

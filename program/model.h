@@ -5,8 +5,6 @@
  * monitors. A node of the file that several blocks share becomes a node of each of them,
  * for blocks are never bonded and each has its own results there. These copies are the nodes of
  * the library's model, in the order of the file.
- *
- * statements.h reads it.
  */
 #ifndef MODEL_H
 #define MODEL_H
@@ -48,8 +46,14 @@ typedef struct {
     char   message[600];
 } model;
 
+/* statements.c: reads and checks all; returns the status. `path` may be -, which is stdin. let:
+ * `NAME=VALUE` in place of what the file says, [lets]. model_free releases a model that failed,
+ * too. */
+int  model_read(const char *path, int lets, char *const let[], model *p);
 /* The library's last error, or the status, in the words of the file; out: with what it returns. */
 const char *model_says(const model *p, bbm_status status, char out[400]);
+/* How far the start of a boundary edge is from another edge, m. */
+double model_distance(const bbm_model *m, int corner, int edge);
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p, double t);                  /* to where they are at the time t */
 void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */

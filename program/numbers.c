@@ -21,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numbers.h"
+#include "reader.h"
 
 /* Letters of a name, of a number; parentheses, and repetitions, in one another; statements that
  * repetitions make; bytes that the values of numbers take. */

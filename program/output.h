@@ -1,35 +1,36 @@
 /* output.h - files that stand under their name only when they are complete, and folders.
  *
- *     output_open         begins PATH as PATH.N.tmp, N the number of this process: two runs share no file
+ *     output_open         begins PATH as PATH.N.tmp, N the number of this process: two runs share
+ *                         no file
  *     output_keep         what is written so far is worth keeping
  *     output_close        gives it its name
  *     output_drop         gives it up
  *
- * What fails leaves the reason in errno and nothing on the disk, but what is to be kept. What systems do
- * differently with files is here.
+ * What fails leaves the reason in errno and nothing on the disk, but what is to be kept. What
+ * systems do differently with files is here.
  */
 #ifndef OUTPUT_H
 #define OUTPUT_H
 
 #include <stdio.h>
 
-enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind                 */
+enum { LONGEST = 1100 };        /* of a name with its folder, with a 0 behind */
 
 typedef struct {
-    FILE *file;                 /* NULL: not open                                                              */
-    int   direct;               /* a device or a pipe: written as it is, for it must not be replaced           */
-    int   why;                  /* the errno of the first error, or 0                                          */
-    long  kept;                 /* bytes that stay whatever comes                                              */
+    FILE *file;                 /* NULL: not open */
+    int   direct;               /* a device or a pipe: written as it is, never replaced */
+    int   why;                  /* the errno of the first error, or 0 */
+    long  kept;                 /* bytes that stay whatever comes */
     char  path[LONGEST], temporary[LONGEST + 30];
 } output;
 
-int  output_open(output *o, const char *path);          /* 1, or 0                                              */
-int  output_keep(output *o);                            /* 1, or 0                                              */
-int  output_close(output *o);                           /* 1: the complete file stands under its name; 0        */
-void output_drop(output *o);
-int  output_make_folder(const char *path);              /* 1: it is there now; 0 (EEXIST: as no folder)         */
-size_t output_is_temporary(const char *name);   /* length of the name that it is to have; 0: it is none         */
-FILE *output_lock(const char *path);                    /* of a file; NULL (EBUSY: another process has it)       */
-void output_unlock(FILE *f, const char *path);          /* and removes it                                       */
+int    output_open(output *o, const char *path);    /* 1, or 0 */
+int    output_keep(output *o);                      /* 1, or 0 */
+int    output_close(output *o);             /* 1: the complete file stands under its name; 0 */
+void   output_drop(output *o);
+int    output_make_folder(const char *path);        /* 1: it is there; 0 (EEXIST: as no folder) */
+size_t output_is_temporary(const char *name);   /* length of its name to be; 0: it is none */
+FILE  *output_lock(const char *path);           /* NULL (EBUSY: another process has it) */
+void   output_unlock(FILE *f, const char *path);    /* and removes it */
 
 #endif

@@ -165,14 +165,10 @@ static void number_text(char *text, size_t size, double value, double step)
 static void power_text(char *text, size_t size, int exponent)
 {
     static const char *const raised[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
-    char digits[16];
+    const int e = abs(exponent);
 
-    snprintf(digits, sizeof digits, "%d", abs(exponent));
-    snprintf(text, size, "10%s", exponent < 0 ? "⁻" : "");
-    for (const char *d = digits; *d; d++) {
-        const size_t used = strlen(text);
-        snprintf(text + used, size - used, "%s", raised[*d - '0']);
-    }
+    snprintf(text, size, "10%s%s%s%s", exponent < 0 ? "⁻" : "", e < 100 ? "" : raised[e / 100 % 10],
+             e < 10 ? "" : raised[e / 10 % 10], raised[e % 10]);
 }
 
 /* ---------------------------------------------------------------------------------------- axes */
@@ -217,10 +213,6 @@ static plot_axis make_axis(const plot_quantity *q, const double range[2], double
     plot_axis a = { .log = q->log };
     double end[2] = { range[0], range[1] };
 
-    if (q->low < q->high && !(q->log && q->low <= 0)) {
-        plot_widen(end, q->low);
-        plot_widen(end, q->high);
-    }
     if (end[0] > end[1]) {
         end[0] = q->log ? 0.1 : 0;
         end[1] = 1;
@@ -357,7 +349,7 @@ static void place_axes(plot *p, plot_box b)
 /* The unit is that of the larger extent, not of the distance from the origin. */
 void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 {
-    static const plot_quantity q[2] = { { "x", "m", 0, 0, 0 }, { "y", "m", 0, 0, 0 } };
+    static const plot_quantity q[2] = { { "x", "m", 0 }, { "y", "m", 0 } };
     const double *const end[2] = { x, y };
 
     for (int k = 0; k < 2; k++) {
@@ -550,7 +542,7 @@ plot_axis plot_bar_axis(const plot_quantity *q, const double range[2])
 
     bar.step = nice_step((bar.hi - bar.lo) / LEVELS, 1);
     round_axis(&bar);
-    bar.lo -= 1e-6 * bar.step;          /* a field that is one level, but for rounding: one colour */
+    bar.lo -= 1e-6 * bar.step;          /* a field of one level, but for rounding: one colour */
     return bar;
 }
 

@@ -31,7 +31,6 @@ typedef enum {
 typedef struct {                /* what an axis or a colour bar measures                          */
     const char *name, *unit;    /* a unit m, N, Pa, s, alone or before a slash, may get a prefix  */
     int    log;                 /* logarithmic axis; values <= 0 are left out                     */
-    double low, high;           /* low < high: show at least these, e.g. zero                     */
 } plot_quantity;
 
 typedef struct {

@@ -23,11 +23,11 @@ void model_clean(char *text)
             *c = '?';
 }
 
-/* The first error stays. */
-static int note(model_reader *r, model_place at, const char *format, va_list args)
+int model_fail(model_reader *r, model_place at, const char *format, ...)
 {
     char *message = r->p->message;
     const size_t room = sizeof r->p->message;
+    va_list args;
 
     if (r->p->status)
         return 0;
@@ -38,28 +38,10 @@ static int note(model_reader *r, model_place at, const char *format, va_list arg
     message[used++] = ' ';
     if (at.round)
         used += (size_t)snprintf(message + used, room - used, "%.100s: ", at.round);
+    va_start(args, format);
     vsnprintf(message + used, room - used, format, args);
+    va_end(args);
     model_clean(message);
-    return 0;
-}
-
-int model_fail(model_reader *r, model_place at, const char *format, ...)
-{
-    va_list args;
-
-    va_start(args, format);
-    note(r, at, format, args);
-    va_end(args);
-    return 0;
-}
-
-int model_blame(model_reader *r, const char *format, ...)
-{
-    va_list args;
-
-    va_start(args, format);
-    note(r, r->s->at, format, args);
-    va_end(args);
     return 0;
 }
 
@@ -367,8 +349,8 @@ static char *number_word(model_reader *r)
     const int at = r->s->first + r->next - 1;
 
     if (word && r->given[at].glued)
-        return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or $(2*p)",
-                           r->given[at].text, word), NULL;
+        return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or "
+                           "$(2*p)", r->given[at].text, word), NULL;
     return word;
 }
 
@@ -455,8 +437,8 @@ int model_next_block(model_reader *r)
 int model_note_friction(model_reader *r, double friction)
 {
     return !(friction > 0 && friction < 1)
-           || model_note(r, "warning: a friction of %g degrees; if it is meant as tan(phi), phi is %.3g "
-                         "degrees", friction, atan(friction) * 180 / acos(-1));
+           || model_note(r, "warning: a friction of %g degrees; if it is meant as tan(phi), phi is "
+                         "%.3g degrees", friction, atan(friction) * 180 / acos(-1));
 }
 
 int model_is_new(model_reader *r, const model_table *t, const char *what, const char *word)
@@ -526,10 +508,19 @@ int model_options(model_reader *r, int n, model_option o[])
 
 /* ------------------------------------------------------------- nodes, elements, blocks and sets */
 
+/* One that is too long is the largest number. */
+static void note_id(long long *last, const char *id)
+{
+    const long long value = strtoll(id, NULL, 10);
+
+    *last = value > *last ? value : *last;
+}
+
 int model_add_node(model_reader *r, const model_node *n)
 {
     if (model_find(&r->node_of, n->id) >= 0)
         return model_fail(r, n->at, "node '%.60s' for the second time, expected a new one", n->id);
+    note_id(&r->last_node, n->id);
     return model_enter(r, &r->node_of, n->id, r->nodes)
            && model_add(r, &r->node, &r->nodes, sizeof *n, n);
 }
@@ -545,17 +536,20 @@ int model_find_block(model_reader *r, const char *word, model_place at)
            && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
 }
 
-int model_add_element(model_reader *r, const model_element *e, const int corner[])
+int model_add_corner(model_reader *r, int node)
+{
+    return node >= 0 && model_add(r, &r->corner, &r->corners, sizeof node, &node);
+}
+
+int model_add_element(model_reader *r, const model_element *e)
 {
     model_element own = *e;
 
-    own.first = r->corners;
+    own.first = r->corners - e->n;
+    note_id(&r->last_element, e->id);
     if (model_find(&r->element_of, e->id) >= 0)
         return model_fail(r, e->at, "element '%.60s' for the second time, expected a new one",
                           e->id);
-    for (int k = 0; k < e->n; k++)
-        if (!model_add(r, &r->corner, &r->corners, sizeof *corner, &corner[k]))
-            return 0;
     return model_enter(r, &r->element_of, e->id, r->elements)
            && model_add(r, &r->element, &r->elements, sizeof own, &own);
 }

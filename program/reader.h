@@ -2,8 +2,9 @@
  *
  * Reading has four steps: the file is cut into statements and words; numbers take the place of
  * their names, and what is repeated is written out; the statements are carried out in an order in
- * which each finds what it needs; the first error ends it all with one sentence, FILE:LINE: what is wrong, and what was expected. msh.c does the same for mesh files
- * and puts nodes, elements and sets in the same reader.
+ * which each finds what it needs; the first error ends it all with one sentence, FILE:LINE: what
+ * is wrong, and what was expected. msh.c does the same for mesh files and puts nodes, elements and
+ * sets in the same reader.
  *
  * Every function of a statement takes its words one by one and returns 1, or 0 after model_fail.
  * Words are never copied: names and ids point into texts that are kept until model_free.
@@ -18,18 +19,18 @@
 
 /* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */
 typedef struct { const char *file; int line; const char *round; } model_place;
-typedef struct {                /* from a word to a number                                          */
+typedef struct {                /* from a word to a number */
     int room, count, *value;
     const char **key;
 } model_table;
 
-typedef struct {                /* words first .. first+n-1                                         */
+typedef struct {                /* words first .. first+n-1 */
     model_place at;
     int first, n, kind;         /* kind: its row in the table of statements.c */
     const char *name, *form;    /* its first word; what it looks like, for messages */
 } model_statement;
 
-typedef struct { char *text; int glued; } model_given;      /* glued: of several pieces, no number */
+typedef struct { char *text; int glued; } model_given;  /* glued: of several pieces, no number */
 typedef struct { const char *name, *value; } model_local;   /* a number of a round */
 
 typedef struct {
@@ -52,8 +53,8 @@ typedef struct {
     double stress[3];
 } model_block;
 
-/* dimensions: bits, of points, curves, surfaces of a mesh. A copy is that of a node for a block: its
- * library node, and the next copy, or -1. */
+/* dimensions: bits, of points, curves, surfaces of a mesh. A copy is that of a node for a block:
+ * its library node, and the next copy, or -1. */
 typedef struct { int n, *node, dimensions; } model_set;
 typedef struct { int node, block, next; } model_copy;
 
@@ -79,7 +80,7 @@ typedef struct {
     model_set *set;
     model_copy *copy;
     model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of;
-    long long last[2];                   /* the largest id of a node, of an element; 0: not known */
+    long long last_node, last_element;      /* the largest ids */
     int other_material;                     /* of `use MATERIAL on *`, or -1 */
     int plane_strain, no_shear;             /* no_shear: ks is 0 */
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
@@ -94,7 +95,7 @@ typedef struct {
 /* --- errors, memory, tables --- */
 /* They return 0; the first message stays. model_blame: at the statement in hand. */
 int   model_fail(model_reader *r, model_place at, const char *format, ...);
-int   model_blame(model_reader *r, const char *format, ...);
+#define model_blame(r, ...) model_fail(r, (r)->s->at, __VA_ARGS__)
 int   model_note(model_reader *r, const char *format, ...);     /* what is no error, of it */
 int   model_out_of_memory(model_reader *r);
 int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
@@ -161,10 +162,30 @@ int   model_options(model_reader *r, int n, model_option o[]);
 
 /* --- nodes, elements, blocks and sets --- */
 int   model_add_node(model_reader *r, const model_node *n);
-int   model_add_element(model_reader *r, const model_element *e, const int corner[]);
+/* Its corners are the e->n last of r->corner, added before. */
+int   model_add_corner(model_reader *r, int node);
+int   model_add_element(model_reader *r, const model_element *e);
 /* A new one if need be; -1: no memory. */
 int   model_find_block(model_reader *r, const char *name, model_place at);
 int   model_find_set(model_reader *r, const char *name);
 int   model_add_to_set(model_reader *r, int set, int node);
+/* msh.c: Gmsh's mesh files. */
+int   model_read_mesh(model_reader *r, const char *path, model_place statement);
+
+/* numbers.c: the statements as the file has them become those that count. */
+int   model_expand(model_reader *r);
+
+/* --- build.c: the library's model, and the statements that need it --- */
+int   model_build(model_reader *r);
+int   model_finish(model_reader *r);
+int   model_fix(model_reader *r);
+int   model_load_nodes(model_reader *r);
+int   model_traction(model_reader *r);
+int   model_pressure(model_reader *r);
+int   model_water(model_reader *r);
+int   model_velocities(model_reader *r);
+int   model_stress(model_reader *r);
+int   model_joint(model_reader *r);
+int   model_monitors(model_reader *r);
 
 #endif

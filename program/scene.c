@@ -98,17 +98,6 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-/* N n - T m, m from P2 to P3 and n out of the edge's block. */
-void scene_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2])
-{
-    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
-
-    f[0] = -N * y - T * x;
-    f[1] = N * x - T * y;
-}
-
 /* Turned round if it points down, so that it points into what is carried. */
 static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 {
@@ -444,8 +433,8 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     }
     for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++) {
         const bbm_line_load *l = &m->line_load[i];
-        visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f, 0 }, &last,
-                   visit);
+        visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f, 0 },
+                   &last, visit);
     }
     scene_line l;
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
@@ -643,7 +632,8 @@ static void find_window(film *f)
     for (int b = 0; b < f->bodies; b++)
         for (int k = 0; k < f->body[b].n && !(chosen && f->body[b].held); k++)
             for (int i = 0; i < f->s->frames; i++)
-                widen_window(f, 0, position(f, i, f->vertex[f->body[b].first + k]), (point){ 0, 0 });
+                widen_window(f, 0, position(f, i, f->vertex[f->body[b].first + k]),
+                             (point){ 0, 0 });
     const double more = 0.03 * fmax(f->window[0][1] - f->window[0][0],
                                     f->window[1][1] - f->window[1][0]);
     for (int k = 0; k < 2; k++) {
@@ -701,7 +691,8 @@ static int open_page(film *f, const char *path, int n, double below)
 {
     layout *l = &f->l;
 
-    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0, .over = n > 1 || is_timed(f) ? OVER : 14 };
+    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0,
+                   .over = n > 1 || is_timed(f) ? OVER : 14 };
     measure(f, n);
     const double width = fmax(l->columns * l->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
     const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;

@@ -15,17 +15,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build.h"
 #include "cell.h"
 #include "field.h"
-#include "msh.h"
-#include "numbers.h"
-#include "statements.h"
+#include "reader.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 
 /* Letters of an id; cells of a grid; memory for each element, at least. */
 enum { ID_ROOM = 24, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
+
+#define MOST_NUMBERED 100000000000000000        /* ids of blocks and grids are below it */
 
 /* ----------------------------------------------------------------- statements that need nothing */
 
@@ -73,11 +72,11 @@ static int read_material(model_reader *r)
     };
 
     o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
-    if (!word || !model_is_new(r, &r->material_of, "material", word) || !model_options(r, LENGTH(o), o))
+    if (!word || !model_is_new(r, &r->material_of, "material", word)
+        || !model_options(r, LENGTH(o), o))
         return 0;
     r->light = m.density < 10 ? r->s : r->light;
-    return 1
-           && model_enter(r, &r->material_of, word, r->materials)
+    return model_enter(r, &r->material_of, word, r->materials)
            && model_add(r, &r->material, &r->materials, sizeof m, &m);
 }
 
@@ -153,9 +152,9 @@ static int read_bond(model_reader *r)
 
     for (int k = 1; k < r->s->n; k++)
         if (strcmp(r->word[r->s->first + k], "midpoints") == 0)
-            return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in the "
-                                  "middles of their sides alone elements can turn against each "
-                                  "other");
+            return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in "
+                                  "the middles of their sides alone elements can turn against "
+                                  "each other");
     if (!model_options(r, LENGTH(o), o))
         return 0;
     b->bonding = bonding[kind];
@@ -218,59 +217,42 @@ static int read_element(model_reader *r)
     e.n = r->s->n - r->next;
     if (e.n < 3)
         return model_fail(r, e.at, "element %.60s has %d nodes, expected 3 or more", e.id, e.n);
-    int *corner = model_room(r, e.n, sizeof *corner),
-        good = corner && (e.block = model_find_block(r, block, e.at)) >= 0;
-    for (int k = 0; k < e.n && good; k++)
-        good = (corner[k] = model_known(r, &r->node_of, "node", model_id(r))) >= 0;
-    good = good && model_add_element(r, &e, corner);
-    free(corner);
-    return good;
+    e.block = model_find_block(r, block, e.at);
+    for (int k = 0; k < e.n; k++)
+        if (!model_add_corner(r, model_known(r, &r->node_of, "node", model_id(r))))
+            return 0;
+    return e.block >= 0 && model_add_element(r, &e);
 }
 
 /* ----------------------------------------------------- blocks and grids with nodes of their own */
 
-/* The largest id of those there are; they are whole numbers. */
-static int find_last(model_reader *r, int of_elements)
+/* The id behind the last one of nodes or elements, kept as text. */
+static const char *next_id(model_reader *r, long long *last)
 {
-    const int n = of_elements ? r->elements : r->nodes;
-
-    for (int k = 0; k < n; k++) {
-        const char *word = of_elements ? r->element[k].id : r->node[k].id;
-        if (strlen(word) > 17)
-            return model_blame(r, "an id of %d digits, expected at most 17 where blocks are "
-                               "numbered on", (int)strlen(word));
-        const long long value = strtoll(word, NULL, 10);
-        if (value > r->last[of_elements])
-            r->last[of_elements] = value;
-    }
-    return 1;
-}
-
-/* The next id of a node or element, kept as text. */
-static const char *next_id(model_reader *r, int of_elements)
-{
-    if (r->last[of_elements] == 0 && !find_last(r, of_elements))
-        return NULL;
     char *text = model_text(r, ID_ROOM);
+
+    if (*last >= MOST_NUMBERED)
+        return model_blame(r, "an id of 18 digits or more, expected at most 17 where blocks are "
+                           "numbered on"), NULL;
     if (text)
-        snprintf(text, ID_ROOM, "%lld", ++r->last[of_elements]);
+        snprintf(text, ID_ROOM, "%lld", ++*last);
     return text;
 }
 
 static int add_own_node(model_reader *r, double x, double y)
 {
     const model_node n = {
-        .id = next_id(r, 0), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
+        .id = next_id(r, &r->last_node), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
     };
 
     return n.id && model_add_node(r, &n);
 }
 
-static int add_own_element(model_reader *r, int block, int material, int n, const int corner[])
+static int add_own_element(model_reader *r, int block, int material, int n)
 {
-    const model_element e = { next_id(r, 1), r->s->at, block, material, 0, n };
+    const model_element e = { next_id(r, &r->last_element), r->s->at, block, material, 0, n };
 
-    return e.id && model_add_element(r, &e, corner);
+    return e.id && model_add_element(r, &e);
 }
 
 /* NAME MATERIAL of a new block; its number, or -1. */
@@ -286,25 +268,18 @@ static int new_block(model_reader *r, const char **word, int *material)
 static int read_block(model_reader *r)
 {
     const char *word;
-    int material, good = 1;
+    double xy[2];
+    int material;
     const int block = new_block(r, &word, &material), words = r->s->n - r->next;
 
-    if (block < 0)
-        return 0;
-    int *corner = model_room(r, words, sizeof *corner);
-    double xy[2] = { 0, 0 };
-    for (int k = 0; k < words && good; k++) {
-        good = corner && model_number(r, &xy[k % 2])
-            && (k % 2 == 0 || add_own_node(r, xy[0], xy[1]));
-        if (good)
-            corner[k / 2] = r->nodes - 1;
-    }
-    if (good && (words < 6 || words % 2))
-        good = model_blame(r, "block '%.60s' has %d coordinates, expected X Y of 3 corners or more",
-                           word, words);
-    good = good && add_own_element(r, block, material, words / 2, corner);
-    free(corner);
-    return good;
+    for (int k = 0; k < words && block >= 0; k++)
+        if (!model_number(r, &xy[k % 2])
+            || (k % 2 && !(add_own_node(r, xy[0], xy[1]) && model_add_corner(r, r->nodes - 1))))
+            return 0;
+    if (block >= 0 && (words < 6 || words % 2))
+        return model_blame(r, "block '%.60s' has %d coordinates, expected X Y of 3 corners or "
+                           "more", word, words);
+    return block >= 0 && add_own_element(r, block, material, words / 2);
 }
 
 /* The nodes from `first` on, `step` apart, as the set NAME.side. */
@@ -358,8 +333,11 @@ static int read_grid(model_reader *r)
             good = add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
                                 (r->node[a].y + r->node[d + 1].y) / 2);
         const int cells = cell_cut(kind, (k / n[0] + k % n[0]) % 2, corner, element, &corners);
-        for (int c = 0; c < cells && good; c++)
-            good = add_own_element(r, block, material, corners, element[c]);
+        for (int c = 0; c < cells && good; c++) {
+            for (int i = 0; i < corners && good; i++)
+                good = model_add_corner(r, element[c][i]);
+            good = good && add_own_element(r, block, material, corners);
+        }
     }
     return good && add_rim(r, word, "left", first, n[0] + 1, n[1] + 1)
         && add_rim(r, word, "right", first + n[0], n[0] + 1, n[1] + 1)
@@ -507,7 +485,7 @@ static const struct kind {
 static const char *find_other(const char *word)
 {
     static const struct { const char *words, *here; } other[] = {
-        { " anchor bolt cable spring ", "a spring between two points is doc/exercises/24-bolt.md" },
+        { " anchor bolt cable spring ", "a spring between two points is Exercise 9.1 in doc/09-limits.md" },
         { " excavate remove stage ", "a file with the block and one without are two runs" },
         { " accelerogram earthquake pulse ", "see shake, which is a sine" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
@@ -526,13 +504,21 @@ static const char *find_other(const char *word)
     return NULL;
 }
 
-/* Finds the statement that begins with the word; whether it may stand here. */
-static int begin_statement(model_reader *r, const char *word, model_place at)
+/* The row of the statement; LENGTH(kinds): there is none. */
+static int find_kind(const char *word)
 {
     int k = 0;
 
     while (k < LENGTH(kinds) && strcmp(kinds[k].name, word) != 0)
         k++;
+    return k;
+}
+
+/* Finds the statement that begins with the word; whether there is one. */
+static int begin_statement(model_reader *r, const char *word, model_place at)
+{
+    const int k = find_kind(word);
+
     if (k == LENGTH(kinds)) {
         char text[200];
         const char *other = find_other(word);
@@ -626,20 +612,11 @@ static int read_phase(model_reader *r, int phase)
     return !r->p->status;
 }
 
-/* Where the statement stands that is read so; line 0: nowhere. */
-static const model_place *place_of(const model_reader *r, int (*read)(model_reader *r))
-{
-    int k = 0;
-
-    while (kinds[k].read != read)
-        k++;
-    return &r->seen[k];
-}
-
+/* One of static and dynamic, and what needs dynamic; line 0: it stands nowhere. */
 static int check_kind(model_reader *r)
 {
-    const model_place *s = place_of(r, read_static), *d = place_of(r, read_dynamic),
-                      *v = place_of(r, model_velocities), *a = place_of(r, read_shake);
+    const model_place *s = &r->seen[find_kind("static")], *d = &r->seen[find_kind("dynamic")],
+                      *v = &r->seen[find_kind("velocity")], *a = &r->seen[find_kind("shake")];
 
     if (s->line && d->line)
         return model_fail(r, s->line > d->line ? *s : *d,

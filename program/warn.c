@@ -16,25 +16,28 @@ static void put_warning(const char *path, const char *text)
 static void warn_of_loads(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
-    int held = 0, load = m->beyond->edge_loads > 0 || p->moving || m->beyond->shake[0] != 0
-                         || m->beyond->shake[1] != 0;
+    const bbm_beyond *b = m->beyond;
+    const double *g = m->par.gravity;
+    const int weighs = g[0] != 0 || g[1] != 0;
+    int held = b->edge_loads > 0,
+        load = held || weighs || p->moving || b->shake[0] != 0 || b->shake[1] != 0;
 
     for (int n = 0; n < m->nodes; n++) {
-        held |= m->node[n].held || m->beyond->edge_loads > 0;
+        held |= m->node[n].held;
         load |= m->node[n].load[0] != 0 || m->node[n].load[1] != 0;
     }
-    for (int b = 0; b < p->blocks; b++)
-        load |= p->velocity[b].given;
+    for (int k = 0; k < p->blocks; k++)
+        load |= p->velocity[k].given;
     for (int e = 0; e < m->elements; e++)
         for (int k = 0; k < 3; k++)
             load |= m->element[e].stress[k] != 0;
-    if (!load && m->par.gravity[0] == 0 && m->par.gravity[1] == 0)
+    if (!load)
         put_warning(path, "nothing loads the model; gravity, load, traction, pressure or fix ... "
                           "by does");
-    if (!held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))
+    if (!held && weighs)
         put_warning(path, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds "
                           "them");
-    if (m->par.gravity[1] >= 0 && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))
+    if (g[1] >= 0 && weighs)
         put_warning(path, "gravity is not downward; on earth it is: gravity 0 -9.81");
     if (p->slippery)
         put_warning(path, "no friction between blocks: `contact friction DEGREES` gives it");
@@ -58,9 +61,8 @@ static void warn_of_pieces(const model *p, const char *path)
         int left = NAMED;
         if (count[b] < 2)
             continue;
-        fprintf(stderr,
-                "%s: warning: block '%.60s' is in %d pieces that no bond joins, with the elements",
-                path, p->block[b], count[b]);
+        fprintf(stderr, "%s: warning: block '%.60s' is in %d pieces that no bond joins, with the "
+                "elements", path, p->block[b], count[b]);
         for (int e = 0; e < m->elements && left > 0; e++)
             if (piece[e] == e && m->element[e].block == b)
                 fprintf(stderr, "%s %s", left-- == NAMED ? "" : ",", p->element[e]);
@@ -110,17 +112,6 @@ static void measure(bodies *s)
     }
 }
 
-/* The distance of P from the edge. */
-static double distance(const bbm_model *m, const bbm_vertex *P, int edge)
-{
-    const bbm_vertex *a = &m->vertex[m->edge[edge].a], *b = &m->vertex[m->edge[edge].b];
-    const double x = b->x - a->x, y = b->y - a->y;
-    const double along = ((P->x - a->x) * x + (P->y - a->y) * y) / (x * x + y * y),
-                 s = fmax(0, fmin(1, along));
-
-    return hypot(P->x - a->x - s * x, P->y - a->y - s * y);
-}
-
 /* The least distance, if it is below `far`, of a corner of block a from an edge of b, and how many
  * corners are corners of both. */
 static double find_gap(const bodies *s, const body *a, const body *b, double far, int *shared)
@@ -134,7 +125,7 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
             continue;
         for (int f = b->edge; f >= 0; f = s->next[f]) {
             const bbm_vertex *Q = &s->m->vertex[s->m->edge[f].a];
-            gap = fmin(gap, distance(s->m, P, f));
+            gap = fmin(gap, model_distance(s->m, e, f));
             *shared += hypot(P->x - Q->x, P->y - Q->y) <= TOUCH / NEAR * far;
         }
     }
@@ -150,8 +141,8 @@ static body *group_of(const bodies *s, int b)
 
 static int has_strength(const bbm_beyond *b) { return b->joints || b->tension + b->cohesion > 0; }
 
-/* Blocks that touch are a group, which is held if one of them is. Two meshes of one material with the
- * same nodes along a side were hardly meant as two. */
+/* Blocks that touch are a group, which is held if one of them is. Two meshes of one material with
+ * the same nodes along a side were hardly meant as two. */
 static void compare(bodies *s, const char *path, int i, int j)
 {
     body *a = &s->body[i], *b = &s->body[j], *of = group_of(s, i), *to = group_of(s, j);
@@ -175,13 +166,13 @@ static void compare(bodies *s, const char *path, int i, int j)
                        *n = &s->m->element[s->m->edge[b->edge].element].material;
     if (shared > 2 && a->elements > 1 && b->elements > 1 && a->free && b->free && m->E == n->E
         && m->density == n->density && !has_strength(s->m->beyond))
-        fprintf(stderr, "%s: warning: blocks '%.60s' and '%.60s' have nodes in the same places, but "
-                "blocks are never bonded: there is a joint without tension between them; elements "
-                "of one block are bonded\n", path, s->p->block[i], s->p->block[j]);
+        fprintf(stderr, "%s: warning: blocks '%.60s' and '%.60s' have nodes in the same places, "
+                "but blocks are never bonded: there is a joint without tension between them; "
+                "elements of one block are bonded\n", path, s->p->block[i], s->p->block[j]);
 }
 
-/* A block that touches nothing that is held, directly or by others: with the nearest one, if the gap
- * may be meant as none. */
+/* A block that touches nothing that is held, directly or by others: with the nearest one, if the
+ * gap may be meant as none. */
 static void warn_of_flight(const bodies *s, const char *path)
 {
     int found = -1, more = 0;
@@ -227,12 +218,12 @@ static void warn_of_times(const bodies *s, const char *path)
             softest = squeezed, soft = e;
     }
     if (softest > 0.02)
-        fprintf(stderr, "%s: warning: its own weight would make block '%.60s' %.2g %% lower: E is %g Pa; "
-                "is it in Pa?\n", path, s->p->block[m->element[soft].block], 100 * softest,
+        fprintf(stderr, "%s: warning: its own weight would make block '%.60s' %.2g %% lower: E is "
+                "%g Pa; is it in Pa?\n", path, s->p->block[m->element[soft].block], 100 * softest,
                 m->element[soft].material.E);
     if (s->p->dynamic && par->velocity_factor > 0 && par->dt > fall / 2)
-        fprintf(stderr, "%s: warning: a step of %g s is long: a block falls by its own size in %.2g "
-                "s\n", path, par->dt, fall);
+        fprintf(stderr, "%s: warning: a step of %g s is long: a block falls by its own size in "
+                "%.2g s\n", path, par->dt, fall);
     if (s->p->dynamic && isfinite(wave) && par->dt * par->steps < wave)
         fprintf(stderr, "%s: warning: the run of %g s is short: a wave needs %.2g s through an "
                 "element\n", path, par->dt * par->steps, wave);
@@ -276,9 +267,9 @@ void warn_in_step(const model *p, const char *path, int step, int *said)
         const double way = hypot(i->D[0], i->D[1]);
         if (way * way <= i->A0)
             continue;
-        fprintf(stderr, "%s: warning: step %d: element %.60s of block '%.60s' moved by %.3g m, more "
-                "than its own size; a smaller dt misses no contact\n", path, step, p->element[e],
-                p->block[i->block], way);
+        fprintf(stderr, "%s: warning: step %d: element %.60s of block '%.60s' moved by %.3g m, "
+                "more than its own size; a smaller dt misses no contact\n", path, step,
+                p->element[e], p->block[i->block], way);
         *said = 1;
     }
 }

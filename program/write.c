@@ -19,11 +19,10 @@
 
 static int fail(write_results *w, const char *path, const char *why)
 {
+    fprintf(stderr, "%s: ", w->source);
     if (w->p->m->info.step > 0)
-        fprintf(stderr, "%s: step %d: %s cannot be written: %s\n", w->source, w->p->m->info.step,
-                path, why);
-    else
-        fprintf(stderr, "%s: %s cannot be written: %s\n", w->source, path, why);
+        fprintf(stderr, "step %d: ", w->p->m->info.step);
+    fprintf(stderr, "%s cannot be written: %s\n", path, why);
     w->status = 1;
     return 0;
 }
@@ -69,47 +68,34 @@ static void put_numbers(FILE *f, int n, const double x[])
         fprintf(f, ",%.15g", x[k]);
 }
 
-/* The names of the fields of a file. */
-static void put_names(FILE *f, int files)
+/* A row for each node or element: what it is, where it began, the fields of the file. */
+static void put_results(FILE *f, const model *p, int files)
 {
+    const bbm_model *m = p->m;
+    const int nodes = files & FIELD_NODES;
+
+    fprintf(f, "%s,block,x,y", nodes ? "node" : "element");
     for (const field *q = field_table; q->name; q++)
         if (q->files & files)
             fprintf(f, ",%s", q->name);
     fputc('\n', f);
-}
-
-static void put_nodes(FILE *f, const write_results *w)
-{
-    const model *p = w->p;
-    const bbm_model *m = p->m;
-
-    fprintf(f, "node,block,x,y");
-    put_names(f, FIELD_NODES);
-    for (int n = 0; n < m->nodes; n++) {
-        fprintf(f, "%s,%s", p->node[n], p->block[p->node_block[n]]);
-        put_numbers(f, 2, (double[]){ m->node[n].x, m->node[n].y });
+    for (int k = 0; k < (nodes ? m->nodes : m->elements); k++) {
+        fprintf(f, "%s,%s", nodes ? p->node[k] : p->element[k],
+                p->block[nodes ? p->node_block[k] : m->element[k].block]);
+        put_numbers(f, 2, nodes ? (double[]){ m->node[k].x, m->node[k].y } : p->centre[k]);
         for (const field *q = field_table; q->name; q++)
-            if (q->files & FIELD_NODES)
-                fprintf(f, ",%.15g", field_of_node(q, m, n));
+            if (q->files & files)
+                fprintf(f, ",%.15g",
+                        nodes ? field_of_node(q, m, k) : field_of_element(q, m, k));
         fputc('\n', f);
     }
 }
+
+static void put_nodes(FILE *f, const write_results *w) { put_results(f, w->p, FIELD_NODES); }
 
 static void put_elements(FILE *f, const write_results *w)
 {
-    const model *p = w->p;
-    const int files = p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS;
-
-    fprintf(f, "element,block,x,y");
-    put_names(f, files);
-    for (int e = 0; e < p->m->elements; e++) {
-        fprintf(f, "%s,%s", p->element[e], p->block[p->m->element[e].block]);
-        put_numbers(f, 2, p->centre[e]);
-        for (const field *q = field_table; q->name; q++)
-            if (q->files & files)
-                fprintf(f, ",%.15g", field_of_element(q, p->m, e));
-        fputc('\n', f);
-    }
+    put_results(f, w->p, w->p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS);
 }
 
 static const char *const state_name[] = { "OPEN", "LOCK", "SLIDE" };
@@ -190,12 +176,10 @@ static void put_timing(FILE *f, const write_results *w)
 {
     const double *s = w->p->m->info.seconds;
 
-    fprintf(f,
-            "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\niterate,%"
-            ".15g\n",
-            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION],
-            s[BBM_ITERATE]);
-    fprintf(f, "write,%.15g\ntotal,%.15g\n", seconds(w->writing), seconds(clock() - w->start));
+    fprintf(f, "phase,seconds\nread,%.15g\ndetect,%.15g\nassemble,%.15g\nprecondition,%.15g\n",
+            seconds(w->reading), s[BBM_DETECT], s[BBM_ASSEMBLE], s[BBM_PRECONDITION]);
+    fprintf(f, "iterate,%.15g\nwrite,%.15g\ntotal,%.15g\n", s[BBM_ITERATE], seconds(w->writing),
+            seconds(clock() - w->start));
 }
 
 /* ------------------------------------------------------------------------------------------ VTK */
@@ -383,8 +367,7 @@ static size_t is_ours(const char *name)
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
         "reactions.csv", "contacts.svg", "movie.svg", "model.svg",
     };
-    const size_t temporary = output_is_temporary(name),
-                 n = temporary ? temporary : strlen(name);
+    const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
     const size_t start = strncmp(name, "step_", 5) == 0 ? 5
                        : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
     const size_t digits = start ? strspn(name + start, "0123456789") : 0;

@@ -1,14 +1,14 @@
 /* write.h - the results of a model file as files: CSV, VTK for ParaView, pictures (SVG), K and F
  * (Matrix Market).
  *
- *     write_open       makes the folder and locks it, or empties it of an earlier run, begins history.csv,
- *                      summary.csv
- *     write_step          a row of each, a picture, for the start (step 0) and each nominal step
- *     write_close         the end of the run: nodes.csv, elements.csv, contacts.csv, ... pictures
+ *     write_open       makes the folder and locks it, or empties it of an earlier run, begins
+ *                      history.csv, summary.csv
+ *     write_step       a row of each, a picture, for the start (step 0) and each nominal step
+ *     write_close      the end of the run: nodes.csv, elements.csv, contacts.csv, ... pictures
  *
- * A file has its name when it is complete (output.h); history.csv and summary.csv, if they cannot be, have the
- * rows that could be written. Each error is a line on stderr and makes
- * `status` 1; what comes after it still tries to keep what there is.
+ * A file has its name when it is complete (output.h); history.csv and summary.csv, if they cannot
+ * be, have the rows that could be written. Each error is a line on stderr and makes `status` 1;
+ * what comes after it still tries to keep what there is.
  */
 #ifndef WRITE_H
 #define WRITE_H

@@ -30,7 +30,7 @@ static void place(double i, double j, const void *unused, double xy[2])
 /* A cantilever of nx x ny cells with its K and F assembled. */
 static bbm_model *beam(int nx, int ny, int cut, double alpha)
 {
-    bbm_model *m = case_model();
+    bbm_model *m = case_beyond_model(0);
     case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place };
 
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
@@ -135,7 +135,7 @@ static void add_long_sides(bbm_model *m, int n)
  * a cohesion, so that the length of each joint is looked up, too. */
 static bbm_model *model_in_contact(void add(bbm_model *, int), int n)
 {
-    bbm_model *m = case_model();
+    bbm_model *m = case_beyond_model(0);
 
     bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
     add(m, n);

@@ -46,38 +46,14 @@ void matrix_multiply(const bbm_matrix *K, const double *x, double *y);
 void eliminate(int n, double *A, double *b);
 
 /* In the order in which check_main.c runs them. */
-Suite *formulas_suite(void);
-Suite *elastic_suite(void);
-Suite *steps_suite(void);
-Suite *mesh_suite(void);
-Suite *input_suite(void);
-Suite *detection_suite(void);
-Suite *corners_suite(void);
-Suite *entrance_suite(void);
-Suite *open_close_suite(void);
-Suite *sliding_suite(void);
-Suite *joints_suite(void);
-Suite *blocks_suite(void);
-Suite *repeat_suite(void);
-Suite *solver_suite(void);
-Suite *coarse_suite(void);
-Suite *beyond_suite(void);
-Suite *motion_suite(void);
-Suite *bars_suite(void);
-Suite *limits_suite(void);
-Suite *statics_suite(void);
-Suite *refused_suite(void);
-Suite *theory_suite(void);
-Suite *equations_suite(void);
-Suite *run_suite(void);
-Suite *impact_suite(void);
-Suite *cases_suite(void);
-Suite *model_suite(void);
-Suite *statements_suite(void);
-Suite *moving_suite(void);
-Suite *scenes_suite(void);
-Suite *files_suite(void);
-Suite *pictures_suite(void);
+typedef Suite *make_suite(void);
+
+make_suite formulas_suite, elastic_suite, steps_suite, mesh_suite, input_suite, detection_suite,
+    corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite, blocks_suite,
+    repeat_suite, solver_suite, coarse_suite, beyond_suite, motion_suite, bars_suite,
+    statics_suite, refused_suite, theory_suite, equations_suite, run_suite, impact_suite,
+    cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
+    pictures_suite, page_suite;
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

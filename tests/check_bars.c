@@ -15,8 +15,6 @@
 #include "check.h"
 #include "rock.h"
 
-Suite *bars_suite(void);
-
 enum { COLUMNS = 6 };
 
 typedef struct {                /* its columns are in turn of the first and of the second kind */

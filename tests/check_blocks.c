@@ -6,11 +6,12 @@
 
 /* -------------------------------------------------------------------------------------- at rest */
 
+/* In 10,000 steps: rounding, 1e-16 of 4 m in each, if all were of one sign. */
 START_TEST(blocks_of_a_column_carry_the_weight_above_and_do_not_drift)
 {
     enum { N = 4 };
     const double W = DENSITY * GRAVITY;
-    double at[N][2];
+    double at[N][3];
     bbm_model *m = new_blocks();
 
     add_table(m, 0);
@@ -18,10 +19,10 @@ START_TEST(blocks_of_a_column_carry_the_weight_above_and_do_not_drift)
         add_rectangle(m, b, ROCK, (rectangle){ .x = 0, .y = b - 1, .w = 1, .h = 1 });
     m->par.friction = 30;
     ck_ok(bbm_prepare(m), m);
-    settle(m, 60);
+    settle(m, 100);
     for (int b = 1; b <= N; b++)
         memcpy(at[b - 1], m->element[b].sum, sizeof at[b - 1]);
-    run_steps(m, 100);
+    run_steps(m, 10000);
     ck_assert_int_eq(m->info.contacts, 2 * N);
     ck_relative(m->info.penetration, N * W / 2 / m->par.p_n, 1e-8);
     ck_assert_int_eq(m->info.passes, 1);
@@ -34,10 +35,10 @@ START_TEST(blocks_of_a_column_carry_the_weight_above_and_do_not_drift)
         ck_relative(-c->d_n, (N - upper + 1) * W / 2 / m->par.p_n, 1e-8);
     }
     for (int b = 1; b <= N; b++) {
-        ck_near(hypot(m->element[b].sum[0] - at[b - 1][0], m->element[b].sum[1] - at[b - 1][1]),
-                0, 1, 1e-12);
+        for (int a = 0; a < 3; a++)
+            ck_near(m->element[b].sum[a], at[b - 1][a], 1, 4e-12);
         for (int a = 0; a < 6; a++)
-            ck_near(m->element[b].V[a], 0, 1, 1e-9);
+            ck_near(m->element[b].V[a], 0, 1, a < 3 ? 1e-11 : 1e-9);
     }
     bbm_model_free(m);
 }
@@ -163,31 +164,6 @@ START_TEST(a_bonded_block_at_rest_has_the_stress_of_its_own_weight)
 }
 END_TEST
 
-/* n blocks of length 1 overhang by 1/2 + 1/4 + ... + 1/(2n) at the most. */
-START_TEST(an_overhang_stands_short_of_the_harmonic_limit_and_falls_beyond)
-{
-    enum { N = 4 };
-    const double share = _i ? 1.02 : 0.98;
-    double x = -1;
-    bbm_model *m = new_blocks();
-
-    m->par.friction = 30;
-    add_rectangle(m, 0, BASE, (rectangle){ .x = -4, .y = -1, .w = 4, .h = 1, .fixed = 1 });
-    for (int b = 0; b < N; b++) {
-        x += share / (2 * (N - b));
-        add_rectangle(m, b + 1, ROCK, (rectangle){ .x = x, .y = 0.25 * b, .w = 1, .h = 0.25 });
-    }
-    ck_ok(bbm_prepare(m), m);
-    settle(m, 30);
-    run_steps(m, 170);
-    if (_i)
-        ck_assert(m->element[N].sum[1] < -0.01);
-    else
-        ck_near(m->element[N].sum[1], 0, 1, 1e-3);
-    bbm_model_free(m);
-}
-END_TEST
-
 /* Two blocks turn the same way, so that neither turns against the other; but one may be stopped,
  * and so a corner whose side points into the other's edge by less than twice the turn of both may
  * come to touch. */
@@ -225,9 +201,8 @@ static const struct { double v, offset, phi; int n; } IMPACTS[] = {
 static bbm_model *impact(int which, double dt)
 {
     const int n = IMPACTS[which].n;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     m->par.dt = dt;
     m->par.alpha = 10;
     m->par.friction = IMPACTS[which].phi;
@@ -293,43 +268,29 @@ static void momenta(bbm_model *m, double P[2][2], double *L)
     }
 }
 
-START_TEST(momentum_is_kept_in_an_impact)
+/* Forces act at the middle of the step, where their points meet on the way: nothing is left of the
+ * moments of the step's start. What is left is of the strain of the impact, v sqrt(rho/E) = 7e-4,
+ * which changes the moment of inertia of what turns, DENSITY/6 at up to 1 rad/s: 1.2e-4 of DENSITY.
+ * With vectors of the start it was 1e-2 with friction. */
+START_TEST(momentum_is_kept_in_an_impact_and_the_angular_one_up_to_the_strain_of_what_turns)
 {
     const double P0 = DENSITY * (1 + IMPACTS[_i].v), size = DENSITY;
-    double P[2][2], L;
+    double P[2][2], L0, L;
     int hits = 0;
     bbm_model *m = impact(_i, 1e-3);
 
+    momenta(m, P, &L0);
     for (int i = 0; i < 60; i++) {
         run_steps(m, 1);
         hits += m->info.contacts;
         momenta(m, P, &L);
         ck_near(P[0][0] + P[1][0], P0, size, SOLVED);
         ck_near(P[0][1] + P[1][1], 0, size, SOLVED);
+        ck_near(L, L0, size, 1.2e-4);
     }
     ck_assert(hits > 0);
     /* not through each other */
     ck_assert(P[1][0] > P[0][0] - 1e-3 * size || IMPACTS[_i].offset != 0);
-    bbm_model_free(m);
-}
-END_TEST
-
-/* Forces act at the middle of the step, where their points meet on the way: nothing is left of the
- * moments of the step's start. What is left is of the strain of the impact, v sqrt(rho/E) = 7e-4,
- * which changes the moment of inertia of what turns, DENSITY/6 at up to 1 rad/s: 1.2e-4 of DENSITY.
- * With vectors of the start it was 1e-2 with friction. */
-START_TEST(angular_momentum_is_kept_in_an_impact_up_to_the_strain_of_what_turns)
-{
-    double P[2][2], L0, L, change = 0;
-    bbm_model *m = impact(_i, 1e-3);
-
-    momenta(m, P, &L0);
-    for (int i = 0; i < 60; i++) {
-        run_steps(m, 1);
-        momenta(m, P, &L);
-        change = fmax(change, fabs(L - L0));
-    }
-    ck_near(change, 0, DENSITY, 1.2e-4);
     bbm_model_free(m);
 }
 END_TEST
@@ -342,10 +303,9 @@ START_TEST(stiff_blocks_that_hit_keep_both_momenta)
     const double p_n = pow(10, 9 + _i % 4 % 3), share = DENSITY * 0.3;
     double P[2][2], L0, L;
     int stiff;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
     ck_ok(bbm_add_material(m, &(bbm_material){ 1e12, 0.25, DENSITY, 1 }, &stiff), m);
-    m->par.gravity[1] = 0;
     m->par.dt = _i % 4 == 3 ? 1e-4 : 2e-5;
     m->par.friction = _i / 4 * 30;
     m->par.p_n = p_n;
@@ -366,33 +326,58 @@ START_TEST(stiff_blocks_that_hit_keep_both_momenta)
 }
 END_TEST
 
-static double area_after_turning(bbm_rotation rotation)
-{
-    bbm_model *m = new_blocks();
+enum { PIECES = 40 };
 
-    m->par.gravity[1] = 0;
-    m->beyond->rotation = rotation;
-    add_rectangle(m, 0, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
+typedef struct { double duration, force, share[2]; } meeting;
+
+/* Two bars of PIECES squares, L = 10 m, c = 2000 m/s; the first comes with 1 m/s. Times in 2 L/c,
+ * the force halfway through the contact in that of the wave, rho c v/2 times the section; the shares
+ * of the momentum in the end. */
+static meeting let_bars_meet(int steps)
+{
+    const double L = 10, c = sqrt(1e10 / DENSITY), h = L / PIECES;
+    bbm_model *m = weightless_blocks();
+    meeting a = { 0 };
+    double P[2][2], unused;
+
+    m->material[ROCK].nu = 0;
+    m->par.dt = 2 * L / c / steps;
+    m->par.p_n = 1e10;
+    m->par.alpha = 1e4;
+    for (int k = 0; k < 2; k++)
+        add_rectangle(m, k, ROCK, (rectangle){ .x = (k - 1) * L, .w = L, .h = h, .nx = PIECES });
     ck_ok(bbm_prepare(m), m);
-    m->element[0].V[2] = 1;
-    run_steps(m, 200);
-    bbm_element_geometry(&m->element[0], &m->vertex[m->element[0].first]);
-    const double A = m->element[0].A;
-    ck_near(m->info.t, 2, 2, ROUNDING);
+    for (int i = 0; i < PIECES; i++)
+        set_velocity(m, i, 1, 0);
+    for (int i = 0; i < steps * 3 / 2; i++) {
+        run_steps(m, 1);
+        const double N = normal_force(m, 0, 1);
+        a.duration += N > 0 ? 1.0 / steps : 0;
+        if (i == steps / 2)
+            a.force = N / (DENSITY * c / 2 * h);
+    }
+    momenta(m, P, &unused);
+    for (int k = 0; k < 2; k++)
+        a.share[k] = P[k][0] / (DENSITY * L * h);
     bbm_model_free(m);
-    return A;
+    return a;
 }
 
-START_TEST(a_turning_block_keeps_its_area)
+START_TEST(two_elastic_bars_exchange_velocities_and_part_when_the_wave_comes_back)
 {
-    ck_relative(area_after_turning(BBM_EXACT), 1, 1e-9);
-}
-END_TEST
+    const meeting coarse = let_bars_meet(500), fine = let_bars_meet(1000);
 
-/* By 1 + (w dt)^2 in each step. */
-START_TEST(the_papers_linear_update_lets_a_turning_block_grow)
-{
-    ck_relative(area_after_turning(BBM_LINEAR), pow(1 + 1e-4, 200), 1e-9);
+    /* The wave takes 1/80 through an element, and its front and end are as long: less than half. */
+    ck_relative(coarse.duration, 1, 0.005);
+    ck_relative(fine.duration, 1, 0.005);
+    /* Behind the front the force is that of the bar; bonds and contact give way by 1e-4. */
+    ck_relative(coarse.force, 1, 1e-3);
+    ck_relative(fine.force, 1, 1e-3);
+    ck_relative(coarse.share[0] + coarse.share[1], 1, 1e-9);
+    /* What the time step damps away stays with the first bar: the less, the smaller the step. */
+    ck_relative(coarse.share[1], 1, 0.03);
+    ck_relative(fine.share[1], 1, 0.02);
+    ck_assert(fine.share[0] > 0 && fine.share[0] < 0.8 * coarse.share[0]);
 }
 END_TEST
 
@@ -403,10 +388,9 @@ START_TEST(a_bonded_block_that_turns_keeps_its_angular_momentum)
 {
     double P[2][2], L0, L;
     int soft;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
     ck_ok(bbm_add_material(m, &(bbm_material){ 1e9, 0.25, DENSITY, 1 }, &soft), m);
-    m->par.gravity[1] = 0;
     m->par.dt = 0.01 / (1 << _i);
     add_rectangle(m, 0, soft, (rectangle){ .x = -0.5, .y = -0.5, .w = 1, .h = 1, .nx = 3, .ny = 3 });
     ck_ok(bbm_prepare(m), m);
@@ -429,10 +413,9 @@ START_TEST(a_stone_gives_a_heavy_wall_its_momentum_through_a_very_stiff_spring)
 {
     double P[2][2], L;
     int stiff;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
     ck_ok(bbm_add_material(m, &(bbm_material){ 1e12, 0.25, DENSITY, 1 }, &stiff), m);
-    m->par.gravity[1] = 0;
     m->par.dt = 0.1;
     m->par.pcg.tolerance = 1e-10;
     m->par.p_n = 5e13;
@@ -459,17 +442,15 @@ Suite *blocks_suite(void)
         { a_block_in_a_notch_leans_on_its_floor_and_its_wall, 1 },
         { squares_of_a_block_that_meet_in_a_node_have_corners_of_their_own, 1 },
         { a_bonded_block_at_rest_has_the_stress_of_its_own_weight, 2 },
-        { an_overhang_stands_short_of_the_harmonic_limit_and_falls_beyond, 2 },
         { blocks_that_turn_alike_may_come_to_turn_against_each_other, 2 },
     };
     const loop_test in_motion[] = {
         { a_dropped_block_never_rebounds_faster_than_it_came, 2 * COUNT(DROP_STEPS) },
-        { momentum_is_kept_in_an_impact, COUNT(IMPACTS) },
-        { angular_momentum_is_kept_in_an_impact_up_to_the_strain_of_what_turns, COUNT(IMPACTS) },
+        { momentum_is_kept_in_an_impact_and_the_angular_one_up_to_the_strain_of_what_turns,
+          COUNT(IMPACTS) },
         { stiff_blocks_that_hit_keep_both_momenta, 8 },
         { a_stone_gives_a_heavy_wall_its_momentum_through_a_very_stiff_spring, 1 },
-        { a_turning_block_keeps_its_area, 1 },
-        { the_papers_linear_update_lets_a_turning_block_grow, 1 },
+        { two_elastic_bars_exchange_velocities_and_part_when_the_wave_comes_back, 1 },
         { a_bonded_block_that_turns_keeps_its_angular_momentum, 4 },
     };
 

@@ -8,8 +8,6 @@
 
 #include "check.h"
 
-Suite *cases_suite(void);
-
 #ifndef BUILD
 #define BUILD "out/build"
 #endif

@@ -18,9 +18,8 @@ static const outline SLAB[SLABS] = {
  * Here or there. */
 static bbm_model *random_blocks(outline o[BLOCKS], unsigned seed, const double at[2])
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     for (int b = 0; b < BLOCKS; b++) {
         const double x = at[0] + 1.3 * (b % COLUMNS) + 0.1 * random_number(&seed);
         const double y = at[1] + 1.3 * (b / COLUMNS) - 3;
@@ -602,10 +601,9 @@ START_TEST(a_grid_point_in_a_hollow_may_touch_up_to_a_tenth)
 {
     const int halves = 1 + _i / 2;
     const double sine = _i % 2 ? 0.1001 : 0.1, gap = 1e-3;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n, found = 0;
 
-    m->par.gravity[1] = 0;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = gap, .w = 2, .h = 1, .nx = 2 });
     ck_ok(bbm_prepare(m), m);
@@ -697,10 +695,9 @@ static const struct { double x[2], y[2]; int same; } MOVES[] = {
 
 START_TEST(a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n, same = -1;
 
-    m->par.gravity[1] = 0;
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, BASE, (rectangle){ .x = 3 * k - 0.5, .y = -1, .w = 2, .h = 1 });
     for (int k = 0; k < 2; k++)
@@ -732,10 +729,9 @@ START_TEST(a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in
 {
     const double gap = 0.02;
     const int fast = _i;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int found[2] = { 0, 0 }, n;
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 7, BASE, (rectangle){ .x = -10, .y = -1, .w = 30, .h = 1 });
     for (int k = 0; k < 4; k++) {
         const double x = 5 * (k % 2) + 1.5 * (k / 2);
@@ -757,9 +753,8 @@ END_TEST
 START_TEST(two_blocks_at_rest_reach_two_millionths_of_an_edge)
 {
     const double gap = _i ? nextafter(2e-6, 1) : 2e-6;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 0, BASE, (rectangle){ .x = 0, .y = -1, .w = 1, .h = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = gap, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);

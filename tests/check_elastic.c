@@ -200,11 +200,8 @@ START_TEST(a_body_under_pressure_all_round_has_that_stress)
 {
     const shape *s = &SHAPES[_i];
     bbm_model *m = new_model(&SOLID);
-    int nodes[CORNERS];
 
-    for (int c = 0; c < s->n; c++)
-        ck_ok(bbm_add_node(m, s->x[c][0], s->x[c][1], &nodes[c]), m);
-    ck_ok(bbm_add_element(m, 0, 0, s->n, nodes, NULL), m);
+    add_polygon(m, 0, s->n, s->x);
     ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
     ck_ok(bbm_fix_node(m, 2, BBM_Y, 0, 0), m);
     ck_ok(bbm_prepare(m), m);
@@ -226,11 +223,8 @@ START_TEST(a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads)
                                             { 2, -0.5 }, { 0, 0 } };
     bbm_model *m = new_model(&SOLID);
     double T[2][2] = { { 0 } };
-    int nodes[CORNERS];
 
-    for (int c = 0; c < s->n; c++)
-        ck_ok(bbm_add_node(m, s->x[c][0], s->x[c][1], &nodes[c]), m);
-    ck_ok(bbm_add_element(m, 3, 0, s->n, nodes, NULL), m);
+    add_polygon(m, 3, s->n, s->x);
     ck_ok(bbm_fix_node(m, 4, BBM_XY, 0, 0), m);                            /* (0, 0) */
     ck_ok(bbm_fix_node(m, 5, BBM_Y, 0, 0), m);                             /* (3, 0) */
     double moment = 0;

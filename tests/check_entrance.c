@@ -95,9 +95,8 @@ START_TEST(a_corner_that_turns_towards_an_edge_in_the_step_is_stopped_by_it)
     const double angle = ANGLES[_i / 2], side = _i % 2 ? -1 : 1, c = cos(radians(angle));
     const double s = sin(radians(angle));
     const outline o = put(&SQUARE, radians(angle) + 0.05 * side, -0.5263 * s, 0.5263 * c);
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, angle, .fixed = 1 });
     const int e = add_polygon(m, 1, 4, o.x);
     ck_ok(bbm_prepare(m), m);
@@ -119,9 +118,8 @@ START_TEST(a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_
     const double tilt = _i ? 0.012 : 0.02, end = _i ? -0.004 : -0.08, height = _i ? 0.509 : 0.52;
     const double couple = 2 * (DENSITY / 6) * (end - tilt) / 1e-4;
     const outline o = put(&SQUARE, tilt, 0, height);
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     add_table(m, 0);
     const int e = add_polygon(m, 1, 4, o.x);
     const int far = add_rectangle(m, 2, ROCK, (rectangle){ .x = 20, .y = 20, .w = 1, .h = 1 });
@@ -144,9 +142,8 @@ START_TEST(a_corner_is_stopped_though_a_far_one_under_the_same_side_is_not_reach
     const double side = _i ? -1 : 1, left = _i ? -3 : 0;
     const outline flat = { 4, { { left, 0 }, { left + 3, 0 }, { left + 3, 0.5 }, { left, 0.5 } } };
     const outline beam = put(&flat, 0.0105 * side, 3.5 * side, 0.005);
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     add_table(m, 0);
     const int e = add_polygon(m, 1, 4, beam.x);
     ck_ok(bbm_prepare(m), m);
@@ -164,9 +161,8 @@ END_TEST
 START_TEST(a_block_that_moves_further_than_foreseen_does_not_pass_through_a_wall)
 {
     const double W = DENSITY * 0.01, push = 0.5 * 2 * W / 1e-4;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     m->par.p_n = 1e11;
     add_rectangle(m, 0, BASE, (rectangle){ .x = 0.4, .y = -2, .w = 3, .h = 4, .fixed = 1 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 0.1, .h = 0.1 });
@@ -185,10 +181,9 @@ END_TEST
 START_TEST(a_side_may_turn_out_of_an_edge_while_its_corner_is_outside)
 {
     const double tip[2] = { 0, 0 };
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     add_table(m, 0);
     add_wedge(m, 1, tip, 0, radians(60));
     ck_ok(bbm_prepare(m), m);
@@ -208,7 +203,7 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
 {
     const double side = _i % 2 ? 1 : -1, beyond = _i / 2 ? 0.25 - 1e-12 : 0.25;
     bbm_model *m = new_blocks();
-    int closed = 0;
+    int closed = 0, n;
 
     add_table(m, 0);
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = side * 5.25 - 1, .y = 0.125, .w = 2,
@@ -216,10 +211,7 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -25);
     set_velocity(m, e + 1, 0, -25);
-    m->h = m->par.dt;
-    bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
-    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+    start_step(m, &n);
     for (int i = e; i < e + 2; i++) {
         m->D[6 * i] = -side * beyond;
         m->D[6 * i + 1] = -0.25;
@@ -245,6 +237,7 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
     double wedge[3][2] = { { tip[0], tip[1] } };
     bbm_model *m = new_blocks();
     double u[2];
+    int n;
 
     add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, 30, .fixed = 1 });
     for (int k = 0; k < 2; k++) {
@@ -254,10 +247,7 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
     const int e = add_polygon(m, 1, 3, (const double (*)[2])wedge);
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -10);
-    m->h = m->par.dt;
-    bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
-    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+    start_step(m, &n);
     m->D[6 * e + 2] = turned;
     bbm_move(m, &m->element[e], &m->D[6 * e], tip[0], tip[1], u);
     for (int a = 0; a < 2; a++)
@@ -281,10 +271,9 @@ END_TEST
  * at y, and a step begins. */
 static bbm_model *slab_at(const double depth[2], double y, int rotation)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     m->beyond->rotation = (bbm_rotation)rotation;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 1e-3, .w = 2, .h = 1, .nx = 2 });
@@ -335,10 +324,9 @@ END_TEST
 START_TEST(a_point_may_start_as_deep_as_the_contacts_of_both_blocks)
 {
     const int closed[2] = { _i % 2, _i / 2 };
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     for (int k = 0; k < 4; k++)
         add_rectangle(m, k, ROCK, (rectangle){ .x = 9 * (k / 2), .y = k % 2 - 1,
                                                .w = 1 - k % 2 * 0.5, .h = 1 });
@@ -364,10 +352,9 @@ END_TEST
 START_TEST(a_millionth_of_an_edge_is_allowed_for_to_the_last_bit)
 {
     const double deep = 2 * 1e-3 + 1e-6, x = _i % 2 ? nextafter(1e-6, 1) : 1e-6;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -1, .w = 1, .h = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.25, .y = 0, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
@@ -430,10 +417,9 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
     const double l = _i / 4 % 2 ? 0.25 : 4, most = 0.01 + (blocks ? 0 : 2 * 5e-3 / fmin(l, 1));
     const double sine = most + (_i / 2 % 2 ? 1e-4 : -1e-4), away = blocks == 2 ? -way * 9 : 0;
     const double flat[2] = { way * 0.5 * l, 0 }, beside[2] = { way * 0.1 * l + away, 0 };
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = mirrored ? -l : 0, .y = -1, .w = l, .h = 1 });
     const rectangle own = { .x = beside[0] - l / 2, .y = -1, .w = l, .h = 1 };
     const int other = blocks == 2 ? add_rectangle(m, 3, ROCK, own) : 0;
@@ -463,10 +449,9 @@ END_TEST
 START_TEST(a_side_may_dip_as_deep_as_contacts_of_the_solution)
 {
     const double at[2][2] = { { -3, 0 }, { 3, 1e-3 } }, turn = -0.03;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     add_table(m, 0);
     add_wedge(m, 1, at[0], radians(60), radians(120));
     add_wedge(m, 1, at[1], 0, radians(60));
@@ -495,10 +480,9 @@ START_TEST(the_depth_of_a_contact_is_told_against_the_smaller_block)
 {
     const double l = SIZES[_i / 4].table, w = SIZES[_i / 4].w, h = SIZES[_i / 4].h;
     const double deep = (_i % 2 ? 1.02 : 0.98) * 0.1 * fmin(l + 1, w + h) / 4;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     m->beyond->rotation = BBM_LINEAR;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -l / 2, .y = -1, .w = l, .h = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -w / 2, .y = 0.01, .w = w, .h = h });
@@ -521,9 +505,8 @@ START_TEST(a_contact_deeper_than_a_tenth_of_its_block_is_refused)
 {
     const double deep = _i % 2 ? 0.11 : 0.09, dt = _i / 2 ? 0.01 : 0.1, p_n = 1e5;
     const double v = deep / dt * (1 + p_n * dt * dt / DENSITY);
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     m->par.dt = dt;
     m->par.p_n = m->par.p_s = p_n;
     add_table(m, 0);
@@ -663,9 +646,8 @@ static double deepest_passed(const bbm_model *m)
 START_TEST(a_corner_that_passed_into_a_block_is_refused)
 {
     const double in = _i == 1 ? -0.01 : 0.01;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 1.5, .y = 0.5, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
@@ -687,9 +669,8 @@ END_TEST
 START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
 {
     const double out[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } }, wall = 2e-3;
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     for (int k = 0; k < 8; k++)
         bbm_add_node(m, out[k % 4][0] * (k < 4 ? 1 : 1 - wall),
                      out[k % 4][1] * (k < 4 ? 1 : 1 - wall), NULL);
@@ -698,9 +679,7 @@ START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 0.89, .w = 0.1, .h = 0.1 });
     ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 3, 0);
-    m->h = m->par.dt;
-    bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
+    detect(m);
     ck_assert_int_lt(m->beyond->passed[0], 0);
     ck_assert(deepest_passed(m) == 0);
     shift_element(m, e, 8.5e-3, 0);                     /* 0.5 mm from the inner side of the wall */

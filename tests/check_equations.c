@@ -11,25 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "check.h"
-
-Suite *equations_suite(void);
+#include "programs.h"
 
 enum { EQUATIONS = 72, NAME = 120 };
-
-/* The file as a string, to be freed. */
-static char *slurp(const char *path)
-{
-    FILE *f = fopen(path, "rb");
-    long size = 0;
-
-    ck_assert_msg(f != NULL, "%s cannot be read; the tests run in the project's top folder", path);
-    ck_assert(fseek(f, 0, SEEK_END) == 0 && (size = ftell(f)) >= 0 && fseek(f, 0, SEEK_SET) == 0);
-    char *text = calloc((size_t)size + 1, 1);
-    ck_assert(text && fread(text, 1, (size_t)size, f) == (size_t)size);
-    fclose(f);
-    return text;
-}
 
 /* ------------------------------------------------------------------------- what a comment cites */
 
@@ -153,7 +137,7 @@ static int is_test(const char *name)
     snprintf(start, sizeof start, "START_TEST(%s)", name);
     ck_assert_int_eq(glob("tests/*.c", 0, NULL, &files), 0);
     for (size_t f = 0; f < files.gl_pathc && !found; f++) {
-        char *text = slurp(files.gl_pathv[f]);
+        char *text = read_all(files.gl_pathv[f]);
         found = strstr(text, start) != NULL;
         free(text);
     }
@@ -179,7 +163,7 @@ static char *read_name(char *p, char name[NAME])
 static void check_function(const char *row, const char *function, const char *file,
                            int noted[EQUATIONS + 1])
 {
-    char *source = slurp(file), comment[4000];
+    char *source = read_all(file), comment[4000];
     const char *definition = find_definition(source, function);
     int equations = 0, found = 0;
 
@@ -233,7 +217,7 @@ static int check_tests(const char *row, char *column)
 
 START_TEST(each_equation_has_functions_that_cite_it_and_tests_that_exist)
 {
-    char *text = slurp("doc/equations.md"), *rest = NULL;
+    char *text = read_all("doc/equations.md"), *rest = NULL;
     int rows[EQUATIONS + 1] = { 0 }, noted[EQUATIONS + 1] = { 0 };
 
     for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
@@ -279,11 +263,11 @@ START_TEST(the_picture_of_the_house_names_what_there_is)
     const char *const path[] = { "bbm.h", "bbm.c", "contact.c", "solver.c", "base/base.h", "base/build.c",
                                  "beyond/beyond.c" };
     const char *const folder[] = { "", "base/", "beyond/" };
-    char *picture = slurp("doc/house.svg"), *source[COUNT(path)], word[NAME], file[NAME + 16];
+    char *picture = read_all("doc/house.svg"), *source[COUNT(path)], word[NAME], file[NAME + 16];
     int names = 0, files = 0;
 
     for (int k = 0; k < COUNT(path); k++)
-        source[k] = slurp(path[k]);
+        source[k] = read_all(path[k]);
     for (const char *p = picture; *p;) {
         const size_t n = strspn(p, "abcdefghijklmnopqrstuvwxyz_0123456789");
         if (n == 0 || n >= NAME || *p == '_') {

@@ -148,12 +148,11 @@ START_TEST(what_cannot_be_written_is_status_1_with_a_message)
         { "bbm -h > /dev/full", "stdout cannot be written" },
         { "bbm --version > /dev/full", "stdout cannot be written" },
     };
-    char said[LONG];
 
     ck_assert_int_eq(shell("ln -s /dev/full out/model/full.mtx"), 0);
     for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
         ck_assert_int_eq(shell("%s/%s 2> out/model/bad.err", BUILD, call[k].command), 1);
-        ck_assert_msg(strstr(slurp("out/model/bad.err", said), call[k].said), "%s", said);
+        check_text("out/model/bad.err", call[k].said);
     }
 }
 END_TEST
@@ -171,14 +170,10 @@ END_TEST
 
 START_TEST(a_file_that_is_cut_off_never_stands_under_its_name)
 {
-    char said[LONG];
-
     /* No file may grow beyond 512 bytes or 1 kB: nodes.csv of the beam would. */
     ck_assert_int_eq(shell("rm -rf out/model/cut; ulimit -f 1; %s/bbm -q cases/models/exp1.model "
-                           "-o out/model/cut "
-                           "2> out/model/bad.err", BUILD), 1);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/bad.err", said), "nodes.csv cannot be written: "
-                                 "File too large"));
+                           "-o out/model/cut 2> out/model/bad.err", BUILD), 1);
+    check_text("out/model/bad.err", "nodes.csv cannot be written: File too large");
     ck_assert_int_ne(access("out/model/cut/nodes.csv", F_OK), 0);
     ck_assert_int_ne(access("out/model/cut/nodes.csv.tmp", F_OK), 0);
     ck_assert_int_eq(access("out/model/cut/history.csv", F_OK), 0);
@@ -187,14 +182,10 @@ END_TEST
 
 START_TEST(a_file_without_end_is_refused)
 {
-    char said[LONG];
-
     ck_assert_int_eq(shell("%s/bbm /dev/zero -o out/model/endless 2> out/model/bad.err", BUILD), 2);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/bad.err", said), "/dev/zero is longer than "
-                                 "268435456 bytes"));
+    check_text("out/model/bad.err", "/dev/zero is longer than 268435456 bytes");
     ck_assert_int_eq(run_text("endless", "mesh /dev/zero\nstatic\n"), 2);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/endless.err", said),
-                                 "endless.model:1: /dev/zero is longer than"));
+    check_text("out/model/endless.err", "endless.model:1: /dev/zero is longer than");
     ck_assert(!is_there("out/model/endless"));
 }
 END_TEST
@@ -213,9 +204,22 @@ static const char *const pictures[] = { "contacts.svg", "movie.svg", "mises.svg"
 static const char *const tables[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv",
                                       "timing.csv" };
 
+/* How many of the tables are in a folder. */
+static int count_tables(const char *folder)
+{
+    char path[100];
+    int there = 0;
+
+    for (int k = 0; k < 5; k++) {
+        snprintf(path, sizeof path, "%s/%s", folder, tables[k]);
+        there += is_there(path);
+    }
+    return there;
+}
+
 START_TEST(a_picture_that_cannot_be_made_is_said_and_costs_nothing_else)
 {
-    char said[LONG], text[100], path[100];
+    char text[100], path[100];
 
     write_text("out/model/picture.model", SLIDE("10"));
     /* A folder that is not empty stands in its place. */
@@ -225,15 +229,12 @@ START_TEST(a_picture_that_cannot_be_made_is_said_and_costs_nothing_else)
                            "out/model/picture.err", BUILD), 1);
     snprintf(text, sizeof text, "out/model/picture/%s cannot be written: Is a directory",
              pictures[_i]);
-    ck_assert_msg(strstr(slurp("out/model/picture.err", said), text) != NULL, "%s", said);
+    check_text("out/model/picture.err", text);
     for (int k = 0; k < 3; k++) {
         snprintf(path, sizeof path, "out/model/picture/%s", pictures[k]);
         ck_assert(is_there(path));
     }
-    for (int k = 0; k < 5; k++) {
-        snprintf(path, sizeof path, "out/model/picture/%s", tables[k]);
-        ck_assert(is_there(path));
-    }
+    ck_assert_int_eq(count_tables("out/model/picture"), 5);
     ck_assert_double_eq(cell("picture", "history.csv", "", "step"), 10);
     ck_assert(!has_file("out/model/picture", ".tmp", 0));
 }
@@ -256,13 +257,11 @@ END_TEST
 /* Each history grows beyond what a file may have, 4 kB or 8. */
 START_TEST(a_full_disk_leaves_the_rows_that_were_written)
 {
-    char said[LONG];
-
     write_text("out/model/disk.model", SLIDE("600"));
     ck_assert_int_eq(shell("ulimit -f 8; %s/bbm -q out/model/disk.model -o out/model/a/disk 2> "
                            "out/model/bad.err", BUILD), 1);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/bad.err", said), "summary.csv cannot be written: "
-                                 "File too large; it ends before that"));
+    check_text("out/model/bad.err",
+               "summary.csv cannot be written: File too large; it ends before that");
     ck_assert(is_there("out/model/a/disk/nodes.csv") && !has_file("out/model/a/disk", ".tmp", 0));
     ck_assert_int_eq(shell("cd out/model/a/disk; for f in history summary; do tail -c1 $f.csv | "
                            "grep -q '^$' && awk -F, 'NR == 1 { n = NF } NF != n || (NR > 2 && "
@@ -321,7 +320,6 @@ static int run_short(int model, int allocations, int *kept)
 {
     const char *name = short_of_memory[model].model;
     char folder[60], path[100], said[LONG];
-    int there = 0;
 
     const int status = shell("rm -rf out/model/%s out/model/short.mtx*; TEST_ALLOCATIONS=%d "
                              "exec %s/failing/bbm -q out/model/%s.model -o out/model/%s "
@@ -333,10 +331,7 @@ static int run_short(int model, int allocations, int *kept)
                   "%s, %d allocations: status %d, said: %s", name, allocations, status, said);
     ck_assert_msg(!has_file(folder, ".tmp", 0) && !has_file(folder, "", 1), "%s, %d: left over",
                   name, allocations);
-    for (int k = 0; k < 5; k++) {
-        snprintf(path, sizeof path, "%s/%s", folder, tables[k]);
-        there += is_there(path);
-    }
+    const int there = count_tables(folder);
     snprintf(path, sizeof path, "%s/%s", folder, short_of_memory[model].last);
     ck_assert_msg(status || (there == 5 && is_there(path) && is_there("out/model/short.mtx.rhs")),
                   "%s, %d: status 0, but not all is there", name, allocations);
@@ -443,10 +438,7 @@ START_TEST(an_interrupted_run_keeps_what_it_has_computed)
     ck_assert_msg(strstr(said, _i == 2 ? "interrupted at settling, step " : "interrupted at step "),
                   "%s", said);
     ck_assert(!has_file("out/model/long", ".tmp", 0) && !has_file("out/model/long", "", 1));
-    for (int k = 0; k < 5; k++) {
-        snprintf(text, sizeof text, "out/model/long/%s", tables[k]);
-        ck_assert_msg(is_there(text), "no %s", text);
-    }
+    ck_assert_int_eq(count_tables("out/model/long"), 5);
     if (_i == 2)
         return;
     const double step = cell("long", "history.csv", "", "step");
@@ -481,13 +473,11 @@ END_TEST
 START_TEST(a_second_run_in_the_same_folder_is_refused_and_disturbs_nothing)
 {
     const pid_t child = start_long("");
-    char said[LONG];
-
     write_text("out/model/second.model", SLIDE("10"));
     ck_assert_int_eq(shell("%s/bbm -q out/model/second.model -o out/model/long 2> "
                            "out/model/second.err", BUILD), 1);
-    ck_assert_msg(strstr(slurp("out/model/second.err", said), "another run is at work there; another "
-                         "folder may be given with -o") != NULL, "%s", said);
+    check_text("out/model/second.err",
+               "another run is at work there; another folder may be given with -o");
     kill(child, SIGINT);
     ck_assert_int_eq(exit_of(child), 130);
     ck_assert_double_gt(cell("long", "history.csv", "", "p_u"), 0);
@@ -526,8 +516,7 @@ START_TEST(a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else)
                      "step_000010.vtk step_1.vtk.old ");
     /* A run without pictures leaves none of an earlier one beside its tables. */
     ck_assert_int_eq(shell("sed -i /^output/d out/model/again.model; %s/bbm -q "
-                           "out/model/again.model -o out/model/again",
-                           BUILD), 0);
+                           "out/model/again.model -o out/model/again", BUILD), 0);
     ck_assert(!is_there("out/model/again/movie.svg")
               && !is_there("out/model/again/step_000010.vtk"));
 }
@@ -615,13 +604,12 @@ START_TEST(a_run_that_fails_says_at_which_step_and_what_the_library_says)
                   && !strstr(step + 1, "step 1"), "%s", said);
     ck_assert_ptr_nonnull(strstr(said, bbm_status_text(BBM_NOT_CONVERGED)));
     ck_assert_int_eq(run_text("fails", GLUED("10 settle 3\npcg iterations 1 coarse off")), 1);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/fails.err", said),
-                                 "out/model/fails.model: settling, "));
+    check_text("out/model/fails.err", "out/model/fails.model: settling, ");
     ck_assert_int_eq(run_text("fails", STEEL "block a steel 0 0 2 0 2 1 0 1\nblock b steel 0 1 1 1 1 2 "
                               "0 2\nfixblock a\ngravity 0 -10\ncontact kn 1e3 friction 30\n"
                               "dynamic dt 0.01 steps 100\n"), 1);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/fails.err", said), " of block 'b' is"));
-    ck_assert_ptr_nonnull(strstr(said, "larger stiffnesses kn, ks help"));
+    check_text("out/model/fails.err", " of block 'b' is");
+    check_text("out/model/fails.err", "larger stiffnesses kn, ks help");
 }
 END_TEST
 
@@ -637,13 +625,12 @@ END_TEST
 START_TEST(a_compiler_that_breaks_the_arithmetic_is_refused)
 {
     static const char *const flag[] = { "-Ofast", "-ffast-math", "-ffinite-math-only" };
-    char said[LONG];
 
     for (int k = 0; k < 3; k++) {
         ck_assert_int_ne(shell("env -u MAKEFLAGS -u MAKELEVEL make -s O=out/model/fast CPPFLAGS= "
                                "CFLAGS=%s "
                                "out/model/fast/solver.o > out/model/said 2>&1", flag[k]), 0);
-        ck_assert_ptr_nonnull(strstr(slurp("out/model/said", said), "compile without -Ofast"));
+        check_text("out/model/said", "compile without -Ofast");
     }
 }
 END_TEST

@@ -115,6 +115,8 @@ typedef struct { const source *s; const double *D; } moved;
 
 typedef double energy(const double D[UNKNOWNS], const source *s);
 
+static const char *const UNKNOWN[6] = { "u0", "v0", "r0", "ex", "ey", "gxy" };
+
 /* Fails unless K is the second derivative of the energy and K D - F its first, at random D. */
 static void check_derivatives(energy *Pi, const source *s, int n, double K[UNKNOWNS][UNKNOWNS],
                               const double F[])
@@ -136,8 +138,10 @@ static void check_derivatives(energy *Pi, const source *s, int n, double K[UNKNO
                 D[a] -= g / 2 ? 1 : -1;
                 D[b] -= g % 2 ? 1 : -1;
             }
-            /* energies: 50 size */
-            ck_near(K[a][b], (at[1][1] - at[1][0] - at[0][1] + at[0][0]) / 4, size, 1e-11);
+            const double second = (at[1][1] - at[1][0] - at[0][1] + at[0][0]) / 4;
+            ck_assert_msg(fabs(K[a][b] - second) <= 1e-11 * size,      /* energies: 50 size */
+                          "K[%d][%d] (row %s, column %s): %.6g, expected %.6g", a, b,
+                          UNKNOWN[a % 6], UNKNOWN[b % 6], K[a][b], second);
             KD += K[a][b] * D[b];
         }
         D[a] += 1;
@@ -145,7 +149,10 @@ static void check_derivatives(energy *Pi, const source *s, int n, double K[UNKNO
         D[a] -= 2;
         const double below = Pi(D, s);
         D[a] += 1;
-        ck_near(KD - F[a], (above - below) / 2, size, 1e-11);
+        const double first = (above - below) / 2;
+        ck_assert_msg(fabs(KD - F[a] - first) <= 1e-11 * size,
+                      "K D - F, row %d (%s): %.6g, expected %.6g", a, UNKNOWN[a % 6], KD - F[a],
+                      first);
     }
 }
 
@@ -920,6 +927,8 @@ static const struct {
     { GLUED,    BBM_SLIDE, 0,  1e-12,    9,     1, 0,    BBM_OPEN  },
 };
 
+static const char *const STATE[] = { "OPEN", "LOCK", "SLIDE" };
+
 START_TEST(each_cell_of_the_table_of_states_is_as_written)
 {
     const double p_n = 100, p_s = 40;
@@ -928,7 +937,9 @@ START_TEST(each_cell_of_the_table_of_states_is_as_written)
                             .N = CELLS[_i].was == BBM_OPEN ? 0 : -p_n * CELLS[_i].d_n,
                             .strength = strength_of(CELLS[_i].kind, CELLS[_i].whole) };
 
-    ck_assert_int_eq(bbm_next_state(p_n, &c, CELLS[_i].slack), CELLS[_i].now);
+    const bbm_contact_state now = bbm_next_state(p_n, &c, CELLS[_i].slack);
+    ck_assert_msg(now == CELLS[_i].now, "row %d: %s becomes %s, expected %s", _i,
+                  STATE[c.state], STATE[now], STATE[CELLS[_i].now]);
 }
 END_TEST
 

@@ -44,19 +44,19 @@ void add_case(Suite *s, const char *name, const loop_test e[], int count)
     suite_add_tcase(s, c);
 }
 
-static Suite *(*const SUITES[])(void) = {
+static make_suite *const SUITES[] = {
     formulas_suite,
 #ifndef PAPER
     elastic_suite, steps_suite, mesh_suite, input_suite,
     detection_suite, corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite,
     blocks_suite, repeat_suite,
     solver_suite, coarse_suite,
-    beyond_suite, motion_suite, bars_suite, limits_suite, statics_suite, refused_suite,
+    beyond_suite, motion_suite, bars_suite, statics_suite, refused_suite,
     theory_suite, equations_suite, run_suite, impact_suite,
 #endif
 #ifdef CASES
     cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
-    pictures_suite,
+    pictures_suite, page_suite,
 #endif
 };
 

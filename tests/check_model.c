@@ -162,7 +162,7 @@ static const wrong wrongs[] = {
       "curves or points, expected one" },
     { "block-crossing", ".model:7: the boundary of element 3 of block 'c' meets itself, expected a simple polygon" },
     { "block-flat", ".model:7: element 3 of block 'c' has no area, or one too large, expected a polygon" },
-    { "block-long-id", ".model:6: an id of 18 digits, expected at most 17 where blocks are numbered on" },
+    { "block-long-id", ".model:6: an id of 18 digits or more, expected at most 17 where blocks are numbered on" },
     { "block-not-a-number", ".model:7: not a number: 'two', expected: block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 "
       "Y4 ...]" },
     { "block-odd", ".model:7: block 'c' has 5 coordinates, expected X Y of 3 corners or more" },
@@ -447,7 +447,7 @@ START_TEST(what_steps_make_beyond_the_work_of_loads_is_told)
     static const char *const text = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nelement 7 b steel 1 2 3 4\n"
         "velocity b 0 0 1\ndynamic dt 0.01 steps 50\nrotation %s\n";
     const double swollen = 3900 / 12.0 * (pow(1 + 1e-4, 50) - 1);
-    char model[LONG], said[LONG];
+    char model[LONG];
 
     for (int k = 0; k < 2; k++) {
         snprintf(model, sizeof model, text, k ? "linear" : "exact");
@@ -455,7 +455,7 @@ START_TEST(what_steps_make_beyond_the_work_of_loads_is_told)
         ck_near(cell("gains", "summary.csv", "50,", "gained"), k ? swollen : 0, swollen, 1e-6);
     }
     ck_assert_int_eq(shell("%s/bbm out/model/gains.model -o out/model/gains > out/model/said", BUILD), 0);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/said", said), "no step made more than 1.0e-04 of its energy beyond"));
+    check_text("out/model/said", "no step made more than 1.0e-04 of its energy beyond");
 }
 END_TEST
 
@@ -499,14 +499,12 @@ END_TEST
 
 START_TEST(statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps)
 {
-    char said[LONG];
-
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 1 tolerance 1e-12\n"), 1);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/few.err", said), "few.model: step 1: no equilibrium"));
+    check_text("out/model/few.err", "few.model: step 1: no equilibrium");
     ck_assert_double_lt(cell("few", "history.csv", "1,", "end_v"), 0);
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 30 tolerance 1e-8\n"), 0);
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic\npcg iterations 1 coarse off\n"), 1);
-    ck_assert_ptr_nonnull(strstr(slurp("out/model/few.err", said), "step 1, 1 iterations"));
+    check_text("out/model/few.err", "step 1, 1 iterations");
 }
 END_TEST
 

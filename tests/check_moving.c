@@ -30,9 +30,8 @@ static void put_box(FILE *f, const char *name, const char *material, const doubl
 static void run_moving(FILE *f)
 {
     fclose(f);
-    ck_assert_int_eq(shell("%s/bbm -q out/model/moving.model -o out/model/moving 2> out/model/err",
-                           BUILD),
-                     0);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/moving.model -o out/model/moving 2> "
+                           "out/model/err", BUILD), 0);
 }
 
 /* A slope that falls to the left and a block of 1 m x 0.5 m on it, of 2500 kg/m^3. */
@@ -74,33 +73,6 @@ static double pull(double angle, double phi, int down)
 {
     return G * (sin(angle * RAD) - down * cos(angle * RAD) * tan(phi * RAD));
 }
-
-START_TEST(a_block_slides_or_sticks_at_every_friction_angle)
-{
-    static const double phi[] = { 0, 10, 20, 25, 29, 31, 40 };
-    static const struct {
-        double dt, p_n;
-    } how[] = { { 0.01, 1e9 }, { 0.01, 1e10 }, { 0.01, 1e11 }, { 0.002, 1e11 } };
-
-    for (int k = 0; k < 7; k++) {
-        const slope s = { 30,
-                          phi[k],
-                          how[_i / 2].dt,
-                          how[_i / 2].p_n,
-                          _i % 2 ? 13 : 1,
-                          (int)(1 / how[_i / 2].dt + 0.5),
-                          0 };
-        run_moving(begin_slope(&s));
-        const double gives = 2500 * 0.5 * G * sin(30 * RAD) / (2 * 0.4 * s.p_n);
-        /* The promise: 1e-5, but 1e-4 at 29 degrees, where 4 % of the weight's pull is left; 1e-5 m
-         * of drift beyond what the shear springs give. */
-        if (phi[k] < 30)
-            ck_relative(slid(&s, s.steps), pull(30, phi[k], 1) / 2, phi[k] == 29 ? 1e-4 : 1e-5);
-        else
-            ck_near(slid(&s, s.steps), gives, 1, 1e-5);
-    }
-}
-END_TEST
 
 START_TEST(a_block_that_is_thrown_stops_where_it_should)
 {
@@ -326,7 +298,6 @@ Suite *moving_suite(void)
     Suite *s = suite_create("moving");
     TCase *t = tcase_create("moving");
 
-    tcase_add_loop_test(t, a_block_slides_or_sticks_at_every_friction_angle, 0, 8);
     tcase_add_loop_test(t, a_block_that_is_thrown_stops_where_it_should, 0, 6);
     tcase_add_loop_test(t, a_shaken_block_slips_once_in_each_period, 0, 8);
     tcase_add_loop_test(t, a_stack_leans_as_far_as_its_centres_of_mass_allow, 0, 4);

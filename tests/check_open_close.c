@@ -12,6 +12,7 @@
 static bbm_model *block_on_table(double friction)
 {
     bbm_model *m = new_blocks();
+    int n;
 
     m->par.friction = friction;
     add_table(m, 0);
@@ -96,39 +97,27 @@ START_TEST(a_pass_that_renews_the_vectors_is_no_cycle)
 }
 END_TEST
 
-/* In and out of the table and in again: when both are open for a second time the iteration cycles,
- * and of the two contacts, both of which want to close, one does, and slides. */
-START_TEST(a_set_of_states_that_comes_back_is_a_cycle)
-{
-    bbm_model *m = block_on_table(30);
-
-    for (int k = 0; k < 3; k++) {
-        m->D[7] = k % 2 ? 0.01 : -0.01;
-        (void)bbm_open_close(m);
-    }
-    bbm_store_contacts(m);
-    ck_assert_int_eq(m->info.contacts, 1);
-    ck_assert(m->contact[0].state == BBM_SLIDE || m->contact[1].state == BBM_SLIDE);
-    bbm_model_free(m);
-}
-END_TEST
-
-/* After a cycle at the pass with number 2 one contact changes its state in each pass before number
- * 4: one closes, then the other. Then both open, as both want to. */
+/* In and out of the table and in again: when both are open for a second time, at the pass with number
+ * 2, the iteration cycles, and one contact changes its state in each pass before number 4: one
+ * closes, and slides, also with friction. Without it then the other one closes, and both open, as both
+ * want to. */
 START_TEST(a_cycle_is_broken_one_by_one_for_as_many_passes_again)
 {
     const double v[] = { -0.01, 0.01, -0.01, -0.01, 0.01 };
     const int closed[] = { 2, 0, 1, 2, 0 };
-    bbm_model *m = block_on_table(0);
+    bbm_model *m = block_on_table(_i ? 30 : 0);
 
-    for (int k = 0; k < COUNT(v); k++) {
-        int n, count = 0;
+    for (int k = 0; k < (_i ? 3 : COUNT(v)); k++) {
+        int n, count = 0, slides = 0;
         m->D[7] = v[k];
         (void)bbm_open_close(m);
         const bbm_contact *c = list_contacts(m, &n);
-        for (int q = 0; q < n; q++)
+        for (int q = 0; q < n; q++) {
             count += c[q].state != BBM_OPEN;
+            slides += c[q].state == BBM_SLIDE;
+        }
         ck_assert_int_eq(count, closed[k]);
+        ck_assert(k != 2 || slides == 1);
     }
     bbm_model_free(m);
 }
@@ -163,7 +152,6 @@ START_TEST(a_contact_that_closes_outside_the_cone_of_friction_slides)
     bbm_model *m = block_on_table(30);
     int n;
 
-    m->par.friction = 30;
     m->D[7] = -1e-4;
     m->D[6] = (_i % 2 ? 1 : -1) * (_i < 2 ? 0.99 : 1.01)
             * 1e-4 * tan(PI / 6) * m->par.p_n / m->par.p_s;
@@ -184,7 +172,6 @@ START_TEST(a_contact_that_its_shear_spring_pulls_open_slides_first)
     bbm_model *m = block_on_table(30);
     int n;
 
-    m->par.friction = 30;
     const double u = (_i ? 1.01 : 0.99) * 1e-4 * tan(PI / 6) * m->par.p_n / m->par.p_s;
     for (int k = 0; k < 3; k++) {
         m->D[6] = k ? u : 0;
@@ -300,9 +287,8 @@ END_TEST
  * zero. */
 START_TEST(blocks_without_any_force_settle_at_once)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
 
-    m->par.gravity[1] = 0;
     m->beyond->cohesion = m->beyond->tension = 1e5;
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, ROCK, (rectangle){ .x = 0, .y = k, .w = 1, .h = 1 });
@@ -345,13 +331,12 @@ START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
     const double way = 0.01, turn = 0.01;
     const double by[4][2] = { { 1.05, 0 }, { 1.15, 0 }, { 0, 2.45 }, { 0, 2.55 } };
     bbm_model *m = block_on_table(30);
+    int n;
 
     set_velocity(m, 1, _i < 2 ? 1 : 10, 0);
     m->element[1].V[2] = _i < 2 ? 0 : 1;
     m->acceleration[1] = 0;
-    bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
-    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+    start_step(m, &n);
     ck_assert(!bbm_moved_too_far(m));
     m->D[6] = way * by[_i][0];
     m->D[6 + 2] = turn * by[_i][1];
@@ -369,10 +354,9 @@ END_TEST
  * turn. */
 START_TEST(a_solution_may_move_as_far_as_foreseen_to_the_last_bit)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
     start_step(m, &n);
@@ -394,10 +378,9 @@ END_TEST
  * first solution all are looked for as far as before. */
 START_TEST(a_step_foresees_no_less_than_it_did_before)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, ROCK, (rectangle){ .x = 5 * k, .y = 0, .w = 1, .h = 1 });
     ck_ok(bbm_prepare(m), m);
@@ -477,10 +460,9 @@ static const struct {
 START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
 {
     const double p = ldexp(1, 30), tip[2] = { 1, 64 / p }, beside[2] = { -1, 64 / p };
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n, other;
 
-    m->par.gravity[1] = 0;
     m->par.p_n = m->par.p_s = p;
     add_table(m, 0);
     add_wedge(m, 1, tip, radians(60), radians(120));
@@ -525,10 +507,9 @@ END_TEST
 START_TEST(the_direction_of_a_contacts_force_may_be_wrong_by_1e_4)
 {
     const double tip[2] = { 1, 1e-3 };
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     add_table(m, 0);
     add_wedge(m, 1, tip, radians(60), radians(120));
     ck_ok(bbm_prepare(m), m);
@@ -557,9 +538,8 @@ Suite *open_close_suite(void)
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
-        { a_set_of_states_that_comes_back_is_a_cycle, 1 },
         { a_base_needs_no_multipliers_in_dynamics, 3 },
-        { a_cycle_is_broken_one_by_one_for_as_many_passes_again, 1 },
+        { a_cycle_is_broken_one_by_one_for_as_many_passes_again, 2 },
         { the_contact_that_fits_worst_changes_first, 2 },
         { a_contact_that_closes_outside_the_cone_of_friction_slides, 4 },
         { a_contact_that_its_shear_spring_pulls_open_slides_first, 2 },

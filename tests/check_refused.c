@@ -508,49 +508,6 @@ START_TEST(an_iteration_that_ends_without_a_solution_is_refused)
 }
 END_TEST
 
-/* All that allocates here, with call k failing. */
-static bbm_status allocate_all(void)
-{
-    const double square[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
-    const bbm_material rock = { 1e10, 0.25, 2500, 1 };
-    bbm_model *m;
-    bbm_status status = bbm_beyond_new(&m);
-
-    if (status)
-        return status;
-    bbm_add_material(m, &rock, NULL);
-    for (int k = 0; k < 4; k++)
-        bbm_add_node(m, square[k][0], square[k][1], NULL);
-    bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL);
-    bbm_fix_node(m, 0, BBM_XY, 0, 0);
-    bbm_fix_node(m, 1, BBM_XY, 0, 0);
-    bbm_fix_node(m, 2, BBM_XY, 0, 0);
-    bbm_add_load(m, 3, 1, 1);
-    status = bbm_prepare(m);
-    if (!status)
-        status = bbm_step(m);
-    ck_assert_msg(status == BBM_OK || strstr(bbm_message(m), "out of memory"), "%d %s", status,
-                  bbm_message(m));
-    bbm_model_free(m);
-    return status;
-}
-
-START_TEST(without_memory_nothing_is_taken_for_sound)
-{
-    bbm_status status = BBM_NO_MEMORY;
-    int k = 0;
-
-    for (; status; k++) {
-        test_allocations_left = -(k + 1);
-        status = allocate_all();
-        const int reached = test_allocations_left >= 0 || status;
-        test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
-        ck_assert(!reached || status == BBM_NO_MEMORY || status == BBM_OK);
-    }
-    ck_assert_int_gt(k, 20);
-}
-END_TEST
-
 Suite *refused_suite(void)
 {
     Suite *s = suite_create("refused");
@@ -580,7 +537,6 @@ Suite *refused_suite(void)
     tcase_add_loop_test(failing, a_step_in_which_elements_turn_too_far_is_cut_or_refused, 0, 4);
     tcase_add_loop_test(failing, statics_that_turns_elements_over_is_refused, 0, 2);
     tcase_add_test(failing, an_iteration_that_ends_without_a_solution_is_refused);
-    tcase_add_test(failing, without_memory_nothing_is_taken_for_sound);
     suite_add_tcase(s, failing);
     return s;
 }

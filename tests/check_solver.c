@@ -133,23 +133,6 @@ START_TEST(pattern_with_a_row_that_does_not_exist_is_refused)
 }
 END_TEST
 
-START_TEST(running_out_of_memory_at_any_call_is_reported)
-{
-    int pair[3][2] = { { 0, 1 }, { 1, 2 }, { 0, 2 } };
-    bbm_matrix *K = NULL;
-    int calls;
-
-    for (calls = 0; !K; calls++) {
-        test_allocations_left = calls;
-        const bbm_status status = bbm_matrix_new(3, 3, pair, &K);
-        test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
-        ck_assert_int_eq(status, K ? BBM_OK : BBM_NO_MEMORY);
-    }
-    ck_assert_int_gt(calls, 1);
-    bbm_matrix_free(K);
-}
-END_TEST
-
 /* ---------------------------------------------------------------------------- the order of rows */
 
 enum { LONG = 400 };
@@ -707,7 +690,6 @@ Suite *solver_suite(void)
         { cleared_matrix_is_zero_and_can_be_filled_again, PATTERNS },
         { pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing, 1 },
         { pattern_with_a_row_that_does_not_exist_is_refused, 1 },
-        { running_out_of_memory_at_any_call_is_reported, 1 },
     };
     const loop_test order[] = {
         { long_strips_in_any_numbering_get_a_narrow_band, 5 },

@@ -339,19 +339,6 @@ START_TEST(a_run_that_stops_short_says_so_and_keeps_what_it_has)
 }
 END_TEST
 
-START_TEST(without_a_tolerance_a_run_does_all_its_steps)
-{
-    bbm_model *m = new_bar(&CORK, 1);
-
-    m->par.steps = 4;
-    ck_ok(bbm_run(m), m);
-    ck_assert_int_eq(m->info.step, 4);
-    ck_ok(bbm_run(m), m);
-    ck_assert_int_eq(m->info.step, 8);
-    bbm_model_free(m);
-}
-END_TEST
-
 START_TEST(without_a_tolerance_a_run_does_all_its_steps_even_at_rest)
 {
     bbm_model *m = unit_square(&SOLID);
@@ -387,7 +374,6 @@ Suite *steps_suite(void)
         { the_stop_criterion_compares_the_step_with_the_sum_of_all_steps, 1 },
         { a_run_stops_at_the_first_step_that_is_small_enough, 1 },
         { a_run_that_stops_short_says_so_and_keeps_what_it_has, 1 },
-        { without_a_tolerance_a_run_does_all_its_steps, 1 },
         { without_a_tolerance_a_run_does_all_its_steps_even_at_rest, 1 },
     };
 

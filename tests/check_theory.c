@@ -5,8 +5,6 @@
 
 #include "../cases/theory.h"
 
-Suite *theory_suite(void);
-
 static const theory_beam beam = { .P = 1000, .L = 48, .H = 12, .E = 30e6, .nu = 0.3 };
 static const theory_plate plate = { .S = 1e6, .E = 2900e9, .nu = 0.3 };
 

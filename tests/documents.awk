@@ -4,7 +4,8 @@
 #
 # In a block of the kind "console" a line "$ COMMAND" is run by the shell in the project's top folder
 # (it goes on in the next line after a backslash); the lines below it are what it prints, letter for
-# letter. "..." stands for any number of lines. Programs are taken from the folder O.
+# letter. "..." stands for any number of lines. Programs are taken from the folder O. What stands in a
+# block of the kind "c FILE" is in that file, letter for letter.
 # A comment "<!-- $ COMMAND -->" does the same for the table in the lines below it.
 
 function fail(why)
@@ -75,6 +76,20 @@ BEGIN {
     while ((words | getline word) > 0)
         known[word] = 1
 }
+
+# A block "c FILE" is a piece of that file, letter for letter.
+/^```c / { source = $2; piece = ""; next }
+source != "" && /^```$/ {
+    text = ""
+    while ((getline line < source) > 0)
+        text = text line "\n"
+    close(source)
+    if (piece == "" || !index(text, piece))
+        fail("this is not a piece of " source)
+    source = ""
+    next
+}
+source != "" { piece = piece $0 "\n"; next }
 
 FNR == 1 && inside { fail("a block without end in the file before"); inside = 0 }
 /^```console$/ { inside = 1; next }

@@ -1,35 +1,45 @@
 #!/bin/sh
-# exercise.sh - the exercises of doc/exercises: copies of the sources, and their tests.
+# exercise.sh - the exercises in the chapters of doc/: copies of the sources, and their tests.
 #
 #   exercise.sh begin N      makes the copy of exercise N in out/exercise/N, unless it is there, and
 #                            runs its tests
+#   exercise.sh hint N STEP  prints a hint, the first or the second
+#   exercise.sh list         all exercises, and which are done
 #   exercise.sh prove        all exercises: red as they begin, green with the source as it is
 #
-# The first table of a page says what is done: the kind, the file, the function that is taken out,
-# the tests: a group of those of `make quick`, or `program`, a program that tests itself. An error
-# that is to be found is a row of doc/teacher.md: the exercise, the file, a piece of a line, and what
-# stands in its place.
+# An exercise is a section "### Exercise N ..." of a chapter. The table below says what is done: the
+# kind, the file, the function that is taken out, the tests: a group of those of `make quick`, or
+# `program`, a program that tests itself. An error that is to be found is a row of doc/teacher.md: the
+# exercise, the file, a piece of a line, and what stands in its place. The hints are in doc/hints.md.
 #
 # `make exercise` gives O, where the objects are; COMPILE, FAILING, LINK, LIBS, parts of commands;
 # TESTED and ALONE, the objects for tests and for programs; MAKE.
 set -eu
 unset CK_RUN_SUITE CK_INCLUDE_TAGS CK_EXCLUDE_TAGS
-PAGES=doc/exercises
+CHAPTERS=$(ls doc/0*.md)
 CUT=tests/exercise.awk
 
-# The fields of the first row of the tables in file $1 that fits the condition $2, a line each.
+# The fields of the first row of the tables in the input that fits the condition $1, a line each.
 row()
 {
-    awk -F ' *[|] *' "/^[|]/ && $2"' { for (k = 2; k < NF; k++) { gsub(/`/, "", $k); print $k }; exit }' "$1"
+    awk -F ' *[|] *' "/^[|]/ && $1"' { for (k = 2; k < NF; k++) { gsub(/`/, "", $k); print $k }; exit }'
 }
 
-# Reads the page of exercise $1.
+# The lines of files below the heading that begins with $1, up to the next heading.
+section()
+{
+    heading=$1
+    shift
+    awk -v h="$heading " '/^#/ { inside = index($0 " ", h) == 1; next } inside' "$@"
+}
+
+# Reads exercise $1.
 read_page()
 {
-    page=$(ls $PAGES/"$1"-*.md 2> /dev/null || :)
-    [ -f "$page" ] || { echo "there is no exercise $1 in $PAGES: make exercise N=01"; exit 2; }
+    page=$(grep -l "^### Exercise $1 " $CHAPTERS || :)
+    [ -f "$page" ] || { echo "there is no exercise $1: make exercises lists them"; exit 2; }
     { read -r kind; read -r file; read -r name; read -r tests; } << END
-$(row "$page" '++rows == 3')
+$(section "### Exercise $1" "$page" | row '++rows == 3')
 END
 }
 
@@ -41,11 +51,11 @@ write_copy()
         NAME=$name awk -f $CUT "$file" > "$2" ;;
     'find the error')
         { read -r _; read -r _; IFS= read -r from; IFS= read -r to; } << END
-$(row doc/teacher.md "\$2 == \"$1\"")
+$(row "\$2 == \"$1\"" < doc/teacher.md)
 END
         FROM=$from TO=$to awk -f $CUT "$file" > "$2" ;;
-    *)
-        cp "$file" "$2" ;;
+    *)                                  # what a model says of its answer goes
+        sed '/^#/d' "$file" > "$2" ;;
     esac
 }
 
@@ -72,12 +82,33 @@ begin()
     mkdir -p "$here"
     if is_a_model; then $MAKE bbm; else $MAKE "$O/quick" $ALONE; fi
     [ -f "$copy" ] || { write_copy "$1" "$copy.new"; mv "$copy.new" "$copy"; }
-    echo "The task: $page"
+    echo "The task: $page, Exercise $1"
     echo "The copy: $copy"
     if is_a_model; then return; fi
     build "$copy" "$here"
-    CK_RUN_CASE=$tests "$here/tests" || { echo "Red: not yet right."; exit 1; }
-    echo "Green: done."
+    CK_RUN_CASE=$tests "$here/tests" || { echo "Red: not yet right. make hint N=$1 helps."; exit 1; }
+    echo "Green: done. $(section "## $1" doc/hints.md | grep '^Next:')"
+    : > "$here/done"
+}
+
+hint()
+{
+    read_page "$1"
+    section "## $1" doc/hints.md | sed -n "s/^$2[.] //p"
+    [ "$2" = 2 ] || echo "A second hint: make hint N=$1 STEP=2"
+}
+
+numbers() { sed -n 's/^### Exercise \([0-9.]*\) .*/\1/p' $CHAPTERS; }
+
+list()
+{
+    for number in $(numbers); do
+        read_page "$number"
+        done=' '
+        [ -f "out/exercise/$number/done" ] && done=x
+        printf '[%s] %-5s %-15s %s\n' "$done" "$number" "$kind" \
+            "$(sed -n "s/^### Exercise $number //p" "$page")"
+    done
 }
 
 complain() { echo "$page: $1"; cat "$here/said"; exit 1; }
@@ -85,6 +116,9 @@ complain() { echo "$page: $1"; cat "$here/said"; exit 1; }
 prove_one()
 {
     read_page "$1"
+    [ "$(section "## $1" doc/hints.md | grep -c '^1[.] \|^2[.] \|^Next: ')" = 3 ] || \
+        { echo "doc/hints.md: exercise $1 has two hints and a line Next"; exit 1; }
+    grep -q "\*\*$1\*\*" doc/teacher.md || { echo "doc/teacher.md has no answer **$1**"; exit 1; }
     here=$O/exercise/$1
     copy=$here/$(basename "$file")
     mkdir -p "$here"
@@ -110,15 +144,11 @@ prove()
 {
     prove_cut
     count=0
-    for p in $PAGES/[0-9]*.md; do
-        number=$(basename "$p" | sed 's/-.*//')
+    for number in $(numbers); do
         (prove_one "$number")
         count=$((count + 1))
     done
     echo "$count exercises: red as they begin, green with the sources"
 }
 
-case $1 in
-begin) case $2 in ?) begin "0$2" ;; *) begin "$2" ;; esac ;;
-prove) prove ;;
-esac
+"$@"

@@ -245,6 +245,14 @@ bbm_model *new_blocks(void)
     return m;
 }
 
+bbm_model *weightless_blocks(void)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.gravity[1] = 0;
+    return m;
+}
+
 int add_rectangle(bbm_model *m, int block, int material, rectangle r)
 {
     const int nx = r.nx ? r.nx : 1, ny = r.ny ? r.ny : 1, first = m->elements, node = m->nodes;
@@ -462,9 +470,9 @@ void add_outline(bbm_model *m, int block, const outline *o, int strip)
 
 void detect(bbm_model *m)
 {
-    m->h = m->par.dt;
-    bbm_foresee_step(m);
-    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
+    int n;
+
+    start_step(m, &n);
     bbm_store_contacts(m);
 }
 
@@ -616,10 +624,9 @@ int add_wedge(bbm_model *m, int block, const double at[2], double from, double t
 bbm_model *tip_at(int side, double x, double y, bbm_contact *touched[2])
 {
     const double tip[2] = { 1e-3, 1e-3 };
-    bbm_model *m = new_blocks();
+    bbm_model *m = weightless_blocks();
     int n;
 
-    m->par.gravity[1] = 0;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -1, .w = 1, .h = 1 });
     add_wedge(m, 1, tip, radians(25), radians(65));
     ck_ok(bbm_prepare(m), m);

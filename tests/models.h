@@ -91,6 +91,7 @@ enum { ROCK, BASE };            /* materials */
 /* Blocks of rock on a base that gives way 10^4 times less, under gravity, the solver as exact as it
  * can be. */
 bbm_model *new_blocks(void);
+bbm_model *weightless_blocks(void);
 
 /* A rectangle of nx times ny elements, 1 if not given: its lower left corner, sides, and the angle
  * [degree] by which all this is turned about the origin. */

@@ -32,6 +32,27 @@ const char *slurp(const char *path, char text[LONG])
     return text;
 }
 
+char *read_all(const char *path)
+{
+    FILE *f = fopen(path, "rb");
+
+    ck_assert_msg(f && fseek(f, 0, SEEK_END) == 0, "%s cannot be read", path);
+    const size_t n = (size_t)ftell(f);
+    rewind(f);
+    char *text = calloc(n + 1, 1);
+    ck_assert(text && fread(text, 1, n, f) == n);
+    fclose(f);
+    return text;
+}
+
+void check_text(const char *path, const char *expected)
+{
+    char *text = read_all(path);
+
+    ck_assert_msg(strstr(text, expected), "%s lacks '%s': %.1000s", path, expected, text);
+    free(text);
+}
+
 void write_text(const char *path, const char *text)
 {
     FILE *f = fopen(path, "w");

@@ -32,7 +32,7 @@ static void compare(const char *what, double got, double expected)
     failed = 1;
 }
 
-/* Three rules that are known in another form: the paper's matrix, derivations.md, section 5; the
+/* Three rules that are known in another form: the paper's matrix, doc/05-loads.md; the
  * trapezoidal rule, which keeps the energy; central differences. */
 static void check_rules(double W2)
 {

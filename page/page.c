@@ -1,0 +1,317 @@
+/* page.c - what the page calls, see page.h. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "../program/length.h"
+#include "../program/run.h"
+#include "../program/scene.h"
+#include "../program/statements.h"
+#include "../program/warn.h"
+#include "page.h"
+
+/* Numbers of the command line; s that a step may take; numbers of the looks at a step. */
+enum { LETS = 100, LIMIT = 10, LOOKS = 2000000 };
+
+typedef struct { int n, room, failed; double *x; } numbers;
+
+struct page {
+    model p;
+    run r;
+    bbm_status status;
+    int wrong;                          /* it could not be read */
+    char said[700], sentence[300];
+    numbers out, look;
+    int rounds;                         /* of multipliers, at the last look */
+    int *before, listed;                /* [listed] states of the contacts at the last look */
+    clock_t began;                      /* the step in hand */
+};
+
+static void put(numbers *a, int n, const double x[])
+{
+    if (a->n + n > a->room) {
+        const int room = 2 * (a->n + n) + 1000;
+        double *more = realloc(a->x, (size_t)room * sizeof *more);
+        a->failed |= !more;
+        if (!more)
+            return;
+        a->x = more;
+        a->room = room;
+    }
+    memcpy(a->x + a->n, x, (size_t)n * sizeof *x);
+    a->n += n;
+}
+
+#define PUT(a, ...)                                                                                \
+    put(a, (int)(sizeof((double[]){ __VA_ARGS__ }) / sizeof(double)), (double[]){ __VA_ARGS__ })
+
+/* ------------------------------------------------------------------------- inside a step */
+
+/* The row that has led from a state to that of the contact, by what the solution shows. */
+static int row_of(int from, const bbm_contact *c, int what)
+{
+    static const int row[3][3] = {
+        { PAGE_STAYS_OPEN, PAGE_LOCKS, PAGE_CLOSES_SLIDING },
+        { PAGE_OPENS, PAGE_STAYS_LOCKED, PAGE_SLIPS },
+        { PAGE_LIFTS, PAGE_TURNS_BACK, PAGE_STAYS_SLIDING },
+    };
+    const int found = row[from][c->state], tension = c->N < -c->strength.tension;
+
+    if (what == PAGE_DONE && from != (int)c->state)
+        return PAGE_HANDED_ON;
+    if (what == PAGE_FRICTION && found == PAGE_STAYS_SLIDING)
+        return PAGE_OTHER_N;
+    return found == PAGE_SLIPS && tension ? PAGE_PULLED
+         : found == PAGE_LIFTS && !tension ? PAGE_WEDGED : found;
+}
+
+static void note_look(page *g, const bbm_contact list[], int n, int what)
+{
+    const int count = g->look.n + 3;
+    int *before = g->before;
+
+    if (what == PAGE_LISTED)
+        before = realloc(before, ((size_t)n + 1) * sizeof *before);
+    if (what == PAGE_LISTED && before) {
+        g->before = before;
+        g->listed = n;
+    }
+    if (!before || g->listed != n || g->look.n > LOOKS)
+        return;
+    PUT(&g->look, g->p.m->info.t, g->p.m->h, what, 0);
+    for (int k = 0; k < n && !g->look.failed; k++) {
+        const bbm_contact *c = &list[k];
+        const int from = what == PAGE_LISTED ? (int)c->state : before[k];
+        before[k] = (int)c->state;
+        if (from == BBM_OPEN && c->state == BBM_OPEN)
+            continue;
+        PUT(&g->look, c->corner, c->edge, from, c->state, c->N, c->T, c->d_n,
+            row_of(from, c, what));
+        g->look.x[count]++;
+    }
+}
+
+/* Before each solution. A step without end is stopped. */
+static int before_solution(const bbm_model *m, void *context)
+{
+    const bbm_contact_scratch *w = m->scratch;
+    page *g = context;
+    const int more = m->beyond->rounds_done > g->rounds;
+
+    g->rounds = m->beyond->rounds_done;
+    note_look(g, w->contact, w->contacts, w->friction_passes ? PAGE_FRICTION
+              : more ? PAGE_SAME_K : w->passes ? PAGE_JUDGED : PAGE_LISTED);
+    return clock() - g->began > (clock_t)LIMIT * CLOCKS_PER_SEC;
+}
+
+/* ------------------------------------------------------------------------- load and step */
+
+page *page_load(const char *path, char *lets)
+{
+    page *g = calloc(1, sizeof *g);
+    char *let[LETS];
+    int n = 0;
+
+    if (!g)
+        return NULL;
+    for (char *l = strtok(lets, "\n"); l && n < LETS; l = strtok(NULL, "\n"))
+        let[n++] = l;
+    g->wrong = model_read(path, n, let, &g->p) != 0;
+    memcpy(g->said, g->p.message, sizeof g->p.message);
+    if (g->wrong)
+        return g;
+    g->r = (run){ .p = &g->p, .settling = g->p.settle };
+    g->p.m->monitor = before_solution;
+    g->p.m->monitor_context = g;
+    warn_before(&g->p, path);
+    return g;
+}
+
+void page_free(page *g)
+{
+    if (!g)
+        return;
+    model_free(&g->p);
+    free(g->out.x);
+    free(g->look.x);
+    free(g->before);
+    free(g);
+}
+
+int page_state(const page *g) { return g->wrong || g->status ? 2 : g->r.is_over; }
+
+int page_step(page *g)
+{
+    if (page_state(g))
+        return page_state(g);
+    g->began = clock();
+    g->look.n = 0;
+    g->status = run_step(&g->r);
+    if (g->r.is_over)
+        warn_after(&g->p, "the run");
+    if (g->status)
+        run_says(&g->r, g->status, g->said);
+    else if (g->look.n > 0)
+        note_look(g, g->p.m->contact, g->p.m->contacts, PAGE_DONE);
+    return page_state(g);
+}
+
+/* ------------------------------------------------------------------------- numbers */
+
+static void put_vertices(page *g, const bbm_model *m)
+{
+    for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
+        PUT(&g->out, v->x + m->origin[0], v->y + m->origin[1], v->u, v->v);
+}
+
+static void put_elements(page *g, const bbm_model *m)
+{
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
+        const double szz = bbm_stress_out_of_plane(e);
+        put(&g->out, 6, e->D);
+        put(&g->out, 6, e->V);
+        put(&g->out, 3, e->stress);
+        PUT(&g->out, szz, bbm_mises(e->stress, szz));
+        put(&g->out, 3, e->sum);
+        PUT(&g->out, e->x + m->origin[0], e->y + m->origin[1]);
+    }
+}
+
+static void put_mesh(page *g, const bbm_model *m)
+{
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++)
+        PUT(&g->out, e->first, e->n, e->block, e->material.E, e->material.nu, e->material.density,
+            e->material.thickness);
+}
+
+static void put_edges(page *g, const bbm_model *m)
+{
+    for (const bbm_edge *d = m->edge; d < m->edge + m->edges; d++)
+        PUT(&g->out, d->a, d->b, d->block);
+}
+
+static void put_contacts(page *g, const bbm_model *m)
+{
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+        const bbm_vertex *P1 = bbm_start_of(m, c->corner);
+        double f[2];
+        scene_contact_force(m, c, c->N, c->T, f);
+        PUT(&g->out, c->corner, c->edge, c->state, P1->x + m->origin[0], P1->y + m->origin[1], f[0],
+            f[1], c->N, c->T, c->d_n, bbm_shear_strength(&c->strength, c->N), c->slip,
+            row_of((int)c->state, c, PAGE_JUDGED));
+    }
+}
+
+static void put_supports(page *g, const bbm_model *m)
+{
+    for (int v = 0; v < m->vertices; v++)
+        if (m->node[m->vertex[v].node].held)
+            PUT(&g->out, v, m->node[m->vertex[v].node].held);
+}
+
+/* What turns with an edge, or varies along it, by its mean. */
+static void put_loads(page *g, const bbm_model *m)
+{
+    scene_line l;
+
+    for (int n = 0; n < m->nodes; n++)
+        if (m->node[n].load[0] != 0 || m->node[n].load[1] != 0)
+            PUT(&g->out, m->adjacent[m->adjacent_first[n]], -1, m->node[n].load[0],
+                m->node[n].load[1]);
+    for (int k = 0; scene_edge_load(m, k, &l); k++) {
+        const bbm_vertex *a = &m->vertex[l.a], *b = &m->vertex[l.b];
+        const double length = hypot(b->x - a->x, b->y - a->y);
+        double f[2] = { -l.pressure * (b->y - a->y) / length, l.pressure * (b->x - a->x) / length };
+        for (int q = 0; q < l.loads; q++)
+            f[0] += l.q[q][0] / l.loads, f[1] += l.q[q][1] / l.loads;
+        PUT(&g->out, l.a, l.b, f[0], f[1]);
+    }
+}
+
+/* i - back is the column. */
+static void put_pattern(page *g, const bbm_model *m)
+{
+    const bbm_matrix *K = m->K;
+
+    PUT(&g->out, K->n);
+    for (int i = 0; i < K->n; i++)
+        PUT(&g->out, K->place[i]);
+    for (int i = 0; i < K->n; i++)
+        for (int b = K->first[i]; b < K->first[i + 1]; b++)
+            PUT(&g->out, i, i - K->back[b]);
+}
+
+/* The time is that of ./bbm, the nominal one. */
+static void put_facts(page *g, const bbm_model *m)
+{
+    const bbm_info *i = &m->info;
+    bbm_energy e;
+
+    bbm_energies(m, &e);
+    PUT(&g->out, i->step, g->p.dynamic ? i->step * m->par.dt : 0, m->par.steps, g->p.dynamic,
+        g->r.settling, g->p.settle, g->r.has_begun, m->par.dt, i->passes, i->iterations,
+        i->pcg.residual, i->cuts, i->contacts, i->penetration, i->candidates, i->change, e.kinetic,
+        e.elastic, e.springs, m->beyond->work, m->beyond->gained, g->p.scale);
+}
+
+static void put_monitors(page *g, const bbm_model *m)
+{
+    double u[2];
+
+    (void)m;
+    for (int k = 0; k < g->p.monitors; k++) {
+        model_displacement(&g->p, &g->p.monitor[k], u);
+        put(&g->out, 2, u);
+    }
+}
+
+static void put_expectations(page *g, const bbm_model *m)
+{
+    char text[300];
+
+    (void)m;
+    for (int k = 0; k < g->p.expectations; k++) {
+        const model_expected *e = &g->p.expected[k];
+        PUT(&g->out, e->monitor, e->kind, e->value, e->within, run_is_met(&g->p, k, text));
+    }
+}
+
+static void put_looks(page *g, const bbm_model *m) { (void)m, put(&g->out, g->look.n, g->look.x); }
+
+int page_numbers(page *g, int what)
+{
+    static const struct { int what; void (*put)(page *g, const bbm_model *m); } table[] = {
+        { 'v', put_vertices }, { 'e', put_elements }, { 'a', put_mesh }, { 'd', put_edges },
+        { 'c', put_contacts }, { 'h', put_supports }, { 'l', put_loads }, { 'k', put_pattern },
+        { 'f', put_facts }, { 'o', put_monitors }, { 'x', put_expectations }, { 'p', put_looks },
+    };
+
+    g->out.n = g->out.failed = 0;
+    for (int k = 0; k < LENGTH(table) && !g->wrong; k++)
+        if (table[k].what == what)
+            table[k].put(g, g->p.m);
+    return g->out.failed ? -1 : g->out.n;
+}
+
+double *page_data(page *g) { return g->out.x; }
+
+/* ------------------------------------------------------------------------- texts */
+
+const char *page_text(page *g, int what, int k)
+{
+    const model *p = &g->p;
+
+    if (what == 'm')
+        return g->said;
+    if (g->wrong || k < 0)
+        return "";
+    if (what == 'x' && k < p->expectations) {
+        run_is_met(p, k, g->sentence);
+        return g->sentence;
+    }
+    return what == 't' ? p->title ? p->title : ""
+         : what == 'b' && k < p->blocks ? p->block[k]
+         : what == 'e' && k < p->m->elements ? p->element[k]
+         : what == 'o' && k < p->monitors ? p->monitor[k].name
+         : what == 'n' && k < p->m->vertices ? p->node[p->m->vertex[k].node] : "";
+}
