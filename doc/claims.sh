@@ -1,6 +1,6 @@
-# claims.sh - numbers of 08-experiments.md that no experiment prints, by models of beam.awk and
+# claims.sh - numbers of 08-experiments.md and beyond.md that no experiment prints, by models of beam.awk and
 # plate.awk and by tables of the experiments:
-#     BBM=./bbm sh doc/claims.sh stress|plate|held|arc|areas|iterations|blocks
+#     BBM=./bbm sh doc/claims.sh stress|plate|held|arc|areas|iterations|blocks|levels|squares
 set -e
 mkdir -p out/claims
 
@@ -98,6 +98,35 @@ blocks()
             printf "%s contacts: v(24,0) %.2f mm, %s\n", ($6 > 300 ? "over 300" : $6), 1000 * v,
                 ($3 > 3 ? "several solutions" : $3 " solution")
         }'
+    done
+}
+
+# The paper's solver beside two levels, on triangles; digits that rounding decides are left out.
+levels()
+{
+    for n in 4 8 16; do
+        for a in 10 1000; do
+            for c in off on; do
+                { beam $((4 * n)) $n $a 0 | sed '/^pcg/d'; echo "pcg coarse $c"; } | run
+                tail -1 out/claims/summary.csv
+            done | awk -F, -v u=$((96 * n * n)) -v a=$a '{ x[NR] = $4 } END {
+                printf "%5d unknowns, alpha %4d: SSOR about %4d iterations, two levels %s\n", u, a,
+                    sprintf("%.1g", x[1]), (x[2] > 15 ? x[2] : "15 or fewer")
+            }'
+        done
+    done
+}
+
+# Two levels on n x n/4 squares.
+squares()
+{
+    for n in 16 32 64; do
+        for a in 10 1000; do
+            beam $n $((n / 4)) $a 0 "-v quads=1" | sed '/^pcg/d' | run
+            tail -1 out/claims/summary.csv | awk -F, -v n=$n -v a=$a '{
+                print "n =", n ", alpha =", a ": about", 5 * int($4 / 5 + 0.5), "iterations"
+            }'
+        done
     done
 }
 

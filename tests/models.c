@@ -470,9 +470,9 @@ void add_outline(bbm_model *m, int block, const outline *o, int strip)
 
 void detect(bbm_model *m)
 {
-    int n;
-
-    start_step(m, &n);
+    m->h = m->par.dt;
+    bbm_foresee_step(m);
+    ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     bbm_store_contacts(m);
 }
 
