@@ -12,7 +12,6 @@
 static bbm_model *block_on_table(double friction)
 {
     bbm_model *m = new_blocks();
-    int n;
 
     m->par.friction = friction;
     add_table(m, 0);
