@@ -55,7 +55,7 @@ $(row "\$2 == \"$1\"" < doc/teacher.md)
 END
         FROM=$from TO=$to awk -f $CUT "$file" > "$2" ;;
     *)                                  # what a model says of its answer goes
-        sed '/^#/d' "$file" > "$2" ;;
+        sed '/^#/d; /^expect/d' "$file" > "$2" ;;
     esac
 }
 
