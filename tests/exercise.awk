@@ -1,54 +1,56 @@
 # exercise.awk - the copy of a source with which an exercise begins; from the environment
-#   NAME      the function whose body is taken out, or
+#   NAME      the function whose body and comment are taken out, or
 #   FROM, TO  a piece of one line, and what stands there in its place.
 # Fails, with the reason, unless that is in the source exactly once.
 #
 # A function begins in the first column with its type, and its body stands between two lines that
-# are "{" and "}": the style of all sources here. The comment above it, which may hold the answer, goes
-# with the body.
+# are "{" and "}": the style of all sources here. The comment above it, which may hold the answer,
+# goes with the body.
 
-# An empty body; where something is returned, 0.
-function empty(head)
+# An empty body. What the function would set or return is NaN, not whatever number lies there.
+function empty(rest,    word)
 {
     print "{"
-    print "    /* Exercise: write the body of " ENVIRON["NAME"] ". */"
-    if (head !~ /^(static )?void /)
+    print "    /* Exercise: write the body of " name ". */"
+    while (match(rest, /double [A-Za-z]+\[[0-9]\]\[[0-9]\]|bbm_spring \*[a-z]/)) {
+        split(substr(rest, RSTART, RLENGTH), word, /[] *[]+/)
+        print "    memset(" word[2] ", 0xFF, sizeof" \
+              (word[3] ? "(double[" word[3] "][" word[4] "])" : " *" word[2]) ");    /* NaN */"
+        rest = substr(rest, RSTART + RLENGTH)
+    }
+    if (head ~ /^(static )?double /)
+        print "    return NAN;"
+    else if (head !~ /^(static )?void /)
         print "    return 0;"
     print "}"
+}
+
+# Prints the comment and the head that were held back.
+function flush()
+{
+    printf "%s%s", comment, head
+    comment = head = ""
 }
 
 BEGIN { name = ENVIRON["NAME"]; from = ENVIRON["FROM"]; to = ENVIRON["TO"] }
 
 name != "" && inside { inside = $0 != "}"; next }
+name != "" && /^\/[*]/ { flush(); open = 1 }
+open { comment = comment $0 "\n"; open = !/[*]\/$/; next }
 name != "" && head != "" && $0 == "{" {
     found++
     inside = 1
-    print held
+    printf "%s", head
     empty(head)
-    head = held = comment = ""
-    next
-}
-name != "" && (/^\/\*/ || in_comment) && head == "" {
-    comment = comment $0 "\n"
-    in_comment = !/\*\/$/
+    comment = head = ""
     next
 }
 name != "" && /^[a-z]/ && index($0, name "(") && substr($0, index($0, name "(") - 1, 1) ~ /[ *]/ {
-    head = $0
+    head = $0 "\n"
+    next
 }
-head != "" { held = held (held == "" ? "" : "\n") $0 }
-/[;}]$/ || /^$/ {
-    if (held != "")
-        printf "%s%s\n", comment, held
-    else
-        printf "%s", comment
-    skip = held != ""
-    head = held = comment = ""
-    if (skip)
-        next
-}
-head != "" { next }
-{ printf "%s", comment; comment = "" }
+head != "" && !/[;}]$/ && !/^$/ { head = head $0 "\n"; next }
+{ flush() }
 
 name == "" && (at = index($0, from)) {
     found++
@@ -61,6 +63,7 @@ name == "" && (at = index($0, from)) {
 { print }
 
 END {
+    flush()
     if (found == 1)
         exit 0
     print FILENAME ": " (name != "" ? name : from) ": found " found + 0 " times, expected 1" > "/dev/stderr"
