@@ -199,7 +199,7 @@ hint:
 exercises:
 	@sh tests/exercise.sh list
 
-check-exercises: $O/quick $(ALONE)
+check-exercises: $O/quick $O/doc/exercises/own.o $(ALONE)
 	@$(EXERCISE) prove
 
 # The page in node and in Chromium, and natively with musl, whose libm is that of WASI.

@@ -2,7 +2,7 @@
 # exercise.sh - the exercises in the chapters of doc/: copies of the sources, and their tests.
 #
 #   exercise.sh begin N      makes the copy of exercise N in out/exercise/N, unless it is there, and
-#                            runs its tests
+#                            runs its tests; a copy of a model is run once it has a line `expect`
 #   exercise.sh hint N STEP  prints a hint, the first or the second
 #   exercise.sh list         all exercises, and which are done
 #   exercise.sh prove        all exercises: red as they begin, green with the source as it is
@@ -72,6 +72,16 @@ build()
     fi
 }
 
+# What the copy $1 computes, in the folder $2: doc/exercises/own.c.
+show_own()
+{
+    [ "$tests" != program ] && [ -f "$O/${file%.c}.o" ] || return 0
+    others=$(for o in $ALONE; do [ "$o" = "$O/${file%.c}.o" ] || echo "$o"; done)
+    $COMPILE -I. -I"$(dirname "$file")" -c -o "$2/own.o" "$1"
+    $LINK -o "$2/own" "$2/own.o" "$O/doc/exercises/own.o" $others -lm
+    "$2/own"
+}
+
 is_a_model() { [ "$kind" = predict ] || [ "$kind" = measure ]; }
 
 begin()
@@ -80,13 +90,18 @@ begin()
     here=out/exercise/$1
     copy=$here/$(basename "$file")
     mkdir -p "$here"
-    if is_a_model; then $MAKE bbm; else $MAKE "$O/quick" $ALONE; fi
+    if is_a_model; then $MAKE bbm; else $MAKE "$O/quick" "$O/doc/exercises/own.o" $ALONE; fi
     [ -f "$copy" ] || { write_copy "$1" "$copy.new"; mv "$copy.new" "$copy"; }
     echo "The task: $page, Exercise $1"
     echo "The copy: $copy"
-    if is_a_model; then return; fi
-    build "$copy" "$here"
-    CK_RUN_CASE=$tests "$here/tests" || { echo "Red: not yet right. make hint N=$1 helps."; exit 1; }
+    if is_a_model; then
+        grep -q '^expect ' "$copy" || { echo "Your prediction: a line \`expect\` in the copy."; return; }
+        ./bbm "$copy" -o "$here/result" || { echo "Red: not as expected. make hint N=$1 helps."; exit 1; }
+    else
+        build "$copy" "$here"
+        CK_RUN_CASE=$tests "$here/tests" || { echo "Red: not yet right. make hint N=$1 helps."; exit 1; }
+        show_own "$copy" "$here"
+    fi
     echo "Green: done. $(section "## $1" doc/hints.md | grep '^Next:')"
     : > "$here/done"
 }
@@ -138,6 +153,13 @@ prove_cut()
         ! NAME=$function awk -f $CUT bbm.c > /dev/null 2>&1 || { echo "$CUT found $function"; exit 1; }
     done
     ! FROM='return' TO='' awk -f $CUT bbm.c > /dev/null 2>&1 || { echo "$CUT took the first of many"; exit 1; }
+    file=bbm.c tests=none here=$O/exercise/own
+    mkdir -p "$here"
+    NAME=bbm_bonding_submatrices awk -f $CUT bbm.c > "$here/bbm.c"
+    ! grep -q 'K_jj += k' "$here/bbm.c" || { echo "the copy tells its answer"; exit 1; }
+    ! show_own "$here/bbm.c" "$here" | grep 'moves by 0.0044 m' || { echo "another code is shown"; exit 1; }
+    show_own bbm.c "$here" > "$here/said"
+    grep -q 'moves by 0.0044 m' "$here/said" || { cat "$here/said"; exit 1; }
 }
 
 prove()
