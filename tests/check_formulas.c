@@ -240,7 +240,8 @@ START_TEST(the_mode_matrix_moves_points_by_translation_rotation_and_strain)
         displace(&b, D, x, y, expected);
         bbm_mode_matrix(&b.e, x, y, T);
         for (int r = 0; r < 2; r++) {
-            snprintf(place, sizeof place, "T[%d][%d] (row %c, column %s)", r, a, "uv"[r], UNKNOWN[a]);
+            snprintf(place, sizeof place, "T[%d][%d] (row %c, column %s)", r, a, "uv"[r],
+                     UNKNOWN[a]);
             check_entry(place, T[r][a], expected[r], ROUNDING);
         }
         for (int c = 0; c < 6; c++)
@@ -377,7 +378,8 @@ START_TEST(the_mode_integral_is_the_brute_force_integral)
             D[r] = D[6 + c] = 1;
             const source s = { .i = &b };
             const moved m = { &s, D };
-            snprintf(place, sizeof place, "M[%d][%d] (row %s, column %s)", r, c, UNKNOWN[r], UNKNOWN[c]);
+            snprintf(place, sizeof place, "M[%d][%d] (row %s, column %s)", r, c, UNKNOWN[r],
+                     UNKNOWN[c]);
             check_entry(place, M[r][c], integral(&b, product, &m), ROUNDING);
         }
 }

@@ -66,6 +66,6 @@ END {
     flush()
     if (found == 1)
         exit 0
-    print FILENAME ": " (name != "" ? name : from) ": found " found + 0 " times, expected 1" > "/dev/stderr"
+    print FILENAME ": " name from ": found " found + 0 " times, expected 1" > "/dev/stderr"
     exit 1
 }
