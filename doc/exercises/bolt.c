@@ -1,4 +1,4 @@
-/* bolt.c - Exercise 24: bolts between blocks, through the hook `list_gaps`.
+/* bolt.c - Exercise 9.1: bolts between blocks, through the hook `list_gaps`.
  *
  *      fixed   .------------.        A block of 2 m x 1 m hangs on two upright bolts below a fixed
  *              '-o--------o-'        block, and a third bolt holds it at its foot against a load H

@@ -1,4 +1,4 @@
-/* break.c - Exercise 25: a bond that breaks.
+/* break.c - Exercise 9.2: a bond that breaks.
  *
  *     |.-----.-----.        Two squares of 1 m, bonded; the left one is held by the wall. A force F
  *     ||     |     | -> F   on the right one grows by 1 kN a step, so slowly that inertia is

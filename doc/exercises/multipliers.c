@@ -1,4 +1,4 @@
-/* multipliers.c - Exercise 26: multipliers that are kept from step to step, for one mass on one
+/* multipliers.c - Exercise 9.3: multipliers that are kept from step to step, for one mass on one
  * bond; doc/beyond.md, Multipliers.
  *
  * The three numbers of a step are x, the gap; y = V dt; z = f/c, the multiplier over c = 2 m/dt^2.
