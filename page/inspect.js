@@ -2,7 +2,7 @@
  * step, pass by pass. Texts go in as text alone. */
 'use strict';
 
-/* The rows of the table of states, doc/open-close.md, in the order of page.h. */
+/* The rows of the table of states, doc/06-contact.md, in the order of page.h. */
 const ROWS = [['OPEN', 'd_n >= 0, or it may not enter there', 'OPEN'],
   ['OPEN', 'd_n < 0', 'LOCK'],
   ['OPEN', 'd_n < 0, and its springs would be outside the cone of friction, or it has closed in ' +

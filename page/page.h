@@ -47,7 +47,7 @@ double *page_data(page *g);
  * the N of the solution, states were not judged; F alone is new; the step is done. */
 enum { PAGE_LISTED, PAGE_JUDGED, PAGE_FRICTION, PAGE_SAME_K, PAGE_DONE };
 
-/* Rows of the table of states in doc/open-close.md, in its order. The last: a contact has been
+/* Rows of the table of states in doc/06-contact.md, in its order. The last: a contact has been
  * handed on to the next edge. */
 enum {
     PAGE_STAYS_OPEN, PAGE_LOCKS, PAGE_CLOSES_SLIDING, PAGE_OPENS, PAGE_PULLED, PAGE_SLIPS,

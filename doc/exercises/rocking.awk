@@ -1,5 +1,5 @@
 # rocking.awk - a block 1 m wide and h high, turned by the share of its slope a = atan(1/h) about
-# its lower left corner, for Exercise 19.
+# its lower left corner, for Exercise 6.9.
 #     awk -v h=5 -v share=0.5 -f doc/exercises/rocking.awk > out/rocking.model
 function corner(id, x, y)
 {
