@@ -217,6 +217,8 @@ check-documents: $O/figures $O/bbm experiments
 	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
 	@for f in $$(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do \
 	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
+	@sed -n '/no error/!s/.*\[BBM_[A-Z_]*\] = "\([^"]*\)".*/\1/p' base/step.c | while read -r text; do \
+	grep -qF -- "- **$$text**" doc/failures.md || { echo "doc/failures.md has no \"$$text\""; exit 1; }; done
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md
 
 # How large the project is, and may be.

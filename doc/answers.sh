@@ -1,5 +1,6 @@
-# answers.sh - numbers of the answers to the exercises of chapters 6 and 7, by their models:
-#     BBM=./bbm sh doc/answers.sh slope|start|passes|drop|rock|iterations
+# answers.sh - numbers of the answers to the exercises, by their models:
+#     BBM=./bbm sh doc/answers.sh NAME
+# NAME: patch, bar, area, slope, start, passes, drop, rock, iterations, stiff, soft, locking.
 set -e
 HERE=out/answers
 mkdir -p $HERE
@@ -10,6 +11,42 @@ run()
     if [ $# = 0 ]; then cat > $HERE/one.model; set -- $HERE/one.model; fi
     $BBM -q "$@" -o $HERE > $HERE/said 2>&1 || :      # what a model expects may not be met
     tail -1 $HERE/history.csv
+}
+
+# 3.4: the largest error of sxx.
+patch()
+{
+    for bond in "100 augment 0" "1000 augment 0" "10000 augment 0" "100 augment 2"; do
+        sed "s/^bond.*/bond alpha $bond/" doc/patch.model > $HERE/patch.model
+        run $HERE/patch.model > $HERE/row
+        awk -F, -v b="$bond" 'NR > 1 { d = $8 < 1000 ? 1000 - $8 : $8 - 1000
+            if (d > most) most = d }
+            END { printf "alpha %s: %.2g Pa\n", b, most }' $HERE/elements.csv
+    done
+}
+
+# 4.6: the share of the springs, for alpha = 10, 100, 1000.
+bar()
+{
+    for n in 1 2 4; do
+        for alpha in 10 100 1000; do
+            run doc/exercises/bar.model -d nx=$((4 * n)) -d ny=$n -d alpha=$alpha
+        done | awk -F, -v n=$n '
+            { printf "%s%+.3f %%", (NR > 1 ? "  " : 4 * n "x" n ":  "), 100 * ($3 / 1.6e-3 - 1) }
+            END { print "" }'
+    done
+}
+
+# 5.6: the growth of the area, by the first and the last node, which lie on a diagonal.
+area()
+{
+    sed 's/^rotation exact/rotation linear/' cases/models/turning.model > $HERE/turning.model
+    for steps in 50 100 200; do
+        dt=$(awk "BEGIN { print 2 / $steps }")
+        run $HERE/turning.model -d dt=$dt -d steps=$steps > $HERE/row
+        awk -F, -v dt=$dt 'NR == 2 { x = $3 + $5; y = $4 + $6 }
+            END { l2 = ($3 + $5 - x)^2 + ($4 + $6 - y)^2; printf "dt %g: %.4f\n", dt, l2 / 2 - 1 }' $HERE/nodes.csv
+    done
 }
 
 INCLINE=cases/models/incline.model
@@ -81,6 +118,27 @@ iterations()
     done | awk '{ n = 2 ^ int((NR + 3) / 2); i[NR] = $1 }
         NR % 2 == 0 { printf "%d x %d: alpha x 100 costs %.1f times the iterations\n", 4 * n, n, $1 / i[NR - 1] }
         END { printf "64 x 16 after 16 x 4: %.1f times the iterations\n", i[5] / i[1] }'
+}
+
+# 8.1: errors of the beam on four meshes, and their order; with "$@" in place of stiff springs.
+beam()
+{
+    for n in 2 4 8 16; do
+        run doc/beam.model -d nx=$((4 * n)) -d ny=$n "$@"
+    done | awk -F, '{ e = $4 / -2.8449e-3 - 1; printf "error %+.2f %%", 100 * e
+        print (e < 0 && last < 0 ? sprintf("  order %.2f", log(last / e) / log(2)) : ""); last = e }'
+}
+
+stiff() { beam; }
+soft() { beam -d alpha=100 -d augment=0 | sed 's/  order.*//'; }
+
+# 8.2: the tip.
+locking()
+{
+    for at in vertices moment; do
+        sed "s/^static /bond at $at\nstatic /" cases/models/exp1.model > $HERE/beam.model
+        run $HERE/beam.model | awk -F, -v a=$at '{ printf "%-9s tip %.4f mm\n", a, 1000 * $10 }'
+    done
 }
 
 $1

@@ -3,8 +3,8 @@
 #
 # Lines are counted as cloc counts those of C, JavaScript, HTML, CSS, awk and the shell: a blank line
 # and a line that holds a comment alone are none. A comment of C that begins in a string counts as
-# one, if it has an end, and the lines that a comment joins are one. The sums must keep to their bounds, and the README must
-# have the table that is made here.
+# one, if it has an end, and the lines that a comment joins are one. The words of the documents are
+# counted, too. The sums must keep to their bounds, and the README must have the table that is made here.
 
 # The last part of each sum, and the bound of the sum.
 function set_bounds()
@@ -83,6 +83,10 @@ BEGIN {
         if (p in bound && sum > bound[p])
             fail(title says[p] ": " sum " lines of code, at most " bound[p])
     }
+    "cat doc/*.md | wc -w" | getline words
+    table = table "| words in `doc/*.md` | " words + 0 " | 33000 |\n"
+    if (words > 33000)
+        fail("doc/*.md: " words " words, at most 33000")
     check_readme(table)
     exit failed
 }

@@ -505,8 +505,11 @@ static void add_fixed_point(const body *b, int P, const bbm_node *W, double k, b
 {
     bbm_submatrices both = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
     bbm_gap gap = { .i = 0, .j = -1 };
+    bbm_vertex at = b->v[P];
 
-    bbm_fixed_gap(&b->e, &b->v[P], W, k, &gap);
+    at.node = 7;
+    bbm_fixed_gap(&b->e, &at, W, k, &gap);
+    ck_assert(gap.node[0] == 7 && gap.node[1] == 7);
     bbm_bonding_submatrices(&gap, &both);
     for (int a = 0; a < 6; a++) {
         s->F[a] += both.Fi[a];
