@@ -31,7 +31,7 @@ CASES    = $(RUN)
 BEYOND_LIMITS = arch:t=1 topple:phi=19 slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 shaken:phi=34 wall:A=8
 COMMON   = cases/case cases/theory $(addprefix program/,cell field force output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
-READER   = $(addprefix program/,statements numbers build msh reader model cell field)
+READER   = $(addprefix program/,statements numbers build hooked msh reader model cell field)
 PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene force edge_load)
 TORTURE  = scenes ledger trial
 PAGE     = page/page $(READER) $(addprefix program/,run warn force edge_load)

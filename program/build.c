@@ -573,7 +573,7 @@ int model_finish(model_reader *r)
     for (int e = 0; e < p->m->elements; e++)
         memcpy(p->m->element[e].stress, r->block[p->m->element[e].block].stress,
                sizeof p->m->element[e].stress);
-    const bbm_status status = p->dynamic ? BBM_OK : bbm_check_held(p->m);
+    const bbm_status status = !model_hook(r) || p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);
     if (status)

@@ -15,6 +15,8 @@ typedef struct { const char *name; int nodes, *node; } model_monitor;   /* of li
 typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s */
 typedef struct { int monitor, kind; double value, within; } model_expected;     /* at the end */
 
+typedef struct { double t, a[2]; } model_shaking;     /* s, m/s^2: of the base, a row of a record */
+
 enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                 /* kinds of what is expected */
 
 typedef struct {
@@ -38,6 +40,9 @@ typedef struct {
     int    moving;              /* supports: whether any moves */
     double (*moved_to)[2];      /* [m->nodes]   m, from the start */
     double ramp;                /* s            in which; 0: at once */
+    int    shakings;            /* rows of a record of the base's acceleration */
+    model_shaking *shaking;     /* [shakings]   between them it is linear, outside it is 0 */
+    double shake;               /* its scale */
     int    texts;
     char **text;                /* [texts]      the files read: names and ids are words of them */
     int    notes;

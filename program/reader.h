@@ -175,6 +175,10 @@ int   model_read_mesh(model_reader *r, const char *path, model_place statement);
 /* numbers.c: the statements as the file has them become those that count. */
 int   model_expand(model_reader *r);
 
+/* --- hooked.c: what takes part in the library's step by hooks --- */
+int   model_read_record(model_reader *r, const char *path);     /* of the base's acceleration */
+int   model_hook(model_reader *r);
+
 /* --- build.c: the library's model, and the statements that need it --- */
 int   model_build(model_reader *r);
 int   model_finish(model_reader *r);

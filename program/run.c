@@ -11,12 +11,13 @@ static bbm_status settle(run *r)
     bbm_model *m = r->p->m;
     const bbm_parameters par = m->par;
     double *now = m->beyond->shake;
-    const double shake[2] = { now[0], now[1] };
+    const double shake[2] = { now[0], now[1] }, scale = r->p->shake;
 
-    m->par.velocity_factor = now[0] = now[1] = 0;
+    m->par.velocity_factor = now[0] = now[1] = r->p->shake = 0;
     const bbm_status status = bbm_step(m);
     m->par = par;
     memcpy(now, shake, sizeof shake);
+    r->p->shake = scale;
     r->settling -= !status;
     return status;
 }

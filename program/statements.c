@@ -44,20 +44,28 @@ static int read_node(model_reader *r)
            && model_add_node(r, &n);
 }
 
-static int read_mesh(model_reader *r)
+/* The path of a file that the next word names, beside the model file; or NULL. */
+static const char *next_path(model_reader *r)
 {
     const char *word = model_word(r), *slash = strrchr(r->path, '/');
 
-    if (!word || !model_at_end(r))
-        return 0;
+    if (!word)
+        return NULL;
     const size_t folder = slash && word[0] != '/' ? (size_t)(slash + 1 - r->path) : 0,
                  length = strlen(word) + 1;
     char *path = model_text(r, folder + length);
-    if (!path)
-        return 0;
-    memcpy(path, r->path, folder);
-    memcpy(path + folder, word, length);
-    return model_read_mesh(r, path, r->s->at);
+    if (path) {
+        memcpy(path, r->path, folder);
+        memcpy(path + folder, word, length);
+    }
+    return path;
+}
+
+static int read_mesh(model_reader *r)
+{
+    const char *path = next_path(r);
+
+    return path && model_at_end(r) && model_read_mesh(r, path, r->s->at);
 }
 
 static int read_material(model_reader *r)
@@ -85,7 +93,13 @@ static int read_gravity(model_reader *r) { return model_numbers(r, 2, r->p->m->p
 static int read_shake(model_reader *r)
 {
     bbm_beyond *b = r->p->m->beyond;
+    model_option scale = RANGE("scale", &r->p->shake, -INFINITY, INFINITY, "()", "a number");
+    const char *path;
+    char *end = "";
 
+    r->p->shake = 1;
+    if (model_look(r) && (strtod(model_look(r), &end), *end))           /* no number: a file */
+        return (path = next_path(r)) && model_options(r, 1, &scale) && model_read_record(r, path);
     return model_number(r, &b->shake[0]) && model_number(r, &b->shake[1])
            && model_numbers(r, 1, &b->shake_omega);
 }
@@ -444,7 +458,7 @@ static const struct kind {
       NOTHING_NEEDED, 0 },
     { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, 1 },
     { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, 1 },
-    { "shake", "shake AX AY OMEGA", read_shake, NOTHING_NEEDED, 1 },
+    { "shake", "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NOTHING_NEEDED, 1 },
     { "contact",
       "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
       "[restitution E]",
@@ -487,7 +501,7 @@ static const char *find_other(const char *word)
     static const struct { const char *words, *here; } other[] = {
         { " anchor bolt cable spring ", "a spring between two points is Exercise 9.1 in doc/09-limits.md" },
         { " excavate remove stage ", "a file with the block and one without are two runs" },
-        { " accelerogram earthquake pulse ", "see shake, which is a sine" },
+        { " accelerogram earthquake pulse ", "see shake, which reads a record" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
         { " var define ", "see let" }, { " force ", "see load" },
         { " support boundary fixed ", "see fix, fixblock" }, { " polygon ", "see block, grid" },

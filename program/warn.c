@@ -20,7 +20,7 @@ static void warn_of_loads(const model *p, const char *path)
     const double *g = m->par.gravity;
     const int weighs = g[0] != 0 || g[1] != 0;
     int held = b->edge_loads > 0,
-        load = held || weighs || p->moving || b->shake[0] != 0 || b->shake[1] != 0;
+        load = held || weighs || p->moving || p->shakings || b->shake[0] != 0 || b->shake[1] != 0;
 
     for (int n = 0; n < m->nodes; n++) {
         held |= m->node[n].held;

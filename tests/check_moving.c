@@ -158,6 +158,56 @@ START_TEST(a_shaken_block_slips_once_in_each_period)
 }
 END_TEST
 
+/* A record with a slip to each side, rest before it and behind. */
+static const double record[][3] = { { 0.05, 0, 0 }, { 0.15, 4, 1 }, { 0.35, -4, -1 }, { 0.55, 0, 0 } };
+
+static double recorded(double t, int a)
+{
+    for (int k = 0; k < 3; k++)
+        if (t >= record[k][0] && t < record[k + 1][0])
+            return record[k][a] + (t - record[k][0]) / (record[k + 1][0] - record[k][0])
+                                      * (record[k + 1][a] - record[k][a]);
+    return 0;
+}
+
+/* Newmark, Geotechnique 15, 1965: it slips when |ax| > mu (g + ay), then s'' = -ax -+ mu (g + ay)
+ * until s' is zero. */
+static double newmark(double scale, double mu, double time)
+{
+    const double dt = 1e-6;
+    double s = 0, v = 0;
+
+    for (double t = dt / 2; t < time; t += dt) {
+        const double a = -scale * recorded(t, 1), rub = mu * (G + scale * recorded(t, 2));
+        const double sign = v > 0 || (v == 0 && a > 0) ? 1 : -1, before = v;
+        if (v == 0 && fabs(a) <= rub)
+            continue;
+        v += (a - sign * rub) * dt;
+        v = before * v < 0 ? 0 : v;
+        s += v * dt;
+    }
+    return s;
+}
+
+START_TEST(a_block_follows_a_record_as_newmark_has_it)
+{
+    static const struct { double scale, dt; } table[] = { { 1, 1e-3 }, { 1, 5e-4 }, { -0.7, 5e-4 },
+                                                          { 1.5, 5e-4 } };
+    const double scale = table[_i].scale, dt = table[_i].dt, time = 1.2;
+    const slope s = { 0, 10, dt, 1e11, 13, (int)(time / dt + 0.5), 50 };
+    FILE *q = fopen("out/model/record.csv", "w"), *f = begin_slope(&s);
+
+    fprintf(q, "# made by hand\n\"time\", ax; ay\n\n");
+    for (int k = 0; k < 4; k++)
+        fprintf(q, "%g%s %g;%g  # row %d\r\n", record[k][0], k % 2 ? "," : "", record[k][1],
+                record[k][2], k);
+    fclose(q);
+    fprintf(f, "shake record.csv scale %g\n", scale);
+    run_moving(f);
+    ck_relative(-slid(&s, s.steps), newmark(scale, tan(10 * RAD), time), 1e-3);
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------ stacks, rocking */
 
 /* Whether four blocks stand whose shifts are f times 1/8, 1/6, 1/4, 1/2 m from below. */
@@ -300,6 +350,7 @@ Suite *moving_suite(void)
 
     tcase_add_loop_test(t, a_block_that_is_thrown_stops_where_it_should, 0, 6);
     tcase_add_loop_test(t, a_shaken_block_slips_once_in_each_period, 0, 8);
+    tcase_add_loop_test(t, a_block_follows_a_record_as_newmark_has_it, 0, 4);
     tcase_add_loop_test(t, a_stack_leans_as_far_as_its_centres_of_mass_allow, 0, 4);
     tcase_add_loop_test(t, a_block_rocks_back_in_its_time, 0, 12);
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
