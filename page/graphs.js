@@ -54,9 +54,9 @@ function drawGraphs(frame) {
 
 /* The solver's order; the row and column of an element that is picked. */
 function drawPattern() {
-  const k = numbersOf('k'), n = k[0], { g, w } = begin('K'), q = w / n;
+  const off = rows({ k: numbersOf('k') }, 'k'), places = rows(shown(), 'e').map(e => e[25]);
+  const { g, w } = begin('K'), n = places.length, q = w / n, at = q * places[picked.element];
   const dot = (i, j) => g.rect(j * q, i * q, Math.max(1, q - 0.4), Math.max(1, q - 0.4));
-  const off = rows({ k: k.subarray(1 + n) }, 'k', 2), at = q * k[1 + picked.element];
   if (picked.element >= 0)
     paint(g, () => { g.rect(0, at, w, Math.max(2, q)); g.rect(at, 0, Math.max(2, q), w); },
       { fill: css('--band') });

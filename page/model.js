@@ -4,7 +4,7 @@
  * page.h; after a while every second one loses its arrays. */
 'use strict';
 
-const STRIDE = { v: 6, e: 27, d: 3, c: 11, l: 4, x: 5, p: 1 }, ARRAYS = [...'veclxp'];
+const STRIDE = { v: 6, e: 26, d: 3, c: 11, l: 4, x: 5, k: 2 }, ARRAYS = [...'veclxp'];
 const FACTS = ('step t steps dynamic settling settle begun dt passes iterations residual cuts ' +
   'contacts penetration candidates change kinetic elastic springs work gained scale').split(' ');
 const ROOM = 150e6;                             /* bytes of all frames */

@@ -108,7 +108,6 @@ page *page_load(const char *path)
     if (!g)
         return NULL;
     g->wrong = model_read(path, 0, NULL, &g->p) != 0;
-    memcpy(g->said, g->p.message, sizeof g->p.message);
     if (g->wrong)
         return g;
     g->r = (run){ .p = &g->p, .settling = g->p.settle };
@@ -163,9 +162,9 @@ static void put_elements(page *g, const bbm_model *m)
         put(&g->out, 6, e->D);
         put(&g->out, 6, e->V);
         put(&g->out, 3, e->stress);
-        PUT(&g->out, szz, bbm_mises(e->stress, szz), e->sum[0], e->sum[1], e->sum[2],
-            e->material.E, e->material.nu, e->material.density, e->material.thickness, e->block,
-            e->first, e->n);
+        PUT(&g->out, szz, bbm_mises(e->stress, szz), hypot(e->sum[0], e->sum[1]), e->material.E,
+            e->material.nu, e->material.density, e->material.thickness, e->block, e->first, e->n,
+            m->K->place[e - m->element]);
     }
 }
 
@@ -210,9 +209,6 @@ static void put_pattern(page *g, const bbm_model *m)
 {
     const bbm_matrix *K = m->K;
 
-    PUT(&g->out, K->n);
-    for (int i = 0; i < K->n; i++)
-        PUT(&g->out, K->place[i]);
     for (int i = 0; i < K->n; i++)
         for (int b = K->first[i]; b < K->first[i + 1]; b++)
             PUT(&g->out, i, i - K->back[b]);
@@ -271,7 +267,7 @@ const char *page_text(page *g, int what, int k)
     const model *p = &g->p;
 
     if (!g || what == 'm')
-        return g ? g->said : "out of memory";
+        return !g ? "out of memory" : g->wrong ? p->message : g->said;
     if (g->wrong || k < 0)
         return "";
     if (what == 'x' && k < p->expectations)

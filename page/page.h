@@ -27,12 +27,12 @@ const char *page_text(page *g, int what, int k);
 
 /* Gathers numbers; how many, or -1: no memory. JavaScript has the same list, page/model.js.
  *     v  of each vertex: x y u v held block
- *     e  of each element: D[6] V[6] sxx syy sxy szz mises u0 v0 r0 E nu density thickness block,
- *        first vertex, how many
+ *     e  of each element: D[6] V[6] sxx syy sxy szz mises, the way of its centre, E nu
+ *        density thickness block, first vertex, how many, its place in K
  *     d  of each boundary edge: its vertices a b, its block
  *     c  of each contact: corner edge state fx fy N T d_n strength slip row
  *     l  of each load: vertices a b (-1: at a point), fx fy in N or N/m
- *     k  rows of K, the place of each element, then row and column below the diagonal
+ *     k  of each submatrix below the diagonal of K: row column
  *     f  facts of the step; then u v of each monitor
  *     x  of each expectation: monitor kind value within met
  *     p  of each look at the contacts in the last step: t h what count; and of each that is closed
@@ -44,11 +44,11 @@ double *page_data(page *g);
  * the N of the solution, states were not judged; F alone is new; the step is done. */
 enum { PAGE_LISTED, PAGE_JUDGED, PAGE_FRICTION, PAGE_SAME_K, PAGE_DONE };
 
-/* Rows of the table of states in doc/open-close.md, in its order. The last: a contact has been
- * handed on to the next edge. */
+/* Rows of the table of states in doc/06-contact.md, in its order. Then: friction would wedge a
+ * contact in, so that it opens; a contact has been handed on to the next edge. */
 enum {
     PAGE_STAYS_OPEN, PAGE_LOCKS, PAGE_CLOSES_SLIDING, PAGE_OPENS, PAGE_PULLED, PAGE_SLIPS,
-    PAGE_STAYS_LOCKED, PAGE_OTHER_N, PAGE_LIFTS, PAGE_TURNS_BACK, PAGE_WEDGED, PAGE_STAYS_SLIDING,
+    PAGE_STAYS_LOCKED, PAGE_OTHER_N, PAGE_LIFTS, PAGE_TURNS_BACK, PAGE_STAYS_SLIDING, PAGE_WEDGED,
     PAGE_HANDED_ON
 };
 

@@ -241,6 +241,8 @@ async function start() {
   }
   is('gallery').append(make('optgroup', { label: 'models' }, ...models), make('optgroup',
     { label: 'exercises: predict' }, ...readExercises(files.get('exercises.txt'))));
+  ROWS.unshift(...files.get('states.txt').trim().split('\n')
+    .map(row => row.split(/ *\| */).slice(1, 4)));
   await startLibrary(bytes(document.querySelector('[data-file="bbm.wasm"]').textContent));
   is('text').oninput = () => {
     clearTimeout(later);

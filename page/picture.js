@@ -7,9 +7,6 @@ const TINTS = ['#f6cf8b', '#b3dcf5', '#8fd3bd', '#f7f0a6', '#e6c3d7', '#eba98f']
 const VIRIDIS = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142],
   [31, 158, 137], [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
 const STATES = ['OPEN', 'LOCK', 'SLIDE'];
-const FIELDS = { u: ['displacement', 'm', e => Math.hypot(e[17], e[18])],
-  mises: ['von Mises', 'Pa', e => e[16]], sxx: ['sxx', 'Pa', e => e[12]],
-  syy: ['syy', 'Pa', e => e[13]], sxy: ['sxy', 'Pa', e => e[14]] };
 /* Arrows: the state of a contact, or 3 and 4 for a load; its name, unit, colour, dashes. */
 const ARROWS = [[1, 'locked', 'N', '--lock', []], [2, 'sliding', 'N', '--slide', [4, 3]],
   [3, 'load', 'N', '--load', []], [4, 'load', 'N/m', '--load', []]];
@@ -41,8 +38,11 @@ function trace(g, points, closed) {
     g.closePath();
 }
 
-/* Draws a path: filled, then its line. */
-function paint(g, path, { fill, line, width = 1.3, dash = [] }) {
+/* Draws a path, at a place and turned: filled, then its line. */
+function paint(g, path, { fill, line, width = 1.3, dash = [] }, place = [0, 0], turn = 0) {
+  g.save();
+  g.translate(...place);
+  g.rotate(turn);
   g.beginPath();
   path();
   Object.assign(g, { fillStyle: fill, strokeStyle: line, lineWidth: width });
@@ -51,7 +51,7 @@ function paint(g, path, { fill, line, width = 1.3, dash = [] }) {
     g.fill();
   if (line)
     g.stroke();
-  g.setLineDash([]);
+  g.restore();
 }
 
 /* The blocks: their elements, edges, boxes, tints, and whether all of one is held. */
@@ -64,7 +64,7 @@ function findShape() {
     block(b).box = [Math.min(x0, x), Math.min(y0, y), Math.max(x1, x), Math.max(y1, y)];
     block(b).held &&= held === 3;
   }
-  rows(frame, 'e').forEach((e, k) => block(e[24]).elements.push([k, e[25], e[26]]));
+  rows(frame, 'e').forEach((e, k) => block(e[22]).elements.push([k, e[23], e[24]]));
   rows(run, 'd').forEach(([a, b, of]) => block(of).edges.push([a, b]));
   blocks.forEach((b, k) => { b.tint = chooseTint(blocks.slice(0, k), b.box); });
   const ends = k => blocks.map(b => b.box[k]);
@@ -128,8 +128,8 @@ function hatch() {
 
 /* Returns the field that the colours show, with its range. */
 function drawBlocks({ g, frame, outline, at }) {
-  const [name, unit, of] = FIELDS[view.colour] ?? [], held = hatch();
-  const values = of ? rows(frame, 'e').map(of) : [];
+  const [name, of, unit] = OF_ELEMENT.find(row => row[0] === view.colour) ?? [], held = hatch();
+  const values = of ? rows(frame, 'e').map(e => e[of]) : [];
   const low = Math.min(...values), high = Math.max(...values);
   for (const block of run.blocks) {
     const fill = block.held ? held : of ? null : TINTS[block.tint];
@@ -148,21 +148,17 @@ function drawBlocks({ g, frame, outline, at }) {
 function drawSupports({ g, at }) {
   let last = [-99, -99];
   rows(run, 'v').forEach(([x, y, , , held, b], k) => {
-    const { box: [x0, y0, x1, y1], held: isFixed } = run.blocks[b], [X, Y] = at[k];
-    if (!held || isFixed || Math.hypot(X - last[0], Y - last[1]) < 8)
+    const { box: [x0, y0, x1, y1], held: isFixed } = run.blocks[b];
+    if (!held || isFixed || Math.hypot(at[k][0] - last[0], at[k][1] - last[1]) < 8)
       return;
-    const sides = [[y - y0, 0, 11], [x - x0, -11, 0], [x1 - x, 11, 0], [y1 - y, 0, -11]]
-      .filter(([, dx]) => held === 3 || (held === 1) === (dx !== 0)).sort((p, q) => p[0] - q[0]);
-    const [, dx, dy] = sides[0];
-    last = [X, Y];
+    const sides = [[y - y0, 0], [x - x0, 1], [y1 - y, 2], [x1 - x, 3]].sort((p, q) => p[0] - q[0]);
+    const side = sides.find(([, turn]) => held === 3 || turn % 2 === held % 2)[1];
+    last = at[k];
     paint(g, () => {
-      if (held === 3)
-        trace(g, [last, [X + dx - dy / 2, Y + dy + dx / 2], [X + dx + dy / 2, Y + dy - dx / 2]],
-          true);
-      else
-        g.arc(X + dx / 2, Y + dy / 2, 5.5, 0, 7);
-      trace(g, [[X + dx - 0.7 * dy, Y + dy + 0.7 * dx], [X + dx + 0.7 * dy, Y + dy - 0.7 * dx]]);
-    }, { fill: css('--paper'), line: css('--ink'), width: 1 });
+      trace(g, held === 3 ? [[-8, 11], [5.5, 11], [0, 0], [-5.5, 11], [8, 11]] : [[-8, 11], [8, 11]]);
+      if (held < 3)
+        g.arc(0, 5.5, 5.5, Math.PI / 2, 8);
+    }, { fill: css('--paper'), line: css('--ink'), width: 1 }, last, side * Math.PI / 2);
   });
 }
 
@@ -190,25 +186,23 @@ function drawForces(p) {
   return ARROWS.flatMap(([kind, name, unit, colour, dash]) => {
     const mine = all.filter(a => a.kind === kind), most = size(mine), line = css(colour);
     for (const { x, y, fx, fy } of mine) {
-      const scale = kind < 3 ? length / contacts : 40 / most, dx = scale * fx, dy = -scale * fy;
-      const l = Math.hypot(dx, dy), tip = Math.min(6 / l, 0.5), hx = tip * dx, hy = tip * dy;
-      const [X, Y] = kind < 3 ? [x + dx, y + dy] : [x, y];
-      if (!(l >= 2))
-        continue;
-      paint(g, () => trace(g, [[X - dx, Y - dy], [X, Y]]), { line, width: 2, dash });
-      paint(g, () => trace(g, [[X - hx + hy / 2, Y - hy - hx / 2], [X, Y],
-        [X - hx - hy / 2, Y - hy + hx / 2]]), { line, width: 2 });
+      const l = Math.hypot(fx, fy) * (kind < 3 ? length / contacts : 40 / most);
+      const turn = Math.atan2(-fy, fx), tip = kind < 3 ? l : 0, head = Math.min(6, l / 2);
+      if (l >= 2)
+        paint(g, () => trace(g, [[tip - l, 0], [tip, 0]]), { line, width: 2, dash }, [x, y], turn);
+      if (l >= 2)
+        paint(g, () => trace(g, [[tip - head, head / 2], [tip, 0], [tip - head, -head / 2]]),
+          { line, width: 2 }, [x, y], turn);
     }
     return mine.length ? [[line, dash, `${name} ${quantity(most, unit)}`]] : [];
   });
 }
 
 /* A state as a shape, so that colour alone says nothing: a ring, a square, a triangle. */
-function drawState(g, [x, y], state, size) {
-  paint(g, [() => g.arc(x, y, size - 1, 0, 7), () => g.rect(x - size, y - size, 2 * size, 2 * size),
-    () => trace(g, [[0, -1.3], [1.2, 0.9], [-1.2, 0.9]]
-      .map(([a, b]) => [x + size * a, y + size * b]), true)][state],
-  { fill: css(['--paper', '--lock', '--slide'][state]), line: css('--ink') });
+function drawState(g, place, state, r) {
+  paint(g, [() => g.arc(0, 0, r - 1, 0, 7), () => g.rect(-r, -r, 2 * r, 2 * r),
+    () => trace(g, [[0, -1.3 * r], [1.2 * r, 0.9 * r], [-1.2 * r, 0.9 * r]], true)][state],
+  { fill: css(['--paper', '--lock', '--slide'][state]), line: css('--ink') }, place);
 }
 
 function drawLegend({ g, w, h, s, magnify }, legend, bar) {
@@ -239,7 +233,7 @@ function drawPicture(frame, look) {
   for (const [corner, , from, to] of look?.contacts ?? [])
     drawState(g, p.corner(corner), to, from === to ? 4 : 7);
   if (picked.element >= 0)
-    paint(g, () => p.outline(rows(frame, 'e')[picked.element].subarray(24)),
+    paint(g, () => p.outline(rows(frame, 'e')[picked.element].subarray(22)),
       { line, width: 4 });
   if (picked.contact)
     paint(g, () => g.arc(...p.corner(picked.contact[0]), 12, 0, 7), { line, width: 3 });
@@ -252,7 +246,7 @@ function findAt(frame, x, y) {
   const near = rows(frame, 'c').find(c => c[2] && far(c) < 10);
   return near ? [-1, near] : [rows(frame, 'e').findLastIndex(e => {
     p.g.beginPath();
-    p.outline(e.subarray(24));
+    p.outline(e.subarray(22));
     return p.g.isPointInPath(x * devicePixelRatio, y * devicePixelRatio);
   }), null];
 }

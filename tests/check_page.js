@@ -123,7 +123,7 @@ async function checkClicks() {
   await p.shot('contact');
   await type('#when', '1', 'input');
   await push('inside');
-  for (const why of ['LOCK\tSLIDE\t.*abs\\(T\\) > N tan', 'SLIDE\tSLIDE']) {
+  for (const why of ['LOCK\tSLIDE\t.*abs\\(T\\) > bound', 'SLIDE\tSLIDE']) {
     await push('after');
     assert.match(await text('changes'), RegExp(why));
     await p.shot('inside');
