@@ -168,11 +168,9 @@ function setView(changes) {
 
 const zoom = f => setView({ zoom: f * view.zoom, x: f * view.x, y: f * view.y });
 
-/* The link names a model of the gallery, or has its text, too. */
+/* The link has a name of the gallery, and the text. */
 function makeLink() {
-  const model = is('gallery').value, text = is('text').value;
-  const link = new URLSearchParams(text === files.get('gallery/' + model) ? { model }
-    : { model, text });
+  const link = new URLSearchParams({ model: is('gallery').value, text: is('text').value });
   history.replaceState(null, '', '#' + link);
   navigator.clipboard?.writeText(location.href).catch(() => {});
 }

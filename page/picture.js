@@ -155,9 +155,11 @@ function drawSupports({ g, at }) {
     const side = sides.find(([, turn]) => held === 3 || turn % 2 === held % 2)[1];
     last = at[k];
     paint(g, () => {
-      trace(g, held === 3 ? [[-8, 11], [5.5, 11], [0, 0], [-5.5, 11], [8, 11]] : [[-8, 11], [8, 11]]);
-      if (held < 3)
-        g.arc(0, 5.5, 5.5, Math.PI / 2, 8);
+      trace(g, [[-8, 11], [8, 11]]);
+      if (held === 3)
+        trace(g, [[0, 0], [5.5, 11], [-5.5, 11]], true);
+      else
+        g.arc(0, 5.5, 5.5, Math.PI / 2, 2.5 * Math.PI);
     }, { fill: css('--paper'), line: css('--ink'), width: 1 }, last, side * Math.PI / 2);
   });
 }
