@@ -138,8 +138,18 @@ out/bbm.wasm: $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(HEADERS) Makefile
 	$(PAGE_CC) $(STRICT) -O2 -o $@ $(PAGE:%=%.c) $(LIBRARY:%=%.c) -Wl,$(subst $(EMPTY) $(EMPTY),$(COMMA),$(PAGE_CALLS:%=--export=%)) \
 	-Wl,--strip-all,--stack-first,-z,stack-size=1048576 -lm -lwasi-emulated-process-clocks
 
-PAGE_FILES = $(addprefix page/,page.html style.css assemble.awk wasi.js model.js picture.js graphs.js inspect.js exercises.js page.js)
-PAGE_DATA  = out/bbm.wasm $(wildcard cases/models/*.model cases/models/*.msh)
+PAGE_FILES = $(addprefix page/,page.html style.css assemble.awk wasi.js model.js picture.js graphs.js inspect.js page.js)
+PAGE_DATA  = out/bbm.wasm $(wildcard cases/models/*.model cases/models/*.msh) doc/by-hand.model out/exercises.txt out/states.txt
+
+# The exercises of the kind predict, as they stand in the chapters.
+out/exercises.txt: $(wildcard doc/0*.md) Makefile
+	@mkdir -p $(@D)
+	awk '/^#/ { title = $$0; on = 0 } /^\| predict/ { print title; on = 1 } on' $(filter %.md,$^) > $@
+
+# The table of states.
+out/states.txt: doc/06-contact.md Makefile
+	@mkdir -p $(@D)
+	grep -E '^\| (OPEN|LOCK|SLIDE) ' $< > $@
 
 out/bbm.html: $(PAGE_FILES) $(PAGE_DATA) Makefile
 	awk -f page/assemble.awk page/page.html $(PAGE_DATA) > $@

@@ -4,13 +4,6 @@
 # @include FILE stands for the text of a file. @files stands for all others, in base64, so that
 # nothing in them is markup; their names are those behind the last slash.
 
-BEGIN {
-    for (k = 2; k < ARGC; k++) {
-        file[++files] = ARGV[k]
-        delete ARGV[k]
-    }
-}
-
 $1 == "@include" {
     while ((getline line < $2) > 0)
         print line
@@ -18,14 +11,12 @@ $1 == "@include" {
 }
 
 $1 == "@files" {
-    for (k = 1; k <= files; k++) {
-        name = file[k]
+    for (k = 2; k < ARGC; k++) {
+        name = ARGV[k]
         sub(/.*\//, "", name)
-        printf "<script type=\"text/plain\" data-file=\"%s\">", name
-        command = "base64 < " file[k] " | tr -d '\\n'"
-        command | getline line
-        close(command)
-        print line "</script>"
+        ("base64 < " ARGV[k] " | tr -d '\\n'") | getline line
+        print "<script type=\"text/plain\" data-file=\"" name "\">" line "</script>"
+        ARGV[k] = ""
     }
     next
 }

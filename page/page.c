@@ -9,8 +9,8 @@
 #include "../program/warn.h"
 #include "page.h"
 
-/* Numbers of the command line; s that a step may take; numbers of the looks at a step. */
-enum { LETS = 100, LIMIT = 10, LOOKS = 2000000 };
+/* s that a step may take; numbers of the looks at a step. */
+enum { LIMIT = 10, LOOKS = 2000000 };
 
 typedef struct { int n, room, failed; double *x; } numbers;
 
@@ -20,9 +20,8 @@ struct page {
     bbm_status status;
     int wrong;                          /* it could not be read */
     char said[700], sentence[300];
-    numbers out, look;
+    numbers out, look, before;          /* before: states of the contacts at the last look */
     int rounds;                         /* of multipliers, at the last look */
-    int *before, listed;                /* [listed] states of the contacts at the last look */
     clock_t began;                      /* the step in hand */
 };
 
@@ -67,21 +66,18 @@ static int row_of(int from, const bbm_contact *c, int what)
 static void note_look(page *g, const bbm_contact list[], int n, int what)
 {
     const int count = g->look.n + 3;
-    int *before = g->before;
 
     if (what == PAGE_LISTED)
-        before = realloc(before, ((size_t)n + 1) * sizeof *before);
-    if (what == PAGE_LISTED && before) {
-        g->before = before;
-        g->listed = n;
-    }
-    if (!before || g->listed != n || g->look.n > LOOKS)
+        g->before.n = 0;
+    for (int k = 0; k < n && what == PAGE_LISTED; k++)
+        PUT(&g->before, list[k].state);
+    if (g->before.n != n || g->look.n > LOOKS)
         return;
     PUT(&g->look, g->p.m->info.t, g->p.m->h, what, 0);
     for (int k = 0; k < n && !g->look.failed; k++) {
         const bbm_contact *c = &list[k];
-        const int from = what == PAGE_LISTED ? (int)c->state : before[k];
-        before[k] = (int)c->state;
+        const int from = (int)g->before.x[k];
+        g->before.x[k] = c->state;
         if (from == BBM_OPEN && c->state == BBM_OPEN)
             continue;
         PUT(&g->look, c->corner, c->edge, from, c->state, c->N, c->T, c->d_n,
@@ -105,18 +101,13 @@ static int before_solution(const bbm_model *m, void *context)
 
 /* ------------------------------------------------------------------------- load and step */
 
-page *page_load(const char *path, char *lets)
+page *page_load(const char *path)
 {
     page *g = calloc(1, sizeof *g);
-    char *let[LETS];
-    int n = 0;
 
     if (!g)
         return NULL;
-    for (char *l = strtok(lets, "\n"); l && n < LETS; l = strtok(NULL, "\n"))
-        let[n++] = l;
-    g->wrong = model_read(path, n, let, &g->p) != 0;
-    memcpy(g->said, g->p.message, sizeof g->p.message);
+    g->wrong = model_read(path, 0, NULL, &g->p) != 0;
     if (g->wrong)
         return g;
     g->r = (run){ .p = &g->p, .settling = g->p.settle };
@@ -133,11 +124,11 @@ void page_free(page *g)
     model_free(&g->p);
     free(g->out.x);
     free(g->look.x);
-    free(g->before);
+    free(g->before.x);
     free(g);
 }
 
-int page_state(const page *g) { return g->wrong || g->status ? 2 : g->r.is_over; }
+int page_state(const page *g) { return !g || g->wrong || g->status ? 2 : g->r.is_over; }
 
 int page_step(page *g)
 {
@@ -160,7 +151,8 @@ int page_step(page *g)
 static void put_vertices(page *g, const bbm_model *m)
 {
     for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        PUT(&g->out, v->x + m->origin[0], v->y + m->origin[1], v->u, v->v);
+        PUT(&g->out, v->x + m->origin[0], v->y + m->origin[1], v->u, v->v, m->node[v->node].held,
+            m->element[v->element].block);
 }
 
 static void put_elements(page *g, const bbm_model *m)
@@ -170,17 +162,10 @@ static void put_elements(page *g, const bbm_model *m)
         put(&g->out, 6, e->D);
         put(&g->out, 6, e->V);
         put(&g->out, 3, e->stress);
-        PUT(&g->out, szz, bbm_mises(e->stress, szz));
-        put(&g->out, 3, e->sum);
-        PUT(&g->out, e->x + m->origin[0], e->y + m->origin[1]);
+        PUT(&g->out, szz, bbm_mises(e->stress, szz), hypot(e->sum[0], e->sum[1]), e->material.E,
+            e->material.nu, e->material.density, e->material.thickness, e->block, e->first, e->n,
+            m->K->place[e - m->element]);
     }
-}
-
-static void put_mesh(page *g, const bbm_model *m)
-{
-    for (const bbm_element *e = m->element; e < m->element + m->elements; e++)
-        PUT(&g->out, e->first, e->n, e->block, e->material.E, e->material.nu, e->material.density,
-            e->material.thickness);
 }
 
 static void put_edges(page *g, const bbm_model *m)
@@ -192,20 +177,12 @@ static void put_edges(page *g, const bbm_model *m)
 static void put_contacts(page *g, const bbm_model *m)
 {
     for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
-        const bbm_vertex *P1 = bbm_start_of(m, c->corner);
         double f[2];
         scene_contact_force(m, c, c->N, c->T, f);
-        PUT(&g->out, c->corner, c->edge, c->state, P1->x + m->origin[0], P1->y + m->origin[1], f[0],
-            f[1], c->N, c->T, c->d_n, bbm_shear_strength(&c->strength, c->N), c->slip,
+        PUT(&g->out, c->corner, c->edge, c->state, f[0], f[1], c->N, c->T, c->d_n,
+            bbm_shear_strength(&c->strength, c->N), c->slip,
             row_of((int)c->state, c, PAGE_JUDGED));
     }
-}
-
-static void put_supports(page *g, const bbm_model *m)
-{
-    for (int v = 0; v < m->vertices; v++)
-        if (m->node[m->vertex[v].node].held)
-            PUT(&g->out, v, m->node[m->vertex[v].node].held);
 }
 
 /* What turns with an edge, or varies along it, by its mean. */
@@ -232,9 +209,6 @@ static void put_pattern(page *g, const bbm_model *m)
 {
     const bbm_matrix *K = m->K;
 
-    PUT(&g->out, K->n);
-    for (int i = 0; i < K->n; i++)
-        PUT(&g->out, K->place[i]);
     for (int i = 0; i < K->n; i++)
         for (int b = K->first[i]; b < K->first[i + 1]; b++)
             PUT(&g->out, i, i - K->back[b]);
@@ -245,19 +219,13 @@ static void put_facts(page *g, const bbm_model *m)
 {
     const bbm_info *i = &m->info;
     bbm_energy e;
+    double u[2];
 
     bbm_energies(m, &e);
     PUT(&g->out, i->step, g->p.dynamic ? i->step * m->par.dt : 0, m->par.steps, g->p.dynamic,
         g->r.settling, g->p.settle, g->r.has_begun, m->par.dt, i->passes, i->iterations,
         i->pcg.residual, i->cuts, i->contacts, i->penetration, i->candidates, i->change, e.kinetic,
         e.elastic, e.springs, m->beyond->work, m->beyond->gained, g->p.scale);
-}
-
-static void put_monitors(page *g, const bbm_model *m)
-{
-    double u[2];
-
-    (void)m;
     for (int k = 0; k < g->p.monitors; k++) {
         model_displacement(&g->p, &g->p.monitor[k], u);
         put(&g->out, 2, u);
@@ -266,12 +234,10 @@ static void put_monitors(page *g, const bbm_model *m)
 
 static void put_expectations(page *g, const bbm_model *m)
 {
-    char text[300];
-
     (void)m;
     for (int k = 0; k < g->p.expectations; k++) {
         const model_expected *e = &g->p.expected[k];
-        PUT(&g->out, e->monitor, e->kind, e->value, e->within, run_is_met(&g->p, k, text));
+        PUT(&g->out, e->monitor, e->kind, e->value, e->within, run_is_met(&g->p, k, g->sentence));
     }
 }
 
@@ -280,16 +246,16 @@ static void put_looks(page *g, const bbm_model *m) { (void)m, put(&g->out, g->lo
 int page_numbers(page *g, int what)
 {
     static const struct { int what; void (*put)(page *g, const bbm_model *m); } table[] = {
-        { 'v', put_vertices }, { 'e', put_elements }, { 'a', put_mesh }, { 'd', put_edges },
-        { 'c', put_contacts }, { 'h', put_supports }, { 'l', put_loads }, { 'k', put_pattern },
-        { 'f', put_facts }, { 'o', put_monitors }, { 'x', put_expectations }, { 'p', put_looks },
+        { 'v', put_vertices }, { 'e', put_elements }, { 'd', put_edges }, { 'c', put_contacts },
+        { 'l', put_loads }, { 'k', put_pattern }, { 'f', put_facts }, { 'x', put_expectations },
+        { 'p', put_looks },
     };
 
     g->out.n = g->out.failed = 0;
     for (int k = 0; k < LENGTH(table) && !g->wrong; k++)
         if (table[k].what == what)
             table[k].put(g, g->p.m);
-    return g->out.failed ? -1 : g->out.n;
+    return g->out.failed || g->look.failed ? -1 : g->out.n;
 }
 
 double *page_data(page *g) { return g->out.x; }
@@ -300,17 +266,16 @@ const char *page_text(page *g, int what, int k)
 {
     const model *p = &g->p;
 
-    if (what == 'm')
-        return g->said;
+    if (!g || what == 'm')
+        return !g ? "out of memory" : g->wrong ? p->message : g->said;
     if (g->wrong || k < 0)
         return "";
-    if (what == 'x' && k < p->expectations) {
+    if (what == 'x' && k < p->expectations)
         run_is_met(p, k, g->sentence);
-        return g->sentence;
-    }
-    return what == 't' ? p->title ? p->title : ""
+    return what == 't' && p->title ? p->title
          : what == 'b' && k < p->blocks ? p->block[k]
          : what == 'e' && k < p->m->elements ? p->element[k]
          : what == 'o' && k < p->monitors ? p->monitor[k].name
-         : what == 'n' && k < p->m->vertices ? p->node[p->m->vertex[k].node] : "";
+         : what == 'n' && k < p->m->vertices ? p->node[p->m->vertex[k].node]
+         : what == 'x' && k < p->expectations ? g->sentence : "";
 }

@@ -1,7 +1,7 @@
 /* page.h - the calls of the page: load a model, step, look. What computes is the library, what
  * reads and runs is program/.
  *
- *     page *g = page_load("arch.model", "phi=20\nA=3");
+ *     page *g = page_load("arch.model");
  *     while (page_state(g) == 0)
  *         page_step(g);
  *     n = page_numbers(g, 'v'), x = page_data(g);
@@ -15,9 +15,8 @@
 
 typedef struct page page;
 
-/* lets: NAME=VALUE, one a line; is cut up. NULL: no memory. */
-page *page_load(const char *path, char *lets);
-void  page_free(page *g);                               /* takes NULL */
+page *page_load(const char *path);                      /* NULL: no memory, as page_text says */
+void  page_free(page *g);
 /* 0: there are steps left; 1: the run is over; 2: it is wrong or has failed, page_text says why. */
 int   page_state(const page *g);
 int   page_step(page *g);       /* one step, if there is one left; the state */
@@ -27,16 +26,14 @@ int   page_step(page *g);       /* one step, if there is one left; the state */
 const char *page_text(page *g, int what, int k);
 
 /* Gathers numbers; how many, or -1: no memory. JavaScript has the same list, page/model.js.
- *     v  of each vertex: x y u v
- *     e  of each element: D[6] V[6] sxx syy sxy szz mises u0 v0 r0 x y
- *     a  of each element, all along: first vertex, how many, block, E, nu, density, thickness
+ *     v  of each vertex: x y u v held block
+ *     e  of each element: D[6] V[6] sxx syy sxy szz mises, the way of its centre, E nu
+ *        density thickness block, first vertex, how many, its place in K
  *     d  of each boundary edge: its vertices a b, its block
- *     c  of each contact: corner edge state x y fx fy N T d_n strength slip row
- *     h  of each vertex that is held: which, directions
+ *     c  of each contact: corner edge state fx fy N T d_n strength slip row
  *     l  of each load: vertices a b (-1: at a point), fx fy in N or N/m
- *     k  rows of K, the place of each element, then row and column below the diagonal
- *     f  facts of the step
- *     o  of each monitor: u v
+ *     k  of each submatrix below the diagonal of K: row column
+ *     f  facts of the step; then u v of each monitor
  *     x  of each expectation: monitor kind value within met
  *     p  of each look at the contacts in the last step: t h what count; and of each that is closed
  *        before or after: corner edge from to N T d_n row */
@@ -47,11 +44,11 @@ double *page_data(page *g);
  * the N of the solution, states were not judged; F alone is new; the step is done. */
 enum { PAGE_LISTED, PAGE_JUDGED, PAGE_FRICTION, PAGE_SAME_K, PAGE_DONE };
 
-/* Rows of the table of states in doc/06-contact.md, in its order. The last: a contact has been
- * handed on to the next edge. */
+/* Rows of the table of states in doc/06-contact.md, in its order. Then: friction would wedge a
+ * contact in, so that it opens; a contact has been handed on to the next edge. */
 enum {
     PAGE_STAYS_OPEN, PAGE_LOCKS, PAGE_CLOSES_SLIDING, PAGE_OPENS, PAGE_PULLED, PAGE_SLIPS,
-    PAGE_STAYS_LOCKED, PAGE_OTHER_N, PAGE_LIFTS, PAGE_TURNS_BACK, PAGE_WEDGED, PAGE_STAYS_SLIDING,
+    PAGE_STAYS_LOCKED, PAGE_OTHER_N, PAGE_LIFTS, PAGE_TURNS_BACK, PAGE_STAYS_SLIDING, PAGE_WEDGED,
     PAGE_HANDED_ON
 };
 

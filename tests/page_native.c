@@ -8,7 +8,7 @@
 
 int main(int argc, char *argv[])
 {
-    page *g = argc == 2 ? page_load(argv[1], (char[]){ "" }) : NULL;
+    page *g = argc == 2 ? page_load(argv[1]) : NULL;
 
     while (g && page_state(g) == 0)
         page_step(g);
