@@ -509,7 +509,8 @@ static void add_fixed_point(const body *b, int P, const bbm_node *W, double k, b
 
     at.node = 7;
     bbm_fixed_gap(&b->e, &at, W, k, &gap);
-    ck_assert(gap.node[0] == 7 && gap.node[1] == 7);
+    ck_assert_msg(gap.node[0] == 7 && gap.node[1] == 7,
+                  "nodes of the gap: %d, %d, expected that of P, 7", gap.node[0], gap.node[1]);
     bbm_bonding_submatrices(&gap, &both);
     for (int a = 0; a < 6; a++) {
         s->F[a] += both.Fi[a];
