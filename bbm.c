@@ -615,7 +615,7 @@ bbm_status bbm_try_step(bbm_model *m)
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 
-/* One part of a step, of length h. If it fails it is done again as two halves, down to dt/1024. A
+/* One part of a step, of length h. If it fails it is done again as two halves, down to dt/4096. A
  * static step has no halves. */
 static bbm_status take_part(bbm_model *m, double h, int tries)
 {

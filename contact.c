@@ -330,8 +330,8 @@ static void vector_distances(const bbm_model *m, const bbm_contact *c, double an
 }
 
 /* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
- * points. Its anchor is P3: -d_s is how far P1 lies from P3 along the edge. With an anchor at P2,
- * d_s is how far it lies from P2. */
+ * points. With an anchor at P3, -d_s is how far P1 lies from P3 along the edge; with one at P2, d_s
+ * is how far it lies from P2. */
 static void measure(const bbm_model *m, bbm_contact *c)
 {
     const int open = c->state == BBM_OPEN, moved = open && bbm_motion_of(m);
@@ -413,13 +413,14 @@ static void renew_friction(bbm_contact_scratch *w)
  * if it closes for the second time in the step: the shear spring had opened it. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
-    const double d0 = fmax(0, c->d_n0), s = bbm_way_along(m, c->corner, c->edge);
+    const double at = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
+    const double d0 = fmax(0, c->d_n0);
     const int closes = c->state == BBM_OPEN;
-    const double slip = closes ? c->d_s + s : c->T;
+    const double slip = closes ? (1 - at) * c->past[0] - at * c->past[1] : c->T;
 
     if (closes) {
         c->time_left = 1 - d0 / (d0 - c->d_n);
-        c->anchor = s / m->edge[c->edge].along.length;
+        c->anchor = at;
         const double T = c->time_left * m->par.p_s * fabs(slip);
         const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
         const int slides = ++c->closings > 1 || T > bbm_shear_strength(&c->strength, N);
@@ -521,7 +522,7 @@ static void note_states(bbm_contact_scratch *w)
 
     for (int k = 0; k < w->contacts; k++) {
         const double state = copysign(w->contact[k].state, w->contact[k].sign);
-        hash = (hash ^ (uint64_t)(int64_t)state) * 1099511628211u;
+        hash = (hash ^ (uint64_t)(3 + state)) * 1099511628211u;
     }
     for (int p = 0; p < w->passes; p++)
         if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)

@@ -122,7 +122,7 @@ typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.
 
 /* The most passes that change states or renew the vectors of the step, and detections in one part.
  * */
-enum { BBM_MAX_PASSES = 40, BBM_MAX_DETECTIONS = 8 };
+enum { BBM_MAX_PASSES = 30, BBM_MAX_DETECTIONS = 8 };
 
 /* What follows a pass of the open-close iteration: nothing, for all fits; a solution with a new K
  * and F; a solution with a new F alone; the end of this attempt. */

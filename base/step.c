@@ -2,7 +2,7 @@
  * contacts that may close in it, how it is cut and tried again, and what it counts.
  *
  * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
- * half of dt, down to dt/1024, as long as that takes no more than some solutions. The nominal step
+ * half of dt, down to dt/4096, as long as that takes no more than some solutions. The nominal step
  * is completed in parts, which grow again. A static step has no parts; a hook may know another way.
  */
 #include <stdarg.h>
@@ -16,7 +16,7 @@
  * SOLUTIONS   in all its parts: several times what the worst walls needed
  * ITERATIONS  in all solutions, as a multiple of what one solution may take
  * HALVINGS    of dt, to the shortest part */
-enum { SOLUTIONS = 5000, ITERATIONS = 10, HALVINGS = 10 };
+enum { SOLUTIONS = 10000, ITERATIONS = 10, HALVINGS = 12 };
 
 /* ------------------------------------------------------------------------------------ messages */
 

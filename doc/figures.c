@@ -475,7 +475,7 @@ static void draw_flow(drawing *d)
     plot_text(&d->p, x - 390, 300, "text-anchor=\"end\"", "next");
     plot_text(&d->p, x - 390, 318, "text-anchor=\"end\"", "step");
     plot_text(&d->p, x - 292, 240, LEFT, "still yes after");
-    plot_text(&d->p, x - 292, 258, LEFT, "40 passes:");
+    plot_text(&d->p, x - 292, 258, LEFT, "30 passes:");
     plot_text(&d->p, x - 292, 276, LEFT, "half of dt");
     plot_text(&d->p, x + 300, 380, LEFT, "with the new");
     plot_text(&d->p, x + 300, 398, LEFT, "contacts");

@@ -485,7 +485,7 @@ END_TEST
 
 /* The tip is inside both lines, 1 mm from each, or it is deep behind the one that is closed. The
  * first solution lifts it out, the second puts it back: the contact that was closed closes again,
- * and no other one, whichever line is flatter. */
+ * and no other one, whichever line is flatter. Without friction it is locked or slides. */
 START_TEST(a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line)
 {
     const int side = _i % 2, deep = _i / 2;
@@ -497,7 +497,7 @@ START_TEST(a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line)
     ck_assert(c[!side] && c[!side]->state == BBM_OPEN && !c[!side]->was_closed);
     ck_assert_int_eq(look_at(m, 1, 0.01, 0.01), 0);
     ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
-    ck_assert_int_eq(c[side]->state, BBM_LOCK);
+    ck_assert(c[side]->state != BBM_OPEN && c[!side]->state == BBM_OPEN);
     ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
     ck_relative(c[side]->N, (deep ? 6e-3 : 1e-3) * m->par.p_n, 1e-12);
     bbm_model_free(m);

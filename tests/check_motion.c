@@ -366,8 +366,8 @@ START_TEST(a_step_that_makes_energy_is_cut_and_then_refused)
     m->monitor = kick;
     m->monitor_context = push;
     ck_assert_int_eq(bbm_step(m), BBM_ENERGY);
-    ck_assert_int_eq(m->info.cuts, 10);
-    ck_assert_msg(strstr(bbm_message(m), "step 1 at t = 0, dt cut to 9.76"), "%s", bbm_message(m));
+    ck_assert_int_eq(m->info.cuts, 12);
+    ck_assert_msg(strstr(bbm_message(m), "step 1 at t = 0, dt cut to 2.44"), "%s", bbm_message(m));
     ck_assert(m->vertex[0].u == 0 && m->element[0].V[0] == 1 && m->info.step == 0 && m->beyond->gained == 0);
     push[0] = 2500 * 0.000004;
     ck_ok(bbm_step(m), m);
@@ -536,7 +536,7 @@ START_TEST(a_fast_block_does_not_pass_a_thin_plate)
 END_TEST
 
 /* Sixteen blocks that spin over each other in steps of 1.5 s, in which they fall 11 m: a step is done, or is refused with a
- * status, after 5,000 solutions and ten times the iterations that one may take; it always ends. */
+ * status, after 10,000 solutions and ten times the iterations that one may take; it always ends. */
 START_TEST(a_step_far_too_long_ends)
 {
     bbm_model *m = new_solid(1e9, 1.5);
@@ -554,7 +554,7 @@ START_TEST(a_step_far_too_long_ends)
         throw_block(m, k, k % 3 - 1, -1, 2 * (k % 2), 0, 0);
     for (int i = 0; i < 3 && !status; i++) {
         status = bbm_step(m);
-        ck_assert(m->info.passes <= 5000 && m->info.iterations < 11 * m->par.pcg.iterations);
+        ck_assert(m->info.passes <= 10000 && m->info.iterations < 11 * m->par.pcg.iterations);
         ck_assert(m->beyond->gain < 1e-3);
     }
     ck_assert_msg(!status || status == BBM_OPEN_CLOSE || status == BBM_ENERGY || status == BBM_STEP_TOO_LONG

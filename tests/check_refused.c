@@ -431,12 +431,12 @@ START_TEST(a_disc_that_may_roll_is_named)
 END_TEST
 
 /* A block of 2 x 2 elements in free flight: as fast as one likes without turning; turning by 1.2
- * rad in a step, dt is cut; so fast that dt/1024 is not enough, it is said. */
+ * rad in a step, dt is cut; so fast that dt/4096 is not enough, it is said. */
 START_TEST(a_step_in_which_elements_turn_too_far_is_cut_or_refused)
 {
     static const struct { double v, spin; int cuts; bbm_status status; } flight[] = {
         { 1e5, 0, 0, BBM_OK }, { 0, 40, 0, BBM_OK }, { 0, 120, 1, BBM_OK },
-        { 0, 1e6, 10, BBM_STEP_TOO_LONG },
+        { 0, 1e6, 12, BBM_STEP_TOO_LONG },
     };
     bbm_model *m = new_rock();
 

@@ -157,10 +157,10 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
 }
 END_TEST
 
-/* Three by four bricks, tilted by six angles: sooner or later friction would wedge one in. */
+/* Three by four bricks at seventeen tilts, 31 to 55 degrees. Sooner or later friction would wedge
+ * one in. */
 START_TEST(a_contact_that_no_friction_holds_opens)
 {
-    static const double g[] = { 7.6, 8, 8.5, 9.4, 9.81, 10.3 };
     bbm_model *m = new_scene(50);
 
     m->material[ROCK] = (bbm_material){ 1e11, 0.2, 2000, 1 };
@@ -174,7 +174,7 @@ START_TEST(a_contact_that_no_friction_holds_opens)
     m->par.dt = 0.01;
     m->par.p_n = 5e12;
     m->par.p_s = 2e12;
-    m->par.gravity[0] = -g[_i];
+    m->par.gravity[0] = -6 - 0.5 * _i;
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 2);
     bbm_model_free(m);
@@ -187,7 +187,7 @@ Suite *statics_suite(void)
     const loop_test e[] = {
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
-        { a_contact_that_no_friction_holds_opens, 6 },
+        { a_contact_that_no_friction_holds_opens, 17 },
     };
 
     add_case(s, "statics", e, COUNT(e));
