@@ -1,6 +1,6 @@
 # answers.sh - numbers of the answers to the exercises, by their models:
 #     BBM=./bbm sh doc/answers.sh NAME
-# NAME: patch, bar, area, slope, start, passes, drop, rock, iterations, stiff, soft, locking.
+# NAME: patch, bar, area, slope, start, passes, drop, iterations, stiff, soft, locking.
 set -e
 HERE=out/answers
 mkdir -p $HERE
@@ -37,7 +37,7 @@ bar()
     done
 }
 
-# 5.6: the growth of the area, by the first and the last node, which lie on a diagonal.
+# 5.5: the growth of the area, by the first and the last node, which lie on a diagonal.
 area()
 {
     sed 's/^rotation exact/rotation linear/' cases/models/turning.model > $HERE/turning.model
@@ -71,7 +71,7 @@ start()
     done
 }
 
-# 6.7: the solutions of the first step.
+# 6.6: the solutions of the first step.
 passes()
 {
     sed 's/E 1e10/E 1e14/; s/steps 100/steps 1/' $INCLINE > $HERE/first.model
@@ -81,7 +81,7 @@ passes()
     done
 }
 
-# 6.8: the fastest rise over the fastest fall.
+# 6.7: the fastest rise over the fastest fall.
 drop()
 {
     for dt in 0.002 0.001 0.0005 0.0002 0.0001; do
@@ -91,18 +91,6 @@ drop()
             END { W = dt * sqrt(2e9 / 2500); c = (4 - W * W) / (2 * sqrt(4 + 2 * W * W))
                   F = exp(-log(1 + W * W / 2) * atan2(0, -1) / (2 * atan2(sqrt(1 - c * c), c)))
                   printf "dt %.4f: rebound/impact %.3f, formula %.3f\n", dt, -b / a, F }' $HERE/history.csv
-    done
-}
-
-# 6.9: a quarter of the period.
-rock()
-{
-    for share in 0.2 0.5 0.8 0.95; do
-        awk -v h=5 -v share=$share -f doc/exercises/rocking.awk | run > $HERE/row
-        awk -F, -v s=$share 'NR > 1 && $4 + sin(s * atan2(1, 5)) < 1e-9 {
-            x = 1 / (1 - s); p = sqrt(3 * 9.81 / (2 * sqrt(26)))
-            printf "share %.2f: T/4 %.3f s, formula %.3f s\n", s, $2, log(x + sqrt(x * x - 1)) / p
-            exit }' $HERE/history.csv
     done
 }
 
