@@ -1,6 +1,6 @@
 # answers.sh - numbers of the answers to the exercises, by their models:
 #     BBM=./bbm sh doc/answers.sh NAME
-# NAME: patch, bar, area, slope, start, passes, drop, iterations, stiff, soft, locking.
+# NAME: patch, bar, area, slope, start, hand, passes, drop, iterations, stiff, soft, locking.
 set -e
 HERE=out/answers
 mkdir -p $HERE
@@ -71,13 +71,24 @@ start()
     done
 }
 
-# 6.6: the solutions of the first step.
+# The first step, with a block too stiff to bend.
+first() { sed 's/E 1e10/E 1e14/; s/steps 100/steps 1/' $INCLINE > $HERE/first.model; }
+
+# One step by hand: the way of the lower corner along the slope and into it.
+hand()
+{
+    first
+    run $HERE/first.model | awk -F, '{ c = sqrt(3) / 2; s = -($3 * c + $4 / 2); w = $3 / 2 - $4 * c
+        printf "along %.3e m, down %.3e m: N = %.0f N\n", s, w, 1e9 * w }'
+}
+
+# 6.6: the solutions of the first step, and where the corner ends.
 passes()
 {
-    sed 's/E 1e10/E 1e14/; s/steps 100/steps 1/' $INCLINE > $HERE/first.model
+    first
     for phi in 28 31 40; do
-        run $HERE/first.model -d phi=$phi > $HERE/row
-        tail -1 $HERE/summary.csv | awk -F, -v p=$phi '{ print p ":", $3, "solutions" }'
+        u=$(run $HERE/first.model -d phi=$phi | cut -d, -f3)
+        tail -1 $HERE/summary.csv | awk -F, -v p=$phi -v u=$u '{ printf "%d: %d solutions, u %.3e m\n", p, $3, u }'
     done
 }
 
