@@ -197,7 +197,7 @@ quick: $O/quick
 # --- the exercises in the chapters of doc/: a copy of a source in out/exercise/N, and its tests ---
 ALONE = $(CORE:%=$O/%.o)
 EXERCISE = O="$O" COMPILE="$(CC) $(STRICT) -Wno-unused -Wno-unused-parameter $(CPPFLAGS) $(CFLAGS) -O0" FAILING="$(FAILING)" \
-LINK="$(CC) $(CFLAGS) $(LDFLAGS)" LIBS="$(CHECK) -lm" TESTED="$O/tests/check_main.o $(TESTED)" ALONE="$(ALONE)" \
+LINK="$(CC) $(CFLAGS) $(LDFLAGS)" LIBS="$(CHECK) -lm" TESTED="$O/tests/check_main.o $(TESTED)" ALONE="$(ALONE)" COMMON="$(COMMON:%=$O/%.o)" \
 MAKE="$(MAKE) -s" sh tests/exercise.sh
 
 exercise:
@@ -209,8 +209,8 @@ hint:
 exercises:
 	@sh tests/exercise.sh list
 
-check-exercises: $O/quick $O/doc/exercises/own.o $(ALONE)
-	@$(EXERCISE) prove
+check-exercises: $O/quick $O/doc/exercises/own.o $(ALONE) $O/paper/exp3
+	+@$(EXERCISE) prove
 
 # The page in node and in Chromium, and natively with musl, whose libm is that of WASI.
 check-page: out/bbm.html $O/bbm $O/musl/page_native

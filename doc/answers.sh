@@ -1,6 +1,6 @@
 # answers.sh - numbers of the answers to the exercises, by their models:
 #     BBM=./bbm sh doc/answers.sh NAME
-# NAME: patch, bar, area, slope, start, passes, drop, rock, iterations, stiff, soft, locking.
+# NAME: patch, bar, area, slope, start, hand, passes, drop, iterations, stiff, soft, locking.
 set -e
 HERE=out/answers
 mkdir -p $HERE
@@ -37,7 +37,7 @@ bar()
     done
 }
 
-# 5.6: the growth of the area, by the first and the last node, which lie on a diagonal.
+# 5.5: the growth of the area, by the first and the last node, which lie on a diagonal.
 area()
 {
     sed 's/^rotation exact/rotation linear/' cases/models/turning.model > $HERE/turning.model
@@ -71,17 +71,28 @@ start()
     done
 }
 
-# 6.7: the solutions of the first step.
+# The first step, with a block too stiff to bend.
+first() { sed 's/E 1e10/E 1e14/; s/steps 100/steps 1/' $INCLINE > $HERE/first.model; }
+
+# One step by hand: the way of the lower corner along the slope and into it.
+hand()
+{
+    first
+    run $HERE/first.model | awk -F, '{ c = sqrt(3) / 2; s = -($3 * c + $4 / 2); w = $3 / 2 - $4 * c
+        printf "along %.3e m, down %.3e m: N = %.0f N\n", s, w, 1e9 * w }'
+}
+
+# 6.6: the solutions of the first step, and where the corner ends.
 passes()
 {
-    sed 's/E 1e10/E 1e14/; s/steps 100/steps 1/' $INCLINE > $HERE/first.model
+    first
     for phi in 28 31 40; do
-        run $HERE/first.model -d phi=$phi > $HERE/row
-        tail -1 $HERE/summary.csv | awk -F, -v p=$phi '{ print p ":", $3, "solutions" }'
+        u=$(run $HERE/first.model -d phi=$phi | cut -d, -f3)
+        tail -1 $HERE/summary.csv | awk -F, -v p=$phi -v u=$u '{ printf "%d: %d solutions, u %.3e m\n", p, $3, u }'
     done
 }
 
-# 6.8: the fastest rise over the fastest fall.
+# 6.7: the fastest rise over the fastest fall.
 drop()
 {
     for dt in 0.002 0.001 0.0005 0.0002 0.0001; do
@@ -91,18 +102,6 @@ drop()
             END { W = dt * sqrt(2e9 / 2500); c = (4 - W * W) / (2 * sqrt(4 + 2 * W * W))
                   F = exp(-log(1 + W * W / 2) * atan2(0, -1) / (2 * atan2(sqrt(1 - c * c), c)))
                   printf "dt %.4f: rebound/impact %.3f, formula %.3f\n", dt, -b / a, F }' $HERE/history.csv
-    done
-}
-
-# 6.9: a quarter of the period.
-rock()
-{
-    for share in 0.2 0.5 0.8 0.95; do
-        awk -v h=5 -v share=$share -f doc/exercises/rocking.awk | run > $HERE/row
-        awk -F, -v s=$share 'NR > 1 && $4 + sin(s * atan2(1, 5)) < 1e-9 {
-            x = 1 / (1 - s); p = sqrt(3 * 9.81 / (2 * sqrt(26)))
-            printf "share %.2f: T/4 %.3f s, formula %.3f s\n", s, $2, log(x + sqrt(x * x - 1)) / p
-            exit }' $HERE/history.csv
     done
 }
 

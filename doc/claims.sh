@@ -104,7 +104,7 @@ blocks()
 # The paper's solver beside two levels, on triangles; digits that rounding decides are left out.
 levels()
 {
-    for n in 4 8 16; do
+    for n in 8 16; do
         for a in 10 1000; do
             for c in off on; do
                 { beam $((4 * n)) $n $a 0 | sed '/^pcg/d'; echo "pcg coarse $c"; } | run
@@ -120,7 +120,7 @@ levels()
 # Two levels on n x n/4 squares.
 squares()
 {
-    for n in 16 32 64; do
+    for n in 32 64; do
         for a in 10 1000; do
             beam $n $((n / 4)) $a 0 "-v quads=1" | sed '/^pcg/d' | run
             tail -1 out/claims/summary.csv | awk -F, -v n=$n -v a=$a '{

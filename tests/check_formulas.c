@@ -258,7 +258,7 @@ END_TEST
 /* ---------------------------------- 2.2, the stiffness of bonds, (4), and of fixed points, (29) */
 
 /* G = 10/2.5 = 4 and 12/2 = 6, means of G 5 and of t 0.5. */
-START_TEST(the_bonding_stiffness_is_alpha_G_t_times_the_ratio_of_the_areas_either_way_round)
+START_TEST(the_bonding_stiffness_has_its_value_in_either_order_of_elements_and_at_any_strain)
 {
     const bbm_element i = { .A0 = 2, .A = 9,
                             .material = { .E = 10, .nu = 0.25, .thickness = 0.375 } };
@@ -1035,7 +1035,7 @@ static void add_elements(Suite *s)
         { the_mode_matrix_moves_points_by_translation_rotation_and_strain, shapes },
     };
     const loop_test stiffness[] = {
-        { the_bonding_stiffness_is_alpha_G_t_times_the_ratio_of_the_areas_either_way_round, 1 },
+        { the_bonding_stiffness_has_its_value_in_either_order_of_elements_and_at_any_strain, 1 },
     };
     const loop_test elastic[] = {
         { hookes_law_gives_uniaxial_tension_and_pure_shear_their_strains, 1 },

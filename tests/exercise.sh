@@ -2,7 +2,8 @@
 # exercise.sh - the exercises in the chapters of doc/: copies of the sources, and their tests.
 #
 #   exercise.sh begin N      makes the copy of exercise N in out/exercise/N, unless it is there, and
-#                            runs its tests; a copy of a model is run once it has a line `expect`
+#                            runs its tests; a copy of a model is run once it has a line `expect`.
+#                            With DRAW=exp1 in the environment a green copy runs that experiment
 #   exercise.sh hint N STEP  prints a hint, the first or the second
 #   exercise.sh list         all exercises, and which are done
 #   exercise.sh prove        all exercises: red as they begin, green with the source as it is
@@ -13,7 +14,7 @@
 # exercise, the file, a piece of a line, and what stands in its place. The hints are in doc/hints.md.
 #
 # `make exercise` gives O, where the objects are; COMPILE, FAILING, LINK, LIBS, parts of commands;
-# TESTED and ALONE, the objects for tests and for programs; MAKE.
+# TESTED, ALONE, COMMON, the objects for tests, programs and experiments; MAKE.
 set -eu
 unset CK_RUN_SUITE CK_INCLUDE_TAGS CK_EXCLUDE_TAGS
 CHAPTERS=$(ls doc/0*.md)
@@ -72,14 +73,20 @@ build()
     fi
 }
 
-# What the copy $1 computes, in the folder $2: doc/exercises/own.c.
+# What the copy $1 computes, in the folder $2: doc/exercises/own.c, and the experiment $DRAW.
 show_own()
 {
     [ "$tests" != program ] && [ -f "$O/${file%.c}.o" ] || return 0
     others=$(for o in $ALONE; do [ "$o" = "$O/${file%.c}.o" ] || echo "$o"; done)
-    $COMPILE -I. -I"$(dirname "$file")" -c -o "$2/own.o" "$1"
-    $LINK -o "$2/own" "$2/own.o" "$O/doc/exercises/own.o" $others -lm
+    $COMPILE -I. -I"$(dirname "$file")" -c -o "$2/copy.o" "$1"
+    $LINK -o "$2/own" "$2/copy.o" "$O/doc/exercises/own.o" $others -lm
     "$2/own"
+    [ "${DRAW-}" ] || return 0
+    $MAKE "$O/paper/$DRAW" > "$2/said"
+    $LINK -o "$2/$DRAW" "$2/copy.o" "$O/cases/$DRAW.o" "$O/cases/paper.o" $COMMON $others -lm
+    mkdir -p "$2/cases" && cp cases/fem.csv "$2/cases"
+    (cd "$2" && "./$DRAW" > "$DRAW.log")
+    echo "Figures drawn with your code: $2/out/$DRAW"
 }
 
 is_a_model() { [ "$kind" = predict ] || [ "$kind" = measure ]; }
@@ -158,8 +165,9 @@ prove_cut()
     NAME=bbm_bonding_submatrices awk -f $CUT bbm.c > "$here/bbm.c"
     ! grep -q 'K_jj += k' "$here/bbm.c" || { echo "the copy tells its answer"; exit 1; }
     ! show_own "$here/bbm.c" "$here" | grep 'moves by 0.0044 m' || { echo "another code is shown"; exit 1; }
-    show_own bbm.c "$here" > "$here/said"
-    grep -q 'moves by 0.0044 m' "$here/said" || { cat "$here/said"; exit 1; }
+    DRAW=exp3 show_own bbm.c "$here" > "$here/own.said"
+    grep -q 'moves by 0.0044 m' "$here/own.said" || { cat "$here/own.said"; exit 1; }
+    [ -f "$here/out/exp3/fig25.svg" ] || { echo "the copy has not drawn Fig. 25"; exit 1; }
 }
 
 prove()

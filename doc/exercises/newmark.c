@@ -1,4 +1,4 @@
-/* newmark.c - Exercise 5.4: Newmark's method with any beta and gamma, for one mass on one spring.
+/* newmark.c - Exercise 5.3: Newmark's method with any beta and gamma, for one mass on one spring.
  *
  * x is the displacement, y = V dt and z = a dt^2 are velocity and acceleration in its unit, and
  * W2 = k dt^2/m. The paper has beta = 1/2, gamma = 1, Eq. (13), (14).
