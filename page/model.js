@@ -4,9 +4,11 @@
  * page.h; after a while every second one loses its arrays. */
 'use strict';
 
-const STRIDE = { v: 6, e: 26, d: 3, c: 11, l: 4, x: 5, k: 2 }, ARRAYS = [...'veclxp'];
+const STRIDE = { v: 6, e: 26, d: 3, c: 10, l: 4, x: 5, k: 2 }, ARRAYS = [...'veclxp'];
 const FACTS = ('step t steps dynamic settling settle begun dt passes iterations residual cuts ' +
   'contacts penetration candidates change kinetic elastic springs work gained scale').split(' ');
+/* States of contacts; what precedes a look at them, as in page.h. */
+const STATES = ['OPEN', 'LOCK', 'SLIDE'], SLIDE = 2, LISTED = 0, JUDGED = 1, FRICTION = 2, DONE = 4;
 const ROOM = 150e6;                             /* bytes of all frames */
 const files = new Map();
 let wasm, run = null, warnings = '';            /* what is allowed and hardly meant, a line each */
@@ -78,7 +80,9 @@ function stepModel() {
   run.state = wasm.page_step(run.handle);
   const frame = keepFrame();
   frame.failed = run.state === 2;
-  if (frame.failed)
+  if (frame.failed) {
     run.failure = textOf('m');
+    frame.step = Math.min(frame.step + 1, frame.steps);
+  }
   return run.state === 0;
 }

@@ -2,10 +2,10 @@
 'use strict';
 
 const is = id => document.getElementById(id);
-const WORK = 12;                                /* ms of steps between two pictures */
+const WORK = 12, LARGE = 5000;  /* ms of steps between two pictures; unknowns */
 const NUMBER = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
 const EXERCISES = {};                           /* of the chapters: title, model, text */
-let playing = false, next = 0, at = -1, lookAt = 0;     /* at: the frame in hand; -1: the last */
+let playing = false, turns = 0, at = -1, lookAt = 0;    /* at: the frame in hand; -1: the last */
 let picked = { element: -1, contact: null }, task = null, hasPredicted = false;
 
 /* The frame in hand, or the one before that has kept its arrays. */
@@ -69,6 +69,9 @@ function choose(name, text) {
   text ??= files.get(`gallery/${task?.model ?? name}`) ?? `# there is no ${name} here`;
   is('gallery').value = name;
   is('text').value = task ? text.replace(/^ *(#|expect).*\n/gm, '') : text;
+  is('edit').scrollTop = 0;
+  Object.assign(view, WHOLE);
+  is('exercise').reset();
   is('exercise').hidden = !task;
   fill('task', [make('b', {}, task?.title ?? ''), make('p', {}, task?.text ?? '')]);
   makeSliders();
@@ -93,32 +96,30 @@ function mayRun() {
   return (!task || hasPredicted) && run?.state === 0;
 }
 
-function play(on) {
+/* Runs or pauses; or takes one step, after those that settle. A picture comes first, so that it is
+ * said before what may take long. */
+function play(on, once = false) {
+  const turn = ++turns, unknowns = run ? 6 * rows(shown(), 'e').length : 0;
   playing = on && mayRun();
-  is('run').textContent = playing ? 'Pause' : 'Run';
-  cancelAnimationFrame(next);
+  is('run').textContent = playing && !once ? 'Pause' : 'Run';
+  if (playing && unknowns > LARGE)
+    is('say').textContent = `solving ${unknowns} unknowns`;
   if (playing)
-    next = requestAnimationFrame(work);
+    requestAnimationFrame(() => setTimeout(() => turn === turns && work(once)));
 }
 
-function work() {
+function work(once) {
   const start = performance.now();
   let more = true;
   while (more && performance.now() - start < WORK)
-    more = stepModel();
+    more = stepModel() && !(once && run.frames.at(-1).begun);
   at = -1;
-  play(more);
+  lookAt = 0;
+  play(more, once);
   show();
 }
 
-/* One step; settling counts as one. */
-function oneStep() {
-  play(false);
-  if (!mayRun())
-    return;
-  while (stepModel() && !run.frames.at(-1).begun);
-  goTo(run.frames.length);
-}
+const oneStep = () => play(true, true);
 
 function show() {
   const f = shown(), isOver = run.state === 1 && at < 0, isInside = is('inside').checked;
@@ -183,7 +184,7 @@ function followLink() {
 }
 
 const KEYS = { ' ': oneStep, Enter: () => play(!playing), r: load,
-  0: () => setView({ zoom: 1, x: 0, y: 0 }), '+': () => zoom(1.25), '-': () => zoom(0.8),
+  0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
   f: () => is('full').click(), Escape: () => is('full').checked && is('full').click(),
   l: () => is('inside').click(), '[': () => moveLook(-1), ']': () => moveLook(1),
   ArrowLeft: () => goTo((at < 0 ? run.frames.length - 1 : at) - 1),

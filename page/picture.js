@@ -6,11 +6,11 @@
 const TINTS = ['#f6cf8b', '#b3dcf5', '#8fd3bd', '#f7f0a6', '#e6c3d7', '#eba98f'];
 const VIRIDIS = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142],
   [31, 158, 137], [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
-const STATES = ['OPEN', 'LOCK', 'SLIDE'];
 /* Arrows: the state of a contact, or 3 and 4 for a load; its name, unit, colour, dashes. */
 const ARROWS = [[1, 'locked', 'N', '--lock', []], [2, 'sliding', 'N', '--slide', [4, 3]],
   [3, 'load', 'N', '--load', []], [4, 'load', 'N/m', '--load', []]];
-const view = { zoom: 1, x: 0, y: 0, magnify: 0, colour: 'block' };      /* 0: as it finds best */
+const WHOLE = { zoom: 1, x: 0, y: 0 };
+const view = { ...WHOLE, magnify: 0, colour: 'block' };         /* 0: as it finds best */
 
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const largest = values => values.reduce((a, b) => Math.max(a, b), 0);
@@ -20,6 +20,12 @@ function quantity(x, unit) {
   const power = x === 0 ? 0 : Math.floor(Math.log10(Math.abs(x)) / 3 + 1e-9);
   const p = Math.max(-3, Math.min(3, power));
   return `${+(x / 1000 ** p).toPrecision(3)} ${['n', 'u', 'm', '', 'k', 'M', 'G'][p + 3]}${unit}`;
+}
+
+/* The largest of ..., 1, 2, 5, 10, ... that is not above x. */
+function roundDown(x) {
+  const ten = 10 ** Math.floor(Math.log10(x) + 1e-9);
+  return ten * ([5, 2].find(f => f * ten <= x * (1 + 1e-9)) ?? 1);
 }
 
 /* A canvas as sharp as the screen, empty. */
@@ -74,13 +80,13 @@ function findShape() {
 }
 
 /* The one whose nearest block is farthest, as choose_tint in scene.c. */
-function chooseTint(others, A) {
+function chooseTint(others, [x0, y0, x1, y1]) {
   const nearest = TINTS.map(() => Infinity);
-  for (const { held, box: B, tint } of others) {
-    const gap = [0, 1].map(k => Math.max(0, A[k] - B[k + 2], B[k] - A[k + 2]));
-    const way = [0, 1].map(k => (A[k] + A[k + 2] - B[k] - B[k + 2]) / 2);
+  for (const { held, box: [X0, Y0, X1, Y1], tint } of others) {
+    const gap = Math.hypot(Math.max(0, x0 - X1, X0 - x1), Math.max(0, y0 - Y1, Y0 - y1));
+    const way = Math.hypot(x0 + x1 - X0 - X1, y0 + y1 - Y0 - Y1) / 2;
     if (!held)
-      nearest[tint] = Math.min(nearest[tint], Math.hypot(...gap) + 0.01 * Math.hypot(...way));
+      nearest[tint] = Math.min(nearest[tint], gap + 0.01 * way);
   }
   return nearest.indexOf(Math.max(...nearest));
 }
@@ -90,9 +96,7 @@ function findMagnification(frame) {
   const most = largest(rows(frame, 'v').map(v => Math.hypot(v[2], v[3])));
   const [x0, y0, x1, y1] = run.box, size = Math.max(x1 - x0, y1 - y0);
   const wanted = most > 1e-12 * size ? 0.1 * size / most : 1;
-  const ten = 10 ** Math.floor(Math.log10(wanted));
-  return frame.dynamic ? 1 : frame.scale ||
-    Math.max(1, ten * [5, 2, 1].find(f => f * ten <= wanted));
+  return frame.dynamic ? 1 : frame.scale || Math.max(1, roundDown(wanted));
 }
 
 /* From metres to pixels, so that the model as it begins fits between the margins. */
@@ -114,7 +118,8 @@ function painter(frame) {
   const { s, to } = findScale(p.w, p.h), m = p.magnify - 1;
   const at = rows(frame, 'v').map(([x, y, u, v]) => to(x + m * u, y + m * v));
   const outline = ([, first, n]) => trace(p.g, at.slice(first, first + n), true);
-  return { ...p, s, at, outline, corner: d => at[run.d[3 * d]] };
+  const thin = Math.min(1, Math.sqrt(p.w * p.h / run.blocks.length) / 30);     /* for many blocks */
+  return { ...p, s, at, outline, thin, corner: d => at[run.d[3 * d]] };
 }
 
 function hatch() {
@@ -126,19 +131,20 @@ function hatch() {
   return g.createPattern(tile, 'repeat');
 }
 
-/* Returns the field that the colours show, with its range. */
-function drawBlocks({ g, frame, outline, at }) {
+/* Returns the field that the colours show, with its range in the blocks that are free. */
+function drawBlocks({ g, frame, outline, at, thin }) {
   const [name, of, unit] = OF_ELEMENT.find(row => row[0] === view.colour) ?? [], held = hatch();
-  const values = of ? rows(frame, 'e').map(e => e[of]) : [];
-  const low = Math.min(...values), high = Math.max(...values);
+  const free = run.blocks.filter(b => !b.held).flatMap(b => b.elements);
+  const values = of ? free.map(([k]) => frame.e[STRIDE.e * k + of]) : [];
+  const high = Math.max(...values), least = Math.min(...values);
+  const low = Math.abs(least) < 1e-6 * high ? 0 : least;
+  values.forEach((a, k) => paint(g, () => outline(free[k]),
+    { fill: viridis(high > low ? (a - low) / (high - low) : 0.5) }));
   for (const block of run.blocks) {
     const fill = block.held ? held : of ? null : TINTS[block.tint];
-    for (const e of of && !block.held ? block.elements : [])
-      paint(g, () => outline(e),
-        { fill: viridis(high > low ? (values[e[0]] - low) / (high - low) : 0.5) });
-    paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5, fill });
+    paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5 * thin, fill });
     paint(g, () => block.edges.forEach(([a, b]) => trace(g, [at[a], at[b]])),
-      { line: css('--ink') });
+      { line: css('--ink'), width: 1.3 * thin });
   }
   return name && { name, unit, low, high };
 }
@@ -208,7 +214,7 @@ function drawState(g, place, state, r) {
 }
 
 function drawLegend({ g, w, h, s, magnify }, legend, bar) {
-  const metre = 10 ** Math.floor(Math.log10(120 / s)), ink = css('--ink');
+  const metre = roundDown(120 / s), ink = css('--ink');
   let x = 12;
   g.font = `14px ${css('--sans')}`;
   g.fillStyle = ink;

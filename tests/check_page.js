@@ -131,6 +131,16 @@ async function checkClicks() {
   await push('inside');
 }
 
+/* Each change of a state is by a row of the table that is of these states. */
+async function checkRows() {
+  await runAll('dominoes.model');
+  const used = await p.do(`[...new Set(run.frames.flatMap(f => looksOf(f).flatMap(look =>
+    look.contacts.map(c => [STATES[c[2]], STATES[c[3]], ...rowOf(look, c)].join('|')))))]`);
+  assert(used.length >= 9, used);
+  for (const [from, to, before, why, after] of used.map(row => row.split('|')))
+    assert(before === '' || before === from && why && after.startsWith(to), `${from} ${to}`);
+}
+
 async function checkErrors() {
   const good = read(`${models}incline.model`), hack = '<img src=x onerror=hacked=1>',
     file = `${folder}/incline.model`;
@@ -144,6 +154,7 @@ async function checkErrors() {
     error.split(':')[1]);
   await p.shot('error');
   await push('step');                           /* of the model before, which is alive */
+  await p.until('!playing');
   assert.match(await text('say'), /^step 1 of 100/);
   fs.writeFileSync(file, good.replace(/^dynamic.*/m, 'static').replace(/^title.*/m,
     `title </script><script>hacked=1</script>${hack}`));
@@ -182,7 +193,10 @@ async function checkExercises() {
 }
 
 async function checkKeys() {
-  const press = key => p.send('Input.dispatchKeyEvent', { type: 'keyDown', key, text: key });
+  const press = async key => {
+    await p.send('Input.dispatchKeyEvent', { type: 'keyDown', key, text: key });
+    await p.until('!playing');
+  };
   await p.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme',
     value: 'dark' }] });
   await p.go(`${url}#model=dominoes.model`);
@@ -199,8 +213,8 @@ async function checkKeys() {
   checkFile();
   await checkBits();
   p = await open(url, folder);
-  for (const check of [checkRuns, checkSliderAndLink, checkClicks, checkErrors, checkExercises,
-      checkKeys])
+  for (const check of [checkRuns, checkSliderAndLink, checkClicks, checkRows, checkErrors,
+      checkExercises, checkKeys])
     await check();
   assert.deepEqual(p.errors, []);
   assert(p.requests.every(r => r.split('#')[0] === url), `${p.requests}`);
