@@ -1,8 +1,8 @@
 /* graphs.js - curves over the steps; and the pattern of K. */
 'use strict';
 
-const COLOURS = ['--lock', '--slide', '--green', '--load'];
-const DASHES = [[], [8, 4], [2, 3], [10, 3, 2, 3], [16, 2]];
+const COLOURS = ['--lock', '--slide', '--green', '--load', '--ink'];
+const DASHES = [[], [8, 4], [2, 3], [10, 3, 2, 3], [1, 2], [14, 4]];
 
 /* Round numbers that hold 0 and all values between them, about n steps apart. */
 function findTicks(values, n) {
@@ -29,7 +29,7 @@ function drawNames(g, w, curves) {
 function drawGraph(id, unit, all, bands = []) {
   const { g, w, h } = begin(id), ink = css('--ink'), left = 68, right = w - 8, bottom = h - 8;
   const curves = all.map(([name, values], k) =>
-    ({ name, values, line: css(COLOURS[k % 4]), dash: DASHES[k % 5] }));
+    ({ name, values, line: css(COLOURS[k % 5]), dash: DASHES[k % 6] }));
   Object.assign(g, { font: `12px ${css('--sans')}`, fillStyle: ink });
   const top = drawNames(g, w, curves), n = run.frames.length - 1;
   const ticks = findTicks([0, ...bands.flat(), ...all.flatMap(c => c[1])], (bottom - top) / 28);
@@ -51,7 +51,7 @@ function drawGraph(id, unit, all, bands = []) {
 /* Energies as they changed since the start, so that one scale serves: what the work of loads and
  * gravity has become. Monitors: along the axes for which something is expected, or else both. */
 function drawGraphs(frame) {
-  const frames = run.frames.filter(f => !f.failed), bands = [], curves = [];
+  const frames = run.frames.filter(f => !f.failure), bands = [], curves = [];
   const history = name => frames.map(f => f[name]);
   const since = name => history(name).map(a => a - (name === 'kinetic' ? 0 : frames[0][name]));
   drawGraph('energies', 'J',

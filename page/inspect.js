@@ -99,7 +99,7 @@ function tellLook(frame) {
   const changed = contacts.filter(c => isChange(look, c));
   const solution = looks.slice(0, lookAt + 1).filter(l => l.what !== LISTED).length;
   is('look').textContent = !look ? 'No step has been done yet: press Step.'
-    : `Step ${frame.step}${frame.failed ? ', which failed' : ''}, look ${lookAt + 1} of ` +
+    : `Step ${frame.step}${frame.failure ? ', which failed' : ''}, look ${lookAt + 1} of ` +
     `${looks.length}, after solution ${solution}: ` +
     `${WHY[look.what === JUDGED && !changed.length ? 5 : look.what]}. ${changed.length} of ` +
     `${contacts.length} changed${frame.dynamic ? `; h = ${format(look.h)} s` : ''}.`;

@@ -57,7 +57,8 @@ function load() {
   at = -1;
   lookAt = 0;
   hasPredicted = false;
-  fill('what', run.monitors.flatMap(m => [new Option(`${m} u`), new Option(`${m} v`)]));
+  fill('what', run.monitors.flatMap(m => [`${m} u`, `${m} v`])
+    .map(text => new Option(text, text, false, text === is('what').value)));
   document.title = `${textOf('t')} - bbm`;
   pick(-1, null);
   return true;
@@ -119,17 +120,15 @@ function work(once) {
   show();
 }
 
-const oneStep = () => play(true, true);
-
 function show() {
   const f = shown(), isOver = run.state === 1 && at < 0, isInside = is('inside').checked;
   is('when').max = run.frames.length - 1;
   is('when').value = at < 0 ? run.frames.length - 1 : at;
   is('say').textContent = !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}`
     : `step ${f.step} of ${f.steps}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
-    (f.failed ? '  failed' : '');
-  if (run.failure)
-    showError(`${run.name}: ${run.failure}`);
+    (f.failure && '  failed');
+  if (f.failure)
+    showError(`${run.name}: ${f.failure}`);
   fill('expected', [...warnings.split('\n').filter(word => word).map(word => make('div', {}, word)),
     ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
       `${isOver ? 'expected' : 'so far'}: ${f.said[k]}`))]);
@@ -137,8 +136,7 @@ function show() {
   tell(f);
   if (!isInside)
     drawGraphs(f);
-  if (!playing)
-    drawPattern();
+  drawPattern();
 }
 
 /* ------------------------------------------------------------------------ hands */
@@ -183,10 +181,9 @@ function followLink() {
   show();
 }
 
-const KEYS = { ' ': oneStep, Enter: () => play(!playing), r: load,
-  0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
-  f: () => is('full').click(), Escape: () => is('full').checked && is('full').click(),
-  l: () => is('inside').click(), '[': () => moveLook(-1), ']': () => moveLook(1),
+/* Of the keys: what has no button or box with data-key. */
+const KEYS = { 0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
+  Escape: () => is('full').checked && is('full').click(),
   ArrowLeft: () => goTo((at < 0 ? run.frames.length - 1 : at) - 1),
   ArrowRight: () => at >= 0 && goTo(at + 1) };
 
@@ -194,10 +191,11 @@ function pressKey(event) {
   const { key, target, ctrlKey, metaKey } = event, isPressed = key === ' ' || key === 'Enter';
   const isOwn = target.matches('textarea, select, input:not([type=checkbox])') ||
     isPressed && target.matches('button, input');
-  if (!(key in KEYS) || ctrlKey || metaKey || isOwn && key !== 'Escape')
+  const button = document.querySelector(`[data-key=${CSS.escape(key)}]`);
+  if (!KEYS[key] && !button || ctrlKey || metaKey || isOwn && key !== 'Escape')
     return;
   event.preventDefault();
-  KEYS[key]();
+  KEYS[key] ? KEYS[key]() : button.click();
 }
 
 /* Drags the picture, or picks what a click is at. */
@@ -229,9 +227,8 @@ function readExercises(text) {
 async function start() {
   const models = [], bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
   let later;
-  const fail = e => showError(`The page has failed: ${e.reason ?? e.message}`);
-  addEventListener('error', fail);
-  addEventListener('unhandledrejection', fail);
+  for (const kind of ['error', 'unhandledrejection'])
+    addEventListener(kind, e => showError(`The page has failed: ${e.reason ?? e.message}`));
   for (const { dataset: { file }, textContent } of document.querySelectorAll('[data-file]')) {
     const text = new TextDecoder().decode(bytes(textContent));
     files.set(file, text).set('gallery/' + file, text);

@@ -4,8 +4,8 @@
 'use strict';
 
 const TINTS = ['#f6cf8b', '#b3dcf5', '#8fd3bd', '#f7f0a6', '#e6c3d7', '#eba98f'];
-const VIRIDIS = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142],
-  [31, 158, 137], [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
+const VIRIDIS = ('#440154 #482878 #3e4a89 #31688e #26828e #1f9e89 #35b779 #6dcd59 #b4de2c ' +
+  '#fde725').split(' ');
 /* Arrows: the state of a contact, or 3 and 4 for a load; its name, unit, colour, dashes. */
 const ARROWS = [[1, 'locked', 'N', '--lock', []], [2, 'sliding', 'N', '--slide', [4, 3]],
   [3, 'load', 'N', '--load', []], [4, 'load', 'N/m', '--load', []]];
@@ -109,7 +109,7 @@ function findScale(w, h) {
 
 function viridis(share) {
   const k = Math.min(8, Math.floor(9 * share));
-  return `rgb(${VIRIDIS[k].map((c, i) => c + (9 * share - k) * (VIRIDIS[k + 1][i] - c))})`;
+  return `color-mix(in srgb, ${VIRIDIS[k + 1]} ${100 * (9 * share - k)}%, ${VIRIDIS[k]})`;
 }
 
 /* What draws a frame: g, the canvas; at[v], the pixels of a vertex; the outline of an element. */
@@ -139,7 +139,7 @@ function drawBlocks({ g, frame, outline, at, thin }) {
   const high = Math.max(...values), least = Math.min(...values);
   const low = Math.abs(least) < 1e-6 * high ? 0 : least;
   values.forEach((a, k) => paint(g, () => outline(free[k]),
-    { fill: viridis(high > low ? (a - low) / (high - low) : 0.5) }));
+    { fill: viridis((a - low) / (high - low || 1)) }));
   for (const block of run.blocks) {
     const fill = block.held ? held : of ? null : TINTS[block.tint];
     paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5 * thin, fill });
@@ -173,8 +173,8 @@ function drawSupports({ g, at }) {
 /* Contact forces act on what is carried, so they point up. Loads end where they act, those of an
  * edge 16 pixels apart. */
 function findArrows({ frame, at, corner }) {
-  const arrows = rows(frame, 'c').map(([c, , kind, fx, fy]) => ({ kind, x: corner(c)[0],
-    y: corner(c)[1], fx: fy < 0 ? -fx : fx, fy: Math.abs(fy) }));
+  const arrows = rows(frame, 'c').filter(c => c[2]).map(([c, , kind, fx, fy]) => ({ kind,
+    x: corner(c)[0], y: corner(c)[1], fx: fy < 0 ? -fx : fx, fy: Math.abs(fy) }));
   for (const [a, b, fx, fy] of rows(frame, 'l')) {
     const [xa, ya] = at[a], [xb, yb] = at[b] ?? at[a];
     const n = Math.max(1, Math.floor(Math.hypot(xb - xa, yb - ya) / 16));
@@ -189,18 +189,17 @@ function drawForces(p) {
   const { g } = p, all = findArrows(p);
   const size = list => largest(list.map(a => Math.hypot(a.fx, a.fy)));
   const free = run.blocks.filter(b => !b.held).map(({ box: B }) => (B[2] - B[0]) * (B[3] - B[1]));
-  const contacts = size(all.filter(a => a.kind === 1 || a.kind === 2));
+  const contacts = size(all.filter(a => a.kind < 3));
   const length = Math.max(16, Math.min(48, 0.9 * p.s * Math.sqrt(largest(free))));
   return ARROWS.flatMap(([kind, name, unit, colour, dash]) => {
     const mine = all.filter(a => a.kind === kind), most = size(mine), line = css(colour);
     for (const { x, y, fx, fy } of mine) {
       const l = Math.hypot(fx, fy) * (kind < 3 ? length / contacts : 40 / most);
-      const turn = Math.atan2(-fy, fx), tip = kind < 3 ? l : 0, head = Math.min(6, l / 2);
-      if (l >= 2)
-        paint(g, () => trace(g, [[tip - l, 0], [tip, 0]]), { line, width: 2, dash }, [x, y], turn);
-      if (l >= 2)
-        paint(g, () => trace(g, [[tip - head, head / 2], [tip, 0], [tip - head, -head / 2]]),
-          { line, width: 2 }, [x, y], turn);
+      const tip = kind < 3 ? l : 0, head = tip - Math.min(6, l / 2), half = (tip - head) / 2;
+      const draw = (points, style) => l >= 2 && paint(g, () => trace(g, points),
+        { line, width: 2, ...style }, [x, y], Math.atan2(-fy, fx));
+      draw([[tip - l, 0], [tip, 0]], { dash });
+      draw([[head, half], [tip, 0], [head, -half]]);
     }
     return mine.length ? [[line, dash, `${name} ${quantity(most, unit)}`]] : [];
   });
@@ -225,13 +224,13 @@ function drawLegend({ g, w, h, s, magnify }, legend, bar) {
     x += length + 22 + g.measureText(text).width;
   }
   g.textAlign = 'right';
-  if (bar)
-    g.fillText(`${bar.name}: ${quantity(bar.low, bar.unit)} to ${quantity(bar.high, bar.unit)}`,
-      w - 14, 42);
   if (magnify !== 1)
     g.fillText(`displacements x ${magnify}`, w - 14, 62);
-  times(bar ? 200 : 0, k => paint(g, () => g.rect(w - 214 + k, 12, 1.5, 12),
-    { fill: viridis(k / 199) }));
+  if (!bar)
+    return;
+  g.fillText(`${bar.name}: ${quantity(bar.low, bar.unit)} to ${quantity(bar.high, bar.unit)}`,
+    w - 14, 42);
+  times(100, k => paint(g, () => g.rect(w - 214 + 2 * k, 12, 3, 12), { fill: viridis(k / 99) }));
 }
 
 function drawPicture(frame, look) {

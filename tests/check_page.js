@@ -103,6 +103,9 @@ async function checkSliderAndLink() {
   await type('#when', '40', 'input');
   assert.match(await text('say'), /^step 40 of 100\s+t = 0.4 s/);
   await p.shot('slider');
+  await p.do('run.bytes = 2 * ROOM, keepFrame()');      /* every second picture goes */
+  for (const [frame, wanted] of [[0, 'run.frames[0]'], [1000, 'run.frames.at(-1)']])
+    assert(await p.do(`goTo(${frame}), shown() === ${wanted}`), `frame ${frame} has gone`);
 }
 
 async function checkClicks() {
