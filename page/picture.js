@@ -60,23 +60,23 @@ function paint(g, path, { fill, line, width = 1.3, dash = [] }, place = [0, 0], 
   g.restore();
 }
 
+/* The box around two boxes, each from x, y to x, y. */
+const join = ([a, b, c, d], [A, B, C, D]) =>
+  [Math.min(a, A), Math.min(b, B), Math.max(c, C), Math.max(d, D)];
+
 /* The blocks: their elements, edges, boxes, tints, and whether all of one is held. */
 function findShape() {
   const [frame] = run.frames, blocks = [];
   const block = b => blocks[b] ??= { held: true, elements: [], edges: [],
     box: [Infinity, Infinity, -Infinity, -Infinity] };
   for (const [x, y, , , held, b] of rows(frame, 'v')) {
-    const { box: [x0, y0, x1, y1] } = block(b);
-    block(b).box = [Math.min(x0, x), Math.min(y0, y), Math.max(x1, x), Math.max(y1, y)];
+    block(b).box = join(block(b).box, [x, y, x, y]);
     block(b).held &&= held === 3;
   }
   rows(frame, 'e').forEach((e, k) => block(e[22]).elements.push([k, e[23], e[24]]));
   rows(run, 'd').forEach(([a, b, of]) => block(of).edges.push([a, b]));
   blocks.forEach((b, k) => { b.tint = chooseTint(blocks.slice(0, k), b.box); });
-  const ends = k => blocks.map(b => b.box[k]);
-  Object.assign(run, { blocks, v: frame.v });
-  run.box = [Math.min(...ends(0)), Math.min(...ends(1)), Math.max(...ends(2)),
-    Math.max(...ends(3))];
+  Object.assign(run, { blocks, v: frame.v, box: blocks.map(b => b.box).reduce(join) });
 }
 
 /* The one whose nearest block is farthest, as choose_tint in scene.c. */
