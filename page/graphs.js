@@ -11,27 +11,13 @@ function findTicks(values, n) {
   return times(Math.max(1, Math.ceil(high / step - 0.02) - first) + 1, k => (first + k) * step);
 }
 
-/* Names of the curves with their lines, in rows. Returns where the rows end. */
-function drawNames(g, w, curves) {
-  let x = 6, y = 11;
-  for (const { name, line, dash } of curves) {
-    const width = 31 + g.measureText(name).width;
-    if (x + width > w)
-      [x, y] = [6, y + 15];
-    paint(g, () => trace(g, [[x, y], [x + 20, y]]), { line, dash, width: 1.8 });
-    g.fillText(name, x + 23, y + 4);
-    x += width;
-  }
-  return y + 13;
-}
-
 /* Curves [name, values], one scale for all; bands [low, high] of `expect`. */
 function drawGraph(id, unit, all, bands = []) {
   const { g, w, h } = begin(id), ink = css('--ink'), left = 68, right = w - 8, bottom = h - 8;
   const curves = all.map(([name, values], k) =>
     ({ name, values, line: css(COLOURS[k % 5]), dash: DASHES[k % 6] }));
   Object.assign(g, { font: `12px ${css('--sans')}`, fillStyle: ink });
-  const top = drawNames(g, w, curves), n = run.frames.length - 1;
+  const top = drawNames(g, w, 11, curves) + 13, n = run.frames.length - 1;
   const ticks = findTicks([0, ...bands.flat(), ...all.flatMap(c => c[1])], (bottom - top) / 28);
   const low = ticks[0], high = ticks.at(-1);
   const X = k => left + (right - left) * k / Math.max(1, n);
@@ -43,7 +29,8 @@ function drawGraph(id, unit, all, bands = []) {
     paint(g, () => trace(g, [[left, Y(a)], [right, Y(a)]]), { line: css('--line'), width: 0.7 });
     g.fillText(quantity(a, unit), left - 5, Y(a) + 4);
   }
-  paint(g, () => g.rect(X(at < 0 ? n : at) - 1, top, 2, bottom - top), { fill: css('--pick') });
+  const now = X(view.at < 0 ? n : view.at);
+  paint(g, () => trace(g, [[now, top], [now, bottom]]), { line: css('--pick'), width: 2 });
   for (const { values, line, dash } of curves)
     paint(g, () => trace(g, values.map((a, k) => [X(k), Y(a)])), { line, dash, width: 1.8 });
 }
@@ -69,9 +56,9 @@ function drawGraphs(frame) {
 /* The solver's order; the row and column of an element that is picked. */
 function drawPattern() {
   const off = rows({ k: numbersOf('k') }, 'k'), places = rows(shown(), 'e').map(e => e[25]);
-  const { g, w } = begin('K'), n = places.length, q = w / n, at = q * places[picked.element];
+  const { g, w } = begin('K'), n = places.length, q = w / n, at = q * places[view.element];
   const dot = (i, j) => g.rect(j * q, i * q, Math.max(1, q - 0.4), Math.max(1, q - 0.4));
-  if (picked.element >= 0)
+  if (view.element >= 0)
     paint(g, () => { g.rect(0, at, w, Math.max(2, q)); g.rect(at, 0, Math.max(2, q), w); },
       { fill: css('--band') });
   paint(g, () => times(n, i => dot(i, i)), { fill: css('--ink') });

@@ -43,7 +43,7 @@ const fillIn = (table, x) => table.map(([name, k, unit]) => line([name, x[k], x[
 const blockOf = edge => textOf('b', run.d[3 * edge + 2]);
 const nameOf = ([corner, edge]) => `node ${textOf('n', run.d[3 * corner])} of ` +
   `${blockOf(corner)} on ${blockOf(edge)}`;
-const isPicked = c => c[0] === picked.contact[0] && c[1] === picked.contact[1];
+const isPicked = c => c[0] === view.contact[0] && c[1] === view.contact[1];
 
 /* The row that led a contact from state to state in a look: the first that fits if it renewed
  * friction, or found tension; else the last. */
@@ -65,20 +65,20 @@ function tellContact(frame) {
   fill('about', c ? [line(['state', STATES[c[2]], '']), ...fillIn(OF_CONTACT, c)] : []);
   is('why').textContent = !c ? 'not near in this step'
     : `Now ${sentence(rowOf({}, [0, 0, c[2], c[2]]))}. Last change, ${last}.`;
-  return `contact, ${nameOf(picked.contact)}`;
+  return `contact, ${nameOf(view.contact)}`;
 }
 
 function tellElement(frame) {
-  const e = rows(frame, 'e')[picked.element];
+  const e = rows(frame, 'e')[view.element];
   fill('about', [line(['', 'D', 'V [1/s]']), ...fillIn(OF_ELEMENT, e)]);
-  return `element ${textOf('e', picked.element)} of block ${textOf('b', e[22])}`;
+  return `element ${textOf('e', view.element)} of block ${textOf('b', e[22])}`;
 }
 
 function tell(frame) {
   fill('about', []);
   is('why').textContent = '';
-  is('who').textContent = picked.contact ? tellContact(frame)
-    : picked.element >= 0 ? tellElement(frame) : 'Click an element or a contact';
+  is('who').textContent = view.contact ? tellContact(frame)
+    : view.element >= 0 ? tellElement(frame) : 'Click an element or a contact';
   fill('facts', fillIn(OF_STEP, frame));
 }
 
@@ -95,11 +95,11 @@ function looksOf({ p = [] }) {
 
 /* The look in hand, as a sentence and a table; what it changes stands first. */
 function tellLook(frame) {
-  const looks = looksOf(frame), look = looks[lookAt], contacts = look?.contacts ?? [];
+  const looks = looksOf(frame), look = looks[view.look], contacts = look?.contacts ?? [];
   const changed = contacts.filter(c => isChange(look, c));
-  const solution = looks.slice(0, lookAt + 1).filter(l => l.what !== LISTED).length;
+  const solution = looks.slice(0, view.look + 1).filter(l => l.what !== LISTED).length;
   is('look').textContent = !look ? 'No step has been done yet: press Step.'
-    : `Step ${frame.step}${frame.failure ? ', which failed' : ''}, look ${lookAt + 1} of ` +
+    : `Step ${frame.step}${frame.failure ? ', which failed' : ''}, look ${view.look + 1} of ` +
     `${looks.length}, after solution ${solution}: ` +
     `${WHY[look.what === JUDGED && !changed.length ? 5 : look.what]}. ${changed.length} of ` +
     `${contacts.length} changed${frame.dynamic ? `; h = ${format(look.h)} s` : ''}.`;

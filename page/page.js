@@ -5,11 +5,10 @@ const is = id => document.getElementById(id);
 const WORK = 12, LARGE = 5000;  /* ms of steps between two pictures; unknowns */
 const NUMBER = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
 const EXERCISES = {};                           /* of the chapters: title, model, text */
-let playing = false, turns = 0, at = -1, lookAt = 0;    /* at: the frame in hand; -1: the last */
-let picked = { element: -1, contact: null }, task = null, hasPredicted = false;
+let playing = false, turns = 0, task = null, hasPredicted = false;
 
 /* The frame in hand, or the one before that has kept its arrays. */
-const shown = () => run.frames.slice(0, at < 0 ? undefined : at + 1).findLast(f => f.v);
+const shown = () => run.frames.slice(0, view.at < 0 ? undefined : view.at + 1).findLast(f => f.v);
 
 /* ------------------------------------------------------------------------ the model */
 
@@ -54,13 +53,11 @@ function load() {
   if (said)
     return false;
   findShape();
-  at = -1;
-  lookAt = 0;
   hasPredicted = false;
   fill('what', run.monitors.flatMap(m => [`${m} u`, `${m} v`])
     .map(text => new Option(text, text, false, text === is('what').value)));
   document.title = `${textOf('t')} - bbm`;
-  pick(-1, null);
+  setView({ ...NEWEST, ...NONE });
   return true;
 }
 
@@ -114,16 +111,14 @@ function work(once) {
   let more = true;
   while (more && performance.now() - start < WORK)
     more = stepModel() && !(once && run.frames.at(-1).begun);
-  at = -1;
-  lookAt = 0;
   play(more, once);
-  show();
+  setView(NEWEST);
 }
 
 function show() {
-  const f = shown(), isOver = run.state === 1 && at < 0, isInside = is('inside').checked;
+  const f = shown(), isOver = run.state === 1 && view.at < 0, isInside = is('inside').checked;
   is('when').max = run.frames.length - 1;
-  is('when').value = at < 0 ? run.frames.length - 1 : at;
+  is('when').value = view.at < 0 ? run.frames.length - 1 : view.at;
   is('say').textContent = !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}`
     : `step ${f.step} of ${f.steps}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
     (f.failure && '  failed');
@@ -141,31 +136,23 @@ function show() {
 
 /* ------------------------------------------------------------------------ hands */
 
-function pick(element, contact) {
-  picked = { element: Math.min(element, rows(shown(), 'e').length - 1), contact };
-  show();
-}
-
-const pickClosed = k => pick(-1, rows(shown(), 'c').filter(c => c[2])[k]);
-
-function goTo(frame) {
-  play(false);
-  at = frame >= run.frames.length - 1 ? -1 : Math.max(0, frame);
-  lookAt = 0;
-  show();
-}
-
-function moveLook(by) {
-  lookAt = Math.max(0, Math.min(looksOf(shown()).length - 1, lookAt + by));
-  show();
-}
-
 function setView(changes) {
   Object.assign(view, changes);
   show();
 }
 
 const zoom = f => setView({ zoom: f * view.zoom, x: f * view.x, y: f * view.y });
+const pick = (element, contact) =>
+  setView({ element: Math.min(element, rows(shown(), 'e').length - 1), contact });
+const pickClosed = k => pick(-1, rows(shown(), 'c').filter(c => c[2])[k]);
+
+function goTo(frame) {
+  play(false);
+  setView({ at: frame >= run.frames.length - 1 ? -1 : Math.max(0, frame), look: 0 });
+}
+
+const moveLook = by =>
+  setView({ look: Math.max(0, Math.min(looksOf(shown()).length - 1, view.look + by)) });
 
 /* The link has a name of the gallery, and the text. */
 function makeLink() {
@@ -184,8 +171,8 @@ function followLink() {
 /* Of the keys: what has no button or box with data-key. */
 const KEYS = { 0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
   Escape: () => is('full').checked && is('full').click(),
-  ArrowLeft: () => goTo((at < 0 ? run.frames.length - 1 : at) - 1),
-  ArrowRight: () => at >= 0 && goTo(at + 1) };
+  ArrowLeft: () => goTo((view.at < 0 ? run.frames.length : view.at + 1) - 2),
+  ArrowRight: () => view.at >= 0 && goTo(view.at + 1) };
 
 function pressKey(event) {
   const { key, target, ctrlKey, metaKey } = event, isPressed = key === ' ' || key === 'Enter';

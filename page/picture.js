@@ -1,6 +1,8 @@
 /* picture.js - the blocks on a canvas, with the tints, colours and symbols of the SVGs (scene.c).
  *
- * `view` has what a person chooses; findShape gathers what stays as long as the model does. */
+ * `view` has what a person chooses: the part of the model; the frame, -1 for the newest, and the
+ * look at it; what is picked; magnify, 0 for as it finds best; the colour. findShape gathers what
+ * stays as long as the model does. */
 'use strict';
 
 const TINTS = ['#f6cf8b', '#b3dcf5', '#8fd3bd', '#f7f0a6', '#e6c3d7', '#eba98f'];
@@ -9,8 +11,9 @@ const VIRIDIS = ('#440154 #482878 #3e4a89 #31688e #26828e #1f9e89 #35b779 #6dcd5
 /* Arrows: the state of a contact, or 3 and 4 for a load; its name, unit, colour, dashes. */
 const ARROWS = [[1, 'locked', 'N', '--lock', []], [2, 'sliding', 'N', '--slide', [4, 3]],
   [3, 'load', 'N', '--load', []], [4, 'load', 'N/m', '--load', []]];
-const WHOLE = { zoom: 1, x: 0, y: 0 };
-const view = { ...WHOLE, magnify: 0, colour: 'block' };         /* 0: as it finds best */
+const WHOLE = { zoom: 1, x: 0, y: 0 }, NEWEST = { at: -1, look: 0 };
+const NONE = { element: -1, contact: null };
+const view = { ...WHOLE, ...NEWEST, ...NONE, magnify: 0, colour: 'block' };
 
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const largest = values => values.reduce((a, b) => Math.max(a, b), 0);
@@ -201,7 +204,7 @@ function drawForces(p) {
       draw([[tip - l, 0], [tip, 0]], { dash });
       draw([[head, half], [tip, 0], [head, -half]]);
     }
-    return mine.length ? [[line, dash, `${name} ${quantity(most, unit)}`]] : [];
+    return mine.length ? [{ name: `${name} ${quantity(most, unit)}`, line, dash }] : [];
   });
 }
 
@@ -212,39 +215,46 @@ function drawState(g, place, state, r) {
   { fill: css(['--paper', '--lock', '--slide'][state]), line: css('--ink') }, place);
 }
 
-function drawLegend({ g, w, h, s, magnify }, legend, bar) {
-  const metre = roundDown(120 / s), ink = css('--ink');
-  let x = 12;
-  g.font = `14px ${css('--sans')}`;
-  g.fillStyle = ink;
-  for (const [line, dash, text, length = 26] of [[ink, [], quantity(metre, 'm'), metre * s],
-    ...legend]) {
-    paint(g, () => trace(g, [[x, h - 14], [x + length, h - 14]]), { line, width: 2, dash });
-    g.fillText(text, x + length + 6, h - 9);
-    x += length + 22 + g.measureText(text).width;
+/* Names beside their lines, in rows from y on. Returns the y of the last one. */
+function drawNames(g, w, y, names) {
+  let x = 8;
+  for (const { name, line, dash, length = 20 } of names) {
+    const width = length + 12 + g.measureText(name).width;
+    if (x + width > w)
+      [x, y] = [8, y + 15];
+    paint(g, () => trace(g, [[x, y], [x + length, y]]), { line, dash, width: 1.8 });
+    g.fillText(name, x + length + 4, y + 4);
+    x += width;
   }
+  return y;
+}
+
+function drawLegend({ g, w, h, s, magnify }, legend, field) {
+  const metre = roundDown(120 / s), ink = css('--ink');
+  Object.assign(g, { font: `14px ${css('--sans')}`, fillStyle: ink });
+  const bar = { name: quantity(metre, 'm'), line: ink, length: metre * s };
+  drawNames(g, w, h - 14, [bar, ...legend]);
   g.textAlign = 'right';
   if (magnify !== 1)
     g.fillText(`displacements x ${magnify}`, w - 14, 62);
-  if (!bar)
+  if (!field)
     return;
-  g.fillText(`${bar.name}: ${quantity(bar.low, bar.unit)} to ${quantity(bar.high, bar.unit)}`,
-    w - 14, 42);
+  const [low, high] = [field.low, field.high].map(a => quantity(a, field.unit));
+  g.fillText(`${field.name}: ${low} to ${high}`, w - 14, 42);
   times(100, k => paint(g, () => g.rect(w - 214 + 2 * k, 12, 3, 12), { fill: viridis(k / 99) }));
 }
 
 function drawPicture(frame, look) {
-  const p = painter(frame), { g } = p, bar = drawBlocks(p), line = css('--pick');
+  const p = painter(frame), { g } = p, field = drawBlocks(p), line = css('--pick');
   drawSupports(p);
   const legend = is('forces').checked && !look ? drawForces(p) : [];
   for (const [corner, , from, to] of look?.contacts ?? [])
     drawState(g, p.corner(corner), to, from === to ? 4 : 7);
-  if (picked.element >= 0)
-    paint(g, () => p.outline(rows(frame, 'e')[picked.element].subarray(22)),
-      { line, width: 4 });
-  if (picked.contact)
-    paint(g, () => g.arc(...p.corner(picked.contact[0]), 12, 0, 7), { line, width: 3 });
-  drawLegend(p, legend, bar);
+  if (view.element >= 0)
+    paint(g, () => p.outline(rows(frame, 'e')[view.element].subarray(22)), { line, width: 4 });
+  if (view.contact)
+    paint(g, () => g.arc(...p.corner(view.contact[0]), 12, 0, 7), { line, width: 3 });
+  drawLegend(p, legend, field);
 }
 
 /* What lies at a pixel: an element, -1 if there is none; and a contact. */
