@@ -144,6 +144,15 @@ async function checkRows() {
     assert(before === '' || before === from && why && after.startsWith(to), `${from} ${to}`);
 }
 
+/* What may take long is said before it begins. */
+async function checkLarge() {
+  await type('#text', `material a E 1e9 nu 0.2 density 1\nfix box 0 0 0 1\nload at 9 1 0 -1\n` +
+    'static\ngrid plate a 0 0 9 1 90 10\n', 'input');
+  await p.until('rows(shown(), "e").length === 900');
+  assert.equal(await p.do('is("run").click(), is("say").textContent'), 'solving 5400 unknowns');
+  assert.equal(await runAll(null, null), '');
+}
+
 async function checkErrors() {
   const good = read(`${models}incline.model`), hack = '<img src=x onerror=hacked=1>',
     file = `${folder}/incline.model`;
@@ -216,8 +225,8 @@ async function checkKeys() {
   checkFile();
   await checkBits();
   p = await open(url, folder);
-  for (const check of [checkRuns, checkSliderAndLink, checkClicks, checkRows, checkErrors,
-      checkExercises, checkKeys])
+  for (const check of [checkRuns, checkSliderAndLink, checkClicks, checkRows, checkLarge,
+      checkErrors, checkExercises, checkKeys])
     await check();
   assert.deepEqual(p.errors, []);
   assert(p.requests.every(r => r.split('#')[0] === url), `${p.requests}`);
