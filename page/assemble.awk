@@ -1,12 +1,13 @@
 # assemble.awk - page/page.html with what it names, as one file:
 #     awk -f page/assemble.awk page/page.html out/bbm.wasm MODEL ...
 #
-# @include FILE stands for the text of a file. @files stands for all others, in base64, so that
+# @include FILE ... stands for the text of files. @files stands for all others, in base64, so that
 # nothing in them is markup; their names are those behind the last slash.
 
 $1 == "@include" {
-    while ((getline line < $2) > 0)
-        print line
+    for (k = 2; k <= NF; k++)
+        while ((getline line < $k) > 0)
+            print line
     next
 }
 

@@ -2,7 +2,7 @@
  * step, pass by pass. Texts go in as text alone. */
 'use strict';
 
-/* The table of states of doc/06-contact.md is put before these rows, which it does not have. */
+/* [from, why, to]: the table of states of doc/06-contact.md is put before these, which it lacks. */
 const ROWS = [['SLIDE', 'friction would wedge it in: tan(phi) dN/dF > 1', 'OPEN'],
   ['', 'its corner has gone past the end of the edge: handed on to the next one', '']];
 const WHY = ['The contacts are listed, with the states in which this attempt begins',
@@ -43,33 +43,42 @@ const fillIn = (table, x) => table.map(([name, k, unit]) => line([name, x[k], x[
 const blockOf = edge => textOf('b', run.d[3 * edge + 2]);
 const nameOf = ([corner, edge]) => `node ${textOf('n', run.d[3 * corner])} of ` +
   `${blockOf(corner)} on ${blockOf(edge)}`;
-const sentence = k => ROWS[k].filter(word => word).join(': ');
-const isPicked = c => c[0] === picked.contact[0] && c[1] === picked.contact[1];
-const changes = c => c[2] !== c[3] || c[7] === 7;
+const isPicked = c => c[0] === view.contact[0] && c[1] === view.contact[1];
+
+/* The row that led a contact from state to state in a look: the first that fits if it renewed
+ * friction, or found tension; else the last. */
+function rowOf({ what }, [, , from, to, , , , isTension]) {
+  const fit = ROWS.filter(([a, , b]) => a === STATES[from] && b.startsWith(STATES[to]));
+  return what === DONE && from !== to ? ROWS.at(-1)
+    : fit.at((from === to ? what === FRICTION : isTension) ? 0 : -1);
+}
+
+const sentence = row => row.filter(word => word).join(': ');
+const isChange = (look, c) => c[2] !== c[3] || look.what === FRICTION && c[3] === SLIDE;
 
 /* What it carries, the row that keeps it, and the one that changed it last. */
 function tellContact(frame) {
   const c = rows(frame, 'c').find(isPicked), until = run.frames.indexOf(frame) + 1;
   const last = run.frames.slice(Math.max(0, until - 300), until).flatMap(f =>
-    looksOf(f).flatMap(look => look.contacts).filter(l => isPicked(l) && l[2] !== l[3])
-      .map(l => `step ${f.step}: ${sentence(l[7])}`)).at(-1) ?? 'none';
+    looksOf(f).flatMap(look => look.contacts.filter(l => isPicked(l) && l[2] !== l[3])
+      .map(l => `step ${f.step}: ${sentence(rowOf(look, l))}`))).at(-1) ?? 'none';
   fill('about', c ? [line(['state', STATES[c[2]], '']), ...fillIn(OF_CONTACT, c)] : []);
-  is('why').textContent = c ? `Now ${sentence(c[10])}. Last change, ${last}.`
-    : 'not near in this step';
-  return `contact, ${nameOf(picked.contact)}`;
+  is('why').textContent = !c ? 'not near in this step'
+    : `Now ${sentence(rowOf({}, [0, 0, c[2], c[2]]))}. Last change, ${last}.`;
+  return `contact, ${nameOf(view.contact)}`;
 }
 
 function tellElement(frame) {
-  const e = rows(frame, 'e')[picked.element];
+  const e = rows(frame, 'e')[view.element];
   fill('about', [line(['', 'D', 'V [1/s]']), ...fillIn(OF_ELEMENT, e)]);
-  return `element ${textOf('e', picked.element)} of block ${textOf('b', e[22])}`;
+  return `element ${textOf('e', view.element)} of block ${textOf('b', e[22])}`;
 }
 
 function tell(frame) {
   fill('about', []);
   is('why').textContent = '';
-  is('who').textContent = picked.contact ? tellContact(frame)
-    : picked.element >= 0 ? tellElement(frame) : 'Click an element or a contact';
+  is('who').textContent = view.contact ? tellContact(frame)
+    : view.element >= 0 ? tellElement(frame) : 'Click an element or a contact';
   fill('facts', fillIn(OF_STEP, frame));
 }
 
@@ -86,17 +95,18 @@ function looksOf({ p = [] }) {
 
 /* The look in hand, as a sentence and a table; what it changes stands first. */
 function tellLook(frame) {
-  const looks = looksOf(frame), look = looks[lookAt], contacts = look?.contacts ?? [];
-  const changed = contacts.filter(changes), rest = contacts.filter(c => !changes(c));
-  const solution = looks.slice(0, lookAt + 1).filter(l => l.what > 0).length;
+  const looks = looksOf(frame), look = looks[view.look], contacts = look?.contacts ?? [];
+  const changed = contacts.filter(c => isChange(look, c));
+  const solution = looks.slice(0, view.look + 1).filter(l => l.what !== LISTED).length;
   is('look').textContent = !look ? 'No step has been done yet: press Step.'
-    : `Step ${frame.step}${frame.failed ? ' + 1, which failed' : ''}, look ${lookAt + 1} of ` +
+    : `Step ${frame.step}${frame.failure ? ', which failed' : ''}, look ${view.look + 1} of ` +
     `${looks.length}, after solution ${solution}: ` +
-    `${WHY[look.what === 1 && !changed.length ? 5 : look.what]}. ${changed.length} of ` +
+    `${WHY[look.what === JUDGED && !changed.length ? 5 : look.what]}. ${changed.length} of ` +
     `${contacts.length} changed${frame.dynamic ? `; h = ${format(look.h)} s` : ''}.`;
   fill('changes', [line(['contact', 'was', 'becomes', 'N [N]', 'T [N]', 'd_n [m]', 'why']),
-    ...[...changed, ...rest].slice(0, 200).map(c => line([nameOf(c), STATES[c[2]], STATES[c[3]],
-      c[4], c[5], c[6], look.what ? ROWS[c[7]][1] : 'as it began'],
-    { className: changes(c) ? 'changed' : '', onclick: () => pick(-1, c) }))]);
+    ...[...new Set([...changed, ...contacts])].slice(0, 200).map(c => line([nameOf(c),
+      STATES[c[2]], STATES[c[3]], c[4], c[5], c[6],
+      look.what === LISTED ? 'as it began' : rowOf(look, c)[1]],
+    { className: isChange(look, c) ? 'changed' : '', onclick: () => pick(-1, c) }))]);
   return look;
 }

@@ -1,12 +1,14 @@
 /* model.js - the library in WebAssembly: loads a model, steps, and keeps what has been computed.
  *
  * `run` is the model in hand. A frame has the facts and monitors of a step and the arrays of
- * page.h; after a while every second one loses its arrays. */
+ * page.h; after a while every second one loses its arrays, but not the last one. */
 'use strict';
 
-const STRIDE = { v: 6, e: 26, d: 3, c: 11, l: 4, x: 5, k: 2 }, ARRAYS = [...'veclxp'];
+const STRIDE = { v: 6, e: 26, d: 3, c: 10, l: 4, x: 5, k: 2 }, ARRAYS = [...'veclxp'];
 const FACTS = ('step t steps dynamic settling settle begun dt passes iterations residual cuts ' +
   'contacts penetration candidates change kinetic elastic springs work gained scale').split(' ');
+/* States of contacts; what precedes a look at them, as in page.h. */
+const STATES = ['OPEN', 'LOCK', 'SLIDE'], SLIDE = 2, LISTED = 0, JUDGED = 1, FRICTION = 2, DONE = 4;
 const ROOM = 150e6;                             /* bytes of all frames */
 const files = new Map();
 let wasm, run = null, warnings = '';            /* what is allowed and hardly meant, a line each */
@@ -47,7 +49,7 @@ function loadModel(name, text) {
   wasm.page_free(said ? handle : run?.handle ?? 0);
   if (said)
     return said;
-  run = { handle, name, frames: [], bytes: 0, state: 0, failure: '' };
+  run = { handle, name, frames: [], bytes: 0, state: 0 };
   run.d = numbersOf('d');
   keepFrame();
   run.monitors = times(run.frames[0].o.length / 2, k => textOf('o', k));
@@ -58,27 +60,27 @@ function loadModel(name, text) {
 
 /* While the model settles there is one frame alone, the present one. */
 function keepFrame() {
-  const facts = numbersOf('f'), frame = { o: facts.slice(FACTS.length) };
+  const facts = numbersOf('f'), failure = run.state === 2 ? textOf('m') : '';
+  const frame = { o: facts.slice(FACTS.length), failure };
   FACTS.forEach((name, k) => { frame[name] = facts[k]; });
   ARRAYS.forEach(what => { frame[what] = numbersOf(what); });
   frame.said = rows(frame, 'x').map((_, k) => textOf('x', k));
+  if (failure)
+    frame.step = Math.min(frame.step + 1, frame.steps);
   if (run.frames.at(-1)?.begun === 0)
     run.frames.pop();
   run.frames.push(frame);
   run.bytes += ARRAYS.reduce((sum, what) => sum + frame.begun * frame[what].byteLength, 0);
   if (run.bytes > ROOM) {
     run.bytes /= 2;
-    run.frames.filter(f => f.v).forEach((f, k) => ARRAYS.forEach(what => k % 2 && delete f[what]));
+    run.frames.filter(f => f.v).forEach((f, k, all) => ARRAYS.forEach(what =>
+      k % 2 && k < all.length - 1 && delete f[what]));
   }
-  return frame;
 }
 
 /* One step; whether there may be another. */
 function stepModel() {
   run.state = wasm.page_step(run.handle);
-  const frame = keepFrame();
-  frame.failed = run.state === 2;
-  if (frame.failed)
-    run.failure = textOf('m');
+  keepFrame();
   return run.state === 0;
 }

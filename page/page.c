@@ -1,4 +1,5 @@
 /* page.c - what the page calls, see page.h. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -10,7 +11,7 @@
 #include "page.h"
 
 /* s that a step may take; numbers of the looks at a step. */
-enum { LIMIT = 10, LOOKS = 2000000 };
+enum { LIMIT = 60, LOOKS = 2000000 };
 
 typedef struct { int n, room, failed; double *x; } numbers;
 
@@ -45,24 +46,6 @@ static void put(numbers *a, int n, const double x[])
 
 /* ------------------------------------------------------------------------- inside a step */
 
-/* The row that has led from a state to that of the contact, by what the solution shows. */
-static int row_of(int from, const bbm_contact *c, int what)
-{
-    static const int row[3][3] = {
-        { PAGE_STAYS_OPEN, PAGE_LOCKS, PAGE_CLOSES_SLIDING },
-        { PAGE_OPENS, PAGE_STAYS_LOCKED, PAGE_SLIPS },
-        { PAGE_LIFTS, PAGE_TURNS_BACK, PAGE_STAYS_SLIDING },
-    };
-    const int found = row[from][c->state], tension = c->N < -c->strength.tension;
-
-    if (what == PAGE_DONE && from != (int)c->state)
-        return PAGE_HANDED_ON;
-    if (what == PAGE_FRICTION && found == PAGE_STAYS_SLIDING)
-        return PAGE_OTHER_N;
-    return found == PAGE_SLIPS && tension ? PAGE_PULLED
-         : found == PAGE_LIFTS && !tension ? PAGE_WEDGED : found;
-}
-
 static void note_look(page *g, const bbm_contact list[], int n, int what)
 {
     const int count = g->look.n + 3;
@@ -81,7 +64,7 @@ static void note_look(page *g, const bbm_contact list[], int n, int what)
         if (from == BBM_OPEN && c->state == BBM_OPEN)
             continue;
         PUT(&g->look, c->corner, c->edge, from, c->state, c->N, c->T, c->d_n,
-            row_of(from, c, what));
+            c->N < -c->strength.tension);
         g->look.x[count]++;
     }
 }
@@ -143,6 +126,8 @@ int page_step(page *g)
         run_says(&g->r, g->status, g->said);
     else if (g->look.n > 0)
         note_look(g, g->p.m->contact, g->p.m->contacts, PAGE_DONE);
+    if (g->status == BBM_STOPPED)
+        sprintf(strchr(g->said, 0), ", which took more than %d s", LIMIT);
     return page_state(g);
 }
 
@@ -180,8 +165,7 @@ static void put_contacts(page *g, const bbm_model *m)
         double f[2];
         scene_contact_force(m, c, c->N, c->T, f);
         PUT(&g->out, c->corner, c->edge, c->state, f[0], f[1], c->N, c->T, c->d_n,
-            bbm_shear_strength(&c->strength, c->N), c->slip,
-            row_of((int)c->state, c, PAGE_JUDGED));
+            bbm_shear_strength(&c->strength, c->N), c->slip);
     }
 }
 

@@ -30,26 +30,18 @@ const char *page_text(page *g, int what, int k);
  *     e  of each element: D[6] V[6] sxx syy sxy szz mises, the way of its centre, E nu
  *        density thickness block, first vertex, how many, its place in K
  *     d  of each boundary edge: its vertices a b, its block
- *     c  of each contact: corner edge state fx fy N T d_n strength slip row
+ *     c  of each contact: corner edge state fx fy N T d_n strength slip
  *     l  of each load: vertices a b (-1: at a point), fx fy in N or N/m
  *     k  of each submatrix below the diagonal of K: row column
  *     f  facts of the step; then u v of each monitor
  *     x  of each expectation: monitor kind value within met
  *     p  of each look at the contacts in the last step: t h what count; and of each that is closed
- *        before or after: corner edge from to N T d_n row */
+ *        before or after: corner edge from to N T d_n, whether in tension */
 int     page_numbers(page *g, int what);
 double *page_data(page *g);
 
 /* What has preceded a look: the contacts were listed anew; the states were judged; friction has got
  * the N of the solution, states were not judged; F alone is new; the step is done. */
 enum { PAGE_LISTED, PAGE_JUDGED, PAGE_FRICTION, PAGE_SAME_K, PAGE_DONE };
-
-/* Rows of the table of states in doc/06-contact.md, in its order. Then: friction would wedge a
- * contact in, so that it opens; a contact has been handed on to the next edge. */
-enum {
-    PAGE_STAYS_OPEN, PAGE_LOCKS, PAGE_CLOSES_SLIDING, PAGE_OPENS, PAGE_PULLED, PAGE_SLIPS,
-    PAGE_STAYS_LOCKED, PAGE_OTHER_N, PAGE_LIFTS, PAGE_TURNS_BACK, PAGE_STAYS_SLIDING, PAGE_WEDGED,
-    PAGE_HANDED_ON
-};
 
 #endif

@@ -2,14 +2,13 @@
 'use strict';
 
 const is = id => document.getElementById(id);
-const WORK = 12;                                /* ms of steps between two pictures */
+const WORK = 12, LARGE = 5000;  /* ms of steps between two pictures; unknowns */
 const NUMBER = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
 const EXERCISES = {};                           /* of the chapters: title, model, text */
-let playing = false, next = 0, at = -1, lookAt = 0;     /* at: the frame in hand; -1: the last */
-let picked = { element: -1, contact: null }, task = null, hasPredicted = false;
+let playing = false, turns = 0, task = null, hasPredicted = false;
 
 /* The frame in hand, or the one before that has kept its arrays. */
-const shown = () => run.frames.slice(0, at < 0 ? undefined : at + 1).findLast(f => f.v);
+const shown = () => run.frames.slice(0, view.at < 0 ? undefined : view.at + 1).findLast(f => f.v);
 
 /* ------------------------------------------------------------------------ the model */
 
@@ -54,12 +53,11 @@ function load() {
   if (said)
     return false;
   findShape();
-  at = -1;
-  lookAt = 0;
   hasPredicted = false;
-  fill('what', run.monitors.flatMap(m => [new Option(`${m} u`), new Option(`${m} v`)]));
+  fill('what', run.monitors.flatMap(m => [`${m} u`, `${m} v`])
+    .map(text => new Option(text, text, false, text === is('what').value)));
   document.title = `${textOf('t')} - bbm`;
-  pick(-1, null);
+  setView({ ...NEWEST, ...NONE });
   return true;
 }
 
@@ -69,6 +67,9 @@ function choose(name, text) {
   text ??= files.get(`gallery/${task?.model ?? name}`) ?? `# there is no ${name} here`;
   is('gallery').value = name;
   is('text').value = task ? text.replace(/^ *(#|expect).*\n/gm, '') : text;
+  is('edit').scrollTop = 0;
+  Object.assign(view, WHOLE);
+  is('exercise').reset();
   is('exercise').hidden = !task;
   fill('task', [make('b', {}, task?.title ?? ''), make('p', {}, task?.text ?? '')]);
   makeSliders();
@@ -93,42 +94,36 @@ function mayRun() {
   return (!task || hasPredicted) && run?.state === 0;
 }
 
-function play(on) {
+/* Runs or pauses; or takes one step, after those that settle. A picture comes first, so that it is
+ * said before what may take long. */
+function play(on, once = false) {
+  const turn = ++turns, unknowns = run ? 6 * rows(shown(), 'e').length : 0;
   playing = on && mayRun();
-  is('run').textContent = playing ? 'Pause' : 'Run';
-  cancelAnimationFrame(next);
+  is('run').textContent = playing && !once ? 'Pause' : 'Run';
+  if (playing && unknowns > LARGE)
+    is('say').textContent = `solving ${unknowns} unknowns`;
   if (playing)
-    next = requestAnimationFrame(work);
+    requestAnimationFrame(() => setTimeout(() => turn === turns && work(once)));
 }
 
-function work() {
+function work(once) {
   const start = performance.now();
   let more = true;
   while (more && performance.now() - start < WORK)
-    more = stepModel();
-  at = -1;
-  play(more);
-  show();
-}
-
-/* One step; settling counts as one. */
-function oneStep() {
-  play(false);
-  if (!mayRun())
-    return;
-  while (stepModel() && !run.frames.at(-1).begun);
-  goTo(run.frames.length);
+    more = stepModel() && !(once && run.frames.at(-1).begun);
+  play(more, once);
+  setView(NEWEST);
 }
 
 function show() {
-  const f = shown(), isOver = run.state === 1 && at < 0, isInside = is('inside').checked;
+  const f = shown(), isOver = run.state === 1 && view.at < 0, isInside = is('inside').checked;
   is('when').max = run.frames.length - 1;
-  is('when').value = at < 0 ? run.frames.length - 1 : at;
+  is('when').value = view.at < 0 ? run.frames.length - 1 : view.at;
   is('say').textContent = !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}`
     : `step ${f.step} of ${f.steps}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
-    (f.failed ? '  failed' : '');
-  if (run.failure)
-    showError(`${run.name}: ${run.failure}`);
+    (f.failure && '  failed');
+  if (f.failure)
+    showError(`${run.name}: ${f.failure}`);
   fill('expected', [...warnings.split('\n').filter(word => word).map(word => make('div', {}, word)),
     ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
       `${isOver ? 'expected' : 'so far'}: ${f.said[k]}`))]);
@@ -136,30 +131,10 @@ function show() {
   tell(f);
   if (!isInside)
     drawGraphs(f);
-  if (!playing)
-    drawPattern();
+  drawPattern();
 }
 
 /* ------------------------------------------------------------------------ hands */
-
-function pick(element, contact) {
-  picked = { element: Math.min(element, rows(shown(), 'e').length - 1), contact };
-  show();
-}
-
-const pickClosed = k => pick(-1, rows(shown(), 'c').filter(c => c[2])[k]);
-
-function goTo(frame) {
-  play(false);
-  at = frame >= run.frames.length - 1 ? -1 : Math.max(0, frame);
-  lookAt = 0;
-  show();
-}
-
-function moveLook(by) {
-  lookAt = Math.max(0, Math.min(looksOf(shown()).length - 1, lookAt + by));
-  show();
-}
 
 function setView(changes) {
   Object.assign(view, changes);
@@ -167,6 +142,17 @@ function setView(changes) {
 }
 
 const zoom = f => setView({ zoom: f * view.zoom, x: f * view.x, y: f * view.y });
+const pick = (element, contact) =>
+  setView({ element: Math.min(element, rows(shown(), 'e').length - 1), contact });
+const pickClosed = k => pick(-1, rows(shown(), 'c').filter(c => c[2])[k]);
+
+function goTo(frame) {
+  play(false);
+  setView({ at: frame >= run.frames.length - 1 ? -1 : Math.max(0, frame), look: 0 });
+}
+
+const moveLook = by =>
+  setView({ look: Math.max(0, Math.min(looksOf(shown()).length - 1, view.look + by)) });
 
 /* The link has a name of the gallery, and the text. */
 function makeLink() {
@@ -182,21 +168,21 @@ function followLink() {
   show();
 }
 
-const KEYS = { ' ': oneStep, Enter: () => play(!playing), r: load,
-  0: () => setView({ zoom: 1, x: 0, y: 0 }), '+': () => zoom(1.25), '-': () => zoom(0.8),
-  f: () => is('full').click(), Escape: () => is('full').checked && is('full').click(),
-  l: () => is('inside').click(), '[': () => moveLook(-1), ']': () => moveLook(1),
-  ArrowLeft: () => goTo((at < 0 ? run.frames.length - 1 : at) - 1),
-  ArrowRight: () => at >= 0 && goTo(at + 1) };
+/* Of the keys: what has no button or box with data-key. */
+const KEYS = { 0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
+  Escape: () => is('full').checked && is('full').click(),
+  ArrowLeft: () => goTo((view.at < 0 ? run.frames.length : view.at + 1) - 2),
+  ArrowRight: () => view.at >= 0 && goTo(view.at + 1) };
 
 function pressKey(event) {
   const { key, target, ctrlKey, metaKey } = event, isPressed = key === ' ' || key === 'Enter';
   const isOwn = target.matches('textarea, select, input:not([type=checkbox])') ||
     isPressed && target.matches('button, input');
-  if (!(key in KEYS) || ctrlKey || metaKey || isOwn && key !== 'Escape')
+  const button = document.querySelector(`[data-key=${CSS.escape(key)}]`);
+  if (!KEYS[key] && !button || ctrlKey || metaKey || isOwn && key !== 'Escape')
     return;
   event.preventDefault();
-  KEYS[key]();
+  KEYS[key] ? KEYS[key]() : button.click();
 }
 
 /* Drags the picture, or picks what a click is at. */
@@ -228,9 +214,8 @@ function readExercises(text) {
 async function start() {
   const models = [], bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
   let later;
-  const fail = e => showError(`The page has failed: ${e.reason ?? e.message}`);
-  addEventListener('error', fail);
-  addEventListener('unhandledrejection', fail);
+  for (const kind of ['error', 'unhandledrejection'])
+    addEventListener(kind, e => showError(`The page has failed: ${e.reason ?? e.message}`));
   for (const { dataset: { file }, textContent } of document.querySelectorAll('[data-file]')) {
     const text = new TextDecoder().decode(bytes(textContent));
     files.set(file, text).set('gallery/' + file, text);

@@ -1,16 +1,19 @@
 /* picture.js - the blocks on a canvas, with the tints, colours and symbols of the SVGs (scene.c).
  *
- * `view` has what a person chooses; findShape gathers what stays as long as the model does. */
+ * `view` has what a person chooses: the part of the model; the frame, -1 for the newest, and the
+ * look at it; what is picked; magnify, 0 for as it finds best; the colour. findShape gathers what
+ * stays as long as the model does. */
 'use strict';
 
 const TINTS = ['#f6cf8b', '#b3dcf5', '#8fd3bd', '#f7f0a6', '#e6c3d7', '#eba98f'];
-const VIRIDIS = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142],
-  [31, 158, 137], [53, 183, 121], [109, 205, 89], [180, 222, 44], [253, 231, 37]];
-const STATES = ['OPEN', 'LOCK', 'SLIDE'];
+const VIRIDIS = ('#440154 #482878 #3e4a89 #31688e #26828e #1f9e89 #35b779 #6dcd59 #b4de2c ' +
+  '#fde725').split(' ');
 /* Arrows: the state of a contact, or 3 and 4 for a load; its name, unit, colour, dashes. */
 const ARROWS = [[1, 'locked', 'N', '--lock', []], [2, 'sliding', 'N', '--slide', [4, 3]],
   [3, 'load', 'N', '--load', []], [4, 'load', 'N/m', '--load', []]];
-const view = { zoom: 1, x: 0, y: 0, magnify: 0, colour: 'block' };      /* 0: as it finds best */
+const WHOLE = { zoom: 1, x: 0, y: 0 }, NEWEST = { at: -1, look: 0 };
+const NONE = { element: -1, contact: null };
+const view = { ...WHOLE, ...NEWEST, ...NONE, magnify: 0, colour: 'block' };
 
 const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const largest = values => values.reduce((a, b) => Math.max(a, b), 0);
@@ -20,6 +23,12 @@ function quantity(x, unit) {
   const power = x === 0 ? 0 : Math.floor(Math.log10(Math.abs(x)) / 3 + 1e-9);
   const p = Math.max(-3, Math.min(3, power));
   return `${+(x / 1000 ** p).toPrecision(3)} ${['n', 'u', 'm', '', 'k', 'M', 'G'][p + 3]}${unit}`;
+}
+
+/* The largest of ..., 1, 2, 5, 10, ... that is not above x. */
+function roundDown(x) {
+  const ten = 10 ** Math.floor(Math.log10(x) + 1e-9);
+  return ten * ([5, 2].find(f => f * ten <= x * (1 + 1e-9)) ?? 1);
 }
 
 /* A canvas as sharp as the screen, empty. */
@@ -54,33 +63,33 @@ function paint(g, path, { fill, line, width = 1.3, dash = [] }, place = [0, 0], 
   g.restore();
 }
 
+/* The box around two boxes, each from x, y to x, y. */
+const join = ([a, b, c, d], [A, B, C, D]) =>
+  [Math.min(a, A), Math.min(b, B), Math.max(c, C), Math.max(d, D)];
+
 /* The blocks: their elements, edges, boxes, tints, and whether all of one is held. */
 function findShape() {
   const [frame] = run.frames, blocks = [];
   const block = b => blocks[b] ??= { held: true, elements: [], edges: [],
     box: [Infinity, Infinity, -Infinity, -Infinity] };
   for (const [x, y, , , held, b] of rows(frame, 'v')) {
-    const { box: [x0, y0, x1, y1] } = block(b);
-    block(b).box = [Math.min(x0, x), Math.min(y0, y), Math.max(x1, x), Math.max(y1, y)];
+    block(b).box = join(block(b).box, [x, y, x, y]);
     block(b).held &&= held === 3;
   }
   rows(frame, 'e').forEach((e, k) => block(e[22]).elements.push([k, e[23], e[24]]));
   rows(run, 'd').forEach(([a, b, of]) => block(of).edges.push([a, b]));
   blocks.forEach((b, k) => { b.tint = chooseTint(blocks.slice(0, k), b.box); });
-  const ends = k => blocks.map(b => b.box[k]);
-  Object.assign(run, { blocks, v: frame.v });
-  run.box = [Math.min(...ends(0)), Math.min(...ends(1)), Math.max(...ends(2)),
-    Math.max(...ends(3))];
+  Object.assign(run, { blocks, v: frame.v, box: blocks.map(b => b.box).reduce(join) });
 }
 
 /* The one whose nearest block is farthest, as choose_tint in scene.c. */
-function chooseTint(others, A) {
+function chooseTint(others, [x0, y0, x1, y1]) {
   const nearest = TINTS.map(() => Infinity);
-  for (const { held, box: B, tint } of others) {
-    const gap = [0, 1].map(k => Math.max(0, A[k] - B[k + 2], B[k] - A[k + 2]));
-    const way = [0, 1].map(k => (A[k] + A[k + 2] - B[k] - B[k + 2]) / 2);
+  for (const { held, box: [X0, Y0, X1, Y1], tint } of others) {
+    const gap = Math.hypot(Math.max(0, x0 - X1, X0 - x1), Math.max(0, y0 - Y1, Y0 - y1));
+    const way = Math.hypot(x0 + x1 - X0 - X1, y0 + y1 - Y0 - Y1) / 2;
     if (!held)
-      nearest[tint] = Math.min(nearest[tint], Math.hypot(...gap) + 0.01 * Math.hypot(...way));
+      nearest[tint] = Math.min(nearest[tint], gap + 0.01 * way);
   }
   return nearest.indexOf(Math.max(...nearest));
 }
@@ -90,9 +99,7 @@ function findMagnification(frame) {
   const most = largest(rows(frame, 'v').map(v => Math.hypot(v[2], v[3])));
   const [x0, y0, x1, y1] = run.box, size = Math.max(x1 - x0, y1 - y0);
   const wanted = most > 1e-12 * size ? 0.1 * size / most : 1;
-  const ten = 10 ** Math.floor(Math.log10(wanted));
-  return frame.dynamic ? 1 : frame.scale ||
-    Math.max(1, ten * [5, 2, 1].find(f => f * ten <= wanted));
+  return frame.dynamic ? 1 : frame.scale || Math.max(1, roundDown(wanted));
 }
 
 /* From metres to pixels, so that the model as it begins fits between the margins. */
@@ -105,7 +112,7 @@ function findScale(w, h) {
 
 function viridis(share) {
   const k = Math.min(8, Math.floor(9 * share));
-  return `rgb(${VIRIDIS[k].map((c, i) => c + (9 * share - k) * (VIRIDIS[k + 1][i] - c))})`;
+  return `color-mix(in srgb, ${VIRIDIS[k + 1]} ${100 * (9 * share - k)}%, ${VIRIDIS[k]})`;
 }
 
 /* What draws a frame: g, the canvas; at[v], the pixels of a vertex; the outline of an element. */
@@ -114,7 +121,8 @@ function painter(frame) {
   const { s, to } = findScale(p.w, p.h), m = p.magnify - 1;
   const at = rows(frame, 'v').map(([x, y, u, v]) => to(x + m * u, y + m * v));
   const outline = ([, first, n]) => trace(p.g, at.slice(first, first + n), true);
-  return { ...p, s, at, outline, corner: d => at[run.d[3 * d]] };
+  const thin = Math.min(1, Math.sqrt(p.w * p.h / run.blocks.length) / 30);     /* for many blocks */
+  return { ...p, s, at, outline, thin, corner: d => at[run.d[3 * d]] };
 }
 
 function hatch() {
@@ -126,19 +134,20 @@ function hatch() {
   return g.createPattern(tile, 'repeat');
 }
 
-/* Returns the field that the colours show, with its range. */
-function drawBlocks({ g, frame, outline, at }) {
+/* Returns the field that the colours show, with its range in the blocks that are free. */
+function drawBlocks({ g, frame, outline, at, thin }) {
   const [name, of, unit] = OF_ELEMENT.find(row => row[0] === view.colour) ?? [], held = hatch();
-  const values = of ? rows(frame, 'e').map(e => e[of]) : [];
-  const low = Math.min(...values), high = Math.max(...values);
+  const free = run.blocks.filter(b => !b.held).flatMap(b => b.elements);
+  const values = of ? free.map(([k]) => frame.e[STRIDE.e * k + of]) : [];
+  const high = Math.max(...values), least = Math.min(...values);
+  const low = Math.abs(least) < 1e-6 * high ? 0 : least;
+  values.forEach((a, k) => paint(g, () => outline(free[k]),
+    { fill: viridis((a - low) / (high - low || 1)) }));
   for (const block of run.blocks) {
     const fill = block.held ? held : of ? null : TINTS[block.tint];
-    for (const e of of && !block.held ? block.elements : [])
-      paint(g, () => outline(e),
-        { fill: viridis(high > low ? (values[e[0]] - low) / (high - low) : 0.5) });
-    paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5, fill });
+    paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5 * thin, fill });
     paint(g, () => block.edges.forEach(([a, b]) => trace(g, [at[a], at[b]])),
-      { line: css('--ink') });
+      { line: css('--ink'), width: 1.3 * thin });
   }
   return name && { name, unit, low, high };
 }
@@ -167,8 +176,8 @@ function drawSupports({ g, at }) {
 /* Contact forces act on what is carried, so they point up. Loads end where they act, those of an
  * edge 16 pixels apart. */
 function findArrows({ frame, at, corner }) {
-  const arrows = rows(frame, 'c').map(([c, , kind, fx, fy]) => ({ kind, x: corner(c)[0],
-    y: corner(c)[1], fx: fy < 0 ? -fx : fx, fy: Math.abs(fy) }));
+  const arrows = rows(frame, 'c').filter(c => c[2]).map(([c, , kind, fx, fy]) => ({ kind,
+    x: corner(c)[0], y: corner(c)[1], fx: fy < 0 ? -fx : fx, fy: Math.abs(fy) }));
   for (const [a, b, fx, fy] of rows(frame, 'l')) {
     const [xa, ya] = at[a], [xb, yb] = at[b] ?? at[a];
     const n = Math.max(1, Math.floor(Math.hypot(xb - xa, yb - ya) / 16));
@@ -183,20 +192,19 @@ function drawForces(p) {
   const { g } = p, all = findArrows(p);
   const size = list => largest(list.map(a => Math.hypot(a.fx, a.fy)));
   const free = run.blocks.filter(b => !b.held).map(({ box: B }) => (B[2] - B[0]) * (B[3] - B[1]));
-  const contacts = size(all.filter(a => a.kind === 1 || a.kind === 2));
+  const contacts = size(all.filter(a => a.kind < 3));
   const length = Math.max(16, Math.min(48, 0.9 * p.s * Math.sqrt(largest(free))));
   return ARROWS.flatMap(([kind, name, unit, colour, dash]) => {
     const mine = all.filter(a => a.kind === kind), most = size(mine), line = css(colour);
     for (const { x, y, fx, fy } of mine) {
       const l = Math.hypot(fx, fy) * (kind < 3 ? length / contacts : 40 / most);
-      const turn = Math.atan2(-fy, fx), tip = kind < 3 ? l : 0, head = Math.min(6, l / 2);
-      if (l >= 2)
-        paint(g, () => trace(g, [[tip - l, 0], [tip, 0]]), { line, width: 2, dash }, [x, y], turn);
-      if (l >= 2)
-        paint(g, () => trace(g, [[tip - head, head / 2], [tip, 0], [tip - head, -head / 2]]),
-          { line, width: 2 }, [x, y], turn);
+      const tip = kind < 3 ? l : 0, head = tip - Math.min(6, l / 2), half = (tip - head) / 2;
+      const draw = (points, style) => l >= 2 && paint(g, () => trace(g, points),
+        { line, width: 2, ...style }, [x, y], Math.atan2(-fy, fx));
+      draw([[tip - l, 0], [tip, 0]], { dash });
+      draw([[head, half], [tip, 0], [head, -half]]);
     }
-    return mine.length ? [[line, dash, `${name} ${quantity(most, unit)}`]] : [];
+    return mine.length ? [{ name: `${name} ${quantity(most, unit)}`, line, dash }] : [];
   });
 }
 
@@ -207,39 +215,46 @@ function drawState(g, place, state, r) {
   { fill: css(['--paper', '--lock', '--slide'][state]), line: css('--ink') }, place);
 }
 
-function drawLegend({ g, w, h, s, magnify }, legend, bar) {
-  const metre = 10 ** Math.floor(Math.log10(120 / s)), ink = css('--ink');
-  let x = 12;
-  g.font = `14px ${css('--sans')}`;
-  g.fillStyle = ink;
-  for (const [line, dash, text, length = 26] of [[ink, [], quantity(metre, 'm'), metre * s],
-    ...legend]) {
-    paint(g, () => trace(g, [[x, h - 14], [x + length, h - 14]]), { line, width: 2, dash });
-    g.fillText(text, x + length + 6, h - 9);
-    x += length + 22 + g.measureText(text).width;
+/* Names beside their lines, in rows from y on. Returns the y of the last one. */
+function drawNames(g, w, y, names) {
+  let x = 8;
+  for (const { name, line, dash, length = 20 } of names) {
+    const width = length + 12 + g.measureText(name).width;
+    if (x + width > w)
+      [x, y] = [8, y + 15];
+    paint(g, () => trace(g, [[x, y], [x + length, y]]), { line, dash, width: 1.8 });
+    g.fillText(name, x + length + 4, y + 4);
+    x += width;
   }
+  return y;
+}
+
+function drawLegend({ g, w, h, s, magnify }, legend, field) {
+  const metre = roundDown(120 / s), ink = css('--ink');
+  Object.assign(g, { font: `14px ${css('--sans')}`, fillStyle: ink });
+  const bar = { name: quantity(metre, 'm'), line: ink, length: metre * s };
+  drawNames(g, w, h - 14, [bar, ...legend]);
   g.textAlign = 'right';
-  if (bar)
-    g.fillText(`${bar.name}: ${quantity(bar.low, bar.unit)} to ${quantity(bar.high, bar.unit)}`,
-      w - 14, 42);
   if (magnify !== 1)
     g.fillText(`displacements x ${magnify}`, w - 14, 62);
-  times(bar ? 200 : 0, k => paint(g, () => g.rect(w - 214 + k, 12, 1.5, 12),
-    { fill: viridis(k / 199) }));
+  if (!field)
+    return;
+  const [low, high] = [field.low, field.high].map(a => quantity(a, field.unit));
+  g.fillText(`${field.name}: ${low} to ${high}`, w - 14, 42);
+  times(100, k => paint(g, () => g.rect(w - 214 + 2 * k, 12, 3, 12), { fill: viridis(k / 99) }));
 }
 
 function drawPicture(frame, look) {
-  const p = painter(frame), { g } = p, bar = drawBlocks(p), line = css('--pick');
+  const p = painter(frame), { g } = p, field = drawBlocks(p), line = css('--pick');
   drawSupports(p);
   const legend = is('forces').checked && !look ? drawForces(p) : [];
   for (const [corner, , from, to] of look?.contacts ?? [])
     drawState(g, p.corner(corner), to, from === to ? 4 : 7);
-  if (picked.element >= 0)
-    paint(g, () => p.outline(rows(frame, 'e')[picked.element].subarray(22)),
-      { line, width: 4 });
-  if (picked.contact)
-    paint(g, () => g.arc(...p.corner(picked.contact[0]), 12, 0, 7), { line, width: 3 });
-  drawLegend(p, legend, bar);
+  if (view.element >= 0)
+    paint(g, () => p.outline(rows(frame, 'e')[view.element].subarray(22)), { line, width: 4 });
+  if (view.contact)
+    paint(g, () => g.arc(...p.corner(view.contact[0]), 12, 0, 7), { line, width: 3 });
+  drawLegend(p, legend, field);
 }
 
 /* What lies at a pixel: an element, -1 if there is none; and a contact. */

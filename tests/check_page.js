@@ -103,6 +103,9 @@ async function checkSliderAndLink() {
   await type('#when', '40', 'input');
   assert.match(await text('say'), /^step 40 of 100\s+t = 0.4 s/);
   await p.shot('slider');
+  await p.do('run.bytes = 2 * ROOM, keepFrame()');      /* every second picture goes */
+  for (const [frame, wanted] of [[0, 'run.frames[0]'], [1000, 'run.frames.at(-1)']])
+    assert(await p.do(`goTo(${frame}), shown() === ${wanted}`), `frame ${frame} has gone`);
 }
 
 async function checkClicks() {
@@ -131,6 +134,25 @@ async function checkClicks() {
   await push('inside');
 }
 
+/* Each change of a state is by a row of the table that is of these states. */
+async function checkRows() {
+  await runAll('dominoes.model');
+  const used = await p.do(`[...new Set(run.frames.flatMap(f => looksOf(f).flatMap(look =>
+    look.contacts.map(c => [STATES[c[2]], STATES[c[3]], ...rowOf(look, c)].join('|')))))]`);
+  assert(used.length >= 9, used);
+  for (const [from, to, before, why, after] of used.map(row => row.split('|')))
+    assert(before === '' || before === from && why && after.startsWith(to), `${from} ${to}`);
+}
+
+/* What may take long is said before it begins. */
+async function checkLarge() {
+  await type('#text', `material a E 1e9 nu 0.2 density 1\nfix box 0 0 0 1\nload at 9 1 0 -1\n` +
+    'static\ngrid plate a 0 0 9 1 90 10\n', 'input');
+  await p.until('rows(shown(), "e").length === 900');
+  assert.equal(await p.do('is("run").click(), is("say").textContent'), 'solving 5400 unknowns');
+  assert.equal(await runAll(null, null), '');
+}
+
 async function checkErrors() {
   const good = read(`${models}incline.model`), hack = '<img src=x onerror=hacked=1>',
     file = `${folder}/incline.model`;
@@ -144,6 +166,7 @@ async function checkErrors() {
     error.split(':')[1]);
   await p.shot('error');
   await push('step');                           /* of the model before, which is alive */
+  await p.until('!playing');
   assert.match(await text('say'), /^step 1 of 100/);
   fs.writeFileSync(file, good.replace(/^dynamic.*/m, 'static').replace(/^title.*/m,
     `title </script><script>hacked=1</script>${hack}`));
@@ -182,7 +205,10 @@ async function checkExercises() {
 }
 
 async function checkKeys() {
-  const press = key => p.send('Input.dispatchKeyEvent', { type: 'keyDown', key, text: key });
+  const press = async key => {
+    await p.send('Input.dispatchKeyEvent', { type: 'keyDown', key, text: key });
+    await p.until('!playing');
+  };
   await p.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme',
     value: 'dark' }] });
   await p.go(`${url}#model=dominoes.model`);
@@ -199,8 +225,8 @@ async function checkKeys() {
   checkFile();
   await checkBits();
   p = await open(url, folder);
-  for (const check of [checkRuns, checkSliderAndLink, checkClicks, checkErrors, checkExercises,
-      checkKeys])
+  for (const check of [checkRuns, checkSliderAndLink, checkClicks, checkRows, checkLarge,
+      checkErrors, checkExercises, checkKeys])
     await check();
   assert.deepEqual(p.errors, []);
   assert(p.requests.every(r => r.split('#')[0] === url), `${p.requests}`);
