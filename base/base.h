@@ -68,8 +68,7 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
                                 /*          and the mean length of its edges                    */
     double deep;                /* m        of closed contacts in its line, in that first edge  */
     bbm_direction along;        /* from a to b, at present                                      */
-    int    contact, pair;       /* where those of the corner a begin: in model.contact, and in  */
-                                /* the list of pairs                                            */
+    int    contact;             /* where those of the corner a begin in model.contact           */
 };
 
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
@@ -356,6 +355,7 @@ struct bbm_method {
  * any order, either way round, repeats allowed. */
 bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                              /* takes NULL           */
+int        bbm_compare_pairs(const void *p, const void *q);     /* by their first two integers  */
 static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
 
 /* solver.c: K D = F, section 4. Rows that no pairs connect, however indirectly, are solved apart:
