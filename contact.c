@@ -186,15 +186,6 @@ bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolera
 
 /* --------------------------------------------------------------------- the contacts of a step */
 
-static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_element *i = &m->element[bbm_element_of(m, c->corner)];
-    const bbm_element *j = &m->element[bbm_element_of(m, c->edge)];
-
-    return (bbm_touch){ i, j, bbm_start_of(m, c->corner), bbm_end_of(m, c->edge),
-                        bbm_start_of(m, c->edge), c->rest };
-}
-
 /* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s. */
 static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
 {
@@ -291,7 +282,7 @@ void bbm_assemble_contacts(bbm_model *m)
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
-        const bbm_touch t = touch_of(m, c);
+        const bbm_touch t = bbm_touch_of(m, c);
         bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
         if (c->state == BBM_OPEN)
             continue;
@@ -320,7 +311,7 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
 /* d_n and d_s, from an anchor, by the vectors of the step. */
 static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
-    const bbm_touch t = touch_of(m, c);
+    const bbm_touch t = bbm_touch_of(m, c);
     bbm_spring n, s;
 
     bbm_normal_vectors(&t, &n);

@@ -223,6 +223,14 @@ static inline const double *bbm_D_of(const bbm_model *m, int edge)
     return &m->D[6 * m->edge[edge].element];
 }
 
+/* The elements and points of a contact. */
+static inline bbm_touch bbm_touch_of(const bbm_model *m, const bbm_contact *c)
+{
+    return (bbm_touch){ &m->element[bbm_element_of(m, c->corner)],
+                        &m->element[bbm_element_of(m, c->edge)], bbm_start_of(m, c->corner),
+                        bbm_end_of(m, c->edge), bbm_start_of(m, c->edge), c->rest };
+}
+
 /* Displacement of the point (x, y) by D: u = T D, or a hook's. */
 static inline void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x,
                             double y, double u[2])

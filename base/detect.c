@@ -618,19 +618,17 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
  * start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
-    const bbm_element *i = &m->element[bbm_element_of(m, c->corner)];
-    const bbm_element *j = &m->element[bbm_element_of(m, c->edge)];
-    const bbm_vertex *P1 = bbm_start_of(m, c->corner), *P2 = bbm_end_of(m, c->edge);
-    const bbm_vertex *P3 = bbm_start_of(m, c->edge);
+    const bbm_touch t = bbm_touch_of(m, c);
+    const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3;
     const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
     const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
     const double l = hypot(P3->x - P2->x, P3->y - P2->y);
     double u1[2], u2[2], u3[2], u0[2];
 
-    bbm_move(m, i, Di, P1->x, P1->y, u1);
-    bbm_move(m, j, Dj, P2->x, P2->y, u2);
-    bbm_move(m, j, Dj, P3->x, P3->y, u3);
-    bbm_move(m, j, Dj, x0, y0, u0);
+    bbm_move(m, t.i, Di, P1->x, P1->y, u1);
+    bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
+    bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
+    bbm_move(m, t.j, Dj, x0, y0, u0);
     const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
     const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
     d[0] = (x * py - y * px) / l;

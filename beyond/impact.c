@@ -41,9 +41,7 @@
 
 static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n, bbm_spring *s)
 {
-    const bbm_touch t = { &m->element[bbm_element_of(m, c->corner)],
-                          &m->element[bbm_element_of(m, c->edge)], bbm_start_of(m, c->corner),
-                          bbm_end_of(m, c->edge), bbm_start_of(m, c->edge), 0 };
+    const bbm_touch t = bbm_touch_of(m, c);
 
     bbm_normal_vectors(&t, n);
     bbm_shear_vectors(&t, c->anchor, s);
