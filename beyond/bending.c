@@ -11,7 +11,6 @@
  * elements lack: the bond is rigid in its middle and bends as the material would. A fixed edge is
  * a bond with the wall, whose mirror image bends alike.
  */
-#include <math.h>
 #include <string.h>
 
 #include "beyond.h"

@@ -7,8 +7,6 @@
 #ifndef BBM_BEYOND_H
 #define BBM_BEYOND_H
 
-#include <stddef.h>
-
 #include "../base/base.h"
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */

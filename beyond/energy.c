@@ -15,7 +15,6 @@
  * energy by that. There the balance is left alone, or only told.
  */
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "beyond.h"

@@ -27,7 +27,6 @@
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

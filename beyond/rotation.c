@@ -24,7 +24,6 @@
  * in each pass whose solution has another D. Statics and `rotation` BBM_LINEAR, the paper's way,
  * keep T.
  */
-#include <math.h>
 #include <string.h>
 
 #include "beyond.h"

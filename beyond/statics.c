@@ -14,7 +14,6 @@
  * falls, and these are named. Else nothing was found, which is said as well; and the model is what
  * it was.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
