@@ -144,7 +144,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check = check,
         .begin = begin,
         .listed = listed,
-        .find_pairs = bbm_sweep,
+        .find_pairs = bbm_find_near_pairs,
         .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,

@@ -147,8 +147,18 @@ bbm_status bbm_lay_out_sliding(bbm_model *m);
 int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                                  bbm_submatrices *s);
 
-/* sweep.c, joints.c */
-bbm_status bbm_sweep(bbm_model *m, double search);
+/* sweep.c */
+typedef struct {                /* around an edge or element, m                                 */
+    double low[3], high[3];     /* along the axis of the sweep, x and y                         */
+    int    of;
+} bbm_box;
+bbm_box    bbm_empty_box(int of);
+void       bbm_widen_box(bbm_box *b, double x, double y, double wide);
+void       bbm_sort_boxes(int n, bbm_box *b);
+int        bbm_next_meeting(int n, const bbm_box *b, int *i, int *j);
+bbm_status bbm_find_near_pairs(bbm_model *m, double search);
+
+/* joints.c */
 bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
                          double tension);
 void       bbm_joint_strength(const bbm_model *m, bbm_contact *c);

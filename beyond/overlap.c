@@ -8,7 +8,7 @@
  * At the start, elements of different blocks or of one block overlap if one of these points lies in
  * the other element: a corner; the middle of a part of a side between two sides of the other
  * element, as of bars that cross; a point within, if both elements are the same. The deepest of
- * them is told. Candidates are elements whose circumscribed circles overlap.
+ * them is told. Candidates are elements whose boxes meet, see sweep.c.
  *
  * In a step the rules by which contacts are listed and closed keep corners outside. Should a step
  * let one pass all the same - two soft corners that glance off each other and turn - it starts the
@@ -126,29 +126,13 @@ static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
     }
 }
 
-/* Around an element; it has a boundary edge; the place of the next one that has. */
-typedef struct { int element, outer, next; double x, y, r; } circle;
-
-static int compare_circles(const void *p, const void *q)
+static int has_boundary_edge(const bbm_model *m, int i)
 {
-    const circle *a = p, *b = q;
-    const double d = (a->x - a->r) - (b->x - b->r);
+    int edges = 0;
 
-    return d != 0 ? (d > 0 ? 1 : -1) : a->element - b->element;
-}
-
-static circle circle_of(const bbm_model *m, int e)
-{
-    const int n = m->element[e].n;
-    circle c = { .element = e };
-
-    for (int k = 0; k < n; k++) {
-        c.x += corner_of(m, e, k).x / n;
-        c.y += corner_of(m, e, k).y / n;
-    }
-    for (int k = 0; k < n; k++)
-        c.r = fmax(c.r, hypot(corner_of(m, e, k).x - c.x, corner_of(m, e, k).y - c.y));
-    return c;
+    for (int v = m->element[i].first; v < m->element[i].first + m->element[i].n; v++)
+        edges += m->vertex[v].edge >= 0;
+    return edges > 0;
 }
 
 /* Looks for the two elements of a prepared model, one of them with a boundary edge, that overlap
@@ -157,31 +141,26 @@ static circle circle_of(const bbm_model *m, int e)
  * overlap ends at a boundary edge, whose element takes part. */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
 {
-    const int n = m->elements;
-    circle *s = malloc((size_t)n * sizeof *s);
+    bbm_box *b = malloc((size_t)m->elements * sizeof *b);
     double length = 0;
 
-    if (!s)
+    if (!b)
         return BBM_NO_MEMORY;
-    for (int e = 0; e < n; e++)
-        s[e] = circle_of(m, e);
-    for (int e = 0; e < m->edges; e++) {
+    for (int e = 0; e < m->edges; e++)
         length += m->edge[e].along.length;
-        s[m->edge[e].element].outer = 1;
-    }
     *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
-    qsort(s, (size_t)n, sizeof *s, compare_circles);
-    for (int a = n - 1, outer = n; a >= 0; a--) {
-        s[a].next = outer;
-        outer = s[a].outer ? a : outer;
-        for (int b = s[a].outer ? a + 1 : outer; b < n && s[b].x - s[b].r < s[a].x + s[a].r;
-             b = s[a].outer ? b + 1 : s[b].next)
-            if (hypot(s[b].x - s[a].x, s[b].y - s[a].y) < s[a].r + s[b].r) {
-                probe_element(m, s[a].element, s[b].element, o);
-                probe_element(m, s[b].element, s[a].element, o);
-            }
+    for (int i = 0; i < m->elements; i++) {
+        b[i] = bbm_empty_box(i);
+        for (int k = 0; k < m->element[i].n; k++)
+            bbm_widen_box(&b[i], corner_of(m, i, k).x, corner_of(m, i, k).y, 0);
     }
-    free(s);
+    bbm_sort_boxes(m->elements, b);
+    for (int i = 0, j = 0; bbm_next_meeting(m->elements, b, &i, &j);)
+        if (has_boundary_edge(m, b[i].of) || has_boundary_edge(m, b[j].of)) {
+            probe_element(m, b[i].of, b[j].of, o);
+            probe_element(m, b[j].of, b[i].of, o);
+        }
+    free(b);
     return BBM_OK;
 }
 
