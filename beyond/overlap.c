@@ -214,18 +214,18 @@ static double depth_in_block(const bbm_model *m, point P, int edge, double allow
     return all.winding > 0 && sqrt(all.distance2) > allowed ? sqrt(all.distance2) : 0;
 }
 
-/* Whether the blocks i and j have a contact that is closed or has opened inside. */
-static int are_in_contact(const bbm_model *m, int i, int j)
+/* How deep the deepest of n contacts between blocks i and j is that is closed or has opened inside;
+ * -1: there is none. */
+static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int i, int j)
 {
-    int found = 0;
+    double depth = -1;
 
-    for (int k = 0; k < m->contacts && !found; k++) {
-        const bbm_contact *c = &m->contact[k];
+    for (; n > 0; n--, c++) {
         const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
-        found = ((p == i && q == j) || (p == j && q == i))
-             && (c->state != BBM_OPEN || c->inside);
+        if ((c->state != BBM_OPEN || c->inside) && ((p == i && q == j) || (p == j && q == i)))
+            depth = fmax(depth, fmax(0, -c->d_n));
     }
-    return found;
+    return depth;
 }
 
 /* Whether the corner moves out of the edge. */
@@ -264,25 +264,12 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
  * Else 0, and where it is on its way out. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
+    const int own = m->edge[corner].block, other = m->edge[edge].block;
     int nearest = edge;
     const double depth = depth_behind(m, corner, edge, &nearest);
 
     return depth == 0 || moves_out(m, corner, nearest)
-        || are_in_contact(m, m->edge[corner].block, m->edge[edge].block) ? 0 : depth;
-}
-
-/* The depth of the deepest closed contact of blocks i and j in the solution. */
-static double depth_between(const bbm_model *m, int i, int j)
-{
-    double depth = 0;
-
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
-        const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
-        if (c->state != BBM_OPEN && ((p == i && q == j) || (p == j && q == i)))
-            depth = fmax(depth, -c->d_n);
-    }
-    return depth;
+        || depth_between(m, m->contact, m->contacts, own, other) >= 0 ? 0 : depth;
 }
 
 /* Refuses a solution that lets a corner pass: its contact is not closed, nor was it, and it ends
@@ -290,15 +277,16 @@ static double depth_between(const bbm_model *m, int i, int j)
 bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
 {
     const bbm_contact *c = m->scratch->contact;
+    const int n = m->scratch->contacts;
 
-    for (int k = 0; k < m->scratch->contacts; k++) {
+    for (int k = 0; k < n; k++) {
         const int own = m->edge[c[k].corner].block, other = m->edge[c[k].edge].block;
         const bbm_vertex *P = bbm_start_of(end, c[k].corner);
         int nearest = c[k].edge;
         if (c[k].state != BBM_OPEN || c[k].d_n >= 0 || c[k].was_closed || c[k].inside)
             continue;
         const double depth = depth_behind(end, c[k].corner, c[k].edge, &nearest);
-        if (depth > DEEPER * depth_between(m, own, other))
+        if (depth > DEEPER * fmax(0, depth_between(m, c, n, own, other)))
             return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: a corner of block %d passes into block "
                             "%d at (%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
                             own, other, P->x + m->origin[0], P->y + m->origin[1], depth);
