@@ -147,10 +147,8 @@ struct bbm_contact_scratch {
 
 /* A hook's way to move points, in place of u = T D. */
 struct bbm_motion {
-    void (*matrix)(const bbm_element *e, double x, double y, double T[2][6]);
-                                                            /* T at the point (x, y)            */
-    void (*vectors)(const bbm_touch *c, double anchor, bbm_spring *n, bbm_spring *s);
-                                                            /* e and g; n or s may be NULL      */
+    void (*point)(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+                                                            /* T at (x, y), and where that is   */
     void (*move)(const double D[6], double X, double Y, double u[2]);
     void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
                                                             /* stress and V of one that moved   */
@@ -295,6 +293,7 @@ bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 
 /* bbm.c: 3.3, 3.4, assembly, the step */
+void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
 void       bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6]);
 double     bbm_mass_per_area(const bbm_element *e);                             /* M of (11)    */
 void       bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,

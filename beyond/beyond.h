@@ -122,7 +122,6 @@ double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u
 
 /* rotation.c */
 const bbm_motion *bbm_find_motion(const bbm_model *m);
-void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
 void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
