@@ -157,6 +157,7 @@ struct bbm_motion {
 struct bbm_middle {             /* of an element, whose T is taken in the middle of the step    */
     const bbm_motion *motion;
     double D[6];
+    double moment[2][2][2];     /* bending.c: of the starting shape; 0: not yet known           */
 };
 
 /* Functions that do a part of the step in another way than the paper. NULL: the paper's way. */

@@ -167,7 +167,7 @@ static double own_moment(const bbm_model *m, const bbm_element *e, int v, double
     const int edge = v - e->first, exact = e->middle != NULL;
     bbm_element shape = *e;
     bbm_vertex at[5];
-    double now[2][2][2], (*own)[2][2] = exact ? m->beyond->moment[e - m->element] : now;
+    double now[2][2][2], (*own)[2][2] = exact ? m->beyond->middle[e - m->element].moment : now;
 
     shape.A = exact ? e->A0 : e->A;
     for (int k = 0; k < 5; k++) {

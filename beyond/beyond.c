@@ -8,7 +8,6 @@
 static void free_prepared(bbm_beyond *b)
 {
     free(b->middle);
-    free(b->moment);
     free(b->end_element);
     free(b->end_vertex);
     free(b->support);
@@ -33,15 +32,13 @@ static bbm_status check(bbm_model *m)
 
     free_prepared(b);
     b->middle = calloc(n, sizeof *b->middle);
-    b->moment = calloc(n, sizeof *b->moment);
     b->end_element = calloc(n, sizeof *b->end_element);
     b->end_vertex = calloc((size_t)m->vertices, sizeof *b->end_vertex);
     b->support = calloc((size_t)m->nodes, sizeof *b->support);
     b->account = calloc(n, sizeof *b->account);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
-    if (!b->middle || !b->moment || !b->end_element || !b->end_vertex || !b->support
-        || !b->account)
+    if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account)
         return BBM_NO_MEMORY;
     bbm_note_springs(m, 0);
     return bbm_check_overlap(m);

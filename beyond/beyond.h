@@ -66,7 +66,6 @@ struct bbm_beyond {
     double h_before;            /* s        the last step                                       */
     bbm_contact *jump_of;       /* [contacts] impact.c: of the step that ends with the jump     */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
-    double (*moment)[2][2][2];  /* [elements], bending.c                                        */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     int edge_loads;
