@@ -172,12 +172,11 @@ struct bbm_hooks {
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
     void (*strength)(const bbm_model *m, bbm_contact *c);   /* sets c->strength, and c->area of */
                                                             /* one that touches at the start    */
-    bbm_status (*listed)(bbm_model *m);                     /* contacts and gaps are listed     */
+    bbm_status (*listed)(bbm_model *m);                     /* contacts, gaps; K may be new     */
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     void (*add_gap)(const bbm_gap *g, bbm_submatrices *s);  /* in place of (27), (28)           */
-    bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);

@@ -70,13 +70,15 @@ static bbm_status lay_out(bbm_model *m)
 }
 
 /* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
- * and in statics if all bodies are held. */
+ * and in statics if all bodies are held. A new K has no room for the terms of friction yet. */
 static bbm_status listed(bbm_model *m)
 {
+    bbm_status status = m->K->term ? BBM_OK : lay_out(m);
+
     bbm_set_middle(m);
     bbm_list_gaps(m);
     bbm_start_multipliers(m);
-    const bbm_status status = bbm_check_passed(m);
+    status = status ? status : bbm_check_passed(m);
     return status ? status : bbm_check_supports(m);
 }
 
@@ -148,7 +150,6 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .list_gaps = bbm_list_edge_gaps,
         .add_gap = bbm_weighted_submatrices,
         .motion = bbm_find_motion,
-        .lay_out = lay_out,
         .before_solution = bbm_interpolate_elements,
         .renew = renew,
         .accept = accept,
