@@ -251,9 +251,8 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
     const double x = P->x - a->x, y = P->y - a->y, u = b->x - a->x, v = b->y - a->y;
     const double s = x * u + y * v;
 
-    if (m->edge[corner].block == m->edge[edge].block || m->edge[corner].side != corner)
-        return 0;
-    if (x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
+    if (m->edge[corner].block == m->edge[edge].block || m->edge[corner].side != corner
+        || x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
         return 0;
     const double depth = depth_in_block(m, (point){ P->x, P->y }, edge,
                                         bbm_allowed_depth(m, corner, edge), nearest);

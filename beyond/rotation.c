@@ -128,18 +128,16 @@ void bbm_set_middle(bbm_model *m)
     }
 }
 
-/* Whether the turn of element i is another one than that of its T_m, by more than can be left. */
-static int is_off(const bbm_model *m, int i)
+/* By how much the turn of element i is another one than that of its T_m. */
+static double turn_off(const bbm_model *m, int i)
 {
-    const double r = m->D[6 * i + 2], off = fabs(r - m->beyond->middle[i].D[2]);
-
-    return off * (fabs(r) + off) > TURN;
+    return fabs(m->D[6 * i + 2] - m->beyond->middle[i].D[2]);
 }
 
-/* Whether the force of a closed contact on element i has another direction. */
-static int turns_otherwise(const bbm_model *m, int i)
+/* Whether that is more than can be left. */
+static int is_off(const bbm_model *m, int i)
 {
-    return bbm_motion_of(m) && fabs(m->D[6 * i + 2] - m->beyond->middle[i].D[2]) > DIRECTION;
+    return turn_off(m, i) * (fabs(m->D[6 * i + 2]) + turn_off(m, i)) > TURN;
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
@@ -160,7 +158,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
         if (c->state == BBM_OPEN)
             continue;
         bbm_end_distances(m, c, c->anchor, d);
-        off = turns_otherwise(m, i) || turns_otherwise(m, j)
+        off = (bbm_motion_of(m) && fmax(turn_off(m, i), turn_off(m, j)) > DIRECTION)
            || m->par.p_n * fabs(d[0] - c->d_n) > bound
            || (m->par.p_s * fabs(c->time_left * d[1] - c->d_s) > bound && c->state == BBM_LOCK);
     }

@@ -81,10 +81,9 @@ bbm_status bbm_find_near_pairs(bbm_model *m, double search)
     }
     if (!status)
         bbm_sort_boxes(m->edges, b);
-    for (int i = 0, j = 0; !status && bbm_next_meeting(m->edges, b, &i, &j);) {
-        status = compare(m, b[i].of, &b[j]);
-        status = status ? status : compare(m, b[j].of, &b[i]);
-    }
+    for (int i = 0, j = 0; !status && bbm_next_meeting(m->edges, b, &i, &j);)
+        for (int k = 0; k < 2 && !status; k++)
+            status = compare(m, b[k ? j : i].of, &b[k ? i : j]);
     free(b);
     return status;
 }
