@@ -21,8 +21,8 @@ bbm_box bbm_empty_box(int of)
     return (bbm_box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY }, of };
 }
 
-/* Widens a box, so that all that is no further from (x, y) than `wide` lies in it. Where a model has
- * blown up, a place that is no number lies in none. */
+/* Widens a box, so that all that is no further from (x, y) than `wide` lies in it. Where a model
+ * has blown up, a place that is no number lies in none. */
 void bbm_widen_box(bbm_box *b, double x, double y, double wide)
 {
     const double at[3] = { x + y / 4, x, y };
