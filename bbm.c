@@ -191,13 +191,25 @@ void bbm_newmark_velocity(bbm_element *e, double dt, double factor)
 
 /* -------------------------------------------------------------- 3.3 Bonding submatrices */
 
-/* T in gaps and loads: that of Eq. (2), or a hook's, taken at another moment of the step. */
+/* T in gaps, loads and contacts, and where the point is: that of Eq. (2), and (x, y); or a hook's,
+ * taken at another moment of the step. */
+void bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2])
+{
+    if (e->middle) {
+        e->middle->motion->point(e, x, y, T, at);
+        return;
+    }
+    bbm_mode_matrix(e, x, y, T);
+    at[0] = x;
+    at[1] = y;
+}
+
+/* T alone. */
 void bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6])
 {
-    if (e->middle)
-        e->middle->motion->matrix(e, x, y, T);
-    else
-        bbm_mode_matrix(e, x, y, T);
+    double at[2];
+
+    bbm_step_point(e, x, y, T, at);
 }
 
 /* A spring k between the vertices P of element i and Q of element j, which were one point at the

@@ -58,25 +58,21 @@ enum { FRICTION_PASSES = 100 };
  * and the terms of second order are dropped: d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * A hook has its own e and g. */
+ * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
     const double x3 = c->P3->x, y3 = c->P3->y, l = hypot(x3 - x2, y3 - y2);
-    double T1[2][6], T2[2][6], T3[2][6];
+    double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2];
 
     n->d = ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) / l;
-    if (c->i->middle) {
-        c->i->middle->motion->vectors(c, 0, n, NULL);
-        return;
-    }
-    bbm_mode_matrix(c->i, x1, y1, T1);
-    bbm_mode_matrix(c->j, x2, y2, T2);
-    bbm_mode_matrix(c->j, x3, y3, T3);
+    bbm_step_point(c->i, x1, y1, T1, p1);
+    bbm_step_point(c->j, x2, y2, T2, p2);
+    bbm_step_point(c->j, x3, y3, T3, p3);
     for (int a = 0; a < 6; a++) {
-        n->e[a] = (T1[0][a] * (y2 - y3) + T1[1][a] * (x3 - x2)) / l;
-        n->g[a] = (T2[0][a] * (y3 - y1) + T2[1][a] * (x1 - x3)
-                   + T3[0][a] * (y1 - y2) + T3[1][a] * (x2 - x1)) / l;
+        n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
+        n->g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
+                   + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
     }
 }
 
@@ -111,25 +107,26 @@ void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
 /* The displacement of P1 along the edge against the anchor P0 = P3 + anchor (P2 - P3), a point of
  * the edge's material: d_s = S1 + e.D_i + g.D_j, Eq. (48)-(50), (53), (60)-(62), (64), (67), (68):
  *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m.
- * A hook has its own e and g. */
+ * Deviation: with the T and the points of a hook g has what (60) drops, the turning of m, as well:
+ * (T_j(P3) - T_j(P2))^T (P1 - P0)/l. Without it friction does not keep angular momentum. */
 void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
 {
     const bbm_vertex *P1 = c->P1, *P2 = c->P2, *P3 = c->P3;
     const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    const double mx = (P3->x - P2->x) / l, my = (P3->y - P2->y) / l;
-    double T1[2][6], T0[2][6];
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y), turns = c->i->middle ? 1 : 0;
+    double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
 
     s->d = ((P1->x - x0) * (P3->x - P2->x) + (P1->y - y0) * (P3->y - P2->y)) / l;
-    if (c->i->middle) {
-        c->i->middle->motion->vectors(c, anchor, NULL, s);
-        return;
-    }
-    bbm_mode_matrix(c->i, P1->x, P1->y, T1);
-    bbm_mode_matrix(c->j, x0, y0, T0);
+    bbm_step_point(c->i, P1->x, P1->y, T1, p1);
+    bbm_step_point(c->j, x0, y0, T0, p0);
+    bbm_step_point(c->j, P2->x, P2->y, T2, p2);
+    bbm_step_point(c->j, P3->x, P3->y, T3, p3);
+    const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
+    const double ax = turns * (p1[0] - p0[0]) / l, ay = turns * (p1[1] - p0[1]) / l;
     for (int a = 0; a < 6; a++) {
         s->e[a] = T1[0][a] * mx + T1[1][a] * my;
-        s->g[a] = -T0[0][a] * mx - T0[1][a] * my;
+        s->g[a] = -T0[0][a] * mx - T0[1][a] * my
+                + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
     }
 }
 
@@ -185,15 +182,6 @@ bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolera
 }
 
 /* --------------------------------------------------------------------- the contacts of a step */
-
-static bbm_touch touch_of(const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_element *i = &m->element[bbm_element_of(m, c->corner)];
-    const bbm_element *j = &m->element[bbm_element_of(m, c->edge)];
-
-    return (bbm_touch){ i, j, bbm_start_of(m, c->corner), bbm_end_of(m, c->edge),
-                        bbm_start_of(m, c->edge), c->rest };
-}
 
 /* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s. */
 static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
@@ -291,7 +279,7 @@ void bbm_assemble_contacts(bbm_model *m)
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
-        const bbm_touch t = touch_of(m, c);
+        const bbm_touch t = bbm_touch_of(m, c);
         bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
         if (c->state == BBM_OPEN)
             continue;
@@ -320,7 +308,7 @@ static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_
 /* d_n and d_s, from an anchor, by the vectors of the step. */
 static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
-    const bbm_touch t = touch_of(m, c);
+    const bbm_touch t = bbm_touch_of(m, c);
     bbm_spring n, s;
 
     bbm_normal_vectors(&t, &n);

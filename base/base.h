@@ -68,8 +68,7 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
                                 /*          and the mean length of its edges                    */
     double deep;                /* m        of closed contacts in its line, in that first edge  */
     bbm_direction along;        /* from a to b, at present                                      */
-    int    contact, pair;       /* where those of the corner a begin: in model.contact, and in  */
-                                /* the list of pairs                                            */
+    int    contact;             /* where those of the corner a begin in model.contact           */
 };
 
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
@@ -148,10 +147,8 @@ struct bbm_contact_scratch {
 
 /* A hook's way to move points, in place of u = T D. */
 struct bbm_motion {
-    void (*matrix)(const bbm_element *e, double x, double y, double T[2][6]);
-                                                            /* T at the point (x, y)            */
-    void (*vectors)(const bbm_touch *c, double anchor, bbm_spring *n, bbm_spring *s);
-                                                            /* e and g; n or s may be NULL      */
+    void (*point)(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+                                                            /* T at (x, y), and where that is   */
     void (*move)(const double D[6], double X, double Y, double u[2]);
     void (*turn)(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[]);
                                                             /* stress and V of one that moved   */
@@ -160,6 +157,7 @@ struct bbm_motion {
 struct bbm_middle {             /* of an element, whose T is taken in the middle of the step    */
     const bbm_motion *motion;
     double D[6];
+    double moment[2][2][2];     /* bending.c: of the starting shape; 0: not yet known           */
 };
 
 /* Functions that do a part of the step in another way than the paper. NULL: the paper's way. */
@@ -174,12 +172,11 @@ struct bbm_hooks {
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
     void (*strength)(const bbm_model *m, bbm_contact *c);   /* sets c->strength, and c->area of */
                                                             /* one that touches at the start    */
-    bbm_status (*listed)(bbm_model *m);                     /* contacts and gaps are listed     */
+    bbm_status (*listed)(bbm_model *m);                     /* contacts, gaps; K may be new     */
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     void (*add_gap)(const bbm_gap *g, bbm_submatrices *s);  /* in place of (27), (28)           */
-    bbm_status (*lay_out)(bbm_model *m);                    /* K is new                         */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
@@ -222,6 +219,14 @@ static inline int bbm_element_of(const bbm_model *m, int edge) { return m->edge[
 static inline const double *bbm_D_of(const bbm_model *m, int edge)
 {
     return &m->D[6 * m->edge[edge].element];
+}
+
+/* The elements and points of a contact. */
+static inline bbm_touch bbm_touch_of(const bbm_model *m, const bbm_contact *c)
+{
+    return (bbm_touch){ &m->element[bbm_element_of(m, c->corner)],
+                        &m->element[bbm_element_of(m, c->edge)], bbm_start_of(m, c->corner),
+                        bbm_end_of(m, c->edge), bbm_start_of(m, c->edge), c->rest };
 }
 
 /* Displacement of the point (x, y) by D: u = T D, or a hook's. */
@@ -288,6 +293,7 @@ bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 
 /* bbm.c: 3.3, 3.4, assembly, the step */
+void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
 void       bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6]);
 double     bbm_mass_per_area(const bbm_element *e);                             /* M of (11)    */
 void       bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
@@ -356,6 +362,7 @@ struct bbm_method {
  * any order, either way round, repeats allowed. */
 bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                              /* takes NULL           */
+int        bbm_compare_pairs(const void *p, const void *q);     /* by their first two integers  */
 static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
 
 /* solver.c: K D = F, section 4. Rows that no pairs connect, however indirectly, are solved apart:

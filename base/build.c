@@ -85,13 +85,11 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
         { "E", a->E }, { "density", a->density }, { "thickness", a->thickness } };
     const int n = m->materials;
 
-    if (!isfinite(a->E) || !isfinite(a->nu) || !isfinite(a->density) || !isfinite(a->thickness))
-        return REFUSE(m, BBM_NOT_FINITE, "material %d", n);
     for (int k = 0; k < 3; k++)
         if (!(positive[k].value >= LEAST && positive[k].value <= 1 / LEAST))
             return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0, "
                           "from 1e-100 to 1e+100", n, positive[k].name, positive[k].value);
-    if (a->nu <= -1 || a->nu >= 0.5)
+    if (!(a->nu > -1 && a->nu < 0.5))
         return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected -1 to 0.5", n, a->nu);
     return APPEND(m, m->material, m->materials, a, index);
 }

@@ -138,14 +138,6 @@ static void find_straight_sides(bbm_model *m)
     }
 }
 
-/* By corner and edge, the first two members of pairs and of contacts. */
-static int compare_pairs(const void *p, const void *q)
-{
-    const int *a = p, *b = q, k = a[0] == b[0];
-
-    return (a[k] > b[k]) - (a[k] < b[k]);
-}
-
 /* Finds the first element of each block. */
 static void number_blocks(bbm_model *m)
 {
@@ -153,7 +145,7 @@ static void number_blocks(bbm_model *m)
 
     for (int e = 0; e < m->edges; e++)
         of[e] = (pair){ m->edge[e].block, e, 0 };
-    qsort(of, (size_t)m->edges, sizeof *of, compare_pairs);
+    qsort(of, (size_t)m->edges, sizeof *of, bbm_compare_pairs);
     for (int k = 0, first = 0; k < m->edges; k++) {
         first = of[k].corner == of[first].corner ? first : k;
         m->edge[of[k].edge].first = m->edge[of[first].edge].element;
@@ -452,7 +444,7 @@ static bbm_status find_pairs(bbm_model *m)
     for (int c = 0; c < m->edges && !m->hook->find_pairs; c++)
         for (int e = 0; e < m->edges && !status; e++)
             status = bbm_add_pair(m, c, e);
-    qsort(m->scratch->pair, (size_t)m->scratch->pairs, sizeof(pair), compare_pairs);
+    qsort(m->scratch->pair, (size_t)m->scratch->pairs, sizeof(pair), bbm_compare_pairs);
     return status;
 }
 
@@ -462,20 +454,9 @@ static bbm_status find_pairs(bbm_model *m)
 static int find_pair(const bbm_model *m, pair p)
 {
     const bbm_contact_scratch *w = m->scratch;
+    const pair *found = bsearch(&p, w->pair, (size_t)w->pairs, sizeof p, bbm_compare_pairs);
 
-    for (int k = m->edge[p.corner].pair; k < w->pairs && w->pair[k].corner == p.corner; k++)
-        if (w->pair[k].edge == p.edge)
-            return k;
-    return -1;
-}
-
-/* Where the pairs of each corner begin. */
-static void index_pairs(bbm_model *m)
-{
-    for (int e = 0; e < m->edges; e++)
-        m->edge[e].pair = m->scratch->pairs;
-    for (int k = m->scratch->pairs - 1; k >= 0; k--)
-        m->edge[m->scratch->pair[k].corner].pair = k;
+    return found ? (int)(found - w->pair) : -1;
 }
 
 /* What else there can be where the corner P of a pair meets an end Q of its edge: P on the next
@@ -524,7 +505,6 @@ static void drop_duplicates(bbm_model *m)
     bbm_contact_scratch *w = m->scratch;
     int kept = 0;
 
-    index_pairs(m);
     for (int k = 0; k < w->pairs; k++)
         for (int way = 0; way < 6; way++)
             w->pair[k].dropped |= gives_way(m, w->pair[k], way / 3, (meeting)(way % 3));
@@ -532,7 +512,6 @@ static void drop_duplicates(bbm_model *m)
         if (!w->pair[k].dropped)
             w->pair[kept++] = w->pair[k];
     w->pairs = kept;
-    index_pairs(m);
 }
 
 /* The index of another line on which P and an end Q of its edge can enter each other, if both are
@@ -619,7 +598,7 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
         drop_duplicates(m);
     *same = !status && w->is_listed && w->contacts == w->pairs;
     for (int k = 0; k < w->pairs && *same; k++)
-        *same = compare_pairs(&w->contact[k], &w->pair[k]) == 0;
+        *same = bbm_compare_pairs(&w->contact[k], &w->pair[k]) == 0;
     if (status || *same)
         return status;
     bbm_contact *list = realloc(w->contact, ((size_t)w->pairs + 1) * sizeof *list);
@@ -639,19 +618,17 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
  * start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
-    const bbm_element *i = &m->element[bbm_element_of(m, c->corner)];
-    const bbm_element *j = &m->element[bbm_element_of(m, c->edge)];
-    const bbm_vertex *P1 = bbm_start_of(m, c->corner), *P2 = bbm_end_of(m, c->edge);
-    const bbm_vertex *P3 = bbm_start_of(m, c->edge);
+    const bbm_touch t = bbm_touch_of(m, c);
+    const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3;
     const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
     const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
     const double l = hypot(P3->x - P2->x, P3->y - P2->y);
     double u1[2], u2[2], u3[2], u0[2];
 
-    bbm_move(m, i, Di, P1->x, P1->y, u1);
-    bbm_move(m, j, Dj, P2->x, P2->y, u2);
-    bbm_move(m, j, Dj, P3->x, P3->y, u3);
-    bbm_move(m, j, Dj, x0, y0, u0);
+    bbm_move(m, t.i, Di, P1->x, P1->y, u1);
+    bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
+    bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
+    bbm_move(m, t.j, Dj, x0, y0, u0);
     const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
     const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
     d[0] = (x * py - y * px) / l;
@@ -790,10 +767,11 @@ void bbm_keep_contacts(bbm_model *m)
     bbm_note_depths(m);
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = w->reach[i].depth_now;
-    for (bbm_contact *c = w->contact, *end = c + w->contacts; c < end; c++)
-        for (bbm_contact *r = &w->contact[m->edge[c->corner].pair];
-             r < end && r->corner == c->corner; r++)
+    for (bbm_contact *c = w->contact, *first = c, *end = c + w->contacts; c < end; c++) {
+        first = first->corner == c->corner ? first : c;
+        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
             hand_over(m, c, r);
+    }
     m->contact = w->contact;
     m->contacts = w->contacts;
     w->contact = last;

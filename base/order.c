@@ -27,7 +27,8 @@ typedef struct {                /* who is a neighbour of whom, in the caller's n
     int *level;                 /* [n]    distance from the start of the search, -1: not found  */
 } graph;
 
-static int compare_ends(const void *a, const void *b)
+/* For qsort and bsearch of what begins with two integers: by the first, then by the second. */
+int bbm_compare_pairs(const void *a, const void *b)
 {
     const int *p = a, *q = b, by = p[0] == q[0];
 
@@ -50,7 +51,7 @@ static bbm_status graph_new(graph *g, int n, int links, int (*link)[2])
         g->end[k][0] = link[k / 2][k % 2];
         g->end[k][1] = link[k / 2][1 - k % 2];
     }
-    qsort(g->end, 2 * (size_t)links, sizeof *g->end, compare_ends);
+    qsort(g->end, 2 * (size_t)links, sizeof *g->end, bbm_compare_pairs);
     int count = 0;
     for (int i = 0, k = 0; i < n; i++) {
         for (; k < 2 * links && g->end[k][0] == i; k++)

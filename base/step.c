@@ -171,9 +171,7 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
     m->K = K;
     m->link = link;
     m->links = n;
-    const bbm_status status = m->hook->lay_out ? m->hook->lay_out(m) : BBM_OK;
-    m->links = status ? 0 : n;                      /* what fails is laid out anew the next time */
-    return status;
+    return BBM_OK;
 }
 
 /* ------------------------------------------------------------------------- the parts of a step */

@@ -11,7 +11,6 @@
  * elements lack: the bond is rigid in its middle and bends as the material would. A fixed edge is
  * a bond with the wall, whose mirror image bends alike.
  */
-#include <math.h>
 #include <string.h>
 
 #include "beyond.h"
@@ -62,17 +61,6 @@ static void bending_stiffness(const bbm_element *e, const double p[2], const dou
     memcpy(S[1], W[1], sizeof S[1]);
 }
 
-/* S s s^T S / (s^T S s) */
-static void project(double S[2][2], const double s[2], double P[2][2])
-{
-    const double f[2] = { S[0][0] * s[0] + S[0][1] * s[1], S[1][0] * s[0] + S[1][1] * s[1] };
-    const double sSs = f[0] * s[0] + f[1] * s[1];
-
-    for (int a = 0; a < 2; a++)
-        for (int b = 0; b < 2; b++)
-            P[a][b] = f[a] * f[b] / sSs;
-}
-
 /* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0
  * to 1, from 2 to 3), which q crosses, M[1] for 1 and 3, which p crosses.
  *
@@ -86,14 +74,15 @@ void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2]
                           (v[1].y + v[2].y - v[0].y - v[3].y) / 2 };
     const double q[2] = { (v[2].x + v[3].x - v[0].x - v[1].x) / 2,
                           (v[2].y + v[3].y - v[0].y - v[1].y) / 2 };
-    double S[2][2], P[2][2], Q[2][2];
+    double S[2][2];
 
     bending_stiffness(e, p, q, S);
-    project(S, p, P);
-    project(S, q, Q);
+    const double Sp[2] = { S[0][0] * p[0] + S[0][1] * p[1], S[1][0] * p[0] + S[1][1] * p[1] };
+    const double Sq[2] = { S[0][0] * q[0] + S[0][1] * q[1], S[1][0] * q[0] + S[1][1] * q[1] };
+    const double pSp = Sp[0] * p[0] + Sp[1] * p[1], qSq = Sq[0] * q[0] + Sq[1] * q[1];
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
-            M[1][a][b] = (P[a][b] + S[a][b] - Q[a][b]) / 2;
+            M[1][a][b] = (Sp[a] * Sp[b] / pSp + S[a][b] - Sq[a] * Sq[b] / qSq) / 2;
             M[0][a][b] = S[a][b] - M[1][a][b];
         }
 }
@@ -168,7 +157,7 @@ static double own_moment(const bbm_model *m, const bbm_element *e, int v, double
     const int edge = v - e->first, exact = e->middle != NULL;
     bbm_element shape = *e;
     bbm_vertex at[5];
-    double now[2][2][2], (*own)[2][2] = exact ? m->beyond->moment[e - m->element] : now;
+    double now[2][2][2], (*own)[2][2] = exact ? m->beyond->middle[e - m->element].moment : now;
 
     shape.A = exact ? e->A0 : e->A;
     for (int k = 0; k < 5; k++) {

@@ -8,7 +8,6 @@
 static void free_prepared(bbm_beyond *b)
 {
     free(b->middle);
-    free(b->moment);
     free(b->end_element);
     free(b->end_vertex);
     free(b->support);
@@ -33,15 +32,13 @@ static bbm_status check(bbm_model *m)
 
     free_prepared(b);
     b->middle = calloc(n, sizeof *b->middle);
-    b->moment = calloc(n, sizeof *b->moment);
     b->end_element = calloc(n, sizeof *b->end_element);
     b->end_vertex = calloc((size_t)m->vertices, sizeof *b->end_vertex);
     b->support = calloc((size_t)m->nodes, sizeof *b->support);
     b->account = calloc(n, sizeof *b->account);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
-    if (!b->middle || !b->moment || !b->end_element || !b->end_vertex || !b->support
-        || !b->account)
+    if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account)
         return BBM_NO_MEMORY;
     bbm_note_springs(m, 0);
     return bbm_check_overlap(m);
@@ -73,13 +70,15 @@ static bbm_status lay_out(bbm_model *m)
 }
 
 /* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
- * and in statics if all bodies are held. */
+ * and in statics if all bodies are held. A new K has no room for the terms of friction yet. */
 static bbm_status listed(bbm_model *m)
 {
+    bbm_status status = m->K->term ? BBM_OK : lay_out(m);
+
     bbm_set_middle(m);
     bbm_list_gaps(m);
     bbm_start_multipliers(m);
-    const bbm_status status = bbm_check_passed(m);
+    status = status ? status : bbm_check_passed(m);
     return status ? status : bbm_check_supports(m);
 }
 
@@ -144,14 +143,13 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check = check,
         .begin = begin,
         .listed = listed,
-        .find_pairs = bbm_sweep,
+        .find_pairs = bbm_find_near_pairs,
         .strength = bbm_joint_strength,
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .add_gap = bbm_weighted_submatrices,
         .motion = bbm_find_motion,
-        .lay_out = lay_out,
         .before_solution = bbm_interpolate_elements,
         .renew = renew,
         .accept = accept,

@@ -7,8 +7,6 @@
 #ifndef BBM_BEYOND_H
 #define BBM_BEYOND_H
 
-#include <stddef.h>
-
 #include "../base/base.h"
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */
@@ -68,7 +66,6 @@ struct bbm_beyond {
     double h_before;            /* s        the last step                                       */
     bbm_contact *jump_of;       /* [contacts] impact.c: of the step that ends with the jump     */
     bbm_middle *middle;         /* [elements], rotation.c                                       */
-    double (*moment)[2][2][2];  /* [elements], bending.c                                        */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     int edge_loads;
@@ -124,7 +121,6 @@ double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u
 
 /* rotation.c */
 const bbm_motion *bbm_find_motion(const bbm_model *m);
-void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
 void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
@@ -149,8 +145,18 @@ bbm_status bbm_lay_out_sliding(bbm_model *m);
 int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                                  bbm_submatrices *s);
 
-/* sweep.c, joints.c */
-bbm_status bbm_sweep(bbm_model *m, double search);
+/* sweep.c */
+typedef struct {                /* around an edge or element, m                                 */
+    double low[3], high[3];     /* along the axis of the sweep, x and y                         */
+    int    of;
+} bbm_box;
+bbm_box    bbm_empty_box(int of);
+void       bbm_widen_box(bbm_box *b, double x, double y, double wide);
+void       bbm_sort_boxes(int n, bbm_box *b);
+int        bbm_next_meeting(int n, const bbm_box *b, int *i, int *j);
+bbm_status bbm_find_near_pairs(bbm_model *m, double search);
+
+/* joints.c */
 bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
                          double tension);
 void       bbm_joint_strength(const bbm_model *m, bbm_contact *c);

@@ -15,7 +15,6 @@
  * energy by that. There the balance is left alone, or only told.
  */
 #include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "beyond.h"
@@ -55,20 +54,17 @@ static double kinetic_energy(const bbm_model *m, const bbm_element *e)
 }
 
 /* 1/2 t A0 s.E^-1 s with Hooke's law (7) and s the stress, where steps are exact on the starting
- * area: without strain s.E^-1 s is what is left, with the other sign, of [0 s; s E]. */
+ * area: s.E^-1 s = (sx^2 + sy^2 - 2 nu sx sy + 2 (1 + nu) sxy^2)/E. */
 static double elastic_energy(const bbm_model *m, const bbm_element *e)
 {
-    double E[3][3], W[4][4] = { { 0 } };
+    const bbm_material *of = &e->material;
+    const double *s = e->stress;
     bbm_element now = *e;
 
     bbm_element_geometry(&now, &m->vertex[e->first]);
-    bbm_elastic_matrix(&e->material, E);
-    for (int a = 0; a < 9; a++)
-        W[1 + a / 3][1 + a % 3] = E[a / 3][a % 3];
-    for (int a = 0; a < 3; a++)
-        W[0][1 + a] = W[1 + a][0] = (e->middle ? now.A / e->A0 : 1) * e->stress[a];
-    bbm_condense(4, 1, W);
-    return -e->material.thickness * e->A0 * W[0][0] / 2;
+    const double share = e->middle ? now.A / e->A0 : 1;
+    return of->thickness * e->A0 * share * share / (2 * of->E)
+         * (s[0] * s[0] + s[1] * s[1] - 2 * of->nu * s[0] * s[1] + 2 * (1 + of->nu) * s[2] * s[2]);
 }
 
 /* The energies after the last step; none before bbm_prepare. */

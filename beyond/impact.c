@@ -27,7 +27,6 @@
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,9 +40,7 @@
 
 static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n, bbm_spring *s)
 {
-    const bbm_touch t = { &m->element[bbm_element_of(m, c->corner)],
-                          &m->element[bbm_element_of(m, c->edge)], bbm_start_of(m, c->corner),
-                          bbm_end_of(m, c->edge), bbm_start_of(m, c->edge), 0 };
+    const bbm_touch t = bbm_touch_of(m, c);
 
     bbm_normal_vectors(&t, n);
     bbm_shear_vectors(&t, c->anchor, s);

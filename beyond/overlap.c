@@ -8,14 +8,13 @@
  * At the start, elements of different blocks or of one block overlap if one of these points lies in
  * the other element: a corner; the middle of a part of a side between two sides of the other
  * element, as of bars that cross; a point within, if both elements are the same. The deepest of
- * them is told. Candidates are elements whose circumscribed circles overlap.
+ * them is told. Candidates are elements whose boxes meet, see sweep.c.
  *
  * In a step the rules by which contacts are listed and closed keep corners outside. Should a step
  * let one pass all the same - two soft corners that glance off each other and turn - it starts the
  * next step deeper in the block than contacts are and moves in, and no contact of the two blocks is
  * closed or has opened inside. That step is refused. The sweep asks for each corner near an edge.
  */
-#include <math.h>
 #include <stdlib.h>
 
 #include "beyond.h"
@@ -127,29 +126,13 @@ static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
     }
 }
 
-/* Around an element; it has a boundary edge; the place of the next one that has. */
-typedef struct { int element, outer, next; double x, y, r; } circle;
-
-static int compare_circles(const void *p, const void *q)
+static int has_boundary_edge(const bbm_model *m, int i)
 {
-    const circle *a = p, *b = q;
-    const double d = (a->x - a->r) - (b->x - b->r);
+    int edges = 0;
 
-    return d != 0 ? (d > 0 ? 1 : -1) : a->element - b->element;
-}
-
-static circle circle_of(const bbm_model *m, int e)
-{
-    const int n = m->element[e].n;
-    circle c = { .element = e };
-
-    for (int k = 0; k < n; k++) {
-        c.x += corner_of(m, e, k).x / n;
-        c.y += corner_of(m, e, k).y / n;
-    }
-    for (int k = 0; k < n; k++)
-        c.r = fmax(c.r, hypot(corner_of(m, e, k).x - c.x, corner_of(m, e, k).y - c.y));
-    return c;
+    for (int v = m->element[i].first; v < m->element[i].first + m->element[i].n; v++)
+        edges += m->vertex[v].edge >= 0;
+    return edges > 0;
 }
 
 /* Looks for the two elements of a prepared model, one of them with a boundary edge, that overlap
@@ -158,31 +141,26 @@ static circle circle_of(const bbm_model *m, int e)
  * overlap ends at a boundary edge, whose element takes part. */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
 {
-    const int n = m->elements;
-    circle *s = malloc((size_t)n * sizeof *s);
+    bbm_box *b = malloc((size_t)m->elements * sizeof *b);
     double length = 0;
 
-    if (!s)
+    if (!b)
         return BBM_NO_MEMORY;
-    for (int e = 0; e < n; e++)
-        s[e] = circle_of(m, e);
-    for (int e = 0; e < m->edges; e++) {
+    for (int e = 0; e < m->edges; e++)
         length += m->edge[e].along.length;
-        s[m->edge[e].element].outer = 1;
-    }
     *o = (bbm_overlap){ -1, -1, TOUCH * length / m->edges, 0, 0 };
-    qsort(s, (size_t)n, sizeof *s, compare_circles);
-    for (int a = n - 1, outer = n; a >= 0; a--) {
-        s[a].next = outer;
-        outer = s[a].outer ? a : outer;
-        for (int b = s[a].outer ? a + 1 : outer; b < n && s[b].x - s[b].r < s[a].x + s[a].r;
-             b = s[a].outer ? b + 1 : s[b].next)
-            if (hypot(s[b].x - s[a].x, s[b].y - s[a].y) < s[a].r + s[b].r) {
-                probe_element(m, s[a].element, s[b].element, o);
-                probe_element(m, s[b].element, s[a].element, o);
-            }
+    for (int i = 0; i < m->elements; i++) {
+        b[i] = bbm_empty_box(i);
+        for (int k = 0; k < m->element[i].n; k++)
+            bbm_widen_box(&b[i], corner_of(m, i, k).x, corner_of(m, i, k).y, 0);
     }
-    free(s);
+    bbm_sort_boxes(m->elements, b);
+    for (int i = 0, j = 0; bbm_next_meeting(m->elements, b, &i, &j);)
+        if (has_boundary_edge(m, b[i].of) || has_boundary_edge(m, b[j].of)) {
+            probe_element(m, b[i].of, b[j].of, o);
+            probe_element(m, b[j].of, b[i].of, o);
+        }
+    free(b);
     return BBM_OK;
 }
 
@@ -236,18 +214,18 @@ static double depth_in_block(const bbm_model *m, point P, int edge, double allow
     return all.winding > 0 && sqrt(all.distance2) > allowed ? sqrt(all.distance2) : 0;
 }
 
-/* Whether the blocks i and j have a contact that is closed or has opened inside. */
-static int are_in_contact(const bbm_model *m, int i, int j)
+/* How deep the deepest of n contacts between blocks i and j is that is closed or has opened inside;
+ * -1: there is none. */
+static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int i, int j)
 {
-    int found = 0;
+    double depth = -1;
 
-    for (int k = 0; k < m->contacts && !found; k++) {
-        const bbm_contact *c = &m->contact[k];
+    for (; n > 0; n--, c++) {
         const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
-        found = ((p == i && q == j) || (p == j && q == i))
-             && (c->state != BBM_OPEN || c->inside);
+        if ((c->state != BBM_OPEN || c->inside) && ((p == i && q == j) || (p == j && q == i)))
+            depth = fmax(depth, fmax(0, -c->d_n));
     }
-    return found;
+    return depth;
 }
 
 /* Whether the corner moves out of the edge. */
@@ -273,9 +251,8 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
     const double x = P->x - a->x, y = P->y - a->y, u = b->x - a->x, v = b->y - a->y;
     const double s = x * u + y * v;
 
-    if (m->edge[corner].block == m->edge[edge].block || m->edge[corner].side != corner)
-        return 0;
-    if (x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
+    if (m->edge[corner].block == m->edge[edge].block || m->edge[corner].side != corner
+        || x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
         return 0;
     const double depth = depth_in_block(m, (point){ P->x, P->y }, edge,
                                         bbm_allowed_depth(m, corner, edge), nearest);
@@ -286,25 +263,12 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
  * Else 0, and where it is on its way out. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
+    const int own = m->edge[corner].block, other = m->edge[edge].block;
     int nearest = edge;
     const double depth = depth_behind(m, corner, edge, &nearest);
 
     return depth == 0 || moves_out(m, corner, nearest)
-        || are_in_contact(m, m->edge[corner].block, m->edge[edge].block) ? 0 : depth;
-}
-
-/* The depth of the deepest closed contact of blocks i and j in the solution. */
-static double depth_between(const bbm_model *m, int i, int j)
-{
-    double depth = 0;
-
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
-        const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
-        if (c->state != BBM_OPEN && ((p == i && q == j) || (p == j && q == i)))
-            depth = fmax(depth, -c->d_n);
-    }
-    return depth;
+        || depth_between(m, m->contact, m->contacts, own, other) >= 0 ? 0 : depth;
 }
 
 /* Refuses a solution that lets a corner pass: its contact is not closed, nor was it, and it ends
@@ -312,15 +276,16 @@ static double depth_between(const bbm_model *m, int i, int j)
 bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
 {
     const bbm_contact *c = m->scratch->contact;
+    const int n = m->scratch->contacts;
 
-    for (int k = 0; k < m->scratch->contacts; k++) {
+    for (int k = 0; k < n; k++) {
         const int own = m->edge[c[k].corner].block, other = m->edge[c[k].edge].block;
         const bbm_vertex *P = bbm_start_of(end, c[k].corner);
         int nearest = c[k].edge;
         if (c[k].state != BBM_OPEN || c[k].d_n >= 0 || c[k].was_closed || c[k].inside)
             continue;
         const double depth = depth_behind(end, c[k].corner, c[k].edge, &nearest);
-        if (depth > DEEPER * depth_between(m, own, other))
+        if (depth > DEEPER * fmax(0, depth_between(m, c, n, own, other)))
             return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: a corner of block %d passes into block "
                             "%d at (%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
                             own, other, P->x + m->origin[0], P->y + m->origin[1], depth);

@@ -109,17 +109,11 @@ bbm_status bbm_check_solution(bbm_model *m)
 /* Whether the springs of all contacts keep their blocks apart. */
 bbm_status bbm_check_depth(bbm_model *m)
 {
-    const bbm_contact *deepest = NULL;
-    double most = DEEP;
-
     for (const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts; c < end; c++)
-        if (c->state != BBM_OPEN && -c->d_n / bbm_size_at(m, c) > most) {
-            most = -c->d_n / bbm_size_at(m, c);
-            deepest = c;
-        }
-    if (!deepest)
-        return BBM_OK;
-    return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in block %d, a "
-                    "tenth of the smaller one; larger stiffnesses p_n, p_s help", m->info.step + 1,
-                    m->edge[deepest->corner].block, -deepest->d_n, m->edge[deepest->edge].block);
+        if (c->state != BBM_OPEN && -c->d_n / bbm_size_at(m, c) > DEEP)
+            return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in "
+                            "block %d, a tenth of the smaller one; larger stiffnesses p_n, p_s "
+                            "help", m->info.step + 1, m->edge[c->corner].block, -c->d_n,
+                            m->edge[c->edge].block);
+    return BBM_OK;
 }

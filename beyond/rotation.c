@@ -24,7 +24,6 @@
  * in each pass whose solution has another D. Statics and `rotation` BBM_LINEAR, the paper's way,
  * keep T.
  */
-#include <math.h>
 #include <string.h>
 
 #include "beyond.h"
@@ -52,12 +51,10 @@ static void move(const double D[6], double X, double Y, double u[2])
     u[1] = D[1] + uy + c1 * y + s * x;
 }
 
-/* T of the step at the point that starts it in (x, y), and where that is then, `at`: T_m, or with
- * D = 0 that of Eq. (2). */
-void bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2])
+/* T_m at the point that starts the step in (x, y), and where that is in its middle, `at`. */
+static void find_point(const bbm_element *e, double x, double y, double T[2][6], double at[2])
 {
-    static const double start[6] = { 0 };
-    const double X = x - e->x, Y = y - e->y, *D = e->middle ? e->middle->D : start, r = D[2];
+    const double X = x - e->x, Y = y - e->y, *D = e->middle->D, r = D[2];
     const double ux = D[3] * X + D[5] / 2 * Y, uy = D[5] / 2 * X + D[4] * Y;
     const double t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
     const double s = 2 * t / (1 + t * t), c1 = -t * s;                  /* sin(r), cos(r) - 1   */
@@ -72,41 +69,6 @@ void bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], do
     memcpy(T, matrix, sizeof matrix);
     at[0] = e->x + D[0] / 2 + Xm;
     at[1] = e->y + D[1] / 2 + Ym;
-}
-
-static void step_matrix(const bbm_element *e, double x, double y, double T[2][6])
-{
-    double at[2];
-
-    bbm_step_point(e, x, y, T, at);
-}
-
-/* (59) with points and T of the middle of the step; only the change of l is dropped. (64) likewise,
- * and with what (60) drops, the turning of m: (T3 - T2)^T (P1 - P0)/l in g. Without it friction
- * does not keep angular momentum. */
-static void find_vectors(const bbm_touch *c, double anchor, bbm_spring *n, bbm_spring *s)
-{
-    const bbm_vertex *P1 = c->P1, *P2 = c->P2, *P3 = c->P3;
-    const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
-
-    bbm_step_point(c->i, P1->x, P1->y, T1, p1);
-    bbm_step_point(c->j, x0, y0, T0, p0);
-    bbm_step_point(c->j, P2->x, P2->y, T2, p2);
-    bbm_step_point(c->j, P3->x, P3->y, T3, p3);
-    const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
-    const double ax = (p1[0] - p0[0]) / l, ay = (p1[1] - p0[1]) / l;
-    for (int a = 0; a < 6 && n; a++) {
-        n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
-        n->g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
-                   + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
-    }
-    for (int a = 0; a < 6 && s; a++) {
-        s->e[a] = T1[0][a] * mx + T1[1][a] * my;
-        s->g[a] = -T0[0][a] * mx - T0[1][a] * my
-                + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
-    }
 }
 
 /* A tensor (xx, yy, xy) turns with the element: R s R^T, with cos(2 r) - 1 = -2 sin(r)^2. */
@@ -143,7 +105,7 @@ static void turn(const bbm_element *start, bbm_element *e, const bbm_vertex vert
         e->V[a] = factor * turning[a];
 }
 
-static const bbm_motion exact_motion = { step_matrix, find_vectors, move, turn };
+static const bbm_motion exact_motion = { find_point, move, turn };
 
 /* How points move in the step in hand: by the exact rotation, or by the paper's T D. */
 const bbm_motion *bbm_find_motion(const bbm_model *m)
@@ -166,18 +128,16 @@ void bbm_set_middle(bbm_model *m)
     }
 }
 
-/* Whether the turn of element i is another one than that of its T_m, by more than can be left. */
-static int is_off(const bbm_model *m, int i)
+/* By how much the turn of element i is another one than that of its T_m. */
+static double turn_off(const bbm_model *m, int i)
 {
-    const double r = m->D[6 * i + 2], off = fabs(r - m->beyond->middle[i].D[2]);
-
-    return off * (fabs(r) + off) > TURN;
+    return fabs(m->D[6 * i + 2] - m->beyond->middle[i].D[2]);
 }
 
-/* Whether the force of a closed contact on element i has another direction. */
-static int turns_otherwise(const bbm_model *m, int i)
+/* Whether that is more than can be left. */
+static int is_off(const bbm_model *m, int i)
 {
-    return bbm_motion_of(m) && fabs(m->D[6 * i + 2] - m->beyond->middle[i].D[2]) > DIRECTION;
+    return turn_off(m, i) * (fabs(m->D[6 * i + 2]) + turn_off(m, i)) > TURN;
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
@@ -198,7 +158,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
         if (c->state == BBM_OPEN)
             continue;
         bbm_end_distances(m, c, c->anchor, d);
-        off = turns_otherwise(m, i) || turns_otherwise(m, j)
+        off = (bbm_motion_of(m) && fmax(turn_off(m, i), turn_off(m, j)) > DIRECTION)
            || m->par.p_n * fabs(d[0] - c->d_n) > bound
            || (m->par.p_s * fabs(c->time_left * d[1] - c->d_s) > bound && c->state == BBM_LOCK);
     }

@@ -14,7 +14,6 @@
  * falls, and these are named. Else nothing was found, which is said as well; and the model is what
  * it was.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,27 +68,27 @@ static int body(const bbm_model *m, int i) { return bbm_component_of(m->K, i); }
 bbm_status bbm_check_supports(bbm_model *m)
 {
     const bbm_element *e = m->element;
+    struct { int first; double G[3][3]; } *of;                  /* a body                       */
     int loose = -1;
 
     if (!bbm_is_static(m))
         return BBM_OK;
-    int *first = calloc((size_t)m->elements, sizeof *first);
-    double (*G)[3][3] = calloc((size_t)m->elements, sizeof *G);
-    const bbm_status status = first && G ? BBM_OK : BBM_NO_MEMORY;
-    for (int i = m->elements - 1; i >= 0 && !status; i--)
-        first[body(m, i)] = i;
-    for (int g = 0; g < m->gaps && !status; g++) {
-        const bbm_element *own = &e[m->gap[g].i], *o = &e[first[body(m, m->gap[g].i)]];
-        if (m->gap[g].j < 0)
-            add_hold(m->gap[g], own->x - o->x, own->y - o->y, G[body(m, m->gap[g].i)]);
+    of = calloc((size_t)m->elements, sizeof *of);
+    if (!of)
+        return BBM_NO_MEMORY;
+    for (int i = m->elements - 1; i >= 0; i--)
+        of[body(m, i)].first = i;
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
+        const int b = body(m, g->i), o = of[b].first;
+        if (g->j < 0)
+            add_hold(*g, e[g->i].x - e[o].x, e[g->i].y - e[o].y, of[b].G);
     }
-    for (int i = 0; i < m->elements && !status && loose < 0; i++)
-        if (first[body(m, i)] == i && !is_regular(G[body(m, i)]))
+    for (int i = 0; i < m->elements && loose < 0; i++)
+        if (of[body(m, i)].first == i && !is_regular(of[body(m, i)].G))
             loose = i;
-    free(first);
-    free(G);
+    free(of);
     if (loose < 0)
-        return status;
+        return BBM_OK;
     m->blamed[0] = loose;
     return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
                     e[loose].block, loose, e[loose].x + m->origin[0],

@@ -1,4 +1,4 @@
-/* sweep.c - which corners and edges are near each other, in few comparisons.
+/* sweep.c - which boxes meet, in few comparisons: those around edges, or around elements.
  *
  * Beyond the paper, which compares all with all. Around each boundary edge lies a box, widened by
  * the search distance. The boxes are sorted by where they begin along an axis; a sweep along it
@@ -9,70 +9,81 @@
  * The axis slants, x + y/4: a column, a row and a wall are spread out along it alike. Only what is
  * piled up along a line that falls by four to one is not, and is found all the same.
  */
-#include <float.h>
 #include <stdlib.h>
 
 #include "beyond.h"
 
 enum { AXIS, X, Y };            /* coordinates: along the axis of the sweep, and the usual ones */
 
-typedef struct {                /* around an edge; `at` is its corner           */
-    double low[3], high[3], at[3];      /* m                                    */
-    int edge;
-} box;
+/* Begins the box of an edge or element: it has no point. */
+bbm_box bbm_empty_box(int of)
+{
+    return (bbm_box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY }, of };
+}
+
+/* Widens a box, so that all that is no further from (x, y) than `wide` lies in it. Where a model
+ * has blown up, a place that is no number lies in none. */
+void bbm_widen_box(bbm_box *b, double x, double y, double wide)
+{
+    const double at[3] = { x + y / 4, x, y };
+
+    for (int k = 0; k < 3; k++) {
+        const double half = k == AXIS ? 1.25 * wide : wide;
+        b->low[k] = fmin(b->low[k], at[k] - half);
+        b->high[k] = fmax(b->high[k], at[k] + half);
+    }
+}
 
 static int compare_boxes(const void *p, const void *q)
 {
-    const double a = ((const box *)p)->low[AXIS], b = ((const box *)q)->low[AXIS];
+    const double a = ((const bbm_box *)p)->low[AXIS], b = ((const bbm_box *)q)->low[AXIS];
 
     return (a > b) - (a < b);
 }
 
-/* Where a model has blown up, a place that is no number is far away. */
-static box box_of(const bbm_model *m, int edge, double search)
-{
-    const bbm_vertex *a = &m->vertex[m->edge[edge].a], *b = &m->vertex[m->edge[edge].b];
-    box around = { .edge = edge, .at = { a->x + a->y / 4, a->x, a->y } };
-    const double end[3] = { b->x + b->y / 4, b->x, b->y };
+void bbm_sort_boxes(int n, bbm_box *b) { qsort(b, (size_t)n, sizeof *b, compare_boxes); }
 
-    for (int k = 0; k < 3; k++) {
-        const double wide = k == AXIS ? 1.25 * search : search;
-        around.low[k] = fmax(-DBL_MAX, fmin(around.at[k], end[k]) - wide);
-        around.high[k] = fmin(DBL_MAX, fmax(around.at[k], end[k]) + wide);
-    }
-    return around;
+/* The next two sorted boxes that meet, after i and j, which begin as 0; 0: there are no more. */
+int bbm_next_meeting(int n, const bbm_box *b, int *i, int *j)
+{
+    for (; *i < n; *j = ++*i)
+        while (++*j < n && b[*j].low[AXIS] <= b[*i].high[AXIS])
+            if (b[*j].low[Y] <= b[*i].high[Y] && b[*j].high[Y] >= b[*i].low[Y])
+                return 1;
+    return 0;
 }
 
 /* The corner of one box and the edge of another, if it lies in it. */
-static bbm_status compare(bbm_model *m, const box *c, const box *e)
+static bbm_status compare(bbm_model *m, int corner, const bbm_box *e)
 {
-    for (int k = X; k <= Y; k++)
-        if (c->at[k] < e->low[k] || c->at[k] > e->high[k])
-            return BBM_OK;
-    if (bbm_depth_passed(m, c->edge, e->edge) > 0) {
-        m->beyond->passed[0] = c->edge;
-        m->beyond->passed[1] = e->edge;
+    const bbm_vertex *P = bbm_start_of(m, corner);
+
+    if (P->x < e->low[X] || P->x > e->high[X] || P->y < e->low[Y] || P->y > e->high[Y])
+        return BBM_OK;
+    if (bbm_depth_passed(m, corner, e->of) > 0) {
+        m->beyond->passed[0] = corner;
+        m->beyond->passed[1] = e->of;
     }
-    return bbm_add_pair(m, c->edge, e->edge);
+    return bbm_add_pair(m, corner, e->of);
 }
 
-bbm_status bbm_sweep(bbm_model *m, double search)
+bbm_status bbm_find_near_pairs(bbm_model *m, double search)
 {
-    box *b = malloc(((size_t)m->edges + 1) * sizeof *b);
+    bbm_box *b = malloc(((size_t)m->edges + 1) * sizeof *b);
     bbm_status status = b ? BBM_OK : BBM_NO_MEMORY;
 
     m->beyond->passed[0] = -1;
-    for (int e = 0; e < m->edges && !status; e++)
-        b[e] = box_of(m, e, search);
+    for (int e = 0; e < m->edges && !status; e++) {
+        const bbm_vertex *P = bbm_start_of(m, e), *Q = bbm_end_of(m, e);
+        b[e] = bbm_empty_box(e);
+        bbm_widen_box(&b[e], P->x, P->y, search);
+        bbm_widen_box(&b[e], Q->x, Q->y, search);
+    }
     if (!status)
-        qsort(b, (size_t)m->edges, sizeof *b, compare_boxes);
-    for (int i = 0; i < m->edges && !status; i++)
-        for (int j = i + 1; j < m->edges && !status && b[j].low[AXIS] <= b[i].high[AXIS]; j++)
-            if (b[j].low[Y] <= b[i].high[Y] && b[j].high[Y] >= b[i].low[Y]) {
-                status = compare(m, &b[i], &b[j]);
-                if (!status)
-                    status = compare(m, &b[j], &b[i]);
-            }
+        bbm_sort_boxes(m->edges, b);
+    for (int i = 0, j = 0; !status && bbm_next_meeting(m->edges, b, &i, &j);)
+        for (int k = 0; k < 2 && !status; k++)
+            status = compare(m, b[k ? j : i].of, &b[k ? i : j]);
     free(b);
     return status;
 }

@@ -21,10 +21,11 @@ static void check_error(const bbm_model *m, bbm_status got, bbm_status expected,
 
 static const struct { bbm_material material; bbm_status status; const char *named; }
 BAD_MATERIALS[] = {
-    { { NAN, 0.3, 1, 1 }, BBM_NOT_FINITE, "material 1" },
-    { { 1, INFINITY, 1, 1 }, BBM_NOT_FINITE, "material 1" },
-    { { 1, 0.3, NAN, 1 }, BBM_NOT_FINITE, "material 1" },
-    { { 1, 0.3, 1, -INFINITY }, BBM_NOT_FINITE, "material 1" },
+    { { NAN, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has E = nan" },
+    { { 1, INFINITY, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = inf" },
+    { { 1, NAN, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has nu = nan" },
+    { { 1, 0.3, NAN, 1 }, BBM_BAD_MATERIAL, "material 1 has density = nan" },
+    { { 1, 0.3, 1, -INFINITY }, BBM_BAD_MATERIAL, "material 1 has thickness = -inf" },
     { { 0, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has E = 0" },
     { { -5, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "material 1 has E = -5" },
     { { 1e-200, 0.3, 1, 1 }, BBM_BAD_MATERIAL, "E = 1e-200, expected more than 0, from 1e-100 to 1e+100" },
