@@ -417,7 +417,7 @@ static int load_edges(model_reader *r, const edge_load *l)
         if (!in[a->node] || !in[b->node])
             continue;
         found = 1;
-        wet |= fmin(a->y, b->y) < l->level;
+        wet |= fmin(a->y, b->y) + m->origin[1] < l->level;
         if (l->weight > 0)
             bbm_add_water(m, e, l->level, l->weight * t);
         else
