@@ -51,13 +51,10 @@ static const char *next_path(model_reader *r)
 
     if (!word)
         return NULL;
-    const size_t folder = slash && word[0] != '/' ? (size_t)(slash + 1 - r->path) : 0,
-                 length = strlen(word) + 1;
-    char *path = model_text(r, folder + length);
-    if (path) {
-        memcpy(path, r->path, folder);
-        memcpy(path + folder, word, length);
-    }
+    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->path) : 0;
+    char *path = model_text(r, (size_t)folder + strlen(word));
+    if (path)
+        sprintf(path, "%.*s%s", folder, r->path, word);
     return path;
 }
 
@@ -157,7 +154,6 @@ static int read_dynamic(model_reader *r)
 
 static int read_bond(model_reader *r)
 {
-    static const bbm_bonding bonding[] = { BBM_VERTICES, BBM_MOMENT, BBM_MOMENT };
     bbm_beyond *b = r->p->m->beyond;
     int kind = 2;
     model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
@@ -171,7 +167,7 @@ static int read_bond(model_reader *r)
                                   "each other");
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    b->bonding = bonding[kind];
+    b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
     return 1;
 }
 
