@@ -183,15 +183,14 @@ static int has_node(const model_reader *r, int block, int node)
     return c >= 0;
 }
 
-/* Takes the library nodes of a node, each once for a statement. */
+/* Takes the library nodes of a node, each once for a WHERE. */
 static void choose(model_reader *r, const selection *w, int node)
 {
     model_node *n = &r->node[node];
-    const int mark = (int)(r->s - r->statement) + 1;
 
-    if (n->mark == mark || !has_node(r, w->block, node))
+    if (n->mark == r->wheres || !has_node(r, w->block, node))
         return;
-    n->mark = mark;
+    n->mark = r->wheres;
     r->file_nodes++;
     for (int c = n->first; c >= 0; c = r->copy[c].next)
         if (w->block < 0 || r->copy[c].block == w->block)
@@ -314,6 +313,7 @@ static int where(model_reader *r, int nearest)
     selection w;
 
     r->chosen = r->file_nodes = 0;
+    r->wheres++;
     if (!read_selection(r, &w))
         return 0;
     if (w.kind == BY_NODE)
@@ -536,6 +536,36 @@ int model_monitors(model_reader *r)
         return 1;
     free(m.node);
     return 0;
+}
+
+/* Between a vertex of the one node that each WHERE names and another one. */
+int model_bolts(model_reader *r)
+{
+    const bbm_model *m = r->p->m;
+    scene_bolt b = { .strength = INFINITY, .until = INFINITY };
+    double pretension = 0;
+    bbm_direction along;
+    model_option o[] = { NORMAL("stiffness", &b.k), ABOVE_ZERO("strength", &b.strength),
+                         FROM_ZERO("pretension", &pretension) };
+
+    for (int end = 0; end < 2; end++) {
+        if (!where(r, 0))
+            return 0;
+        if (r->chosen > 1)
+            return model_blame(r, "a bolt ends at one of %d nodes there, expected: at X Y of BLOCK",
+                               r->chosen);
+        b.block[end] = r->p->node_block[r->chosen_node[0]];
+        b.vertex[end] = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
+    }
+    o[0].needed = 1;
+    if (!model_options(r, LENGTH(o), o))
+        return 0;
+    model_bolt_force(m, &b, &along);
+    if (!(along.length > r->margin)
+        || m->vertex[b.vertex[0]].element == m->vertex[b.vertex[1]].element)
+        return model_blame(r, "a bolt without length or within an element, expected two places");
+    b.rest = along.length - pretension / b.k;
+    return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }
 
 /* A body is free: which block of another one is nearest to it. */

@@ -37,7 +37,7 @@ typedef struct {
     const char *id;
     double x, y;
     model_place at;
-    int by_hand, first, mark;   /* first copy, or -1; the last statement that named it */
+    int by_hand, first, mark;   /* first copy, or -1; the last WHERE that named it */
 } model_node;
 
 typedef struct {                /* corner[first .. first+n-1] */
@@ -84,7 +84,7 @@ typedef struct {
     int other_material;                     /* of `use MATERIAL on *`, or -1 */
     int plane_strain, no_shear;             /* no_shear: ks is 0 */
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
-                                            /* many nodes of the file */
+    int wheres;                             /* many nodes of the file; and how many there were */
     double margin;                          /* m            lengths below it are none */
     const model_statement *light;           /* of a material that weighs next to nothing */
     const model_statement *s;               /* in hand, and its next word */
@@ -189,6 +189,7 @@ int   model_pressure(model_reader *r);
 int   model_water(model_reader *r);
 int   model_velocities(model_reader *r);
 int   model_stress(model_reader *r);
+int   model_bolts(model_reader *r);
 int   model_joint(model_reader *r);
 int   model_monitors(model_reader *r);
 

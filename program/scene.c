@@ -513,6 +513,20 @@ static void draw_forces(film *f, int frame)
     }
 }
 
+#define BOLT "fill=\"none\" stroke=\"#000000\" stroke-width=\"3\""
+
+/* Those that hold at the time of the frame. */
+static void draw_bolts(film *f, int frame)
+{
+    for (int k = 0; k < f->s->bolts; k++) {
+        const scene_bolt *b = &f->s->bolt[k];
+        const point from = at(f, frame, b->vertex[0]), to = at(f, frame, b->vertex[1]);
+        if (f->s->frame[frame].time < b->until)
+            plot_put(&f->p, "<path " BOLT " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
+                     to.y);
+    }
+}
+
 /* ------------------------------------------------------------------------------------- legend */
 
 typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row */
@@ -569,6 +583,8 @@ static int draw_legend(film *f, double x, double y, double width)
         put_entry(f, &l, "<path fill=\"none\" stroke=\"#333333\" d=\"M31 5h14\"/>"
                   "<circle cx=\"38\" r=\"5\" fill=\"none\" stroke=\"#333333\"/>",
                   "fixed in one direction");
+    if (f->s->bolts)
+        put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     put_force_entry(f, &l, LOAD, "load ", "N");
     put_force_entry(f, &l, LINE_LOAD, "load ", "N/m");
     for (int state = LOCKED; state <= SLIDING && f->most[LOCKED] > 0; state++) {
@@ -754,6 +770,7 @@ static void draw_state(film *f, plot_box b, int frame)
 {
     const point a = at(f, frame, f->s->mark);
 
+    draw_bolts(f, frame);
     draw_forces(f, frame);
     if (f->s->mark_name)
         plot_put(&f->p, "<circle r=\"4.5\" cx=\"%.2f\" cy=\"%.2f\"/>\n", a.x, a.y);

@@ -36,9 +36,17 @@ typedef struct {                /* what was recorded at one time                
     scene_force *force;         /*          [forces]                                              */
 } scene_frame;
 
+typedef struct {                /* a spring along the line between two vertices, by hooked.c      */
+    int    vertex[2], block[2];
+    double k, rest, strength;   /* N/m, m, N                                                      */
+    double until;               /* s        when it broke, or INFINITY                            */
+} scene_bolt;
+
 typedef struct {
     /* --- choices: what is left out (zero) is chosen by the writer --- */
     const char *title;
+    int    bolts;
+    const scene_bolt *bolt;     /*          [bolts]                                               */
     double window[4];           /* m        x from, x to, y from, y to: this, and all that is     */
                                 /*          not fixed; zeros: everything                          */
     int    mark;                /*          a vertex to mark                                      */

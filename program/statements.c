@@ -483,6 +483,8 @@ static const struct kind {
     { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, 0 },
     { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, 0 },
     { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
+    { "bolt", "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts,
+      MODEL, 0 },
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
     { "stress", "stress BLOCK SXX SYY SXY", model_stress, MODEL, 0 },
     { "monitor", "monitor NAME WHERE [of BLOCK]", model_monitors, MODEL, 0 },
@@ -495,7 +497,7 @@ static const struct kind {
 static const char *find_other(const char *word)
 {
     static const struct { const char *words, *here; } other[] = {
-        { " anchor bolt cable spring ", "a spring between two points is Exercise 9.1 in doc/09-limits.md" },
+        { " anchor cable spring ", "see bolt" },
         { " excavate remove stage ", "a file with the block and one without are two runs" },
         { " accelerogram earthquake pulse ", "see shake, which reads a record" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
