@@ -508,16 +508,28 @@ int model_velocities(model_reader *r)
     return 1;
 }
 
+/* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
 int model_stress(model_reader *r)
 {
-    const int block = model_next_block(r);
+    const int star = model_skip(r, "*"), block = star ? -1 : model_next_block(r);
+    int *given = block >= 0 ? &r->block[block].stressed : &r->stressed;
+    double s[6] = { 0 };
 
-    if (block < 0)
+    if (!star && block < 0)
         return 0;
-    model_block *b = &r->block[block];
-    if (b->stressed++)
-        return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
-    return model_numbers(r, 3, b->stress);
+    if (*given)
+        return model_blame(r, "a stress of '%.60s' for the second time, expected one",
+                           star ? "*" : r->block[block].name);
+    for (int k = 0; k < 6 && (k != 3 || model_look(r)); k++)
+        if ((k == 3 && !model_keyword(r, "gradient")) || !model_number(r, &s[k]))
+            return 0;
+    *given = 1;
+    for (int e = 0; e < r->elements; e++) {
+        bbm_element *i = &r->p->m->element[e];
+        for (int k = 0; k < 3 && (star ? !r->block[i->block].stressed : i->block == block); k++)
+            i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
+    }
+    return model_at_end(r);
 }
 
 int model_monitors(model_reader *r)
@@ -600,9 +612,6 @@ int model_finish(model_reader *r)
     for (int n = 0; n < p->m->nodes; n++)
         if (r->block[p->node_block[n]].fixed)
             bbm_fix_node(p->m, n, BBM_XY, 0, 0);
-    for (int e = 0; e < p->m->elements; e++)
-        memcpy(p->m->element[e].stress, r->block[p->m->element[e].block].stress,
-               sizeof p->m->element[e].stress);
     const bbm_status status = !model_hook(r) || p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);

@@ -50,7 +50,6 @@ typedef struct {
     const char *name;
     model_place at;
     int material, meshed, fixed, stressed;      /* material: by `use`, or -1 */
-    double stress[3];
 } model_block;
 
 /* dimensions: bits, of points, curves, surfaces of a mesh. A copy is that of a node for a block:
@@ -82,7 +81,7 @@ typedef struct {
     model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of;
     long long last_node, last_element;      /* the largest ids */
     int other_material;                     /* of `use MATERIAL on *`, or -1 */
-    int plane_strain, no_shear;             /* no_shear: ks is 0 */
+    int plane_strain, no_shear, stressed;   /* no_shear: ks is 0; stressed: by `stress *` */
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
     int wheres;                             /* many nodes of the file; and how many there were */
     double margin;                          /* m            lengths below it are none */

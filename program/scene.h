@@ -38,8 +38,7 @@ typedef struct {                /* what was recorded at one time                
 
 typedef struct {                /* a spring along the line between two vertices, by hooked.c      */
     int    vertex[2], block[2];
-    double k, rest, strength;   /* N/m, m, N                                                      */
-    double until;               /* s        when it broke, or INFINITY                            */
+    double k, rest, strength, until;    /* N/m, m, N, s: when it broke, or INFINITY               */
 } scene_bolt;
 
 typedef struct {

@@ -486,7 +486,7 @@ static const struct kind {
     { "bolt", "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts,
       MODEL, 0 },
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
-    { "stress", "stress BLOCK SXX SYY SXY", model_stress, MODEL, 0 },
+    { "stress", "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
     { "monitor", "monitor NAME WHERE [of BLOCK]", model_monitors, MODEL, 0 },
     { "expect",
       "expect NAME u|v VALUE within TOLERANCE [%], or expect NAME moves|stays by TOLERANCE",

@@ -50,11 +50,10 @@ static void warn_of_pieces(const model *p, const char *path)
     const bbm_model *m = p->m;
     int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece);
 
-    if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
-        free(piece);
+    if (!piece)
         return;
-    }
     int *count = piece + m->elements;
+    bbm_find_pieces(m, piece);
     for (int e = 0; e < m->elements; e++)
         count[m->element[e].block] += piece[e] == e;
     for (int b = 0; b < p->blocks; b++) {
