@@ -214,19 +214,20 @@ static void add_vertex(film *f, body *b, int v)
     plot_widen(b->box[1], x.y);
 }
 
-static void find_bodies(film *f, int (*element)[2])
+/* Block by block, which are numbered from 0, in the order of their elements. */
+static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
 
-    for (int k = 0, n = 0; k < m->elements; k++) {
-        const bbm_element *e = &m->element[element[k][1]];
-        if (k == 0 || element[k][0] != element[k - 1][0])
-            f->body[f->bodies++] = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY },
-                                                         { INFINITY, -INFINITY } } };
-        for (int v = e->first; v < e->first + e->n; v++) {
-            f->vertex[n++] = v;
-            add_vertex(f, &f->body[f->bodies - 1], v);
-        }
+    for (int block = 0, n = 0; n < m->vertices; block++) {
+        body *b = &f->body[f->bodies];
+        *b = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
+        for (int v = 0; v < m->vertices; v++)
+            if (m->element[m->vertex[v].element].block == block) {
+                f->vertex[n++] = v;
+                add_vertex(f, b, v);
+            }
+        f->bodies += b->n > 0;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -248,13 +249,6 @@ static void find_normals(film *f)
     }
 }
 
-static int compare_blocks(const void *p, const void *q)
-{
-    const int *a = p, *b = q, k = a[0] == b[0];
-
-    return (a[k] > b[k]) - (a[k] < b[k]);
-}
-
 static void end_film(film *f)
 {
     free(f->body);
@@ -266,29 +260,19 @@ static void end_film(film *f)
 static int begin_film(film *f)
 {
     const bbm_model *m = f->m;
-    int (*element)[2] = NULL;
 
     errno = f->s->failed ? ENOMEM : EINVAL;
     if (f->s->failed || f->s->frames < 1 || m->vertices != f->s->vertices)
         return 0;
-    element = malloc((size_t)m->elements * sizeof *element);
     f->body = malloc((size_t)m->elements * sizeof *f->body);
     f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
     f->normal = calloc((size_t)m->nodes, sizeof *f->normal);
-    const int done = element && f->body && f->vertex && f->normal;
-    if (done) {
-        for (int e = 0; e < m->elements; e++) {
-            element[e][0] = m->element[e].block;
-            element[e][1] = e;
-        }
-        qsort(element, (size_t)m->elements, sizeof *element, compare_blocks);
-        find_bodies(f, element);
-        find_normals(f);
-    } else {
-        errno = ENOMEM;
-    }
-    free(element);
-    return done;
+    errno = ENOMEM;
+    if (!f->body || !f->vertex || !f->normal)
+        return 0;
+    find_bodies(f);
+    find_normals(f);
+    return 1;
 }
 
 /* The polygons of a block's elements. */
