@@ -552,7 +552,8 @@ static void put_force_entry(film *f, legend *l, int kind, const char *name, cons
 static int draw_legend(film *f, double x, double y, double width)
 {
     legend l = { x, y, width, 0, 0 };
-    char symbol[160];
+    const int last = f->s->frames - 1;
+    char symbol[160], text[60];
     int held = 0;
 
     for (int b = 0; b < f->bodies; b++)
@@ -575,12 +576,17 @@ static int draw_legend(film *f, double x, double y, double width)
         snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%d\" %s/>", ARROW, style[state]);
         put_entry(f, &l, symbol, state == LOCKED ? "locked contact" : "sliding contact");
     }
-    put_force_entry(f, &l, LOCKED, "", "N");
+    put_force_entry(f, &l, LOCKED, "contact force ", "N");
     if (f->s->mark_name)
         put_entry(f, &l, "<circle cx=\"40\" r=\"4.5\"/>", f->s->mark_name);
     if (f->seconds > 0) {
+        const double time = f->s->frame[last].time - f->s->frame[0].time;
+        snprintf(text, sizeof text, "%.2g × real speed",
+                 time * (value_count(f) - 1) / (last * f->seconds));
+        put_entry(f, &l, "", text);
         plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
-        put_entry(f, &l, "", "click: stop or play; arrow keys: step");
+        put_entry(f, &l, "", "click, space: stop or play");
+        put_entry(f, &l, "", "arrow keys, Home, End: step");
         plot_put(&f->p, "</g>\n");
     }
     return l.rows;
@@ -803,18 +809,22 @@ static void begin_turn(film *f, int frame)
         plot_put(&f->p, "values=\"hidden;visible;hidden\" keyTimes=\"0;%.5f;%.5f\"/>\n", from, to);
 }
 
-/* A click stops and plays, the arrow keys step by a frame; where scripts do not run, it plays. */
+/* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
+ * first and the last, and the film fills the window. Where scripts do not run, it plays. */
 static void put_script(film *f)
 {
-    plot_put(&f->p, "<script>\nconst film = document.documentElement, step = %.6g;\n"
+    plot_put(&f->p, "<script>\nconst film = document.documentElement;\n"
+             "const step = %.6g, end = %d * step;\n"
              "document.getElementById('how').setAttribute('visibility', 'visible');\n"
+             "film.setAttribute('width', '100%%'), film.setAttribute('height', '100%%');\n"
              "film.onclick = () => film.animationsPaused() ? film.unpauseAnimations() :\n"
-             "    film.pauseAnimations();\n", f->seconds / (value_count(f) - 1));
-    plot_put(&f->p, "window.onkeydown = (e) => {\n"
-             "    const way = { ArrowLeft: -1, ArrowRight: 1 }[e.key];\n"
-             "    if (!way) return;\n    film.pauseAnimations();\n"
-             "    film.setCurrentTime(Math.max(0, film.getCurrentTime() + way * step));\n};\n"
-             "</script>\n");
+             "    film.pauseAnimations();\n", f->seconds / (value_count(f) - 1), f->s->frames - 1);
+    plot_put(&f->p, "window.onkeydown = (e) => {\n    const now = film.getCurrentTime();\n"
+             "    const to = { ArrowLeft: now - step, ArrowRight: now + step,\n"
+             "                 Home: 0, End: end }[e.key];\n"
+             "    if (e.key === ' ') film.onclick();\n    if (to === undefined) return;\n"
+             "    film.pauseAnimations();\n    film.setCurrentTime(Math.max(0, to));\n"
+             "    e.preventDefault();\n};\n</script>\n");
 }
 
 int scene_write_movie(const scene *s, const bbm_model *m, const char *path)

@@ -349,6 +349,7 @@ START_TEST(a_picture_says_the_time_that_it_shows)
         check_text("out/model/time/mises.svg", call[k].said);
         check_text("out/model/time/contacts.svg", call[k].said);
     }
+    check_text("out/model/time/movie.svg", ">0.00015 × real speed<");   /* 3e-4 s in 3/9 of 6 s */
 }
 END_TEST
 
