@@ -26,6 +26,7 @@ typedef struct {
     int    dynamic, settle;     /* quasi-static steps before t = 0 */
     int    every, vtk, svg;     /* every: 0, the end only */
     const char *field;          /* of the picture, a name of field.h */
+    double colours[2];          /* their range; zeros: that of the field */
     double scale;               /* by which it enlarges displacements; 0: as the picture chooses */
     int    slippery;            /* several blocks, which may touch, and no friction given */
     int    blocks, monitors;

@@ -448,7 +448,8 @@ static void begin_series(plot *p, const plot_chart *c, int k)
                                           "#CC79A7", "#E69F00" };
 
     plot_put(p, "<g fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" "
-             "stroke-dasharray=\"%s\">\n", colour[c->series[k].look % LENGTH(colour)], series_dashes(c, k));
+             "stroke-dasharray=\"%s\">\n",
+             colour[c->series[k].look % LENGTH(colour)], series_dashes(c, k));
 }
 
 /* Columns of the legend: as few as keep it to the rows that the widest entry allows. */

@@ -153,6 +153,7 @@ int   model_options(model_reader *r, int n, model_option o[]);
 #define NORMAL(text, where) \
     RANGE(text, where, 1e-100, 1e100, "[]", "more than 0, from 1e-100 to 1e100")
 #define FROM_ZERO(text, where) RANGE(text, where, 0, INFINITY, "[)", "0 or more")
+#define NUMBER(text, where) RANGE(text, where, -INFINITY, INFINITY, "()", "a number")
 #define ANGLE(text, where) RANGE(text, where, 0, 90, "[)", "0 to less than 90 degrees")
 #define COUNT(t_text, t_where, t_least) { .name = t_text, .n = t_where, .least = t_least }
 #define CHOICE(text, where, list) { .name = text, .n = where, .choices = list }

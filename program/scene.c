@@ -1015,7 +1015,7 @@ static int write_field(film *f, const char *path, const nodal *n, const scene_ma
         range[0] = range[1] = 0;
     if (!open_page(f, path, panels, BAR))
         return 0;
-    const plot_axis bar = plot_bar_axis(&q, range);
+    const plot_axis bar = plot_bar_axis(&q, map->limits[0] < map->limits[1] ? map->limits : range);
     for (int k = 0; k < panels; k++) {
         b = begin_panel(f, k);
         draw_field(f, n + k * f->m->nodes, &bar);

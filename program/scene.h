@@ -75,6 +75,7 @@ typedef struct {                /* contours of a field over the present state   
     double scale;               /* -        of the displacements; 0: the largest is about a tenth */
                                 /*          of the model, and less where an element or an edge    */
                                 /*          would change too much; < 0: they are not shown        */
+    double limits[2];           /* of the colours; zeros: those of the values                     */
     const bbm_model *other;     /* beside it, on the same mesh and in the same colours; or NULL   */
     const char *name[2];        /* then: of both                                                  */
 } scene_map;

@@ -90,7 +90,7 @@ static int read_gravity(model_reader *r) { return model_numbers(r, 2, r->p->m->p
 static int read_shake(model_reader *r)
 {
     bbm_beyond *b = r->p->m->beyond;
-    model_option scale = RANGE("scale", &r->p->shake, -INFINITY, INFINITY, "()", "a number");
+    model_option scale = NUMBER("scale", &r->p->shake);
     const char *path;
     char *end = "";
 
@@ -200,19 +200,20 @@ static int read_rotation(model_reader *r)
 static int read_output(model_reader *r)
 {
     char names[400] = "";
-    int chosen = -1;
+    int chosen = (int)(field_find(r->p->field) - field_table);
+    double *c = r->p->colours;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
-                   CHOICE("field", &chosen, names) };
+                   CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
 
     for (const field *f = field_table; f->name; f++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
                  f->name);
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    if (chosen >= 0)
-        r->p->field = field_table[chosen].name;
-    return 1;
+    r->p->field = field_table[chosen].name;
+    return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
+           || model_blame(r, "colours from %g to %g, expected low below high", c[0], c[1]);
 }
 
 /* ------------------------------------------------------------------- statements that need nodes */
@@ -467,7 +468,7 @@ static const struct kind {
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
       NOTHING_NEEDED, 1 },
     { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
-    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N]",
+    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N] [low VALUE] [high VALUE]",
       read_output, NOTHING_NEEDED, 1 },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },

@@ -310,7 +310,8 @@ static void draw_now(write_results *w, const char *name)
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    scene_map map = { .title = w->p->title, .field = w->p->field, .scale = w->p->scale };
+    scene_map map = { .title = w->p->title, .field = w->p->field, .scale = w->p->scale,
+                      .limits = { w->p->colours[0], w->p->colours[1] } };
     char path[LONGEST], name[100];
 
     draw_now(w, "contacts.svg");
