@@ -210,18 +210,12 @@ const char *case_path(case_results *r, const char *file)
     return r->path;
 }
 
-static void make_folder(const char *path)
-{
-    if (!output_make_folder(path))
-        stop(path, strerror(errno));
-}
-
 void case_open(case_results *r, const char *name)
 {
     snprintf(r->folder, sizeof r->folder, "out/%s", name);
     r->failed = 0;
-    make_folder("out");
-    make_folder(r->folder);
+    if (!output_make_folder(r->folder))
+        stop(r->folder, strerror(errno));
     r->csv = fopen(case_path(r, "results.csv"), "w");
     if (!r->csv)
         stop(r->path, strerror(errno));

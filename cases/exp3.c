@@ -139,21 +139,21 @@ static void print_run(case_results *r, const slide *s, const variant *v)
 {
     const double t = STEPS * DT, nowhere[2] = { NAN, NAN }, *end = s->at[STEPS];
     const double static_depth = MASS * v->gravity / (4 * s->m->par.p_n);
-    char name[64];
-    double high = 0;
+    double high = 0, error[4];
 
     for (int i = 0; i <= STEPS; i++)
         high = fmax(high, fabs(s->at[i][3]));
-    snprintf(name, sizeof name, "%s.centre.u", v->name);
-    const double e0 = case_row(r, name, nowhere, end[0], theory(t), "theory");
-    snprintf(name, sizeof name, "%s.mark.u", v->name);
-    const double e1 = case_row(r, name, nowhere, end[2], theory(t), "theory");
-    snprintf(name, sizeof name, "%s.mark.v", v->name);
-    case_row(r, name, nowhere, high, 0, "theory");
-    snprintf(name, sizeof name, "%s.penetration", v->name);
-    case_row(r, name, nowhere, s->m->info.penetration, static_depth, "theory");
-    printf("| %s | %+.1e | %+.1e | %.1e | %.3e | %.3e | %d | %d |\n", v->label, e0, e1, high,
-           static_depth, s->m->info.penetration, s->m->info.contacts, s->passes);
+    const struct { const char *name; double computed, theory; } row[4] = {
+        { "centre.u", end[0], theory(t) }, { "mark.u", end[2], theory(t) }, { "mark.v", high, 0 },
+        { "penetration", s->m->info.penetration, static_depth },
+    };
+    for (int k = 0; k < 4; k++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s.%s", v->name, row[k].name);
+        error[k] = case_row(r, name, nowhere, row[k].computed, row[k].theory, "theory");
+    }
+    printf("| %s | %+.1e | %+.1e | %.1e | %.3e | %.3e | %d | %d |\n", v->label, error[0], error[1],
+           high, static_depth, s->m->info.penetration, s->m->info.contacts, s->passes);
 }
 
 static void print_tables(case_results *r, const slide s[], const variant v[], int runs)
@@ -195,13 +195,12 @@ static void print_summary(const slide s[], const variant v[], int runs)
 static void draw_figure(case_results *r, const slide s[], const variant v[])
 {
     enum { N = STEPS + 1, MARKS = 21 };
-    double t[N], exact[N], zero[N], u_of[3][N], v_of[3][N], some[3][MARKS];
+    double t[N], exact[N], zero[N] = { 0 }, u_of[3][N], v_of[3][N], some[3][MARKS];
     plot p;
 
     for (int i = 0; i < N; i++) {
         t[i] = i * DT;
         exact[i] = theory(t[i]);
-        zero[i] = 0;
         for (int k = 0; k < 3; k++) {
             u_of[k][i] = s[k].at[i][2];
             v_of[k][i] = s[k].at[i][3];

@@ -1,6 +1,5 @@
 /* theory.c - the textbook solutions of Experiments I and II: formulas alone, so that tests can
- * differentiate them; and the rebound of drop.model, derived in
- * doc/beyond-scenes.md. */
+ * differentiate them. */
 #include <math.h>
 
 #include "theory.h"
@@ -35,9 +34,4 @@ void theory_plate_displacement(const theory_plate *p, double x, double y, double
                 - 2 / r3 * cos(3 * th));
     u[1] = c * (r * (k - 3) * sin(th) + 2 / r * ((1 - k) * sin(th) + sin(3 * th))
                 - 2 / r3 * sin(3 * th));
-}
-
-double theory_rebound(double q)
-{
-    return pow(1 + q, -acos(-1) / (2 * acos((2 - q) / (2 * sqrt(1 + q)))));
 }

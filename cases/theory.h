@@ -1,4 +1,4 @@
-/* theory.h - the textbook solutions of Experiments I and II, plane stress; and a rebound. */
+/* theory.h - the textbook solutions of Experiments I and II, plane stress. */
 #ifndef THEORY_H
 #define THEORY_H
 
@@ -11,8 +11,5 @@ void theory_beam_displacement(const theory_beam *b, double x, double y, double u
 /* An infinite plate with a hole, Eq. (72): sx, sy, sxy, and the displacements. */
 void theory_plate_stress(const theory_plate *p, double x, double y, double s[3]);
 void theory_plate_displacement(const theory_plate *p, double x, double y, double u[2]);
-/* What is left of the velocity when a mass has bounced from springs, q = (w dt)^2/2; NaN from
- * w dt = 4 on. */
-double theory_rebound(double q);
 
 #endif

@@ -183,15 +183,14 @@ static int has_node(const model_reader *r, int block, int node)
     return c >= 0;
 }
 
-/* Takes the library nodes of a node, each once for a statement. */
+/* Takes the library nodes of a node, each once for a WHERE. */
 static void choose(model_reader *r, const selection *w, int node)
 {
     model_node *n = &r->node[node];
-    const int mark = (int)(r->s - r->statement) + 1;
 
-    if (n->mark == mark || !has_node(r, w->block, node))
+    if (n->mark == r->wheres || !has_node(r, w->block, node))
         return;
-    n->mark = mark;
+    n->mark = r->wheres;
     r->file_nodes++;
     for (int c = n->first; c >= 0; c = r->copy[c].next)
         if (w->block < 0 || r->copy[c].block == w->block)
@@ -314,6 +313,7 @@ static int where(model_reader *r, int nearest)
     selection w;
 
     r->chosen = r->file_nodes = 0;
+    r->wheres++;
     if (!read_selection(r, &w))
         return 0;
     if (w.kind == BY_NODE)
@@ -417,7 +417,7 @@ static int load_edges(model_reader *r, const edge_load *l)
         if (!in[a->node] || !in[b->node])
             continue;
         found = 1;
-        wet |= fmin(a->y, b->y) < l->level;
+        wet |= fmin(a->y, b->y) + m->origin[1] < l->level;
         if (l->weight > 0)
             bbm_add_water(m, e, l->level, l->weight * t);
         else
@@ -508,16 +508,28 @@ int model_velocities(model_reader *r)
     return 1;
 }
 
+/* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
 int model_stress(model_reader *r)
 {
-    const int block = model_next_block(r);
+    const int star = model_skip(r, "*"), block = star ? -1 : model_next_block(r);
+    int *given = block >= 0 ? &r->block[block].stressed : &r->stressed;
+    double s[6] = { 0 };
 
-    if (block < 0)
+    if (!star && block < 0)
         return 0;
-    model_block *b = &r->block[block];
-    if (b->stressed++)
-        return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
-    return model_numbers(r, 3, b->stress);
+    if (*given)
+        return model_blame(r, "a stress of '%.60s' for the second time, expected one",
+                           star ? "*" : r->block[block].name);
+    for (int k = 0; k < 6 && (k != 3 || model_look(r)); k++)
+        if ((k == 3 && !model_keyword(r, "gradient")) || !model_number(r, &s[k]))
+            return 0;
+    *given = 1;
+    for (int e = 0; e < r->elements; e++) {
+        bbm_element *i = &r->p->m->element[e];
+        for (int k = 0; k < 3 && (star ? !r->block[i->block].stressed : i->block == block); k++)
+            i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
+    }
+    return model_at_end(r);
 }
 
 int model_monitors(model_reader *r)
@@ -536,6 +548,36 @@ int model_monitors(model_reader *r)
         return 1;
     free(m.node);
     return 0;
+}
+
+/* Between a vertex of the one node that each WHERE names and another one. */
+int model_bolts(model_reader *r)
+{
+    const bbm_model *m = r->p->m;
+    scene_bolt b = { .strength = INFINITY, .until = INFINITY };
+    double pretension = 0;
+    bbm_direction along;
+    model_option o[] = { NORMAL("stiffness", &b.k), ABOVE_ZERO("strength", &b.strength),
+                         FROM_ZERO("pretension", &pretension) };
+
+    for (int end = 0; end < 2; end++) {
+        if (!where(r, 0))
+            return 0;
+        if (r->chosen > 1)
+            return model_blame(r, "a bolt ends at one of %d nodes there, expected: at X Y of BLOCK",
+                               r->chosen);
+        b.block[end] = r->p->node_block[r->chosen_node[0]];
+        b.vertex[end] = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
+    }
+    o[0].needed = 1;
+    if (!model_options(r, LENGTH(o), o))
+        return 0;
+    model_bolt_force(m, &b, &along);
+    if (!(along.length > r->margin)
+        || m->vertex[b.vertex[0]].element == m->vertex[b.vertex[1]].element)
+        return model_blame(r, "a bolt without length or within an element, expected two places");
+    b.rest = along.length - pretension / b.k;
+    return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }
 
 /* A body is free: which block of another one is nearest to it. */
@@ -570,9 +612,6 @@ int model_finish(model_reader *r)
     for (int n = 0; n < p->m->nodes; n++)
         if (r->block[p->node_block[n]].fixed)
             bbm_fix_node(p->m, n, BBM_XY, 0, 0);
-    for (int e = 0; e < p->m->elements; e++)
-        memcpy(p->m->element[e].stress, r->block[p->m->element[e].block].stress,
-               sizeof p->m->element[e].stress);
     const bbm_status status = !model_hook(r) || p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);

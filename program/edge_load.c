@@ -8,8 +8,7 @@ int scene_edge_load(const bbm_model *m, int k, scene_line *l)
         return 0;
     const bbm_edge_load *e = &m->beyond->edge_load[k];
     *l = (scene_line){ .a = e->a, .b = bbm_next_vertex(&m->element[m->vertex[e->a].element], e->a),
-                       .loads = 1, .q = &e->f, .pressure = e->pressure };
-    if (e->weight > 0)
-        l->loads = BBM_GAUSS, l->q = e->q;
+                       .loads = e->weight > 0 ? BBM_GAUSS : 1,
+                       .q = e->weight > 0 ? e->q : &e->f, .pressure = e->pressure };
     return 1;
 }

@@ -52,38 +52,83 @@ int model_read_record(model_reader *r, const char *path)
     return r->p->shakings || model_blame(r, "%.200s has no row, expected TIME AX [AY]", path);
 }
 
-/* Gravity less the acceleration of the base in the middle of the step, which is the mean between
- * two rows. */
+/* ---------------------------------------------------------------------------------------- bolts */
+
+double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along)
+{
+    const bbm_vertex *P = &m->vertex[b->vertex[0]], *Q = &m->vertex[b->vertex[1]];
+    const double length = hypot(P->x - Q->x, P->y - Q->y);
+
+    *along = (bbm_direction){ (P->x - Q->x) / length, (P->y - Q->y) / length, length };
+    return b->k * (length - b->rest);
+}
+
+/* Behind the library's own gaps: a bolt along n with the force F at the length L resists by k along
+ * n, and across it a force that pulls turns back with F/L,
+ *     W = k n n^T + F/L (1 - n n^T),  d0 = n F/k. */
+static void list_gaps(bbm_model *m)
+{
+    const model *p = hooked_of(m)->p;
+
+    bbm_list_edge_gaps(m);
+    for (int k = 0; k < p->bolts; k++) {
+        const scene_bolt *b = &p->bolt[k];
+        const bbm_vertex *P = &m->vertex[b->vertex[0]], *Q = &m->vertex[b->vertex[1]];
+        bbm_gap *g = bbm_add_gap(m, P->element, Q->element);
+        bbm_direction along;
+        const double across = fmax(0, model_bolt_force(m, b, &along)) / along.length,
+                     n[2] = { along.x, along.y };
+        bbm_bonding_gap(&m->element[g->i], P, &m->element[g->j], Q, 0, g);
+        for (int a = 0; a < 4; a++) {
+            g->own.W[a / 2][a % 2] = (b->k - across) * n[a / 2] * n[a % 2] + across * (a % 3 == 0);
+            g->d0[a / 2] = (along.length - b->rest) * n[a / 2];
+        }
+    }
+}
+
+/* ------------------------------------------------------------------------------------ the hooks */
+
+/* Bolts that carry more than their strength break. Gravity less the acceleration of the base in the
+ * middle of the step, which is the mean between two rows. */
 static bbm_status begin(bbm_model *m)
 {
     const bbm_status status = hooked_of(m)->begin(m);
     const model *p = hooked_of(m)->p;
-    const model_shaking *q = p->shaking, *end = q + p->shakings - 1;
+    const model_shaking *q = p->shaking, *end = p->shakings ? q + p->shakings - 1 : q;
     const double t = m->info.t + m->h / 2;
 
+    for (int k = 0; k < p->bolts; k++) {
+        scene_bolt *b = &p->bolt[k];
+        if (model_bolt_force(m, b, &(bbm_direction){ 0 }) > b->strength)
+            b->k = 0, b->until = m->info.t;
+    }
     while (q < end && q[1].t < t)
         q++;
-    for (int a = 0; a < 2 && t >= q->t && q < end; a++)
+    for (int a = 0; a < 2 && q < end && t >= q->t; a++)
         m->acceleration[a] -= p->shake * (q[0].a[a] + (t - q[0].t) / (q[1].t - q[0].t)
                                                           * (q[1].a[a] - q[0].a[a]));
     return status;
 }
 
-/* ------------------------------------------------------------------------------------ the hooks */
-
 int model_hook(model_reader *r)
 {
     model *p = r->p;
-    bbm_hooks *hook = p->m->hook;
+    bbm_model *m = p->m;
+    const size_t gaps = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices, bolts = (size_t)p->bolts;
 
-    if (!p->shakings)
+    if (!p->shakings && !p->bolts)
         return 1;
-    hooked *b = realloc(p->m->beyond, sizeof *b);
-    if (!b)
+    hooked *b = realloc(m->beyond, sizeof *b);
+    bbm_gap *gap = realloc(m->gap, (gaps + bolts) * sizeof *gap);
+    m->beyond = b ? &b->library : m->beyond;
+    m->gap = gap ? gap : m->gap;
+    if (!b || !gap)
         return model_out_of_memory(r);
-    p->m->beyond = &b->library;
-    b->p = p;
-    b->begin = hook->begin;
-    hook->begin = begin;
+    memset(gap + gaps, 0, bolts * sizeof *gap);
+    *b = (hooked){ b->library, p, m->hook->begin };
+    m->hook->begin = begin;
+    m->hook->list_gaps = list_gaps;
+    bbm_list_gaps(m);
+    bbm_note_springs(m, 0);             /* the energy of bolts that are tight */
     return 1;
 }

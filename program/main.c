@@ -31,25 +31,23 @@ typedef struct {
     find find;                                  /* name: NULL, none */
 } arguments;
 
-static const char *usage(void)
-{
-    return "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
-           "       bbm [-q] [-d NAME=VALUE] --find NAME LOW HIGH MODEL\n"
-           "  MODEL       a model file; -: standard input\n"
-           "  -d          takes the place of `let NAME`; may be given several times\n"
-           "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
-           "  --find NAME LOW HIGH\n"
-           "              bisects `let NAME` until its expectations change; writes no results\n"
-           "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
-           "  -m FILE.mtx the matrix of the first solution (Matrix Market), and its right-hand "
-           "side as FILE.mtx.rhs\n"
-           "  -q          quiet: errors and warnings alone\n"
-           "  -h, --version\n";
-}
+static const char usage[] =
+    "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
+    "       bbm [-q] [-d NAME=VALUE] --find NAME LOW HIGH MODEL\n"
+    "  MODEL       a model file; -: standard input\n"
+    "  -d          takes the place of `let NAME`; may be given several times\n"
+    "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
+    "  --find NAME LOW HIGH\n"
+    "              bisects `let NAME` until its expectations change; writes no results\n"
+    "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
+    "  -m FILE.mtx the matrix of the first solution (Matrix Market), and its right-hand "
+    "side as FILE.mtx.rhs\n"
+    "  -q          quiet: errors and warnings alone\n"
+    "  -h, --version\n";
 
 static int complain(arguments *a, const char *what)
 {
-    fprintf(stderr, "bbm: %s\n%s", what, usage());
+    fprintf(stderr, "bbm: %s\n%s", what, usage);
     return a->exit = 2;
 }
 
@@ -73,9 +71,8 @@ static int read_find(find *f, char *word[])
 {
     char *end[2] = { "?", "?" };
 
-    for (int k = 0; k < 3; k++)
-        if (!word[k])
-            return 0;
+    if (!word[0] || !word[1] || !word[2])
+        return 0;
     f->name = word[0];
     f->low = strtod(word[1], &end[0]);
     f->high = strtod(word[2], &end[1]);
@@ -105,7 +102,7 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         } else if (strcmp(word, "-q") == 0) {
             a->quiet = 1;
         } else if (strcmp(word, "-h") == 0 || strcmp(word, "--help") == 0) {
-            return printf("%s", usage()), a->exit = 0;
+            return printf("%s", usage), a->exit = 0;
         } else if (strcmp(word, "--version") == 0) {
             return printf("bbm %s\n", BBM_VERSION), a->exit = 0;
         } else if (strcmp(word, "--check") == 0) {
@@ -123,7 +120,7 @@ static int read_arguments(arguments *a, int argc, char *argv[])
             if (value == &let)                  /* they gather at the front of argv */
                 a->let[a->lets++] = word[2] ? argv[k] + 2 : argv[k];
         } else {
-            fprintf(stderr, "bbm: unknown option %.60s\n%s", word, usage());
+            fprintf(stderr, "bbm: unknown option %.60s\n%s", word, usage);
             return a->exit = 2;
         }
     }

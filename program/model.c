@@ -104,6 +104,6 @@ void model_free(model *p)
     free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
         free((void *)p->element);
     free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to),
-        free(p->note), free(p->shaking);
+        free(p->note), free(p->shaking), free(p->bolt);
     *p = (model){ 0 };
 }

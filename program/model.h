@@ -10,6 +10,7 @@
 #define MODEL_H
 
 #include "../beyond/beyond.h"
+#include "scene.h"
 
 typedef struct { const char *name; int nodes, *node; } model_monitor;   /* of library nodes */
 typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s */
@@ -25,6 +26,7 @@ typedef struct {
     int    dynamic, settle;     /* quasi-static steps before t = 0 */
     int    every, vtk, svg;     /* every: 0, the end only */
     const char *field;          /* of the picture, a name of field.h */
+    double colours[2];          /* their range; zeros: that of the field */
     double scale;               /* by which it enlarges displacements; 0: as the picture chooses */
     int    slippery;            /* several blocks, which may touch, and no friction given */
     int    blocks, monitors;
@@ -43,6 +45,8 @@ typedef struct {
     int    shakings;            /* rows of a record of the base's acceleration */
     model_shaking *shaking;     /* [shakings]   between them it is linear, outside it is 0 */
     double shake;               /* its scale */
+    int    bolts;
+    scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
     int    texts;
     char **text;                /* [texts]      the files read: names and ids are words of them */
     int    notes;
@@ -62,6 +66,8 @@ double model_distance(const bbm_model *m, int corner, int edge);
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p, double t);                  /* to where they are at the time t */
 void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
+/* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
+double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);
 void model_free(model *p);
 
 #endif

@@ -20,7 +20,7 @@
 /* A physical group with its name, or an entity (point, curve, surface) with its groups tag[first
  * .. first+n-1]. */
 typedef struct { int dimension, number; const char *name; int first, n; } entry;
-typedef struct { int count; entry *entry; } list;               /* sorted by dimension and number */
+typedef struct { int count; entry *entry; } list;
 
 typedef struct {
     model_reader *r;
@@ -113,31 +113,12 @@ static const char *id(mesh *m)
 
 /* ----------------------------------------------------------------------------- groups, entities */
 
-static int compare(const void *p, const void *q)
-{
-    const entry *a = p, *b = q;
-
-    return a->dimension != b->dimension
-               ? (a->dimension > b->dimension) - (a->dimension < b->dimension)
-               : (a->number > b->number) - (a->number < b->number);
-}
-
 static const entry *find(const list *l, int dimension, int number_of)
 {
-    const entry key = { dimension, number_of, NULL, 0, 0 };
-
-    return l->count ? bsearch(&key, l->entry, (size_t)l->count, sizeof key, compare) : NULL;
-}
-
-static void add(mesh *m, list *l, const entry *e)
-{
-    model_add(m->r, &l->entry, &l->count, sizeof *e, e);
-}
-
-static void sort(list *l)
-{
-    if (l->count)
-        qsort(l->entry, (size_t)l->count, sizeof *l->entry, compare);
+    for (int k = 0; k < l->count; k++)
+        if (l->entry[k].dimension == dimension && l->entry[k].number == number_of)
+            return &l->entry[k];
+    return NULL;
 }
 
 /* dimension, number, "name" */
@@ -156,9 +137,8 @@ static void read_names(mesh *m)
         e.name = word + 1;
         if (!model_is_name(e.name))
             wrong(m, e.name, "a name of letters, digits, _ - .");
-        add(m, &m->group, &e);
+        model_add(m->r, &m->group.entry, &m->group.count, sizeof e, &e);
     }
-    sort(&m->group);
 }
 
 /* Reads the n physical tags of an entity or element. */
@@ -181,7 +161,7 @@ static void read_entity(mesh *m, int dimension)
     read_tags(m, e.n);
     for (int bounds = dimension > 0 ? whole(m, 0) : 0; more(m, &bounds); )
         next_word(m);
-    add(m, &m->entity, &e);
+    model_add(m->r, &m->entity.entry, &m->entity.count, sizeof e, &e);
 }
 
 static void read_entities(mesh *m)
@@ -192,7 +172,6 @@ static void read_entities(mesh *m)
     for (int d = 0; d < 4; d++)
         while (more(m, &n[d]))
             read_entity(m, d);
-    sort(&m->entity);
 }
 
 /* ------------------------------------------------------------------------------ nodes, elements */

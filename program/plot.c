@@ -173,16 +173,12 @@ static void power_text(char *text, size_t size, int exponent)
 
 /* ---------------------------------------------------------------------------------------- axes */
 
+/* m, N, s, Pa, alone or before a slash */
 static int takes_prefix(const char *unit)
 {
-    static const char *const symbol[] = { "m", "N", "Pa", "s" };
+    const size_t n = strcspn(unit, "/");
 
-    for (int i = 0; i < LENGTH(symbol); i++) {
-        const size_t n = strlen(symbol[i]);
-        if (strncmp(unit, symbol[i], n) == 0 && (unit[n] == '\0' || unit[n] == '/'))
-            return 1;
-    }
-    return 0;
+    return (n == 1 && strchr("mNs", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
 }
 
 /* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
@@ -248,22 +244,15 @@ double plot_pixel(const plot_axis *a, double value)
     return shown_pixel(a, a->log ? log10(value) : value * a->scale);
 }
 
-/* A logarithmic axis over few decades also has lines at 2 .. 9, over very few also numbers at 2
- * and 5. */
+/* A logarithmic axis over few decades also has lines at 2 .. 9. */
 static double log_tick(const plot_axis *a, int i, char text[TICK_TEXT])
 {
-    const int fine = a->hi - a->lo < 6, few = a->hi - a->lo < 2.1, m = fine ? i % 9 + 1 : 1;
+    const int fine = a->hi - a->lo < 6, m = fine ? i % 9 + 1 : 1;
     const double exponent = floor(a->lo / a->step) * a->step + (fine ? i / 9 : i * a->step);
-    char power[TICK_TEXT / 2];
 
-    power_text(power, sizeof power, (int)exponent);
     text[0] = '\0';
-    if (few && (m == 1 || m == 2 || m == 5) && fabs(exponent) <= 3)
-        snprintf(text, TICK_TEXT, "%g", m * pow(10, exponent));
-    else if (m == 1)
-        snprintf(text, TICK_TEXT, "%s", power);
-    else if (few && (m == 2 || m == 5))
-        snprintf(text, TICK_TEXT, "%d×%s", m, power);
+    if (m == 1)
+        power_text(text, TICK_TEXT, (int)exponent);
     return exponent + log10(m);
 }
 
@@ -390,14 +379,6 @@ static void chart_axes(plot *p, plot_box box, const plot_chart *c)
     round_axis(&p->y);
 }
 
-static const char *series_colour(int look)
-{
-    static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
-                                          "#CC79A7", "#E69F00" };
-
-    return colour[look % LENGTH(colour)];
-}
-
 /* Lines without marks take the patterns in turn; the first is solid. */
 static const char *series_dashes(const plot_chart *c, int k)
 {
@@ -463,8 +444,12 @@ static void draw_marks(plot *p, const plot_chart *c, const plot_series *s)
 
 static void begin_series(plot *p, const plot_chart *c, int k)
 {
+    static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
+                                          "#CC79A7", "#E69F00" };
+
     plot_put(p, "<g fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" "
-             "stroke-dasharray=\"%s\">\n", series_colour(c->series[k].look), series_dashes(c, k));
+             "stroke-dasharray=\"%s\">\n",
+             colour[c->series[k].look % LENGTH(colour)], series_dashes(c, k));
 }
 
 /* Columns of the legend: as few as keep it to the rows that the widest entry allows. */

@@ -37,7 +37,7 @@ typedef struct {
     const char *id;
     double x, y;
     model_place at;
-    int by_hand, first, mark;   /* first copy, or -1; the last statement that named it */
+    int by_hand, first, mark;   /* first copy, or -1; the last WHERE that named it */
 } model_node;
 
 typedef struct {                /* corner[first .. first+n-1] */
@@ -50,7 +50,6 @@ typedef struct {
     const char *name;
     model_place at;
     int material, meshed, fixed, stressed;      /* material: by `use`, or -1 */
-    double stress[3];
 } model_block;
 
 /* dimensions: bits, of points, curves, surfaces of a mesh. A copy is that of a node for a block:
@@ -82,9 +81,9 @@ typedef struct {
     model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of;
     long long last_node, last_element;      /* the largest ids */
     int other_material;                     /* of `use MATERIAL on *`, or -1 */
-    int plane_strain, no_shear;             /* no_shear: ks is 0 */
+    int plane_strain, no_shear, stressed;   /* no_shear: ks is 0; stressed: by `stress *` */
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
-                                            /* many nodes of the file */
+    int wheres;                             /* many nodes of the file; and how many there were */
     double margin;                          /* m            lengths below it are none */
     const model_statement *light;           /* of a material that weighs next to nothing */
     const model_statement *s;               /* in hand, and its next word */
@@ -154,6 +153,7 @@ int   model_options(model_reader *r, int n, model_option o[]);
 #define NORMAL(text, where) \
     RANGE(text, where, 1e-100, 1e100, "[]", "more than 0, from 1e-100 to 1e100")
 #define FROM_ZERO(text, where) RANGE(text, where, 0, INFINITY, "[)", "0 or more")
+#define NUMBER(text, where) RANGE(text, where, -INFINITY, INFINITY, "()", "a number")
 #define ANGLE(text, where) RANGE(text, where, 0, 90, "[)", "0 to less than 90 degrees")
 #define COUNT(t_text, t_where, t_least) { .name = t_text, .n = t_where, .least = t_least }
 #define CHOICE(text, where, list) { .name = text, .n = where, .choices = list }
@@ -189,6 +189,7 @@ int   model_pressure(model_reader *r);
 int   model_water(model_reader *r);
 int   model_velocities(model_reader *r);
 int   model_stress(model_reader *r);
+int   model_bolts(model_reader *r);
 int   model_joint(model_reader *r);
 int   model_monitors(model_reader *r);
 

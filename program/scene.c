@@ -214,19 +214,20 @@ static void add_vertex(film *f, body *b, int v)
     plot_widen(b->box[1], x.y);
 }
 
-static void find_bodies(film *f, int (*element)[2])
+/* Block by block, which are numbered from 0, in the order of their elements. */
+static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
 
-    for (int k = 0, n = 0; k < m->elements; k++) {
-        const bbm_element *e = &m->element[element[k][1]];
-        if (k == 0 || element[k][0] != element[k - 1][0])
-            f->body[f->bodies++] = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY },
-                                                         { INFINITY, -INFINITY } } };
-        for (int v = e->first; v < e->first + e->n; v++) {
-            f->vertex[n++] = v;
-            add_vertex(f, &f->body[f->bodies - 1], v);
-        }
+    for (int block = 0, n = 0; n < m->vertices; block++) {
+        body *b = &f->body[f->bodies];
+        *b = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
+        for (int v = 0; v < m->vertices; v++)
+            if (m->element[m->vertex[v].element].block == block) {
+                f->vertex[n++] = v;
+                add_vertex(f, b, v);
+            }
+        f->bodies += b->n > 0;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -248,13 +249,6 @@ static void find_normals(film *f)
     }
 }
 
-static int compare_blocks(const void *p, const void *q)
-{
-    const int *a = p, *b = q, k = a[0] == b[0];
-
-    return (a[k] > b[k]) - (a[k] < b[k]);
-}
-
 static void end_film(film *f)
 {
     free(f->body);
@@ -266,29 +260,19 @@ static void end_film(film *f)
 static int begin_film(film *f)
 {
     const bbm_model *m = f->m;
-    int (*element)[2] = NULL;
 
     errno = f->s->failed ? ENOMEM : EINVAL;
     if (f->s->failed || f->s->frames < 1 || m->vertices != f->s->vertices)
         return 0;
-    element = malloc((size_t)m->elements * sizeof *element);
     f->body = malloc((size_t)m->elements * sizeof *f->body);
     f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
     f->normal = calloc((size_t)m->nodes, sizeof *f->normal);
-    const int done = element && f->body && f->vertex && f->normal;
-    if (done) {
-        for (int e = 0; e < m->elements; e++) {
-            element[e][0] = m->element[e].block;
-            element[e][1] = e;
-        }
-        qsort(element, (size_t)m->elements, sizeof *element, compare_blocks);
-        find_bodies(f, element);
-        find_normals(f);
-    } else {
-        errno = ENOMEM;
-    }
-    free(element);
-    return done;
+    errno = ENOMEM;
+    if (!f->body || !f->vertex || !f->normal)
+        return 0;
+    find_bodies(f);
+    find_normals(f);
+    return 1;
 }
 
 /* The polygons of a block's elements. */
@@ -513,6 +497,20 @@ static void draw_forces(film *f, int frame)
     }
 }
 
+#define BOLT "fill=\"none\" stroke=\"#000000\" stroke-width=\"3\""
+
+/* Those that hold at the time of the frame. */
+static void draw_bolts(film *f, int frame)
+{
+    for (int k = 0; k < f->s->bolts; k++) {
+        const scene_bolt *b = &f->s->bolt[k];
+        const point from = at(f, frame, b->vertex[0]), to = at(f, frame, b->vertex[1]);
+        if (f->s->frame[frame].time < b->until)
+            plot_put(&f->p, "<path " BOLT " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
+                     to.y);
+    }
+}
+
 /* ------------------------------------------------------------------------------------- legend */
 
 typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row */
@@ -554,7 +552,8 @@ static void put_force_entry(film *f, legend *l, int kind, const char *name, cons
 static int draw_legend(film *f, double x, double y, double width)
 {
     legend l = { x, y, width, 0, 0 };
-    char symbol[160];
+    const int last = f->s->frames - 1;
+    char symbol[160], text[60];
     int held = 0;
 
     for (int b = 0; b < f->bodies; b++)
@@ -569,18 +568,25 @@ static int draw_legend(film *f, double x, double y, double width)
         put_entry(f, &l, "<path fill=\"none\" stroke=\"#333333\" d=\"M31 5h14\"/>"
                   "<circle cx=\"38\" r=\"5\" fill=\"none\" stroke=\"#333333\"/>",
                   "fixed in one direction");
+    if (f->s->bolts)
+        put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     put_force_entry(f, &l, LOAD, "load ", "N");
     put_force_entry(f, &l, LINE_LOAD, "load ", "N/m");
     for (int state = LOCKED; state <= SLIDING && f->most[LOCKED] > 0; state++) {
         snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%d\" %s/>", ARROW, style[state]);
         put_entry(f, &l, symbol, state == LOCKED ? "locked contact" : "sliding contact");
     }
-    put_force_entry(f, &l, LOCKED, "", "N");
+    put_force_entry(f, &l, LOCKED, "contact force ", "N");
     if (f->s->mark_name)
         put_entry(f, &l, "<circle cx=\"40\" r=\"4.5\"/>", f->s->mark_name);
     if (f->seconds > 0) {
+        const double time = f->s->frame[last].time - f->s->frame[0].time;
+        snprintf(text, sizeof text, "%.2g × real speed",
+                 time * (value_count(f) - 1) / (last * f->seconds));
+        put_entry(f, &l, "", text);
         plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
-        put_entry(f, &l, "", "click: stop or play; arrow keys: step");
+        put_entry(f, &l, "", "click, space: stop or play");
+        put_entry(f, &l, "", "arrow keys, Home, End: step");
         plot_put(&f->p, "</g>\n");
     }
     return l.rows;
@@ -754,6 +760,7 @@ static void draw_state(film *f, plot_box b, int frame)
 {
     const point a = at(f, frame, f->s->mark);
 
+    draw_bolts(f, frame);
     draw_forces(f, frame);
     if (f->s->mark_name)
         plot_put(&f->p, "<circle r=\"4.5\" cx=\"%.2f\" cy=\"%.2f\"/>\n", a.x, a.y);
@@ -802,18 +809,22 @@ static void begin_turn(film *f, int frame)
         plot_put(&f->p, "values=\"hidden;visible;hidden\" keyTimes=\"0;%.5f;%.5f\"/>\n", from, to);
 }
 
-/* A click stops and plays, the arrow keys step by a frame; where scripts do not run, it plays. */
+/* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
+ * first and the last, and the film fills the window. Where scripts do not run, it plays. */
 static void put_script(film *f)
 {
-    plot_put(&f->p, "<script>\nconst film = document.documentElement, step = %.6g;\n"
+    plot_put(&f->p, "<script>\nconst film = document.documentElement;\n"
+             "const step = %.6g, end = %d * step;\n"
              "document.getElementById('how').setAttribute('visibility', 'visible');\n"
+             "film.setAttribute('width', '100%%'), film.setAttribute('height', '100%%');\n"
              "film.onclick = () => film.animationsPaused() ? film.unpauseAnimations() :\n"
-             "    film.pauseAnimations();\n", f->seconds / (value_count(f) - 1));
-    plot_put(&f->p, "window.onkeydown = (e) => {\n"
-             "    const way = { ArrowLeft: -1, ArrowRight: 1 }[e.key];\n"
-             "    if (!way) return;\n    film.pauseAnimations();\n"
-             "    film.setCurrentTime(Math.max(0, film.getCurrentTime() + way * step));\n};\n"
-             "</script>\n");
+             "    film.pauseAnimations();\n", f->seconds / (value_count(f) - 1), f->s->frames - 1);
+    plot_put(&f->p, "window.onkeydown = (e) => {\n    const now = film.getCurrentTime();\n"
+             "    const to = { ArrowLeft: now - step, ArrowRight: now + step,\n"
+             "                 Home: 0, End: end }[e.key];\n"
+             "    if (e.key === ' ') film.onclick();\n    if (to === undefined) return;\n"
+             "    film.pauseAnimations();\n    film.setCurrentTime(Math.max(0, to));\n"
+             "    e.preventDefault();\n};\n</script>\n");
 }
 
 int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
@@ -1004,7 +1015,7 @@ static int write_field(film *f, const char *path, const nodal *n, const scene_ma
         range[0] = range[1] = 0;
     if (!open_page(f, path, panels, BAR))
         return 0;
-    const plot_axis bar = plot_bar_axis(&q, range);
+    const plot_axis bar = plot_bar_axis(&q, map->limits[0] < map->limits[1] ? map->limits : range);
     for (int k = 0; k < panels; k++) {
         b = begin_panel(f, k);
         draw_field(f, n + k * f->m->nodes, &bar);

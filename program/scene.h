@@ -36,9 +36,16 @@ typedef struct {                /* what was recorded at one time                
     scene_force *force;         /*          [forces]                                              */
 } scene_frame;
 
+typedef struct {                /* a spring along the line between two vertices, by hooked.c      */
+    int    vertex[2], block[2];
+    double k, rest, strength, until;    /* N/m, m, N, s: when it broke, or INFINITY               */
+} scene_bolt;
+
 typedef struct {
     /* --- choices: what is left out (zero) is chosen by the writer --- */
     const char *title;
+    int    bolts;
+    const scene_bolt *bolt;     /*          [bolts]                                               */
     double window[4];           /* m        x from, x to, y from, y to: this, and all that is     */
                                 /*          not fixed; zeros: everything                          */
     int    mark;                /*          a vertex to mark                                      */
@@ -68,6 +75,7 @@ typedef struct {                /* contours of a field over the present state   
     double scale;               /* -        of the displacements; 0: the largest is about a tenth */
                                 /*          of the model, and less where an element or an edge    */
                                 /*          would change too much; < 0: they are not shown        */
+    double limits[2];           /* of the colours; zeros: those of the values                     */
     const bbm_model *other;     /* beside it, on the same mesh and in the same colours; or NULL   */
     const char *name[2];        /* then: of both                                                  */
 } scene_map;

@@ -51,13 +51,10 @@ static const char *next_path(model_reader *r)
 
     if (!word)
         return NULL;
-    const size_t folder = slash && word[0] != '/' ? (size_t)(slash + 1 - r->path) : 0,
-                 length = strlen(word) + 1;
-    char *path = model_text(r, folder + length);
-    if (path) {
-        memcpy(path, r->path, folder);
-        memcpy(path + folder, word, length);
-    }
+    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->path) : 0;
+    char *path = model_text(r, (size_t)folder + strlen(word));
+    if (path)
+        sprintf(path, "%.*s%s", folder, r->path, word);
     return path;
 }
 
@@ -93,7 +90,7 @@ static int read_gravity(model_reader *r) { return model_numbers(r, 2, r->p->m->p
 static int read_shake(model_reader *r)
 {
     bbm_beyond *b = r->p->m->beyond;
-    model_option scale = RANGE("scale", &r->p->shake, -INFINITY, INFINITY, "()", "a number");
+    model_option scale = NUMBER("scale", &r->p->shake);
     const char *path;
     char *end = "";
 
@@ -157,7 +154,6 @@ static int read_dynamic(model_reader *r)
 
 static int read_bond(model_reader *r)
 {
-    static const bbm_bonding bonding[] = { BBM_VERTICES, BBM_MOMENT, BBM_MOMENT };
     bbm_beyond *b = r->p->m->beyond;
     int kind = 2;
     model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
@@ -171,7 +167,7 @@ static int read_bond(model_reader *r)
                                   "each other");
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    b->bonding = bonding[kind];
+    b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
     return 1;
 }
 
@@ -204,19 +200,20 @@ static int read_rotation(model_reader *r)
 static int read_output(model_reader *r)
 {
     char names[400] = "";
-    int chosen = -1;
+    int chosen = (int)(field_find(r->p->field) - field_table);
+    double *c = r->p->colours;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
-                   CHOICE("field", &chosen, names) };
+                   CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
 
     for (const field *f = field_table; f->name; f++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
                  f->name);
     if (!model_options(r, LENGTH(o), o))
         return 0;
-    if (chosen >= 0)
-        r->p->field = field_table[chosen].name;
-    return 1;
+    r->p->field = field_table[chosen].name;
+    return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
+           || model_blame(r, "colours from %g to %g, expected low below high", c[0], c[1]);
 }
 
 /* ------------------------------------------------------------------- statements that need nodes */
@@ -471,7 +468,7 @@ static const struct kind {
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
       NOTHING_NEEDED, 1 },
     { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
-    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N]",
+    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N] [low VALUE] [high VALUE]",
       read_output, NOTHING_NEEDED, 1 },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
@@ -487,8 +484,10 @@ static const struct kind {
     { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, 0 },
     { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, 0 },
     { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
+    { "bolt", "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts,
+      MODEL, 0 },
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
-    { "stress", "stress BLOCK SXX SYY SXY", model_stress, MODEL, 0 },
+    { "stress", "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
     { "monitor", "monitor NAME WHERE [of BLOCK]", model_monitors, MODEL, 0 },
     { "expect",
       "expect NAME u|v VALUE within TOLERANCE [%], or expect NAME moves|stays by TOLERANCE",
@@ -499,7 +498,7 @@ static const struct kind {
 static const char *find_other(const char *word)
 {
     static const struct { const char *words, *here; } other[] = {
-        { " anchor bolt cable spring ", "a spring between two points is Exercise 9.1 in doc/09-limits.md" },
+        { " anchor cable spring ", "see bolt" },
         { " excavate remove stage ", "a file with the block and one without are two runs" },
         { " accelerogram earthquake pulse ", "see shake, which reads a record" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },

@@ -50,11 +50,10 @@ static void warn_of_pieces(const model *p, const char *path)
     const bbm_model *m = p->m;
     int *piece = calloc((size_t)m->elements + (size_t)p->blocks, sizeof *piece);
 
-    if (!piece || bbm_find_pieces(m, piece) == p->blocks) {
-        free(piece);
+    if (!piece)
         return;
-    }
     int *count = piece + m->elements;
+    bbm_find_pieces(m, piece);
     for (int e = 0; e < m->elements; e++)
         count[m->element[e].block] += piece[e] == e;
     for (int b = 0; b < p->blocks; b++) {
@@ -105,6 +104,8 @@ static void measure(bodies *s)
     for (int n = 0; n < m->nodes; n++)
         *(m->node[n].held ? &s->body[s->p->node_block[n]].held
                           : &s->body[s->p->node_block[n]].free) += 1;
+    for (int k = 0; k < 2 * s->p->bolts; k++)       /* what a bolt holds is not said to fall */
+        s->body[s->p->bolt[k / 2].block[k % 2]].thrown = 1;
     for (int e = 0; e < m->edges; e++) {
         body *b = &s->body[m->element[m->edge[e].element].block];
         s->next[e] = b->edge;

@@ -137,6 +137,17 @@ static void put_reactions(FILE *f, const write_results *w)
     }
 }
 
+static void put_bolts(FILE *f, const write_results *w)
+{
+    const model *p = w->p;
+
+    fprintf(f, "bolt,block_1,block_2,force,state\n");
+    for (const scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
+        fprintf(f, "%d,%s,%s,%.15g,%s\n", (int)(b - p->bolt) + 1, p->block[b->block[0]],
+                p->block[b->block[1]], model_bolt_force(p->m, b, &(bbm_direction){ 0 }),
+                b->until < INFINITY ? "BROKEN" : "HOLDS");
+}
+
 /* Static steps take no time: t stays 0. */
 static double time_of(const write_results *w)
 {
@@ -288,7 +299,7 @@ static void note_picture(write_results *w, const char *path, int done)
 static void draw_now(write_results *w, const char *name)
 {
     const bbm_model *m = w->p->m;
-    scene now = { .title = w->p->title };
+    scene now = { .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt };
     char path[LONGEST];
 
     scene_record(&now, m);
@@ -299,7 +310,8 @@ static void draw_now(write_results *w, const char *name)
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    scene_map map = { .title = w->p->title, .field = w->p->field, .scale = w->p->scale };
+    scene_map map = { .title = w->p->title, .field = w->p->field, .scale = w->p->scale,
+                      .limits = { w->p->colours[0], w->p->colours[1] } };
     char path[LONGEST], name[100];
 
     draw_now(w, "contacts.svg");
@@ -368,7 +380,7 @@ static size_t is_ours(const char *name)
 {
     static const char *const all[] = {
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
-        "reactions.csv", "contacts.svg", "movie.svg", "model.svg",
+        "reactions.csv", "bolts.csv", "contacts.svg", "movie.svg", "model.svg",
     };
     const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
     const size_t start = strncmp(name, "step_", 5) == 0 ? 5
@@ -457,7 +469,7 @@ int write_open(write_results *w)
                              "springs,external,gained\n");
     output_keep(&w->history);
     output_keep(&w->summary);
-    w->film.title = w->p->title;
+    w->film = (scene){ .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt };
     return 1;
 }
 
@@ -488,12 +500,13 @@ int write_close(write_results *w)
         { "elements.csv", put_elements },
         { "contacts.csv", put_contacts },
         { "reactions.csv", put_reactions },
+        { "bolts.csv", put_bolts },
     };
     char path[LONGEST];
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
-    for (int k = 0; k < LENGTH(table); k++)
+    for (int k = 0; k < LENGTH(table) - !p->bolts; k++)
         write_file(w, path_of(w, table[k].name, path), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);

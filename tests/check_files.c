@@ -291,6 +291,7 @@ END_TEST
 #define NAMED "let h 1.5\nplane strain\nmaterial rock E 1e10 nu 0.25 density 2500\ngravity 0 -10\n" \
     "block base rock -1 -1 3 -1 3 0 -1 0\ngrid dam rock 0 0 1 2 1 2 crossed\nfixblock base\n" \
     "fix set base x by 1e-3\nwater set dam.left $h\njoint dam * friction 50\nmonitor top at 0 2 of dam\n" \
+    "bolt at 0 2 of dam at 3 0 stiffness 1e6 pretension 1e3\n" \
     "dynamic dt 0.01 steps 3 settle 1\nexpect top stays by 1\noutput svg vtk\n"
 
 /* Models, and a file that they leave when they end with 0. */

@@ -223,6 +223,26 @@ START_TEST(an_initial_stress_pushes_the_wall)
 }
 END_TEST
 
+/* A level ground of 10 m, and two layers of it, in which the field of its weight acts, with K0 = nu/(1 - nu):
+ * nothing moves, to 1 % of rho g H^2/(2 E) = 1.2 mm, what bonds give way by, or with the joint to 3 %. */
+START_TEST(a_ground_in_its_stress_stays)
+{
+    static const char *const ground[] = { "grid low rock 0 0 8 10 4 5\n",
+                                          "grid low rock 0 0 8 4 4 2\ngrid top rock 0 4 8 10 4 3\n" };
+    char text[LONG];
+
+    snprintf(text, sizeof text,
+             "material rock E 1e9 nu 0.25 density 2500\nplane strain\n%slet w $(2500*9.81)\n"
+             "stress * $(-10*w/3) $(-10*w) 0 gradient $(w/3) $w 0\ngravity 0 -9.81\nfix box 0 0 0 10 x\n"
+             "fix box 8 0 8 10 x\nfix box 0 0 8 0\ncontact friction 30\n%s\nmonitor top at 4 10\n",
+             ground[_i % 2], _i < 2 ? "static" : "dynamic dt 0.01 steps 50");
+    ck_assert_int_eq(run_text("ground", text), 0);
+    ck_near(cell("ground", "history.csv", "", "top_v"), 0, 2500 * 9.81 * 100 / 2e9, _i % 2 ? 3e-2 : 1e-2);
+    if (_i % 2 == 0)
+        ck_relative(cell("ground", "elements.csv", "1,low,", "syy"), -9 * 2500 * 9.81, 1e-2);
+}
+END_TEST
+
 START_TEST(statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps)
 {
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 1 tolerance 1e-12\n"), 1);
@@ -312,6 +332,7 @@ Suite *model_suite(void)
     tcase_add_test(t, a_shaken_block_follows_the_closed_form);
     tcase_add_loop_test(t, a_step_with_velocity_factor_0_reports_the_kinetic_energy_that_it_had, 0, 2);
     tcase_add_test(t, an_initial_stress_pushes_the_wall);
+    tcase_add_loop_test(t, a_ground_in_its_stress_stays, 0, 4);
     tcase_add_test(t, statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps);
     tcase_add_test(t, both_versions_of_a_mesh_and_the_same_by_hand_agree);
     tcase_add_test(t, a_fixed_block_does_not_hold_the_nodes_of_its_neighbour);

@@ -349,6 +349,7 @@ START_TEST(a_picture_says_the_time_that_it_shows)
         check_text("out/model/time/mises.svg", call[k].said);
         check_text("out/model/time/contacts.svg", call[k].said);
     }
+    check_text("out/model/time/movie.svg", ">0.00015 × real speed<");   /* 3e-4 s in 3/9 of 6 s */
 }
 END_TEST
 
@@ -447,6 +448,22 @@ START_TEST(each_field_is_drawn_under_its_name_with_its_unit)
 }
 END_TEST
 
+/* Values of 2 kPa in colours from -2 to 3 MPa, whose unit the bar has; beyond them it tells the extremes. */
+START_TEST(colours_have_the_range_that_is_asked_for)
+{
+    static const struct { const char *range, *said; int status; } call[] = {
+        { "low -2e6 high 3e6", ">sxx [MPa], from 0.00", 0 }, { "", ">sxx [Pa], from ", 0 },
+        { "low 3 high 3", "colours from 3 to 3, expected low below high", 2 }, { "low 3", "colours from 3 to 0", 2 },
+    };
+    char model[LONG];
+
+    snprintf(model, sizeof model, STEEL "grid a steel 0 0 2 1 2 1\nfix set a.left\nload set a.right 1e3 0\nstatic\n"
+             "output svg field sxx %s\n", call[_i].range);
+    ck_assert_int_eq(run_text("range", model), call[_i].status);
+    check_text(_i < 2 ? "out/model/range/sxx.svg" : "out/model/range.err", call[_i].said);
+}
+END_TEST
+
 /* In a block that turns, a corner that one element has is the fastest, and the slowest, of all. */
 START_TEST(a_field_of_elements_is_their_mean_at_a_node)
 {
@@ -531,6 +548,7 @@ Suite *pictures_suite(void)
     tcase_add_test(t, a_picture_says_the_time_that_it_shows);
     tcase_add_test(t, a_title_with_other_letters_is_right);
     tcase_add_test(t, a_field_that_is_one_level_has_one_colour_and_large_forces_are_short);
+    tcase_add_loop_test(t, colours_have_the_range_that_is_asked_for, 0, 4);
     tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit, 0, 12);
     tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
