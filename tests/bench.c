@@ -1,9 +1,10 @@
 /* bench.c - `make bench`: how long the linear solver takes, what contact costs, and finding the
  * contacts. First an iteration of the paper's SSOR-PCG, then whole solutions of it and on two
- * levels, then quadrilaterals and triangles up to sizes that take seconds; then steps of walls and jointed rock, and of blocks that slide, with friction in K
- * and as a load; then how the time to find the contacts grows with the model. What is compared is timed in turn in one run; printed
- * are medians and their ratio, since these survive a busy machine. Solutions and iterations are as
- * many on every machine.
+ * levels, then quadrilaterals and triangles up to sizes that take seconds; then steps of walls, of
+ * jointed rock and of blocks that slide, with friction in K and as a load; then how the time to
+ * find the contacts grows with the model. What is compared is timed in turn in one run; printed are
+ * medians and their ratio, since these survive a busy machine. Solutions and iterations are as many
+ * on every machine.
  *
  *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix
  *                                         Market form, so that any other solver can be timed with
