@@ -76,27 +76,30 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
 }
 
 /* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
- * them. An element without bonds is not in it, for there would be as many coarse unknowns as it has
- * of its own; nor is one held at every corner, which hardly moves. SSOR is faster for both. */
+ * them. An element without bonds is in it, too, if it lies against others with bonds: left out, it
+ * is to them a stiff block that only SSOR moves. Where nothing is bonded, there would be as many
+ * coarse unknowns as there are others; an element held at every corner hardly moves. SSOR is
+ * faster for both. */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
-    const size_t v = (size_t)m->vertices;
-    int *up = calloc(2 * v + (size_t)m->elements + 1, sizeof *up);
+    const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
+    int *up = calloc(2 * v + 2 * n + 1, sizeof *up);
 
     if (!up)
         return BBM_NO_MEMORY;
-    int *node = up + v, *first = node + v;
+    int *node = up + v, *first = node + v, *has_bonds = first + n + 1;  /* a component of K */
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
         const bbm_bond *b = &m->bond[k];
         for (int end = 0; end < 2; end++)
             up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
-        first[b->i + 1] = first[b->j + 1] = 1;                  /* it has a bond */
+        has_bonds[bbm_component_of(m->K, b->i)] |= !bbm_is_held_all_round(m, &m->element[b->i]);
     }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
-        const int count = first[i + 1] && !bbm_is_held_all_round(m, e) ? e->n : 0;
+        const int in = has_bonds[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
+        const int count = in ? e->n : 0;
         for (int k = 0; k < count; k++)
             node[first[i] + k] = bbm_root_of(up, e->first + k);
         first[i + 1] = first[i] + count;

@@ -1,9 +1,10 @@
 /* bench.c - `make bench`: how long the linear solver takes, what contact costs, and finding the
  * contacts. First an iteration of the paper's SSOR-PCG, then whole solutions of it and on two
- * levels, up to 221,952 unknowns, and quadrilaterals beside triangles; then steps of blocks that slide, with friction in K and as a load; then how the time
- * to find the contacts grows with the model. What is compared is timed in turn in one run; printed
- * are medians and their ratio, since these survive a busy machine. Solutions and iterations are as
- * many on every machine.
+ * levels, then quadrilaterals and triangles up to sizes that take seconds; then steps of walls, of
+ * jointed rock and of blocks that slide, with friction in K and as a load; then how the time to
+ * find the contacts grows with the model. What is compared is timed in turn in one run; printed are
+ * medians and their ratio, since these survive a busy machine. Solutions and iterations are as many
+ * on every machine.
  *
  *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix
  *                                         Market form, so that any other solver can be timed with
@@ -203,7 +204,7 @@ static double whole_time(bbm_model *m, const bbm_method *method, int turns, int 
 /* The paper's SSOR-PCG against two levels, and how both grow with the number of unknowns. */
 static void print_levels(void)
 {
-    static const int rows[] = { 6, 17, 34, 68 };
+    static const int rows[] = { 6, 17, 34 };
 
     printf("\nSolutions to 1e-10, SSOR-PCG against two levels; growth is the power of the number of unknowns by which a\n"
            "time grows from the line above\n\n"
@@ -213,7 +214,7 @@ static void print_levels(void)
         double last[3] = { 0 };
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
             bbm_model *m = beam(4 * rows[k], rows[k], CELL_ALTERNATING, alpha);
-            const int turns = k < 2 ? TURNS : k < 3 ? 3 : 1, n = 6 * m->elements;
+            const int turns = k < 2 ? TURNS : 3, n = 6 * m->elements;
             int one, two;
             const double t1 = whole_time(m, NULL, turns, &one), t2 = whole_time(m, &bbm_two_level, TURNS, &two);
             const double by = log(n / last[0]);
@@ -228,25 +229,130 @@ static void print_levels(void)
     }
 }
 
-/* Quadrilaterals, bonded in their middles, beside triangles. */
-static void print_elements(void)
-{
-    static const char *const name[] = { "quadrilaterals", "triangles" };
+/* --------------------------------------------------------------------------- what grows with size */
 
-    printf("\nIterations to 1e-10 on two levels, and milliseconds of the whole solution\n\n"
-           "| elements | alpha | 16 x 4 cells | 32 x 8 | 64 x 16 | 128 x 32 |\n"
+/* Kilobytes of memory that the program has in hand, where the system tells. */
+static double resident(void)
+{
+    FILE *f = fopen("/proc/self/status", "r");
+    char line[128];
+    double kB = NAN;
+
+    while (f && fgets(line, sizeof line, f))
+        (void)sscanf(line, "VmRSS: %lf", &kB);
+    if (f)
+        fclose(f);
+    return kB;
+}
+
+/* Large models on two levels. The memory is all that the program has since the first of them: what
+ * was released is used again, as the models become larger. */
+static void print_sizes(void)
+{
+    static const struct { int cut, rows, turns; } size[] = {
+        { CELL_QUADS, 34, 5 }, { CELL_QUADS, 68, 3 }, { CELL_QUADS, 136, 1 },
+        { CELL_ALTERNATING, 17, TURNS }, { CELL_ALTERNATING, 34, 5 }, { CELL_ALTERNATING, 68, 3 },
+        { CELL_ALTERNATING, 158, 1 },
+    };
+    const double start = resident();
+    double last[2] = { 0 };
+
+    printf("\nSolutions to 1e-10 on two levels, alpha = 100; growth as above\n\n"
+           "| elements | unknowns | iterations | ms | growth | kB an element |\n"
            "|---|---|---|---|---|---|\n");
-    for (int k = 0; k < 6; k++) {
-        const double alpha = pow(10, 1 + k % 3);
-        printf("| %s | %g |", name[k / 3], alpha);
-        for (int rows = 4; rows <= 32; rows *= 2) {
-            bbm_model *m = beam(4 * rows, rows, k < 3 ? CELL_QUADS : CELL_ALTERNATING, alpha);
-            int count;
-            const double t = whole_time(m, &bbm_two_level, TURNS, &count);
-            printf(" %d, %.2f |", count, t);
-            bbm_model_free(m);
+    for (size_t k = 0; k < sizeof size / sizeof *size; k++) {
+        bbm_model *m = beam(4 * size[k].rows, size[k].rows, size[k].cut, 100);
+        int count;
+        const double t = whole_time(m, &bbm_two_level, size[k].turns, &count), n = 6.0 * m->elements;
+        printf("| %s | %.0f | %d | %.1f | ", size[k].cut == CELL_QUADS ? "quadrilaterals" : "triangles",
+               n, count, t);
+        printf(k == 0 || n < last[0] ? "" : "%.2f", log(t / last[1]) / log(n / last[0]));
+        printf(" | %.1f |\n", (resident() - start) / m->elements);
+        fflush(stdout);
+        last[0] = n, last[1] = t;
+        bbm_model_free(m);
+    }
+}
+
+/* Courses of n bricks each on a fixed base, half as many as bricks. */
+static void add_wall_at_rest(bbm_model *m, double n)
+{
+    int block = 1;
+
+    m->par.p_n = m->par.p_s = 1e9;
+    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -1, .y = -1, .w = n + 2, .h = 1 });
+    for (int row = 0; row < (int)n / 2; row++)
+        for (double x = 0, w; x < n; x += w) {
+            w = row % 2 && (x == 0 || x == n - 0.5) ? 0.5 : 1;
+            case_add_box(m, &(case_box){ .block = block++, .nx = 1, .ny = 1, .x = x, .y = row / 2.0,
+                                         .w = w, .h = 0.5 });
         }
-        printf("\n");
+}
+
+/* Six courses of four blocks of nine elements, every fifth of them of one; kn in E. */
+static void add_jointed_rock(bbm_model *m, double kn)
+{
+    m->par.p_n = m->par.p_s = kn * 1e10;
+    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -1, .y = -1, .w = 6, .h = 1 });
+    for (int k = 0; k < 24; k++)
+        case_add_box(m, &(case_box){ .block = 1 + k, .nx = k % 5 ? 3 : 1, .ny = k % 5 ? 3 : 1,
+                                     .x = k % 4, .y = k / 4, .w = 1, .h = 1 });
+}
+
+/* Experiment III beyond the paper, under its weight alone. */
+static void add_slider(bbm_model *m, double stiffness)
+{
+    m->par.p_n = m->par.p_s = stiffness;
+    m->beyond->multiplier_rounds = 2;
+    case_add_box(m, &(case_box){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
+    for (int n = 0; n < m->nodes; n++)
+        bbm_fix_node(m, n, BBM_XY, 0, 0);
+    const int first = case_add_box(m, &(case_box){ .block = 1, .nx = 4, .ny = 2, .x = -8, .y = 1,
+                                                   .w = 4, .h = 1 });
+    for (int e = first; e < m->elements; e++)
+        m->element[e].V[0] = 1;
+    m->par.velocity_factor = 1;
+}
+
+/* Steps of models at rest, or nearly so, after a few that bring them there. */
+static void print_steps(void)
+{
+    static const struct { const char *name; void (*add)(bbm_model *, double); double size; } run[] = {
+        { "wall", add_wall_at_rest, 10 }, { "wall", add_wall_at_rest, 20 },
+        { "wall", add_wall_at_rest, 45 }, { "wall", add_wall_at_rest, 100 },
+        { "jointed rock, kn = 0.5 E", add_jointed_rock, 0.5 }, { "5 E", add_jointed_rock, 5 },
+        { "50 E", add_jointed_rock, 50 }, { "500 E", add_jointed_rock, 500 },
+        { "sliding block", add_slider, 5e11 },
+    };
+    double last[2] = { 0 };
+
+    printf("\nSteps, medians of %d; of a solution the iterations in the mean; growth: the power of the number of elements\n\n"
+           "| model | elements | solutions | iterations | ms | growth |\n|---|---|---|---|---|---|\n", TURNS);
+    for (size_t k = 0; k < sizeof run / sizeof *run; k++) {
+        bbm_model *m = case_beyond_model(0);
+        double t[TURNS], solutions = 0, iterations = 0;
+        bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
+        m->par.gravity[1] = -9.81;
+        m->par.dt = 0.01;
+        m->par.velocity_factor = 0;
+        run[k].add(m, run[k].size);
+        for (int n = 0; n < 4; n++)
+            bbm_fix_node(m, n, BBM_XY, 0, 0);
+        case_must(m, bbm_prepare(m));
+        for (int i = -4; i < TURNS; i++) {
+            const clock_t start = clock();
+            case_must(m, bbm_step(m));
+            t[i < 0 ? 0 : i] = 1e3 * (double)(clock() - start) / CLOCKS_PER_SEC;
+            solutions += i < 0 ? 0 : m->info.passes;
+            iterations += i < 0 ? 0 : m->info.iterations;
+        }
+        const double ms = median(t);
+        printf("| %s | %d | %.1f | %.1f | %.2f |", run[k].name, m->elements, solutions / TURNS,
+               iterations / solutions, ms);
+        printf(k > 0 && k < 4 ? " %.2f |\n" : " |\n", log(ms / last[1]) / log(m->elements / last[0]));
+        fflush(stdout);
+        last[0] = m->elements, last[1] = ms;
+        bbm_model_free(m);
     }
 }
 
@@ -325,7 +431,8 @@ int main(int count, char **argument)
         return write_matrix(argument[2], atoi(argument[3]));
     print_iteration();
     print_levels();
-    print_elements();
+    print_sizes();
+    print_steps();
     print_contact();
     printf("\nDetection of contacts: edges that a corner is compared with, nanoseconds a boundary\n"
            "edge, and that against the smallest model\n\n"
