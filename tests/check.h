@@ -33,10 +33,18 @@
         ck_assert_msg(ck_status == BBM_OK, "%s: %s", #call, bbm_message(model));                   \
     } while (0)
 
-/* check_main.c: a test and how often it is run, with _i = 0, 1, ...; adds a group of them. */
+/* check_main.c: a group of tests in a suite; a test and how often it is run, with _i = 0, 1, ...; a
+ * group of these. */
 typedef struct { const TTest *test; int times; } loop_test;
 
+TCase *new_case(Suite *s, const char *name);
 void add_case(Suite *s, const char *name, const loop_test e[], int count);
+
+/* models.c: a model with all of beyond/. Its test case releases it after the test, with all that
+ * are left, if the test has not. */
+bbm_model *beyond_model(void);
+void release(bbm_model *m);
+void release_models(void);
 
 /* systems.c: y = K x in the caller's order. */
 void matrix_multiply(const bbm_matrix *K, const double *x, double *y);

@@ -40,7 +40,6 @@ START_TEST(blocks_of_a_column_carry_the_weight_above_and_do_not_drift)
         for (int a = 0; a < 6; a++)
             ck_near(m->element[b].V[a], 0, 1, a < 3 ? 1e-11 : 1e-9);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -69,7 +68,6 @@ START_TEST(statics_balances_a_block_on_its_contacts)
     ck_near(fabs(a->T + b->T), push, W, 1e-8);
     ck_assert_int_eq(a->state, _i ? BBM_SLIDE : BBM_LOCK);
     ck_near(m->info.t, 0, 1, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -99,7 +97,6 @@ START_TEST(a_block_in_a_notch_leans_on_its_floor_and_its_wall)
     }
     ck_relative(floor, W, 1e-5);  /* the fixed points of the L give way, its sides turn */
     ck_relative(side, W / 2, 1e-5);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -129,7 +126,6 @@ START_TEST(squares_of_a_block_that_meet_in_a_node_have_corners_of_their_own)
     }
     ck_relative(floor, W, 1e-5);
     ck_relative(side, W / 2, 1e-5);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -160,7 +156,6 @@ START_TEST(a_bonded_block_at_rest_has_the_stress_of_its_own_weight)
             mean += m->element[e + 4 * row + k].stress[1] / 4;
         ck_relative(mean, -DENSITY * GRAVITY * (2 - (row + 0.5) / 2), 1e-5);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -184,7 +179,6 @@ START_TEST(blocks_that_turn_alike_may_come_to_turn_against_each_other)
         found += corner_vertex(m, &m->contact[k]) == vertex_of(m, e, 0) &&
                  end_of(m, m->contact[k].edge)->x == -2;
     ck_assert_int_eq(found, _i);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -246,7 +240,6 @@ START_TEST(a_dropped_block_never_rebounds_faster_than_it_came)
     }
     ck_assert(hits > 0);
     ck_assert(rebound <= impact);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -291,7 +284,6 @@ START_TEST(momentum_is_kept_in_an_impact_and_the_angular_one_up_to_the_strain_of
     ck_assert(hits > 0);
     /* not through each other */
     ck_assert(P[1][0] > P[0][0] - 1e-3 * size || IMPACTS[_i].offset != 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -322,7 +314,6 @@ START_TEST(stiff_blocks_that_hit_keep_both_momenta)
     ck_near(P[0][0] + P[1][0], DENSITY, DENSITY, SOLVED);
     ck_near(P[0][1] + P[1][1], 0, DENSITY, SOLVED);
     ck_near(L, L0, share, 2e-6);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -359,7 +350,7 @@ static meeting let_bars_meet(int steps)
     momenta(m, P, &unused);
     for (int k = 0; k < 2; k++)
         a.share[k] = P[k][0] / (DENSITY * L * h);
-    bbm_model_free(m);
+    release(m);
     return a;
 }
 
@@ -403,7 +394,6 @@ START_TEST(a_bonded_block_that_turns_keeps_its_angular_momentum)
     momenta(m, P, &L);
     ck_near(m->info.t, 2, 2, ROUNDING);
     ck_relative(L, L0, 2e-8);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -429,7 +419,6 @@ START_TEST(a_stone_gives_a_heavy_wall_its_momentum_through_a_very_stiff_spring)
     momenta(m, P, &L);
     ck_assert(P[0][0] < 0.5 * all);
     ck_near(P[0][0] + P[1][0], all, all, 2e-5);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -446,7 +435,7 @@ static int wall_on_mesh_iterations(double stiffness)
     ck_ok(bbm_prepare(m), m);
     settle(m, 3);
     const int iterations = m->info.iterations / m->info.passes;
-    bbm_model_free(m);
+    release(m);
     return iterations;
 }
 

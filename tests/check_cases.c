@@ -316,7 +316,7 @@ static void run_experiments(void)
 Suite *cases_suite(void)
 {
     Suite *s = suite_create("cases");
-    TCase *t = tcase_create("experiments");
+    TCase *t = new_case(s, "experiments");
 
     tcase_set_tags(t, "experiments");
     tcase_add_unchecked_fixture(t, run_experiments, NULL);
@@ -331,6 +331,5 @@ Suite *cases_suite(void)
     tcase_add_test(t, without_beyond_the_same_files_are_written);
     tcase_add_test(t, without_beyond_the_formulas_are_tested);
     tcase_add_test(t, the_core_names_nothing_of_what_stands_beside_it);
-    suite_add_tcase(s, t);
     return s;
 }

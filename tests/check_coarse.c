@@ -538,9 +538,8 @@ static bbm_model *new_mesh(int mesh, int n, double alpha)
     const int bending = mesh == BENDING || mesh == BENDING_DISTORTED;
     const int quadrilaterals = mesh == QUADRILATERALS || bending;
     unsigned seed = 47;
-    bbm_model *m;
+    bbm_model *m = beyond_model();
 
-    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
     for (int j = 0; j <= n; j++)
         for (int i = 0; i <= nx; i++)
@@ -581,7 +580,7 @@ static int mesh_iterations(int mesh, int n, double alpha)
     bbm_model *m = new_mesh(mesh, n, alpha);
     const int iterations = m->info.pcg.iterations;
 
-    bbm_model_free(m);
+    release(m);
     return iterations;
 }
 
@@ -624,7 +623,6 @@ START_TEST(two_levels_and_one_reach_the_same_displacements)
     ck_assert_int_lt(10 * two.iterations, one.iterations);
     assert_same(6 * m->elements, D, m->D, 1e-8);
     free(D);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -637,9 +635,8 @@ START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
                                      { 5, 0 }, { 6, 0 }, { 5, 1 }, { 6, 1 } };
     double P[2][3][6][2], E[18];
     bbm_pcg_info info;
-    bbm_model *m;
+    bbm_model *m = beyond_model();
 
-    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
     for (int i = 0; i < 8; i++)
         bbm_add_node(m, xy[i][0], xy[i][1], NULL);
@@ -660,7 +657,6 @@ START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
         ck_assert_int_eq(bbm_matrix_interpolate(m->K, k / 3, k % 3, P[k / 3][k % 3]), BBM_OK);
     ck_assert_int_eq(bbm_solve(m->K, m->F, E, &m->par.pcg, &info), BBM_OK);
     ck_assert_mem_eq(E, m->D, sizeof E);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -691,14 +687,12 @@ START_TEST(one_level_is_used_where_two_do_not_pay)
     bbm_model *m[2];
 
     for (int k = 0; k < 2; k++) {
-        ck_assert_int_eq(bbm_beyond_new(&m[k]), BBM_OK);
+        m[k] = beyond_model();
         m[k]->par.dt = table[_i].dt;
         m[k]->par.pcg.method = k ? NULL : &bbm_two_level;
         mesh_of_blocks(m[k], table[_i].bonded, table[_i].held);
     }
     ck_assert_int_eq(memcmp(m[0]->D, m[1]->D, 18 * sizeof *m[0]->D) != 0, table[_i].two);
-    bbm_model_free(m[0]);
-    bbm_model_free(m[1]);
 }
 END_TEST
 

@@ -87,7 +87,7 @@ START_TEST(two_corners_that_meet_leave_by_the_line_crossed_last)
         run_steps(m, 4);
         velocity_in_frame(m, e, angle, v);
         ck_assert(v[upright ? 1 : 0] > -2.5);                   /* slower than before */
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -113,7 +113,6 @@ START_TEST(a_corner_beside_a_corner_meets_the_side_that_lies_there)
     const double *V = m->element[e].V;
     ck_assert(V[1] > -4 + 1e-3);
     ck_near(V[0], _i ? V[1] + 4 : 0, 8, 0.01);  /* as the side turns in the impact, 1 % */
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -175,7 +174,7 @@ START_TEST(the_two_lines_between_two_corners_are_entrance_lines)
         detect(m);
         ck_assert_int_eq(m->contacts, 4);
         ck_assert_int_eq(check_entrances(m), 8);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -194,7 +193,6 @@ START_TEST(entrance_lines_in_a_heap_are_all_other_lines_between_two_corners)
         set_velocity(m, e, 10 * random_number(&seed), 10 * random_number(&seed));
     detect(m);
     ck_assert_int_gt(check_entrances(m), 20);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -235,7 +233,6 @@ START_TEST(a_closed_contact_lasts_until_its_corner_has_left_past_the_other_one)
         bbm_store_contacts(m);
     }
     ck_assert_int_eq(found, 2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -260,7 +257,6 @@ START_TEST(the_ends_of_a_joint_open_and_close_by_themselves)
             ck_assert_int_eq(m->contact[k].state,
                              corner_block(m, &m->contact[k]) == closed ? BBM_LOCK : BBM_OPEN);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -298,7 +294,6 @@ START_TEST(the_other_corner_takes_over_the_force_when_one_has_left)
         found += Q;
     }
     ck_assert_int_eq(found, 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -327,7 +322,7 @@ START_TEST(of_two_closed_contacts_that_meet_corner_on_corner_one_stays)
         for (int i = 0; i < m->contacts; i++)
             closed += m->contact[i].state == BBM_LOCK;
         ck_assert_int_eq(closed, 1);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -365,7 +360,6 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
         closed++;
     }
     ck_assert_int_eq(closed, 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -405,7 +399,7 @@ START_TEST(no_shot_passes_through_a_small_block)
             ck_assert_msg(e->V[0] < 0.9 * v, "shot %d: %g of %g m/s", k, e->V[0], v);
             ck_assert(after.kinetic + after.elastic + after.springs < before.kinetic * (1 + 1e-6));
             u[first] = e->V[0];
-            bbm_model_free(m);
+            release(m);
         }
         ck_near(u[0], u[1], v, 1e-4);
     }
@@ -431,7 +425,6 @@ START_TEST(a_block_that_turns_far_in_a_step_meets_what_it_sweeps)
         ck_near(after.kinetic, before.kinetic, before.kinetic, SOLVED);
     else
         ck_assert(fabs(m->element[0].V[2]) < 0.9 * 2 * PI);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -478,7 +471,7 @@ START_TEST(of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle)
                 const bbm_vertex *p = start_of(m, list[c].edge), *q = end_of(m, list[c].edge);
                 ck_near((q->x - p->x) * sin(expected) - (q->y - p->y) * cos(expected), 0, 1, 1e-9);
             }
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -500,7 +493,6 @@ START_TEST(a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line)
     ck_assert(c[side]->state != BBM_OPEN && c[!side]->state == BBM_OPEN);
     ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
     ck_relative(c[side]->N, (deep ? 6e-3 : 1e-3) * m->par.p_n, 1e-12);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -518,7 +510,6 @@ START_TEST(nothing_comes_in_from_behind)
     ck_assert(c[was]->rest == c[was]->d_n0);             /* nor would it have a force there */
     ck_assert_int_eq(look_at(m, 1, -2e-3, -2e-3), 1);
     ck_assert(c[other]->state != BBM_OPEN);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -540,7 +531,6 @@ START_TEST(of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_t
     start_step(m, &n);
     ck_assert_int_eq(find_listed(m, 1, 1, 0, 2) != NULL, _i);
     ck_assert_int_eq(find_listed(m, 0, 2, 1, 0) != NULL, !_i);
-    bbm_model_free(m);
 }
 END_TEST
 

@@ -167,7 +167,6 @@ START_TEST(the_sweep_finds_the_pairs_that_comparing_all_with_all_finds)
     ck_assert_int_eq(m->info.candidates, m->edges * m->edges);
     free(swept);
     free(all);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -187,7 +186,6 @@ START_TEST(the_sweep_finds_the_contacts_of_a_row_in_any_direction)
     for (int v = 0; v < m->vertices; v += 3)
         m->vertex[v].x = v % 2 ? NAN : INFINITY;
     ck_assert_int_ne(bbm_step(m), BBM_OK);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -211,7 +209,7 @@ static double compared(int bricks, int n, double size)
     ck_ok(bbm_prepare(m), m);
     detect(m);
     const double each = (double)m->info.candidates / m->edges;
-    bbm_model_free(m);
+    release(m);
     return each;
 }
 
@@ -238,7 +236,6 @@ START_TEST(a_block_does_not_touch_itself)
     ck_ok(bbm_prepare(m), m);
     detect(m);
     ck_assert_int_eq(m->contacts, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -260,7 +257,6 @@ START_TEST(an_inner_corner_is_no_corner)
     }
     ck_assert_int_eq(notch, 0);
     ck_assert_int_eq(m->contacts, 4);  /* two corners on each wall; the inner one on both */
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -295,7 +291,7 @@ START_TEST(each_of_two_tips_in_a_node_is_a_corner)
             corners += corner_block(m, &m->contact[k]) == 0 &&
                        start_of(m, m->contact[k].edge) == vertex_of(m, e, 2);
         ck_assert_int_eq(corners, TIPS[_i].corners);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -324,9 +320,8 @@ START_TEST(the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks)
         bbm_model *other = wall(orders[k], ANGLES[_i]);
         detect(other);
         ck_assert(same_places(first, other));
-        bbm_model_free(other);
+        release(other);
     }
-    bbm_model_free(first);
 }
 END_TEST
 
@@ -356,8 +351,6 @@ START_TEST(a_block_far_away_changes_nothing)
         for (int a = 0; a < 3; a++)
             ck_near(near->element[1].V[a], far->element[1].V[a], 1, SOLVED);
     }
-    bbm_model_free(near);
-    bbm_model_free(far);
 }
 END_TEST
 
@@ -393,7 +386,7 @@ START_TEST(two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint)
             T += m->contact[c].T;
         }
         ck_near(T, 0, W, 1e-4);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -416,7 +409,6 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_upper_one_touch)
     ck_assert_int_eq(m->contacts, pieces == second ? 5 : 2);
     for (int k = 0; k < m->contacts; k++)
         ck_assert_int_eq(corner_block(m, &m->contact[k]), second);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -432,7 +424,6 @@ START_TEST(in_statics_the_grid_points_of_the_finer_side_touch)
     ck_ok(bbm_prepare(m), m);
     detect(m);
     ck_assert_int_eq(m->contacts, _i ? 5 : 2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -455,7 +446,7 @@ START_TEST(of_two_sides_the_grid_points_of_the_shorter_one_touch)
         ck_assert_int_eq(m->contacts, _i ? 5 : 4);
         for (int c = 0; c < m->contacts; c++)
             ck_assert_int_eq(corner_block(m, &m->contact[c]), _i ? 0 : 1);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -481,7 +472,7 @@ START_TEST(rounding_in_a_model_file_does_not_undo_a_contact)
         settle(m, 20);
         ck_assert_int_eq(m->info.contacts, 2);
         ck_relative(normal_force(m, 0, 1), W, 1e-5);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -528,7 +519,6 @@ START_TEST(sides_are_parallel_up_to_a_hundredth)
     for (int k = 0; k < m->contacts; k++)
         here += corner_vertex(m, &m->contact[k])->x == 0;
     ck_assert_msg(here == (_i / 2 == 0 ? 1 + more : 1 - more), "%d", here);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -565,7 +555,7 @@ START_TEST(a_node_where_triangles_meet_on_a_straight_side_is_no_corner)
         ck_assert_int_eq(m->contacts, 4);
         for (int k = 0; k < 4; k++)
             ck_assert_int_ne(corner_block(m, &m->contact[k]), 0);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -589,7 +579,7 @@ START_TEST(points_that_face_away_from_an_edge_do_not_touch_it)
             const bbm_vertex *P = corner_vertex(m, &m->contact[i]);
             ck_near(c * P->y - s * P->x, 0.03, 1, ROUNDING);
         }
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -621,7 +611,6 @@ START_TEST(a_grid_point_in_a_hollow_may_touch_up_to_a_tenth)
     for (int k = 0; k < n; k++)
         found += corner_vertex(m, &list[k])->x == 0;
     ck_assert_int_eq(found, _i % 2 == 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -653,7 +642,7 @@ START_TEST(grid_points_beyond_the_end_of_a_table_are_not_held)
         const double *way = m->element[e + (_i ? 3 : 0)].sum;
         const double drop = -sin(angle) * way[0] + cos(angle) * way[1];
         ck_assert_msg(k % 2 ? drop < -1e-3 : fabs(drop) < 1e-4, "%g", drop);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -678,7 +667,6 @@ START_TEST(the_detection_looks_as_far_as_a_block_falls_in_the_step)
     set_velocity(m, 1, level ? -v : 0, level ? 0 : -v);
     detect(m);
     ck_assert_int_eq(m->contacts, _i % 2 ? 0 : 2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -718,7 +706,6 @@ START_TEST(a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step)
     bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &same), m);
     ck_assert_int_eq(same, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -744,7 +731,6 @@ START_TEST(a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in
         found[corner_block(m, &list[k]) == 2]++;
     ck_assert_int_eq(found[fast % 2], 4);
     ck_assert_int_eq(found[!(fast % 2)], 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -760,7 +746,6 @@ START_TEST(two_blocks_at_rest_reach_two_millionths_of_an_edge)
     ck_ok(bbm_prepare(m), m);
     detect(m);
     ck_assert_int_eq(m->contacts, _i ? 0 : 2);
-    bbm_model_free(m);
 }
 END_TEST
 

@@ -61,7 +61,6 @@ START_TEST(what_hits_an_edge_is_a_corner_with_its_foot_on_it)
         free(old);
     }
     ck_assert_int_gt(hits, 10);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -83,7 +82,6 @@ START_TEST(a_block_that_falls_past_the_end_of_a_table_does_not_notice_it)
     }
     ck_relative(m->element[e].sum[1], -v0 * t - GRAVITY * t * t / 2, SOLVED);
     ck_near(m->element[e].sum[0], 0, 1, SOLVED);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -107,7 +105,6 @@ START_TEST(a_corner_that_turns_towards_an_edge_in_the_step_is_stopped_by_it)
     ck_assert(m->info.penetration < 1e-3);
     for (int k = 0; k < 4; k++)
         ck_assert(c * vertex_of(m, e, k)->y - s * vertex_of(m, e, k)->x > -1e-3);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -131,7 +128,6 @@ START_TEST(a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_
     run_steps(m, 1);
     ck_assert(contact_of(m, e, 1) != NULL);
     ck_assert(m->info.penetration < 1e-3);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -152,7 +148,6 @@ START_TEST(a_corner_is_stopped_though_a_far_one_under_the_same_side_is_not_reach
     ck_assert_int_eq(m->contacts, 2);
     ck_assert(contact_of(m, e, _i ? 1 : 0) != NULL);
     ck_assert_int_eq(m->info.contacts, 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -172,7 +167,6 @@ START_TEST(a_block_that_moves_further_than_foreseen_does_not_pass_through_a_wall
     run_steps(m, 1);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_near(m->element[e].D[0], 0.3, 0.3, 1e-2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -192,7 +186,6 @@ START_TEST(a_side_may_turn_out_of_an_edge_while_its_corner_is_outside)
     shift_element(m, 1, 0, _i ? 1e-9 : 0);
     start_step(m, &n);
     ck_assert_int_eq(find_listed(m, 1, 0, 0, 2) != NULL, _i);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -222,7 +215,6 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
         closed += m->contact[k].state != BBM_OPEN &&
                   fabs(corner_vertex(m, &m->contact[k])->x) == 5.25;
     ck_assert_int_eq(closed, _i / 2 ? 0 : 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -260,7 +252,6 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
         hit += m->contact[k].state != BBM_OPEN &&
                corner_vertex(m, &m->contact[k]) == vertex_of(m, e, 0);
     ck_assert_int_eq(hit, clear > 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -315,7 +306,6 @@ START_TEST(a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks)
         listed += corner_vertex(m, &list[k])->x == 0;
     ck_assert_int_eq(listed, _i % 2 == 0);
     ck_near(m->info.penetration, most, most, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -342,7 +332,6 @@ START_TEST(a_point_may_start_as_deep_as_the_contacts_of_both_blocks)
     shift_element(m, 3, -9, 5);
     start_step(m, &n);
     ck_assert_int_eq(n, closed[0] && closed[1] ? 2 : 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -383,7 +372,6 @@ START_TEST(a_millionth_of_an_edge_is_allowed_for_to_the_last_bit)
         start_step(m, &n);
         ck_assert_int_eq(find_listed(m, 1, 0, 0, 2)->beyond_end, _i % 2);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -402,7 +390,6 @@ START_TEST(what_contacts_are_deep_is_that_of_the_last_step)
         shift_element(m, 1 + k, 0, -2.5e-3);
     start_step(m, &n);
     ck_assert_int_eq(n, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -438,7 +425,6 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
     end->y = -sine;
     start_step(m, &n);
     ck_assert_int_eq(find_listed(m, f, 0, 0, 2) != NULL, _i / 2 % 2 == 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -464,7 +450,6 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_of_the_solution)
     m->D[6 * 2 + 2] = turn;
     look_at(m, 1, 0, _i ? -0.02 : -1e-4);
     ck_assert_int_eq(find_listed(m, 2, 0, 0, 2)->state != BBM_OPEN, _i);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -494,7 +479,6 @@ START_TEST(the_depth_of_a_contact_is_told_against_the_smaller_block)
     ck_ok(bbm_check_depth(m), m);
     (void)bbm_open_close(m);
     ck_assert_int_eq(bbm_check_depth(m), _i % 2 ? BBM_TOO_SOFT : BBM_OK);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -521,7 +505,6 @@ START_TEST(a_contact_deeper_than_a_tenth_of_its_block_is_refused)
     } else {
         ck_near(m->info.penetration, deep, deep, 1e-3);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -554,7 +537,6 @@ START_TEST(a_contact_that_closes_inside_starts_without_force)
         bbm_store_contacts(m);
         start_step(m, &n);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -565,7 +547,6 @@ START_TEST(a_point_that_stays_inside_has_no_force)
 
     ck_assert_int_eq(look_at(m, 1, 0, 0), 1);           /* the end that was closed */
     ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -598,7 +579,6 @@ START_TEST(a_corner_that_opens_inside_may_close_again)
         ck_near(c->rest, -3e-3, 3e-3, ROUNDING);
         ck_assert_int_eq(look_at(m, 1, 0, -1e-4), 1);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -623,7 +603,6 @@ START_TEST(a_corner_that_left_after_it_opened_inside_comes_in_anew)
     ck_assert(c[was] && !c[was]->inside && c[other]);
     ck_assert_int_eq(look_at(m, 1, -2e-3, -2e-3), 1);
     ck_assert(c[other]->state != BBM_OPEN);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -660,7 +639,6 @@ START_TEST(a_corner_that_passed_into_a_block_is_refused)
     ck_assert_msg(status == (_i ? BBM_OK : BBM_BLOCKS_OVERLAP), "%s", bbm_message(m));
     ck_assert(_i || strstr(bbm_message(m), "step 2: a corner of block 1 passed into block 0 at "
                                            "(0.99, 0.5), 0.01 m deep"));
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -684,7 +662,6 @@ START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
     ck_assert(deepest_passed(m) == 0);
     shift_element(m, e, 8.5e-3, 0);                     /* 0.5 mm from the inner side of the wall */
     ck_near(deepest_passed(m), 5e-4, 1, ROUNDING);
-    bbm_model_free(m);
 }
 END_TEST
 

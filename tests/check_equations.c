@@ -311,12 +311,11 @@ END_TEST
 Suite *equations_suite(void)
 {
     Suite *s = suite_create("equations");
-    TCase *t = tcase_create("equations");
+    TCase *t = new_case(s, "equations");
 
     tcase_add_test(t, citations_are_read_as_they_are_meant);
     tcase_add_test(t, the_comment_of_a_function_is_the_one_right_above_it);
     tcase_add_test(t, each_equation_has_functions_that_cite_it_and_tests_that_exist);
     tcase_add_test(t, the_picture_of_the_house_names_what_there_is);
-    suite_add_tcase(s, t);
     return s;
 }

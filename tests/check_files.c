@@ -688,7 +688,7 @@ static void make_folder(void) { shell("rm -rf out/model; mkdir -p out/model"); }
 Suite *files_suite(void)
 {
     Suite *s = suite_create("files");
-    TCase *t = tcase_create("files");
+    TCase *t = new_case(s, "files");
 
     tcase_set_timeout(t, 120);
     tcase_add_unchecked_fixture(t, make_folder, NULL);
@@ -715,11 +715,9 @@ Suite *files_suite(void)
     tcase_add_test(t, what_is_hardly_meant_is_a_warning);
     tcase_add_test(t, a_run_that_fails_says_at_which_step_and_what_the_library_says);
     tcase_add_test(t, what_the_shipped_models_leave_is_nothing_for_git);
-    suite_add_tcase(s, t);
-    t = tcase_create("library");
+    t = new_case(s, "library");
     tcase_add_test(t, a_compiler_that_breaks_the_arithmetic_is_refused);
     tcase_add_test(t, a_model_that_is_not_prepared_has_no_energy);
     tcase_add_test(t, watch_stops_a_step_before_its_next_solution);
-    suite_add_tcase(s, t);
     return s;
 }

@@ -45,7 +45,6 @@ START_TEST(bad_materials_are_refused)
     check_error(m, bbm_add_material(m, &BAD_MATERIALS[_i].material, NULL), BAD_MATERIALS[_i].status,
                 BAD_MATERIALS[_i].named);
     ck_assert_int_eq(bbm_prepare(m), BAD_MATERIALS[_i].status);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -57,7 +56,6 @@ START_TEST(materials_up_to_the_limits_are_taken)
 
     for (int i = 0; i < COUNT(limit); i++)
         ck_ok(bbm_add_material(m, &limit[i], NULL), m);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -115,7 +113,7 @@ START_TEST(polygons_are_judged_by_their_shape)
             check_error(m, status, POLYGONS[_i].status, "element 1");
         else
             ck_ok(status, m);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -216,7 +214,6 @@ START_TEST(the_first_error_of_building_stays)
     ck_assert_str_eq(bbm_message(m), message);
     ck_assert(m->materials == 1 && m->nodes == 4 && m->elements == 1 && m->line_loads == 0);
     ck_assert(m->node[0].held == 0 && m->node[0].load[0] == 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -225,7 +222,6 @@ START_TEST(a_model_without_elements_is_refused)
     bbm_model *m = points(1);
 
     check_error(m, bbm_prepare(m), BBM_NO_ELEMENT, "28 nodes");
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -240,7 +236,6 @@ START_TEST(a_node_that_no_element_has_is_named)
     check_error(m, bbm_prepare(m), BBM_UNUSED_NODE, "node 5 at (0.5, 7)");
     ck_ok(bbm_add_element(m, 0, 0, 3, (int[]){ 2, 5, 3 }, NULL), m);
     ck_ok(bbm_prepare(m), m);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -258,10 +253,6 @@ START_TEST(elements_of_one_block_on_the_same_side_of_an_edge_are_named)
                 "block 1 with element 1");
     ck_ok(bbm_prepare(p), p);                                              /* above and below */
     ck_assert(o->bonds == 0 && p->bonds == 1);
-    bbm_model_free(m);
-    bbm_model_free(n);
-    bbm_model_free(o);
-    bbm_model_free(p);
 }
 END_TEST
 
@@ -276,7 +267,6 @@ START_TEST(a_load_on_an_edge_that_does_not_exist_is_refused)
     else
         check_error(m, bbm_load_edge(m, (int[]){ 0, -1, 4 }[_i], 1, 2, 3), BBM_BAD_INDEX,
                     "loaded edge");
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -291,7 +281,6 @@ START_TEST(a_line_load_on_what_is_no_boundary_edge_is_refused)
     ck_ok(bbm_add_line_load(m, 0, 1, 1, 1), m);
     ck_ok(bbm_add_line_load(m, nodes[_i][0], nodes[_i][1], 1, 1), m);
     check_error(m, bbm_prepare(m), BBM_NOT_BOUNDARY, named[_i]);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -303,7 +292,6 @@ START_TEST(a_load_on_an_edge_that_two_blocks_have_goes_to_the_first)
     ck_ok(bbm_add_line_load(m, 0, 1, 1, 1), m);
     ck_ok(bbm_prepare(m), m);
     ck_assert(m->line_load[0].a == 0 && m->line_load[0].b == 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -364,7 +352,7 @@ START_TEST(statics_refuses_a_body_that_is_free_to_move_and_names_it)
             m->par.dt = 0.1;  /* with inertia it may move */
             ck_ok(bbm_run(m), m);
         }
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -382,7 +370,7 @@ START_TEST(fixed_points_close_together_hold_a_body_within_reason)
         ck_ok(bbm_fix_node(m, 1, BBM_XY, 0, 0), m);
         ck_ok(bbm_prepare(m), m);
         ck_assert_int_eq(bbm_step(m), way ? BBM_OK : BBM_FREE_TO_MOVE);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -431,7 +419,7 @@ static void check_refusal(bbm_model *m, void *numbers, size_t offset, double val
     memcpy((char *)numbers + offset, &value, sizeof value);
     check_error(m, bbm_step(m), BBM_BAD_PARAMETER, named);
     ck_assert_int_eq(m->info.step, 0);
-    bbm_model_free(m);
+    release(m);
 }
 
 /* The core knows its parameters by itself, without the hook. */
@@ -464,7 +452,6 @@ START_TEST(counts_below_one_are_refused_by_name)
     m->par.pcg.iterations = 1;
     m->beyond->multiplier_rounds = -1;
     check_error(m, bbm_run(m), BBM_BAD_PARAMETER, "multiplier_rounds = -1");
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -485,7 +472,6 @@ START_TEST(parameters_at_the_ends_of_their_range_are_taken)
     ck_ok(bbm_run(m), m);
     m->par.friction = 89.9;
     ck_ok(bbm_run(m), m);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -502,7 +488,6 @@ START_TEST(a_step_needs_bbm_prepare_and_again_after_what_is_added)
         : bbm_add_line_load(m, 0, 1, 0, 1), m);
     ck_assert_int_eq(bbm_nodal_result(m, m->nodes - 1, -1, &r), BBM_BAD_INDEX);
     check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again");
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -518,7 +503,6 @@ START_TEST(a_negative_stiffness_is_found)
     ck_ok(bbm_prepare(m), m);
     m->element[1].material.E = -1e9;
     check_error(m, bbm_step(m), BBM_NOT_POSITIVE_DEFINITE, "step 1, ");
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -585,10 +569,10 @@ START_TEST(whichever_allocation_fails_the_status_is_no_memory_and_nothing_leaks)
         }
         if (m && m->status == BBM_OK)
             ck_assert(same_state(m, reference) && m->info.step == reference->info.step);
-        bbm_model_free(m);
+        release(m);
     }
     ck_assert(k > 20);
-    bbm_model_free(reference);
+    release(reference);
 }
 END_TEST
 
@@ -607,7 +591,6 @@ START_TEST(an_array_grows_by_doubling_when_it_is_full)
     test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
     for (int n = 0; n < 300; n++)
         ck_assert(m->node[n].x == n);
-    bbm_model_free(m);
 }
 END_TEST
 

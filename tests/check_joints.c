@@ -20,7 +20,6 @@ START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
     ck_assert_int_ge(m->contacts, 1);
     for (int k = 0; k < m->contacts; k++)
         ck_assert(m->contact[k].area == 0 && m->contact[k].state == BBM_OPEN);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -46,7 +45,7 @@ START_TEST(a_joint_may_gape_by_a_millionth_of_an_edge)
             off |= m->contact[c].beyond_end;
         }
         ck_assert_int_eq(off, _i && k);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -83,7 +82,6 @@ START_TEST(a_joint_is_there_at_the_start_or_never)
     ck_assert_int_eq(m->contacts, 2);
     for (int k = 0; k < 2; k++)
         ck_assert_int_eq(m->contact[k].area > 0, !_i);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -102,7 +100,6 @@ START_TEST(a_joint_breaks_at_its_tensile_strength_whatever_its_shear_strength)
         ck_assert(m->element[1].sum[1] > 1e-3);
     else
         ck_relative(normal_force(m, 0, 1), -0.99 * 6000, 1e-5);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -121,7 +118,6 @@ START_TEST(a_joint_slips_at_its_cohesion_and_friction)
         /* the block's own shear */
         ck_near(m->element[1].sum[0], 0.99 * bound / (2 * m->par.p_s), 1e-5, 0.1);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -145,7 +141,6 @@ START_TEST(a_joint_that_broke_has_no_strength_left)
         ck_ok(bbm_add_load(m, vertex_of(m, 1, c)->node, c < 2 ? -500 : 0, c < 2 ? 0 : 530), m);
     run_steps(m, 20);
     ck_assert_int_eq(m->info.contacts, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -173,7 +168,7 @@ static double joint_area(double size, double x, double w, const int pieces[2])
         ck_assert(m->contact[k].area == 0 || m->contact[k].state == BBM_LOCK);
         sum += m->contact[k].area;
     }
-    bbm_model_free(m);
+    release(m);
     return sum;
 }
 
@@ -212,7 +207,6 @@ START_TEST(blocks_that_come_to_touch_have_no_tensile_strength)
     ck_ok(bbm_add_load(m, vertex_of(m, 1, 3)->node, 0, 3005), m);
     run_steps(m, 20);
     ck_assert_int_eq(m->info.contacts, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -222,13 +216,11 @@ START_TEST(a_joint_of_no_meaning_is_refused)
         { 90, 0, 0 }, { -1, 0, 0 }, { NAN, 0, 0 }, { 0, -1, 0 }, { 0, INFINITY, 0 }, { 0, 0, NAN },
     };
     const double *s = strength[_i];
-    bbm_model *m;
+    bbm_model *m = beyond_model();
 
-    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     ck_assert_int_eq(bbm_add_joint(m, (int[]){ 0, -1 }, s[0], s[1], s[2]), BBM_BAD_PARAMETER);
     ck_assert_ptr_nonnull(strstr(bbm_message(m), "expected 0 or more, and less than 90 degrees"));
     ck_assert_int_eq(bbm_add_joint(m, (int[]){ 0, -1 }, 89, 0, 1e300), BBM_OK);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -238,9 +230,8 @@ END_TEST
 static double sag(int joints)
 {
     enum { NX = 9, NY = 3 };
-    bbm_model *m;
+    bbm_model *m = beyond_model();
 
-    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
     for (int j = 0; j <= NY; j++)
         for (int i = 0; i <= NX; i++)
@@ -264,7 +255,7 @@ static double sag(int joints)
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);
     const double v = m->vertex[m->adjacent[m->adjacent_first[NX]]].v;
-    bbm_model_free(m);
+    release(m);
     return v;
 }
 

@@ -34,14 +34,24 @@ static void check_limit(void)
     }
 }
 
-void add_case(Suite *s, const char *name, const loop_test e[], int count)
+TCase *new_case(Suite *s, const char *name)
 {
     TCase *c = tcase_create(name);
 
     tcase_add_unchecked_fixture(c, check_limit, NULL);
+#ifndef PAPER
+    tcase_add_checked_fixture(c, NULL, release_models);
+#endif
+    suite_add_tcase(s, c);
+    return c;
+}
+
+void add_case(Suite *s, const char *name, const loop_test e[], int count)
+{
+    TCase *c = new_case(s, name);
+
     for (int i = 0; i < count; i++)
         tcase_add_loop_test(c, e[i].test, 0, e[i].times);
-    suite_add_tcase(s, c);
 }
 
 static make_suite *const SUITES[] = {

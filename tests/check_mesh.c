@@ -32,7 +32,6 @@ START_TEST(every_side_is_a_bond_or_a_boundary_edge_with_its_element_on_the_left)
         twice += a->x * b->y - b->x * a->y;
     }
     ck_relative(twice, 24, ROUNDING);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -53,9 +52,6 @@ START_TEST(elements_of_different_blocks_are_not_bonded)
         ck_ok(bbm_add_element(t, k, 0, 3, (int[]){ k, k + 1, k + 2 }, NULL), t);
     ck_ok(bbm_prepare(t), t);
     ck_assert(t->bonds == 0 && t->edges == 6);
-    bbm_model_free(m);
-    bbm_model_free(n);
-    bbm_model_free(t);
 }
 END_TEST
 
@@ -69,8 +65,6 @@ START_TEST(blocks_that_lie_on_one_another_are_sorted_apart)
     ck_assert_int_eq(bbm_prepare(m), BBM_BLOCKS_OVERLAP);
     ck_assert_int_eq(bbm_prepare(n), BBM_BLOCKS_OVERLAP);
     ck_assert(m->bonds == 2 && m->edges == 8 && n->bonds == 2 && n->edges == 8);
-    bbm_model_free(m);
-    bbm_model_free(n);
 }
 END_TEST
 
@@ -105,7 +99,6 @@ START_TEST(nodal_results_are_the_mean_over_the_elements_of_a_block_that_meet)
     m->element[1].block = 1;
     ck_assert_int_eq(bbm_nodal_result(m, 4, 0, &r), BBM_OK);
     ck_assert(r.u == 3);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -132,8 +125,6 @@ START_TEST(clockwise_elements_are_turned_round)
         ck_near(result_at(m[1], n).v, result_at(m[0], n).v, 0.01, SOLVED);
         ck_near(result_at(m[1], n).mises, result_at(m[0], n).mises, 1, SOLVED);
     }
-    bbm_model_free(m[0]);
-    bbm_model_free(m[1]);
 }
 END_TEST
 
@@ -154,7 +145,6 @@ START_TEST(a_load_on_an_edge_of_clockwise_elements_finds_it)
     ck_near(total[0], 4, 1, ROUNDING);
     ck_near(total[1], 2, 1, ROUNDING);
     ck_near(total[2], 2 - 4 * 0.5, 1, ROUNDING);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -175,7 +165,6 @@ START_TEST(indices_count_from_zero)
     }
     ck_ok(bbm_prepare(m), m);
     ck_assert(m->bonds == 37 && m->edges == 40 && m->element[3].material.nu == 0);
-    bbm_model_free(m);
 }
 END_TEST
 

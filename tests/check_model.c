@@ -316,7 +316,7 @@ END_TEST
 Suite *model_suite(void)
 {
     Suite *s = suite_create("model");
-    TCase *t = tcase_create("wrong input");
+    TCase *t = new_case(s, "wrong input");
 
     tcase_set_timeout(t, 60);
     tcase_add_unchecked_fixture(t, run_models, NULL);
@@ -338,6 +338,5 @@ Suite *model_suite(void)
     tcase_add_test(t, a_fixed_block_does_not_hold_the_nodes_of_its_neighbour);
     tcase_add_test(t, a_block_in_pieces_is_said);
     tcase_add_test(t, statics_names_the_block_that_slides);
-    suite_add_tcase(s, t);
     return s;
 }

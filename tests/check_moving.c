@@ -346,7 +346,7 @@ END_TEST
 Suite *moving_suite(void)
 {
     Suite *s = suite_create("moving");
-    TCase *t = tcase_create("moving");
+    TCase *t = new_case(s, "moving");
 
     tcase_add_loop_test(t, a_block_that_is_thrown_stops_where_it_should, 0, 6);
     tcase_add_loop_test(t, a_shaken_block_slips_once_in_each_period, 0, 8);
@@ -356,6 +356,5 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
     tcase_add_test(t, a_monitor_is_at_the_nearest_node_whatever_lies_far_away);
     tcase_set_timeout(t, 60);
-    suite_add_tcase(s, t);
     return s;
 }

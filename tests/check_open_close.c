@@ -48,7 +48,6 @@ START_TEST(solutions_that_never_agree_make_the_iteration_give_up)
     ck_assert_int_eq(_i ? feed(m, 1e-3, -1e-4, -2e-4, &pass) : feed(m, 0, -1e-4, 1e-4, &pass),
                      _i ? 1 + 101 : 31);
     ck_assert_int_eq(pass, BBM_PASS_GIVE_UP);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -72,7 +71,6 @@ START_TEST(a_solution_that_agrees_ends_the_iteration)
             ck_near(m->contact[k].T, _i == 0 ? 0 : copysign(1e-4 * m->par.p_n * tan(PI / 6), u),
                     1e5, ROUNDING);
         }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -86,7 +84,6 @@ START_TEST(other_states_are_another_number)
     feed(m, u, -1e-4, -1e-4, &pass);
     ck_assert(m->scratch->contact[0].sign == copysign(1, u));
     ck_assert(m->scratch->seen[0] != m->scratch->seen[1]);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -102,7 +99,6 @@ START_TEST(what_closes_on_an_edge_that_stretches_has_not_slipped)
     for (int k = 0; k < m->scratch->contacts; k++)
         ck_assert_int_eq(m->scratch->contact[k].state, BBM_LOCK);
     ck_assert_int_eq(m->scratch->contacts, 2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -122,7 +118,6 @@ START_TEST(a_pass_that_renews_the_vectors_is_no_cycle)
     }
     bbm_store_contacts(m);
     ck_assert_int_eq(m->info.contacts, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -148,7 +143,6 @@ START_TEST(a_cycle_is_broken_one_by_one_for_as_many_passes_again)
         ck_assert_int_eq(count, closed[k]);
         ck_assert(k != 2 || slides == 1);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -170,7 +164,6 @@ START_TEST(the_contact_that_fits_worst_changes_first)
             ck_assert(c[k].d_n <= c[q].d_n);
     }
     ck_assert_int_eq(closed, 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -190,7 +183,6 @@ START_TEST(a_contact_that_closes_outside_the_cone_of_friction_slides)
         ck_assert_int_eq(c[k].state, _i < 2 ? BBM_LOCK : BBM_SLIDE);
         ck_assert(_i < 2 || c[k].sign * m->D[6] > 0);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -210,7 +202,6 @@ START_TEST(a_contact_that_its_shear_spring_pulls_open_slides_first)
         for (int q = 0; q < n; q++)
             ck_assert_int_eq(c[q].state, k == 0 ? BBM_LOCK : k == 1 && _i ? BBM_SLIDE : BBM_OPEN);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -231,7 +222,7 @@ START_TEST(piles_settle_in_few_passes)
             passes += m->info.passes;
             cuts += m->info.cuts;
         }
-        bbm_model_free(m);
+        release(m);
     }
     ck_assert_msg(passes < 5 * 20 * 60 && cuts < 6, "%d passes, %d cuts", passes, cuts);
 }
@@ -265,7 +256,6 @@ START_TEST(friction_in_the_matrix_takes_no_passes)
     }
     ck_near(turned, 0, 1, 1e-4);
     ck_assert_msg(loads ? most > 2 : most <= 2, "%d passes", most);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -285,7 +275,6 @@ START_TEST(a_base_needs_no_multipliers_in_dynamics)
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 20);
     ck_assert_int_eq(m->info.passes, _i ? 3 : 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -308,7 +297,7 @@ START_TEST(blocks_that_slide_take_few_solutions_a_step)
     }
     ck_assert_msg(solutions <= FEW[_i].most * s->steps, "%s: %d solutions in %d steps", s->name,
                   solutions, s->steps);
-    bbm_model_free(m);
+    release(m);
 }
 END_TEST
 
@@ -325,7 +314,6 @@ START_TEST(blocks_without_any_force_settle_at_once)
     run_steps(m, 1);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_assert_int_eq(m->info.passes, 1);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -345,8 +333,6 @@ START_TEST(contacts_that_never_settle_end_with_a_status_and_the_numbers)
                   strstr(bbm_message(m), " passes") &&
                   strstr(bbm_message(m), " contacts"), "%s", bbm_message(m));
     ck_assert(same_state(m, n));
-    bbm_model_free(m);
-    bbm_model_free(n);
 }
 END_TEST
 
@@ -374,7 +360,6 @@ START_TEST(a_solution_that_moves_further_than_foreseen_is_noticed)
         ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
         ck_assert(!bbm_moved_too_far(m));           /* it has become the guess */
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -399,7 +384,6 @@ START_TEST(a_solution_may_move_as_far_as_foreseen_to_the_last_bit)
     ck_assert(!bbm_moved_too_far(m));
     m->D[2] = nextafter(0.01 / 2, 1);
     ck_assert(bbm_moved_too_far(m));
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -420,7 +404,6 @@ START_TEST(a_step_foresees_no_less_than_it_did_before)
     ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
     m->D[0] = m->D[6] = 0.0109;
     ck_assert(!bbm_moved_too_far(m));
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -453,7 +436,6 @@ START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
     pass = bbm_open_close(m);
     ck_assert_int_eq(pass, BBM_PASS_DONE);
     ck_assert_int_eq(bbm_middle_is_off(m), _i == 3);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -526,7 +508,6 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
     c->time_left = 0.5;
     c->d_s = 0.5 * (1 - 2.5) + WRONG[_i].slip / p;
     ck_assert_int_eq(bbm_contacts_are_off(m, 0.25), WRONG[_i].off);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -556,7 +537,6 @@ START_TEST(the_direction_of_a_contacts_force_may_be_wrong_by_1e_4)
             m->beyond->rotation = BBM_EXACT;
             m->D[6 * k + 2] = 0;
         }
-    bbm_model_free(m);
 }
 END_TEST
 

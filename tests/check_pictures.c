@@ -538,7 +538,7 @@ END_TEST
 Suite *pictures_suite(void)
 {
     Suite *s = suite_create("pictures");
-    TCase *t = tcase_create("pictures");
+    TCase *t = new_case(s, "pictures");
 
     tcase_set_timeout(t, 120);
     tcase_add_unchecked_fixture(t, make_pictures, forget_pictures);
@@ -553,6 +553,5 @@ Suite *pictures_suite(void)
     tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);
-    suite_add_tcase(s, t);
     return s;
 }

@@ -29,8 +29,8 @@ START_TEST(a_step_done_again_in_halves_is_the_two_half_steps_to_the_last_bit)
             ck_near(m->info.t, 0.1 * m->info.step, 1, ROUNDING);
             halves += m->info.cuts == 1;
         }
-        bbm_model_free(m);
-        bbm_model_free(n);
+        release(m);
+        release(n);
     }
     ck_assert(halves >= 2);
 }
@@ -57,8 +57,6 @@ START_TEST(a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were)
         ck_ok(bbm_step(n), n);
         ck_assert(same_state(m, n));
     }
-    bbm_model_free(m);
-    bbm_model_free(n);
 }
 END_TEST
 
@@ -80,8 +78,6 @@ START_TEST(a_pile_falls_the_same_way_whichever_block_comes_first)
         hits += m->info.contacts;
     }
     ck_assert_int_gt(hits, 40);
-    bbm_model_free(m);
-    bbm_model_free(n);
 }
 END_TEST
 
@@ -124,9 +120,6 @@ START_TEST(a_step_depends_on_the_state_and_not_on_what_is_left_in_memory)
         hits += used->info.contacts;
     }
     ck_assert_int_gt(hits, 60);
-    bbm_model_free(used);
-    bbm_model_free(fresh);
-    bbm_model_free(start);
 }
 END_TEST
 
@@ -150,10 +143,9 @@ START_TEST(whichever_allocation_fails_contacts_leave_the_model_fit_to_go_on)
         while (m->info.step < 40)
             ck_ok(bbm_step(m), m);
         ck_assert(same_state(m, reference));
-        bbm_model_free(m);
+        release(m);
     }
     ck_assert(k > 60);
-    bbm_model_free(reference);
 }
 END_TEST
 
@@ -176,7 +168,6 @@ START_TEST(blocks_prepared_again_in_a_run_keep_holding_each_other)
     settle(m, 60);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_near(m->info.penetration, 2 * deep, deep, 1e-2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -275,8 +266,6 @@ START_TEST(the_result_does_not_depend_on_the_units_to_the_last_bit)
         hits += m->info.contacts;
     }
     ck_assert_int_gt(hits, 50);
-    bbm_model_free(m);
-    bbm_model_free(n);
 }
 END_TEST
 

@@ -25,9 +25,8 @@ END_TEST
 static bbm_model *plate(double w, double h, double x, double y)
 {
     const bbm_material rock = { 1e9, 0.25, 2000, 0.5 };
-    bbm_model *m;
+    bbm_model *m = beyond_model();
 
-    ck_assert_int_eq(bbm_beyond_new(&m), BBM_OK);
     bbm_add_material(m, &rock, NULL);
     for (int k = 0; k < 4; k++)
         bbm_add_node(m, x + (k == 1 || k == 2 ? w : 0), y + (k > 1 ? h : 0), NULL);
@@ -53,7 +52,6 @@ START_TEST(the_ledger_knows_a_plate_that_spins_and_stretches)
     ck_relative(l.P[1], -2 * mass, 1e-14);
     ck_relative(l.L, mass * (5 * -2 - 6.5 * 3) + J * 1.5, 1e-14);
     ck_assert(l.springs == 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -77,7 +75,7 @@ START_TEST(the_ledger_and_the_library_agree)
     ck_near(l.kinetic, energy.kinetic, energy.kinetic, 1e-3);       /* the library's geometry is that of the step's start */
     ck_near(l.elastic, energy.elastic, energy.elastic, 1e-12);
     ck_near(l.springs, energy.springs, energy.springs, 1e-6);
-    bbm_model_free(m);
+    release(m);
 }
 END_TEST
 
@@ -93,7 +91,7 @@ START_TEST(blocks_begin_beside_each_other)
         scene_balance(m, &l);
         scene_overlap(m, (double[SCENE_BLOCKS][SCENE_BLOCKS]){ { 0 } }, &l);
         ck_assert_msg(l.overlap < 1e-14, "%s, seed %d: %g", scene_name(s.kind), (int)seed, l.overlap);
-        bbm_model_free(m);
+        release(m);
     }
 }
 END_TEST
@@ -182,20 +180,18 @@ END_TEST
 Suite *scenes_suite(void)
 {
     Suite *s = suite_create("scenes");
-    TCase *c = tcase_create("ledger");
+    TCase *c = new_case(s, "ledger");
 
     tcase_add_test(c, the_generator_of_random_numbers_is_splitmix64);
     tcase_add_test(c, the_ledger_knows_a_plate_that_spins_and_stretches);
     tcase_add_loop_test(c, the_ledger_and_the_library_agree, 0, 2);
     tcase_add_loop_test(c, blocks_begin_beside_each_other, 0, SCENE_KINDS);
-    suite_add_tcase(s, c);
-    c = tcase_create("torture");
+    c = new_case(s, "torture");
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, no_step_of_any_scene_fails_or_makes_energy_or_momentum_or_lets_blocks_overlap, 0,
                         SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, scenes_that_once_showed_a_fault_show_none, 0, sizeof FAULTS / sizeof *FAULTS);
-    suite_add_tcase(s, c);
-    c = tcase_create("twins");
+    c = new_case(s, "twins");
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, a_scene_in_units_of_powers_of_two_is_the_same_to_the_last_bit, 0, TWIN_SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, a_scene_in_other_units_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
@@ -203,6 +199,5 @@ Suite *scenes_suite(void)
     tcase_add_loop_test(c, a_scene_in_another_frame_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, a_stone_far_away_does_not_matter, 0, TWIN_SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, the_size_of_a_stone_far_away_does_not_matter, 0, 4);
-    suite_add_tcase(s, c);
     return s;
 }

@@ -24,7 +24,7 @@ static double slid_in_a_second(double phi, int how, int in_pieces)
     m->par.dt = HOW[how].dt;
     run_steps(m, (int)(1 / m->par.dt + 0.5));
     const double way = slid(m, pieces);
-    bbm_model_free(m);
+    release(m);
     return way;
 }
 
@@ -52,8 +52,6 @@ START_TEST(the_plain_way_to_agree_finds_the_same_friction)
     run_steps(m, 100);
     run_steps(n, 100);
     ck_relative(slid(n, 1), slid(m, 1), 1e-7);
-    bbm_model_free(m);
-    bbm_model_free(n);
 }
 END_TEST
 
@@ -79,7 +77,6 @@ START_TEST(a_block_thrown_uphill_stops_where_it_should_and_stays_there)
         T += k->T;
     }
     ck_near(fabs(T), W * sin(PI / 6), W, 1e-3);                 /* the last of the swing dies out */
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -136,7 +133,6 @@ START_TEST(friction_may_drop_with_the_slip)
         ck_near(k->slip, slid_by, 1, 2e-5);
         ck_relative(k->strength.tan_phi, residual, ROUNDING);
     }
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -158,7 +154,6 @@ START_TEST(blocks_that_slide_on_floors_apart_slide_alike)
     ck_assert_double_gt(m->element[1].sum[0], 0.3);
     for (int k = 1; k < 3; k++)
         ck_relative(m->element[2 * k + 1].sum[0], m->element[1].sum[0], SOLVED);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -193,7 +188,6 @@ START_TEST(a_block_on_a_slope_slides_or_topples_as_the_chart_says)
     ck_assert_int_eq(-cos(radians(slope)) * foot->u - sin(radians(slope)) * foot->v > 1e-3,
                      CHART[_i].slides);
     ck_assert_int_eq(turned > 1e-3, CHART[_i].topples);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -213,7 +207,6 @@ START_TEST(a_block_comes_to_rest_against_a_stop_in_statics)
     add_rectangle(m, 2, ROCK, (rectangle){ -1, 0, 1, 1 + _i, 30, .nx = 1 });
     ck_ok(bbm_prepare(m), m);
     ck_ok(bbm_step(m), m);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -246,7 +239,6 @@ START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
         ck_near(KD[a], m->F[a], DENSITY * GRAVITY, SOLVED);
     }
     ck_assert(_i > 0 || info.residual < SOLVED);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -285,8 +277,6 @@ START_TEST(friction_in_the_matrix_is_solved_with_every_method)
     ck_assert_int_eq(info.iterations, 6);               /* and LU */
     for (int i = 0; i < 6 * m[0]->elements; i++)
         ck_near(m[0]->D[i], m[1]->D[i], 0.1, RESIDUAL);
-    bbm_model_free(m[0]);
-    bbm_model_free(m[1]);
 }
 END_TEST
 
@@ -311,7 +301,6 @@ START_TEST(a_locked_contact_keeps_its_anchor)
         }
     }
     ck_near(slid(m, 20), here, 1, 1e-12);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -339,7 +328,6 @@ START_TEST(a_sliding_contact_takes_its_anchor_along)
         }
     }
     ck_assert(seen > 30);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -367,7 +355,6 @@ START_TEST(a_contact_is_anchored_where_it_hit)
         locked++;
     }
     ck_assert_int_eq(locked, 2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -404,7 +391,6 @@ START_TEST(a_locked_contact_passes_from_edge_to_edge_with_its_shear_force)
         ck_near(m->element[e].sum[0], sign * 300 * i / (2 * m->par.p_s), 1e-3, 1e-2);
     }
     ck_assert_int_eq(passed, 2);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -439,7 +425,6 @@ START_TEST(a_block_that_slides_over_an_end_keeps_its_forces)
     ck_assert(contact_of(m, e, _i ? 0 : 1) == NULL);
     run_steps(m, 30);
     ck_near(sign * (m->element[e].sum[0] - start), v0 * v0 / (2 * mu * GRAVITY), 1, 5e-4);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -471,7 +456,6 @@ START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
     ck_assert(!c || (c->state == BBM_LOCK && c->was_closed));
     if (c)
         ck_near(c->rest, -5e-4 + 1e-4, 1e-4, ROUNDING);         /* so that it has its N */
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -512,7 +496,6 @@ START_TEST(a_block_that_slides_off_a_table_is_let_go)
     }
     ck_assert(m->element[e].sum[1] < -0.2);
     ck_assert_int_eq(m->contacts, 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -528,7 +511,6 @@ START_TEST(the_springs_of_a_support_that_moves_let_no_contact_leave_its_cone)
     ck_assert_int_gt(m->contacts, 0);
     for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++)
         ck_assert(c->force_tolerance < 1e-2);           /* N; the block weighs 10^4 N */
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -539,7 +521,6 @@ START_TEST(a_block_on_very_stiff_springs_rests_on_a_slope)
 
     run_steps(m, 40);
     ck_assert(slid(m, 1) < 1e-6);               /* of its weight on the springs */
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -572,7 +553,7 @@ static double slide_over(const pavement *p, int one)
         set_velocity(m, k, p->v * cos(a), p->v * sin(a));
     run_steps(m, (int)(p->time / p->dt + 0.5));
     const double way = m->element[e].sum[0] * cos(a) + m->element[e].sum[1] * sin(a);
-    bbm_model_free(m);
+    release(m);
     return way;
 }
 

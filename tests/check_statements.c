@@ -611,7 +611,7 @@ END_TEST
 Suite *statements_suite(void)
 {
     Suite *s = suite_create("statements");
-    TCase *t = tcase_create("statements");
+    TCase *t = new_case(s, "statements");
 
     tcase_add_loop_test(t, a_bar_in_plane_strain_is_stiffer, 0, 3);
     tcase_add_loop_test(t, a_dam_carries_the_force_of_the_water_to_its_base, 0, 5);
@@ -642,6 +642,5 @@ Suite *statements_suite(void)
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_set_timeout(t, 60);
-    suite_add_tcase(s, t);
     return s;
 }

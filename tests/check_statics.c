@@ -115,7 +115,6 @@ START_TEST(a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101)
     if (!falls)
         ck_ok(bbm_step(m), m);
     ck_assert(falls || m->info.change < 1e-3);      /* the second step of Newton: turns of 1e-5 */
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -152,8 +151,6 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
     run_steps(n, 1);
     ck_assert(same_state(m, n));
     free(c);
-    bbm_model_free(m);
-    bbm_model_free(n);
 }
 END_TEST
 
@@ -177,7 +174,6 @@ START_TEST(a_contact_that_no_friction_holds_opens)
     m->par.gravity[0] = -6 - 0.5 * _i;
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 2);
-    bbm_model_free(m);
 }
 END_TEST
 

@@ -144,15 +144,13 @@ END_TEST
 Suite *theory_suite(void)
 {
     Suite *s = suite_create("theory");
-    TCase *t = tcase_create("beam");
+    TCase *t = new_case(s, "beam");
 
     tcase_add_test(t, the_theory_of_the_beam_is_in_equilibrium_and_bends_by_its_load_alone);
     tcase_add_test(t, the_theory_of_the_beam_is_held_at_three_points_of_its_end);
-    suite_add_tcase(s, t);
-    t = tcase_create("plate");
+    t = new_case(s, "plate");
     tcase_add_test(t, the_theory_of_the_plate_is_in_equilibrium_and_u_is_that_of_its_stresses);
     tcase_add_test(t, the_hole_of_the_plate_is_free_and_far_away_there_is_tension_along_x);
     tcase_add_test(t, the_axes_of_the_plate_stay_straight);
-    suite_add_tcase(s, t);
     return s;
 }
