@@ -53,10 +53,11 @@ function drawGraphs(frame) {
   drawGraph('monitors', 'm', curves, bands);
 }
 
-/* The solver's order; the row and column of an element that is picked. */
+/* Of the newest step, in the solver's order; the row and column of an element that is picked. */
 function drawPattern() {
-  const off = rows({ k: numbersOf('k') }, 'k'), places = rows(shown(), 'e').map(e => e[25]);
-  const { g, w } = begin('K'), n = places.length, q = w / n, at = q * places[view.element];
+  const off = rows({ k: numbersOf('k') }, 'k'), { g, w } = begin('K');
+  const places = rows(run.frames.at(-1), 'e').map(e => e[25]), n = places.length;
+  const q = w / n, at = q * places[view.element];
   const dot = (i, j) => g.rect(j * q, i * q, Math.max(1, q - 0.4), Math.max(1, q - 0.4));
   if (view.element >= 0)
     paint(g, () => { g.rect(0, at, w, Math.max(2, q)); g.rect(at, 0, Math.max(2, q), w); },

@@ -19,7 +19,6 @@ struct page {
     model p;
     run r;
     bbm_status status;
-    int wrong;                          /* it could not be read */
     char said[700], sentence[300];
     numbers out, look, before;          /* before: states of the contacts at the last look */
     int rounds;                         /* of multipliers, at the last look */
@@ -90,8 +89,7 @@ page *page_load(const char *path)
 
     if (!g)
         return NULL;
-    g->wrong = model_read(path, 0, NULL, &g->p) != 0;
-    if (g->wrong)
+    if (model_read(path, 0, NULL, &g->p))
         return g;
     g->r = (run){ .p = &g->p, .settling = g->p.settle };
     g->p.m->monitor = before_solution;
@@ -111,7 +109,7 @@ void page_free(page *g)
     free(g);
 }
 
-int page_state(const page *g) { return !g || g->wrong || g->status ? 2 : g->r.is_over; }
+int page_state(const page *g) { return !g || g->p.status || g->status ? 2 : g->r.is_over; }
 
 int page_step(page *g)
 {
@@ -236,7 +234,7 @@ int page_numbers(page *g, int what)
     };
 
     g->out.n = g->out.failed = 0;
-    for (int k = 0; k < LENGTH(table) && !g->wrong; k++)
+    for (int k = 0; k < LENGTH(table) && !g->p.status; k++)
         if (table[k].what == what)
             table[k].put(g, g->p.m);
     return g->out.failed || g->look.failed ? -1 : g->out.n;
@@ -251,8 +249,8 @@ const char *page_text(page *g, int what, int k)
     const model *p = &g->p;
 
     if (!g || what == 'm')
-        return !g ? "out of memory" : g->wrong ? p->message : g->said;
-    if (g->wrong || k < 0)
+        return !g ? "out of memory" : g->p.status ? p->message : g->said;
+    if (g->p.status || k < 0)
         return "";
     if (what == 'x' && k < p->expectations)
         run_is_met(p, k, g->sentence);

@@ -78,18 +78,20 @@ function findShape() {
   }
   rows(frame, 'e').forEach((e, k) => block(e[22]).elements.push([k, e[23], e[24]]));
   rows(run, 'd').forEach(([a, b, of]) => block(of).edges.push([a, b]));
-  blocks.forEach((b, k) => { b.tint = chooseTint(blocks.slice(0, k), b.box); });
+  blocks.forEach((b, k) => { b.tint = chooseTint(blocks.slice(0, k).reverse(), b.box); });
   Object.assign(run, { blocks, v: frame.v, box: blocks.map(b => b.box).reduce(join) });
 }
 
-/* The one whose nearest block is farthest, as choose_tint in scene.c. */
+/* The one whose nearest block is farthest, as choose_tint in scene.c. The others begin with the
+ * last, which is mostly near, and what is farther away is passed over. */
 function chooseTint(others, [x0, y0, x1, y1]) {
   const nearest = TINTS.map(() => Infinity);
   for (const { held, box: [X0, Y0, X1, Y1], tint } of others) {
-    const gap = Math.hypot(Math.max(0, x0 - X1, X0 - x1), Math.max(0, y0 - Y1, Y0 - y1));
+    const gx = Math.max(0, x0 - X1, X0 - x1), gy = Math.max(0, y0 - Y1, Y0 - y1);
+    if (held || Math.max(gx, gy) >= nearest[tint])
+      continue;
     const way = Math.hypot(x0 + x1 - X0 - X1, y0 + y1 - Y0 - Y1) / 2;
-    if (!held)
-      nearest[tint] = Math.min(nearest[tint], gap + 0.01 * way);
+    nearest[tint] = Math.min(nearest[tint], Math.hypot(gx, gy) + 0.01 * way);
   }
   return nearest.indexOf(Math.max(...nearest));
 }

@@ -3,15 +3,15 @@
 'use strict';
 
 function wasi(files, memory, say) {
-  const BAD_FILE = 8, NOT_THERE = 44, NO_SEEK = 70, FOLDER = 3, open = [];
+  const BAD_FILE = 8, NOT_THERE = 44, NO_SEEK = 70, FOLDER = 3, open = Array(FOLDER + 1);
   const view = () => new DataView(memory().buffer);
   const bytes = (at, n) => new Uint8Array(memory().buffer, at, n);
   const put = (at, value) => view().setUint32(at, value, true);
-  /* Each of the n pieces of memory of a list; the sum of what `each` returns goes to done. */
-  const pieces = (list, n, done, each) => {
+  /* A call that visits each of the n pieces of memory of a list; what `visit` returns is summed. */
+  const pieces = visit => (fd, list, n, done) => {
     let sum = 0;
     for (let k = list; k < list + 8 * n; k += 8)
-      sum += each(bytes(view().getUint32(k, true), view().getUint32(k + 4, true)));
+      sum += visit(bytes(view().getUint32(k, true), view().getUint32(k + 4, true)), open[fd]);
     put(done, sum);
     return 0;
   };
@@ -35,24 +35,19 @@ function wasi(files, memory, say) {
     fd_seek() { return NO_SEEK; },
     path_open(folder, flags, name, n, how, rights, inherited, mode, fd) {
       const text = files.get(new TextDecoder().decode(bytes(name, n)));
-      put(fd, FOLDER + open.push({ bytes: new TextEncoder().encode(text), at: 0 }));
+      put(fd, open.push({ bytes: new TextEncoder().encode(text), at: 0 }) - 1);
       return text === undefined ? NOT_THERE : 0;
     },
-    fd_read(fd, list, n, done) {
-      const file = open[fd - FOLDER - 1];
-      return pieces(list, n, done, room => {
-        const part = file.bytes.subarray(file.at, file.at + room.length);
-        room.set(part);
-        file.at += part.length;
-        return part.length;
-      });
-    },
-    fd_write(fd, list, n, done) {                 /* messages: stdout and stderr */
-      return pieces(list, n, done, piece => {
-        say(new TextDecoder().decode(piece));
-        return piece.length;
-      });
-    },
-    fd_close(fd) { delete open[fd - FOLDER - 1]; return 0; },
+    fd_read: pieces((room, file) => {
+      const part = file.bytes.subarray(file.at, file.at + room.length);
+      room.set(part);
+      file.at += part.length;
+      return part.length;
+    }),
+    fd_write: pieces(piece => {                 /* messages: stdout and stderr */
+      say(new TextDecoder().decode(piece));
+      return piece.length;
+    }),
+    fd_close(fd) { delete open[fd]; return 0; },
   };
 }
