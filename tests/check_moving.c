@@ -343,6 +343,31 @@ START_TEST(a_monitor_is_at_the_nearest_node_whatever_lies_far_away)
 }
 END_TEST
 
+/* ---------------------------------------------------------------------- limits of the gallery */
+
+/* What --find has to give. The twelve runs leave 1e-4 of part, 0.007 or 0.015 degrees of phi; a block
+ * that leans a little on its springs has a limit up to 0.07 % away. */
+static const struct { const char *call; double limit, within; } limits[] = {
+    { "conveyor.model --find phi 5 20", 10, 0.015 },
+    { "conveyor.model -d a=20 --find phi 10 40", 20, 0.03 },
+    { "keyblock.model --find part 0.9 1.1", 1, 1e-3 },
+    { "portal.model --find part 0.9 1.1", 1, 1e-3 },
+    { "portal.model -d span=3 -d t=0.3 -d h=3 --find part 0.9 1.1", 1, 1e-3 },
+    { "water.model --find part 0.9 1.1", 1, 1e-3 },
+    { "retaining.model --find part 0.9 1.1", 1, 1e-3 },             /* turns */
+    { "retaining.model -d phi=20 --find part 0.9 1.1", 1, 1e-3 },   /* slides */
+};
+
+START_TEST(a_model_of_the_gallery_has_the_limit_of_theory)
+{
+    char said[LONG];
+
+    ck_assert_int_eq(shell("mkdir -p out/model; %s/bbm -q cases/models/%s > out/model/limit", BUILD, limits[_i].call), 0);
+    slurp("out/model/limit", said);
+    ck_near(strtod(strstr(said, " = ") + 3, NULL), limits[_i].limit, 1, limits[_i].within);
+}
+END_TEST
+
 Suite *moving_suite(void)
 {
     Suite *s = suite_create("moving");
@@ -355,6 +380,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_block_rocks_back_in_its_time, 0, 12);
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
     tcase_add_test(t, a_monitor_is_at_the_nearest_node_whatever_lies_far_away);
+    tcase_add_loop_test(t, a_model_of_the_gallery_has_the_limit_of_theory, 0, sizeof limits / sizeof *limits);
     tcase_set_timeout(t, 60);
     return s;
 }
