@@ -654,7 +654,6 @@ START_TEST(a_model_that_is_not_prepared_has_no_energy)
     m->element[0].stress[0] = 1e6;          /* it would have one */
     bbm_energies(m, &e);
     ck_assert(e.kinetic == 0 && e.elastic == 0 && e.springs == 0);
-    bbm_model_free(m);
 }
 END_TEST
 
@@ -679,7 +678,6 @@ START_TEST(watch_stops_a_step_before_its_next_solution)
     ck_assert(m->element[0].sum[0] == 0 && m->vertex[2].u == 0);
     ck_ok(bbm_step(m), m);
     ck_assert_int_eq(m->info.step, 1);
-    bbm_model_free(m);
 }
 END_TEST
 
