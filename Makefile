@@ -10,6 +10,7 @@
 # make windows   ./bbm for Windows (mingw-w64)
 # make exercise N=4.1  a copy without one function, and its tests; make hint N=4.1; make exercises lists them
 # make figures   draws doc/figures             make check-exercises   each red as it begins, green in the end
+# make check-recipes   doc/recipes.md with the tools that are installed: Gmsh, Octave, gnuplot, SciPy, PETSc
 # One goal is made with as many jobs as there are processors, unless -j says how many.
 
 ifeq ($(MAKELEVEL)$(word 2,$(MAKECMDGOALS))$(filter -j%,$(MAKEFLAGS)),0)
@@ -232,6 +233,12 @@ check-documents: $O/figures $O/bbm experiments
 	grep -qF -- "- **$$text**" doc/failures.md || { echo "doc/failures.md has no \"$$text\""; exit 1; }; done
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md
 
+# The recipes with other tools, as far as they are installed; mpirun refuses to work for root unasked.
+check-recipes: $O/bbm
+	@rm -rf out/recipes && mkdir -p out && cp -r doc/recipes out
+	@OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+	awk -v PROGRAMS='$(abspath $O)' -f tests/recipes.awk doc/recipes.md
+
 # How large the project is, and may be.
 CODE = $(wildcard *.[ch] page/*.html page/*.css $(foreach f,base beyond cases program page tests doc,$f/*.[ch] $f/*.js $f/*.awk $f/*.sh))
 BUDGET = awk -f tests/budget.awk README.md $(CODE)
@@ -333,6 +340,6 @@ clean:
 	rm -rf $(filter-out out/exercise,$(wildcard out/*)) bbm
 
 .PHONY: all run paper paper-run gallery converge bench quick memcheck sanitize smoke windows fuzz torture libcheck clean
-.PHONY: page check-page
+.PHONY: page check-page check-recipes
 .PHONY: check $(PARTS:%=check-%) check-smoke check-arrows check-exercises check-documents check-budget experiments exercise exercises hint figures $(CALLS)
 .DELETE_ON_ERROR:
