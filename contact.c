@@ -508,8 +508,8 @@ static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;
 
-    for (int k = 0; k < w->contacts; k++) {
-        const double state = copysign(w->contact[k].state, w->contact[k].sign);
+    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const double state = c->state == BBM_SLIDE ? copysign(2, c->sign) : c->state;
         hash = (hash ^ (uint64_t)(3 + state)) * 1099511628211u;
     }
     for (int p = 0; p < w->passes; p++)

@@ -87,6 +87,21 @@ START_TEST(other_states_are_another_number)
 }
 END_TEST
 
+/* Which way a contact has slid before does not count while it is open or locked. */
+START_TEST(states_are_the_same_number_whatever_was_before)
+{
+    bbm_model *m[2];
+    bbm_pass pass;
+
+    for (int k = 0; k < 2; k++) {
+        m[k] = block_on_table(30);
+        m[k]->scratch->contact[0].sign = k ? -1 : 1;
+        feed(m[k], 0, -1e-4, -1e-4, &pass);
+        ck_assert(m[k]->scratch->seen[_i] == m[0]->scratch->seen[_i]);
+    }
+}
+END_TEST
+
 /* The table and the block on it stretch alike. Wherever a corner closes, it has not slipped. */
 START_TEST(what_closes_on_an_edge_that_stretches_has_not_slipped)
 {
@@ -547,6 +562,7 @@ Suite *open_close_suite(void)
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
         { other_states_are_another_number, 2 },
+        { states_are_the_same_number_whatever_was_before, 2 },
         { what_closes_on_an_edge_that_stretches_has_not_slipped, 2 },
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
         { a_base_needs_no_multipliers_in_dynamics, 3 },
