@@ -79,7 +79,8 @@ typedef struct {
     int    elements, free, held, thrown, edge, group, near;     /* free, held: its nodes;       */
 } body;                         /* edge: the first; group: of those that touch; near: at the gap */
 
-typedef struct { const model *p; const bbm_model *m; body *body; int *next; } bodies;   /* edge */
+/* next: edge; alike: pairs of meshes of one material with the same nodes along a side. */
+typedef struct { const model *p; const bbm_model *m; body *body; int *next, alike; } bodies;
 
 #define NEAR 0.05
 #define TOUCH 1e-6
@@ -135,9 +136,7 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
 
 static body *group_of(const bodies *s, int b)
 {
-    while (s->body[b].group != b)
-        b = s->body[b].group;
-    return &s->body[b];
+    return s->body[b].group == b ? &s->body[b] : group_of(s, s->body[b].group);
 }
 
 static int has_strength(const bbm_beyond *b) { return b->joints || b->tension + b->cohesion > 0; }
@@ -166,7 +165,7 @@ static void compare(bodies *s, const char *path, int i, int j)
     const bbm_material *m = &s->m->element[s->m->edge[a->edge].element].material,
                        *n = &s->m->element[s->m->edge[b->edge].element].material;
     if (shared > 2 && a->elements > 1 && b->elements > 1 && a->free && b->free && m->E == n->E
-        && m->density == n->density && !has_strength(s->m->beyond))
+        && m->density == n->density && !has_strength(s->m->beyond) && s->alike++ == 0)
         fprintf(stderr, "%s: warning: blocks '%.60s' and '%.60s' have nodes in the same places, "
                 "but blocks are never bonded: there is a joint without tension between them; "
                 "elements of one block are bonded\n", path, s->p->block[i], s->p->block[j]);
@@ -209,12 +208,12 @@ static void warn_of_times(const bodies *s, const char *path)
     for (int e = 0; e < m->elements; e++) {
         const bbm_element *i = &m->element[e];
         const body *b = &s->body[i->block];
-        const double speed = sqrt(i->material.E / i->material.density),
-                     squeezed = i->material.density * g * (b->box[3] - b->box[2]) / i->material.E;
+        const bbm_material *r = &i->material;
+        const double squeezed = r->density * g * (b->box[3] - b->box[2]) / r->E;
         if (!b->free)
             continue;
         fall = fmin(fall, sqrt(2 * b->size / g));
-        wave = fmin(wave, sqrt(i->A0) / speed);
+        wave = fmin(wave, sqrt(i->A0 * r->density / r->E));
         if (squeezed > softest)
             softest = squeezed, soft = e;
     }
@@ -233,8 +232,8 @@ static void warn_of_times(const bodies *s, const char *path)
 static void warn_of_bodies(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
-    bodies s = { p, m, malloc((size_t)p->blocks * sizeof *s.body),
-                 malloc((size_t)m->edges * sizeof *s.next) };
+    bodies s = { .p = p, .m = m, .body = malloc((size_t)p->blocks * sizeof *s.body),
+                 .next = malloc((size_t)m->edges * sizeof *s.next) };
     int held = 0;
 
     if (s.body && s.next) {
@@ -242,6 +241,8 @@ static void warn_of_bodies(const model *p, const char *path)
         for (int i = 0; i < p->blocks; i++)
             for (int j = 0; j < i; j++)
                 compare(&s, path, i, j);
+        if (s.alike > 1)
+            fprintf(stderr, "%s: warning: so have %d more pairs of blocks\n", path, s.alike - 1);
         for (int b = 0; b < p->blocks; b++)
             held |= s.body[b].held;
         if (p->dynamic && held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))

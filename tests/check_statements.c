@@ -364,6 +364,8 @@ static const struct { const char *text, *said; } doubtful[] = {
       "static\n", "its own weight would make block 'a' 2.5 % lower: E is 1e+06 Pa; is it in Pa?" },
     { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\nfix set a.left\nfix set b.right\ngravity 0 -9.81\n"
       "contact friction 30\nstatic\n", "blocks 'b' and 'a' have nodes in the same places, but blocks are never bonded" },
+    { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\ngrid c rock 4 0 6 1 4 2\nfix set a.left\nfix set c.right\n"
+      "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: so have 1 more pairs of blocks\n" },
 };
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
