@@ -46,9 +46,8 @@ void   case_add_grid(bbm_model *m, case_grid *g);
  * element; element (i, j) is j nx + i further. */
 typedef struct { int block, material, nx, ny; double x, y, w, h; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
-bbm_result case_at(const bbm_model *m, double x, double y);     /* of the node nearest to it    */
-/* u, v, sxx, syy, sxy, svm */
-double case_quantity(const bbm_result *r, const char *quantity);
+/* u, v, sxx, syy, sxy or svm of the node nearest to the point. */
+double case_at(const bbm_model *m, const char *quantity, double x, double y);
 void   case_solve(bbm_model *m);                                /* prepared and run             */
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
 double case_percent(double computed, double reference);
@@ -75,10 +74,11 @@ typedef struct {                    /* Experiment I or II                       
     /* Its tables and pictures, of each run, NULL where there is no beyond/, with its reference
      * values. */
     void (*show)(case_results *r, const bbm_model *const m[], const case_reference ref[]);
-    /* The table of convergence: so many triangles times k k; prints what a cell holds. */
+    /* The table of convergence, of the variant of the second run: so many triangles times k k;
+     * prints what a cell holds. */
     const char *errors;
     int triangles;
-    void (*print_errors)(int k, double alpha);
+    void (*print_errors)(const bbm_model *m);
     const char *files;              /* what it has written                                      */
 } case_experiment;
 

@@ -6,7 +6,7 @@
 /* The error of the deflection of the axis in x, in percent. */
 static double deflection_error(const bbm_model *m, const case_reference *b, double x)
 {
-    return case_percent(case_at(m, x, 0).v, case_find(b, "v", x, 0)->converged);
+    return case_percent(case_at(m, "v", x, 0), case_find(b, "v", x, 0)->converged);
 }
 
 /* v(24,0) for three values of alpha: the paper's way, with one and two rounds of multipliers. */

@@ -44,7 +44,7 @@ typedef struct {
     bbm_model *m;
     int first, mark;                        /* first element of the block; the node P           */
     int passes;                             /* most of a step                                   */
-    double start[4], at[STEPS + 1][4];      /* m        u, v of the centre of mass, then of P   */
+    double at[4][STEPS + 1];                /* m        u, v of the centre of mass, then of P   */
 } slide;
 
 /* The traction on the left side of the block. */
@@ -107,6 +107,8 @@ static void settle(bbm_model *m)
 /* Returns 0 if there is no such model. */
 static int run(slide *s, const variant *v, scene *film)
 {
+    double start[4], now[4];
+
     s->m = v->beyond ? case_beyond_model(2) : case_paper_model();
     if (!s->m)
         return 0;
@@ -115,7 +117,7 @@ static int run(slide *s, const variant *v, scene *film)
     s->mark = s->m->vertex[s->m->element[s->first + 3].first + 1].node;
     s->passes = 0;
     settle(s->m);
-    measure(s, s->start);
+    measure(s, start);
     s->m->info.t = 0;
     for (int i = 0; i <= STEPS; i++) {
         if (i > 0) {
@@ -124,9 +126,9 @@ static int run(slide *s, const variant *v, scene *film)
         }
         if (film)
             scene_record(film, s->m);
-        measure(s, s->at[i]);
+        measure(s, now);
         for (int c = 0; c < 4; c++)
-            s->at[i][c] -= s->start[c];
+            s->at[c][i] = now[c] - start[c];
     }
     return 1;
 }
@@ -137,15 +139,15 @@ static double theory(double t) { return F * t * t / (2 * MASS); }
 
 static void print_run(case_results *r, const slide *s, const variant *v)
 {
-    const double t = STEPS * DT, nowhere[2] = { NAN, NAN }, *end = s->at[STEPS];
+    const double t = STEPS * DT, nowhere[2] = { NAN, NAN };
     const double static_depth = MASS * v->gravity / (4 * s->m->par.p_n);
     double high = 0, error[4];
 
     for (int i = 0; i <= STEPS; i++)
-        high = fmax(high, fabs(s->at[i][3]));
+        high = fmax(high, fabs(s->at[3][i]));
     const struct { const char *name; double computed, theory; } row[4] = {
-        { "centre.u", end[0], theory(t) }, { "mark.u", end[2], theory(t) }, { "mark.v", high, 0 },
-        { "penetration", s->m->info.penetration, static_depth },
+        { "centre.u", s->at[0][STEPS], theory(t) }, { "mark.u", s->at[2][STEPS], theory(t) },
+        { "mark.v", high, 0 }, { "penetration", s->m->info.penetration, static_depth },
     };
     for (int k = 0; k < 4; k++) {
         char name[64];
@@ -183,7 +185,7 @@ static void print_summary(const slide s[], const variant v[], int runs)
            "|---|---|---|---|\n", STEPS * DT);
     for (int i = 0; i < 3 * runs; i++) {
         const int c = row[i % 3].c;
-        const double value = s[i / 3].at[STEPS][c], e = value - (c < 3 ? exact : 0);
+        const double value = s[i / 3].at[c][STEPS], e = value - (c < 3 ? exact : 0);
         printf("| %s, %s | %.6f | %g | ", row[i % 3].name, v[i / 3].label,
                fabs(value) < ROUNDING ? 0 : value, c < 3 ? exact : 0);
         printf(fabs(e) < ROUNDING ? "below 1e-08 m |\n" : "%+.0e m |\n", e);
@@ -195,21 +197,18 @@ static void print_summary(const slide s[], const variant v[], int runs)
 static void draw_figure(case_results *r, const slide s[], const variant v[])
 {
     enum { N = STEPS + 1, MARKS = 21 };
-    double t[N], exact[N], zero[N] = { 0 }, u_of[3][N], v_of[3][N], some[3][MARKS];
+    double t[N], exact[N], zero[N] = { 0 }, some[3][MARKS];
     plot p;
 
     for (int i = 0; i < N; i++) {
         t[i] = i * DT;
         exact[i] = theory(t[i]);
-        for (int k = 0; k < 3; k++) {
-            u_of[k][i] = s[k].at[i][2];
-            v_of[k][i] = s[k].at[i][3];
-        }
     }
     for (int i = 0; i < MARKS; i++) {
-        some[0][i] = t[i * STEPS / (MARKS - 1)];
-        some[1][i] = u_of[0][i * STEPS / (MARKS - 1)];
-        some[2][i] = v_of[0][i * STEPS / (MARKS - 1)];
+        const int step = i * STEPS / (MARKS - 1);
+        some[0][i] = t[step];
+        some[1][i] = s[0].at[2][step];
+        some[2][i] = s[0].at[3][step];
     }
     const plot_series both[] = {
         { .name = "u = F t²/(2 m)", .n = N, .x = t, .y = exact, .look = 1 },
@@ -221,7 +220,8 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
     };
     plot_series lift[3];
     for (int k = 0; k < 3; k++)
-        lift[k] = (plot_series){ .name = v[k].label, .n = N, .x = t, .y = v_of[k], .look = k + 2 };
+        lift[k] = (plot_series){ .name = v[k].label, .n = N, .x = t, .y = s[k].at[3],
+                                 .look = k + 2 };
     if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
         plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
             .title = "Fig. 25: displacement of P", .x = { "t", "s", 0 },
@@ -233,8 +233,8 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
     }
     case_write_curves(r, "fig25.csv",
                       "t,u_theory,u_without,v_without,u_gravity,v_gravity,u_rigid,v_rigid", N, 8,
-                      (const double *const[]){ t, exact, u_of[0], v_of[0], u_of[1], v_of[1],
-                                               u_of[2], v_of[2] });
+                      (const double *const[]){ t, exact, s[0].at[2], s[0].at[3], s[1].at[2],
+                                               s[1].at[3], s[2].at[2], s[2].at[3] });
 }
 
 int main(void)
