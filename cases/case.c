@@ -73,11 +73,6 @@ void case_print_augmented(const bbm_model *m)
 
 /* --------------------------------------------------------------------------------------- meshes */
 
-static int grid_node(const case_grid *g, int i, int j)
-{
-    return g->first + j * (g->nx + 1) + i;
-}
-
 static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j, int *index)
 {
     double xy[2];
@@ -88,8 +83,8 @@ static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j
 
 static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
 {
-    int node[5] = { grid_node(g, i, j), grid_node(g, i + 1, j), grid_node(g, i + 1, j + 1),
-                    grid_node(g, i, j + 1) };
+    const int low = g->first + j * (g->nx + 1) + i, high = low + g->nx + 1;
+    int node[5] = { low, low + 1, high + 1, high };
     int element[4][4], corners;
 
     if (g->cut == CELL_CROSSED)
@@ -111,7 +106,7 @@ void case_add_grid(bbm_model *m, case_grid *g)
     case_must(m, m->status);
 }
 
-static void place_in_box(double i, double j, const void *box, double xy[2])
+void case_place_in_box(double i, double j, const void *box, double xy[2])
 {
     const case_box *b = box;
 
@@ -123,7 +118,7 @@ int case_add_box(bbm_model *m, const case_box *b)
 {
     const int first = m->elements;
     case_grid g = { .nx = b->nx, .ny = b->ny, .cut = CELL_QUADS, .block = b->block,
-                    .material = b->material, .map = place_in_box, .context = b };
+                    .material = b->material, .map = case_place_in_box, .context = b };
 
     case_add_grid(m, &g);
     return first;

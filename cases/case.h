@@ -46,6 +46,8 @@ void   case_add_grid(bbm_model *m, case_grid *g);
  * element; element (i, j) is j nx + i further. */
 typedef struct { int block, material, nx, ny; double x, y, w, h; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
+/* Its map, for a grid of another cut or with other things to do first. */
+void   case_place_in_box(double i, double j, const void *box, double xy[2]);
 /* u, v, sxx, syy, sxy or svm of the node nearest to the point. */
 double case_at(const bbm_model *m, const char *quantity, double x, double y);
 void   case_solve(bbm_model *m);                                /* prepared and run             */

@@ -57,28 +57,25 @@ static void place(double i, double j, const void *division, double xy[2])
     xy[1] = H / 2 * t * (1 + 0.1 * (1 - t * t));
 }
 
-/* Support and load of a variant on the nodes of x = 0 and x = L, which lie in steps of `row` from
- * y = -H/2. */
-static void load(bbm_model *m, const char *variant, int left, int right, int row, int rows)
-{
-    for (int j = 0; j <= rows; j++) {
-        const bbm_node *n = &m->node[left + j * row];
-        const double u = *variant == 'c' ? theory("u", n->x, n->y) : 0;
-        const double v = *variant == 'c' ? theory("v", n->x, n->y) : 0;
-        bbm_fix_node(m, left + j * row, BBM_XY, u, v);
-    }
-    if (*variant == 'a')
-        bbm_add_load(m, right + rows / 2 * row, 0, -P);
-    else
-        for (int j = 0; j < rows; j++)
-            bbm_add_varying_line_load(m, right + j * row, right + (j + 1) * row, shear, NULL);
-}
-
+/* The beam on a grid whose first and last columns lie on x = 0 and x = L, held and loaded as the
+ * variant says. */
 void exp1_add_beam(bbm_model *m, const char *variant, case_grid *g)
 {
+    const int row = g->nx + 1;
+
     bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
     case_add_grid(m, g);
-    load(m, variant, g->first, g->first + g->nx, g->nx + 1, g->ny);
+    for (int j = 0; j <= g->ny; j++) {
+        const int left = g->first + j * row;
+        const double y = m->node[left].y, exact = *variant == 'c';
+        bbm_fix_node(m, left, BBM_XY, exact * theory("u", 0, y), exact * theory("v", 0, y));
+    }
+    const int right = g->first + g->nx;
+    if (*variant == 'a')
+        bbm_add_load(m, right + g->ny / 2 * row, 0, -P);
+    else
+        for (int j = 0; j < g->ny; j++)
+            bbm_add_varying_line_load(m, right + j * row, right + (j + 1) * row, shear, NULL);
 }
 
 /* The paper's load a is solved as in the paper, by Newton-Raphson steps until (71) holds; for b and

@@ -27,21 +27,14 @@ static void print_augmented(const case_reference *b)
     }
 }
 
-static void place_uniform(double i, double j, const void *grid, double xy[2])
-{
-    const case_grid *g = grid;
-
-    xy[0] = EXP1_LENGTH * i / g->nx;
-    xy[1] = EXP1_HEIGHT * (j / g->ny - 0.5);
-}
-
 /* The beam under load b on a uniform grid, with bonds that do not give. */
 static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
 {
     bbm_model *m = case_beyond_model(2);
-    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place_uniform };
+    const case_box box = { .nx = nx, .ny = ny, .y = -EXP1_HEIGHT / 2, .w = EXP1_LENGTH,
+                           .h = EXP1_HEIGHT };
+    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = case_place_in_box, .context = &box };
 
-    g.context = &g;
     exp1_add_beam(m, "b", &g);
     m->beyond->bonding = bonding;
     case_solve(m);

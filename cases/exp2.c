@@ -133,20 +133,6 @@ static void print_table(const char *variant, const bbm_model *m, const case_refe
     }
 }
 
-/* Tables 4 and 5 for one variant. */
-static void print_tables(const bbm_model *m, const char *variant, const case_reference *ref)
-{
-    static const place_of stress[5] = {
-        { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
-    };
-    static const place_of moved[6] = {
-        { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
-    };
-
-    print_table(variant, m, ref, stress, 5);
-    print_table(variant, m, ref, moved, 6);
-}
-
 /* What the experiment comes to: plate k5, for which (72) is exact. */
 static void print_summary(const bbm_model *const m[RUNS])
 {
@@ -270,8 +256,17 @@ static void print_errors(const bbm_model *m)
 
 static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
 {
-    for (int k = 0; k < PAPER_RUNS; k++)
-        print_tables(m[k], run[k].variant, &ref[k]);
+    static const place_of stress[5] = {
+        { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
+    };
+    static const place_of moved[6] = {
+        { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
+    };
+
+    for (int k = 0; k < PAPER_RUNS; k++) {
+        print_table(run[k].variant, m[k], &ref[k], stress, 5);
+        print_table(run[k].variant, m[k], &ref[k], moved, 6);
+    }
     print_summary(m);
     draw_lines(r, m, &ref[0]);
 }

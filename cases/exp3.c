@@ -60,6 +60,8 @@ static void pull(bbm_model *m, int first, int line)
     }
 }
 
+/* The model, brought into equilibrium by quasi-static steps: springs that are loaded suddenly would
+ * swing. */
 static void build(bbm_model *m, const variant *v, int *first)
 {
     bbm_add_material(m, &(bbm_material){ v->plate, 0.25, 2500, 1 }, NULL);
@@ -79,6 +81,10 @@ static void build(bbm_model *m, const variant *v, int *first)
     m->par.pcg.tolerance = 1e-13;
     m->par.steps = STEPS;
     case_must(m, bbm_prepare(m));
+    m->par.velocity_factor = 0;
+    for (int i = 0; i < SETTLE; i++)
+        case_must(m, bbm_step(m));
+    m->par.velocity_factor = 1;
 }
 
 /* u, v of the centre of mass (the elements are equal) and of P. */
@@ -95,15 +101,6 @@ static void measure(const slide *s, double at[4])
     at[3] = P.v;
 }
 
-/* Quasi-static steps, to start in equilibrium: springs that are loaded suddenly would swing. */
-static void settle(bbm_model *m)
-{
-    m->par.velocity_factor = 0;
-    for (int i = 0; i < SETTLE; i++)
-        case_must(m, bbm_step(m));
-    m->par.velocity_factor = 1;
-}
-
 /* Returns 0 if there is no such model. */
 static int run(slide *s, const variant *v, scene *film)
 {
@@ -116,7 +113,6 @@ static int run(slide *s, const variant *v, scene *film)
     build(s->m, v, &s->first);
     s->mark = s->m->vertex[s->m->element[s->first + 3].first + 1].node;
     s->passes = 0;
-    settle(s->m);
     measure(s, start);
     s->m->info.t = 0;
     for (int i = 0; i <= STEPS; i++) {
