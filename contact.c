@@ -396,9 +396,10 @@ static void renew_friction(bbm_contact_scratch *w)
 
 /* Gives a contact its next state. When it closes, P1 hits at the fraction d0/(d0 - d_n) of the
  * step, d0 the distance at the start. Until the end of the step the anchor is where P1 stood at the
- * start, and the shear spring feels the share of the slip after the hit: so it never drives the
- * slip. The contact starts as SLIDE if its shear spring would carry more than friction can hold, or
- * if it closes for the second time in the step: the shear spring had opened it. */
+ * start. The slip from there lies between those from P3 and from P2, for (53) is linear in the
+ * anchor. The shear spring feels the share of it after the hit: so it never drives the slip. The
+ * contact starts as SLIDE if its shear spring would carry more than friction can hold, or if it
+ * closes for the second time in the step: the shear spring had opened it. */
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
     const double at = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
@@ -502,15 +503,16 @@ static int change_states(bbm_model *m)
     return changes;
 }
 
-/* Notes the states of this pass as one number, a hash (FNV-1a). If an earlier pass had the same
- * states, the iteration cycles, unless that was the last pass: then only T of the step was new. */
+/* Notes the states of this pass, and which way each contact slides, as one number, a hash (FNV-1a).
+ * It takes no negative numbers, whose hashes collide. If an earlier pass had the same states, the
+ * iteration cycles, unless that was the last pass: then only T of the step was new. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;
 
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
-        const double state = c->state == BBM_SLIDE ? copysign(2, c->sign) : c->state;
-        hash = (hash ^ (uint64_t)(3 + state)) * 1099511628211u;
+        const int direction = c->state == BBM_SLIDE && c->sign < 0 ? -1 : 1;
+        hash = (hash ^ (uint64_t)(3 + direction * (int)c->state)) * 1099511628211u;
     }
     for (int p = 0; p < w->passes; p++)
         if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)

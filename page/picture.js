@@ -141,7 +141,7 @@ function drawBlocks({ g, frame, outline, at, thin }) {
   const [name, of, unit] = OF_ELEMENT.find(row => row[0] === view.colour) ?? [], held = hatch();
   const free = run.blocks.filter(b => !b.held).flatMap(b => b.elements);
   const values = of ? free.map(([k]) => frame.e[STRIDE.e * k + of]) : [];
-  const high = Math.max(...values), least = Math.min(...values);
+  const [least, high] = [Math.min, Math.max].map(f => values.reduce((a, b) => f(a, b), values[0]));
   const low = Math.abs(least) < 1e-6 * high ? 0 : least;
   values.forEach((a, k) => paint(g, () => outline(free[k]),
     { fill: viridis((a - low) / (high - low || 1)) }));

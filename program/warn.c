@@ -136,7 +136,9 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
 
 static body *group_of(const bodies *s, int b)
 {
-    return s->body[b].group == b ? &s->body[b] : group_of(s, s->body[b].group);
+    while (s->body[b].group != b)
+        b = s->body[b].group;
+    return &s->body[b];
 }
 
 static int has_strength(const bbm_beyond *b) { return b->joints || b->tension + b->cohesion > 0; }
