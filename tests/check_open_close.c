@@ -77,13 +77,16 @@ END_TEST
 /* Open, then sliding one way or the other: sets of states that differ have numbers that differ. */
 START_TEST(other_states_are_another_number)
 {
-    bbm_model *m = block_on_table(30);
-    const double u = _i ? -1e-3 : 1e-3;
+    bbm_model *m[2];
     bbm_pass pass;
 
-    feed(m, u, -1e-4, -1e-4, &pass);
-    ck_assert(m->scratch->contact[0].sign == copysign(1, u));
-    ck_assert(m->scratch->seen[0] != m->scratch->seen[1]);
+    for (int k = 0; k < 2; k++) {
+        m[k] = block_on_table(30);
+        feed(m[k], k ? -1e-3 : 1e-3, -1e-4, -1e-4, &pass);
+        ck_assert(m[k]->scratch->contact[0].sign == (k ? -1 : 1));
+        ck_assert(m[k]->scratch->seen[0] != m[k]->scratch->seen[1]);
+    }
+    ck_assert(m[0]->scratch->seen[1] != m[1]->scratch->seen[1]);
 }
 END_TEST
 
@@ -561,7 +564,7 @@ Suite *open_close_suite(void)
     const loop_test passes[] = {
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
-        { other_states_are_another_number, 2 },
+        { other_states_are_another_number, 1 },
         { states_are_the_same_number_whatever_was_before, 2 },
         { what_closes_on_an_edge_that_stretches_has_not_slipped, 2 },
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
