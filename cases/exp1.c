@@ -160,8 +160,8 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         { .name = "DDA, one block", .n = N, .x = x, .y = v[0], .style = PLOT_BOTH, .look = 4 },
     };
     case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
-        .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0 },
-        .y = { "v", "m", 0 }, .count = LENGTH(s), .series = s }));
+        .title = "Fig. 10: deflection of the axis", .x = { "x", "m" },
+        .y = { "v", "m" }, .count = LENGTH(s), .series = s }));
     case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5,
                       (const double *const[]){ x, v[0], v[1], v[2], v[3] });
 }

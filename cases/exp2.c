@@ -210,9 +210,9 @@ static void draw_line(case_results *r, const bbm_model *const m[RUNS], const cas
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
     case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
         .title = l->title, .count = LENGTH(s) - !fems, .series = s,
-        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0 },
+        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m" },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
-               l->quantity[0] == 's' ? "Pa" : "m", 0 } }));
+               l->quantity[0] == 's' ? "Pa" : "m" } }));
     case_write_curves(r, csv, header, l->count, 4,
                       (const double *const[]){ at, value[0], value[1], exact });
 }

@@ -23,14 +23,12 @@
 
 typedef enum {
     PLOT_LINE,                  /* the first such series solid, later ones with dashes            */
-    PLOT_DASHED,                /* as PLOT_LINE, but never solid                                  */
     PLOT_MARKS,                 /* a mark at each point                                           */
     PLOT_BOTH                   /* a solid line, marks along it at least 14 pixels apart          */
 } plot_style;
 
 typedef struct {                /* what an axis or a colour bar measures                          */
     const char *name, *unit;    /* a unit m, N, Pa, s, alone or before a slash, may get a prefix  */
-    int    log;                 /* logarithmic axis; values <= 0 are left out                     */
 } plot_quantity;
 
 typedef struct {
@@ -58,10 +56,9 @@ int plot_write_chart(const char *path, const plot_chart *c);
 typedef struct { double x, y, w, h; } plot_box;
 
 typedef struct {
-    double lo, hi, step;        /* ends and distance of the ticks, in the shown unit; log: powers */
+    double lo, hi, step;        /* ends and distance of the ticks, in the shown unit              */
     double scale;               /* shown value = scale * value                                    */
     double from, to;            /* pixels of lo and hi                                            */
-    int    log;
     char   label[160];          /* v [mm]                                                         */
 } plot_axis;
 
