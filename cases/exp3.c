@@ -242,8 +242,7 @@ int main(void)
         { "line", "gravity, rigid plate, line load", 9.81, 1e13, 1, 0 },
         { "beyond", "gravity, plate of 10 GPa, with beyond/", 9.81, 1e10, 0, 1 },
     };
-    scene film = { .title = "Experiment III: a block slides without friction (10 kN, with gravity)",
-                   .window = { -10, 10, -1, 3 } };
+    scene film = { .title = "Experiment III: a block slides without friction (10 kN, with gravity)" };
     case_results r;
     slide s[RUNS];
     int runs = 0;

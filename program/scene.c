@@ -56,7 +56,7 @@ typedef struct {                        /* what the functions below draw with   
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
     double       most[4], length[4];    /* of each kind of arrow: the largest force, its pixels   */
-    int          supports[4];           /* how many held in each way                              */
+    int          seen[4], supports[4];  /* of each kind of arrow; held in each way: whether       */
     double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
@@ -98,15 +98,13 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-/* Turned round if it points down, so that it points into what is carried. */
 static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
     double f[2];
 
     scene_contact_force(m, c, c->N, c->T, f);
-    const double up = f[1] < 0 ? -1 : 1;
-    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], up * f[0], up * f[1],
+    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1], c->N,
                           c->state };
 }
 
@@ -358,38 +356,46 @@ static void draw_blocks(film *f, int frame)
 
 enum { LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, LOAD = 0, LINE_LOAD = 3, KINDS = 4 };
 
-static const char *const style[KINDS] = {
-    "stroke=\"#aa2288\" stroke-width=\"2\"", "stroke=\"#004488\" stroke-width=\"1.8\"",
-    "stroke=\"#cc3311\" stroke-width=\"1.8\"", "stroke=\"#aa2288\" stroke-width=\"1.2\"" };
+/* width: pixels, of the largest; name, unit: in the legend, with the force between them. */
+static const struct { const char *colour; double width; const char *name, *unit; } arrow[KINDS] = {
+    [LOAD] = { "#aa2288", 2, "load", "N" }, [LINE_LOAD] = { "#aa2288", 1.2, "load", "N/m" },
+    [LOCKED] = { "#004488", 5, "contact force", "N, locked" },
+    [SLIDING] = { "#cc3311", 5, "contact force", "N, sliding" },
+};
 
-/* Something at a point, in m, of a size in pixels, y upwards: an arrow from there, or a support. */
-typedef void visitor(film *f, int kind, point from, point size);
+/* Something at a point, in m, of a size in pixels, y upwards: an arrow from there, of a share of the
+ * largest force of its kind, or a support. */
+typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
- * the arrow ends there. */
+ * the arrow ends there. Arrows of loads are as long as the force is large, and left out if that is
+ * less than 2 pixels; those of contacts are as wide, and left out below a fiftieth of the width. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
-    const double size = hypot(force.x, force.y);
-    const double pixels = f->most[kind] > 0 ? f->length[kind] / f->most[kind] : 0;
+    const double size = hypot(force.x, force.y), share = size / f->most[kind];
+    const int contact = kind == LOCKED || kind == SLIDING;
+    const double pixels = f->length[kind] / (contact ? size : f->most[kind]);
     const point d = { pixels * force.x, pixels * force.y };
 
-    if (!isfinite(size + from.x + from.y) || (visit && hypot(d.x, d.y) < 2))
+    if (!isfinite(size + from.x + from.y) || size == 0)
         return;
     if (!visit)                         /* the largest is looked for */
         f->most[kind] = fmax(f->most[kind], size);
-    else if (force.x * side.x + force.y * side.y < 0)
-        visit(f, kind, (point){ from.x - d.x / f->scale, from.y - d.y / f->scale }, d);
-    else
-        visit(f, kind, from, d);
+    if (!visit || share < (contact ? 0.02 : 2 / f->length[kind]))
+        return;
+    f->seen[kind] = 1;
+    if (force.x * side.x + force.y * side.y < 0)
+        from = (point){ from.x - d.x / f->scale, from.y - d.y / f->scale };
+    visit(f, kind, from, d, share);
 }
 
-/* Arrows along a loaded edge, 10 pixels apart or more. */
+/* Arrows along a loaded edge, 10 pixels apart or more; each of its loads for the largest. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
     const double length = hypot(b.x - a.x, b.y - a.y);
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
-    const int n = (int)fmax(1, length * f->scale / 16);
+    const int n = visit ? (int)fmax(1, length * f->scale / 16) : l->loads;
 
     for (int i = 0; i < n; i++) {
         const double s = (i + 0.5) / n, *q = l->q[(int)(s * l->loads)];
@@ -423,10 +429,13 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     scene_line l;
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
         visit_edge(f, frame, &l, &last, visit);
-    for (int i = 0; (kind == LOCKED || kind == SLIDING) && i < g->forces; i++)
-        if ((int)g->force[i].state == kind)
-            visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },
-                        (point){ g->force[i].fx, g->force[i].fy }, (point){ 0, 0 }, visit);
+    for (int i = 0; i < 2 * g->forces; i++) {   /* on the corner's block, and on the edge's */
+        const scene_force *c = &g->force[i / 2];
+        const point q = i % 2 ? (point){ -c->fx, -c->fy } : (point){ c->fx, c->fy };
+        if ((int)c->state == kind)
+            visit_force(f, kind, (point){ c->x, c->y }, q, (point){ c->N * q.x, c->N * q.y },
+                        visit);
+    }
 }
 
 /* The supports of blocks that are not held as a whole, those of one kind 8 pixels apart or more. */
@@ -448,29 +457,39 @@ static void visit_supports(film *f, int frame, visitor *visit)
                 d = held == BBM_X ? (point){ d.x < 0 ? -1 : 1, 0 } : (point){ 0, d.y > 0 ? 1 : -1 };
             const double l = hypot(d.x, d.y);
             d = l > 0 ? (point){ SUPPORT * d.x / l, SUPPORT * d.y / l } : (point){ 0, -SUPPORT };
-            visit(f, held, x, d);
+            visit(f, held, x, d, 1);
         }
 }
 
-static void put_arrow(film *f, int kind, point from, point size)
+/* From pixel a along d: a shaft, whose width says how large the force is, and a head. */
+static void put_shape(film *f, int kind, point a, point d, double share)
 {
-    const point a = pixel(f, from), d = { size.x, -size.y };
-    const double length = hypot(d.x, d.y), head = fmin(6, length / 2) / length;
-    const point h = { head * d.x, head * d.y };
+    const double l = hypot(d.x, d.y), w = 0.4 + arrow[kind].width * share;
+    const double head = fmin(3.5 + w, 0.6 * l), shaft = l - head, wing = 1.5 + 0.2 * w;
+    const point t = { d.x / l, d.y / l }, n = { t.y, -t.x }, tip = { head * t.x, head * t.y },
+                back = { (w / 2 + wing) * n.x, (w / 2 + wing) * n.y };
 
-    (void)kind;
-    plot_point(&f->p, "M", a.x, a.y);
-    plot_point(&f->p, "l", d.x, d.y);
-    plot_point(&f->p, "m", -h.x + 0.5 * h.y, -h.y - 0.5 * h.x);
-    plot_point(&f->p, "l", h.x - 0.5 * h.y, h.y + 0.5 * h.x);
-    plot_point(&f->p, " ", -h.x - 0.5 * h.y, -h.y + 0.5 * h.x);
+    plot_point(&f->p, "M", a.x + w / 2 * n.x, a.y + w / 2 * n.y);
+    plot_point(&f->p, "l", shaft * t.x, shaft * t.y);
+    plot_point(&f->p, " ", wing * n.x, wing * n.y);
+    plot_point(&f->p, " ", tip.x - back.x, tip.y - back.y);
+    plot_point(&f->p, " ", -tip.x - back.x, -tip.y - back.y);
+    plot_point(&f->p, " ", wing * n.x, wing * n.y);
+    plot_point(&f->p, " ", -shaft * t.x, -shaft * t.y);
+    plot_put(&f->p, "z");
+}
+
+static void put_arrow(film *f, int kind, point from, point size, double share)
+{
+    put_shape(f, kind, pixel(f, from), (point){ size.x, -size.y }, share);
 }
 
 /* A triangle or, in one direction, a roller, and the ground. */
-static void put_support(film *f, int held, point from, point size)
+static void put_support(film *f, int held, point from, point size, double share)
 {
     const point a = pixel(f, from), d = { size.x, -size.y }, b = { a.x + d.x, a.y + d.y };
 
+    (void)share;
     plot_point(&f->p, "M", a.x, a.y);
     if (held == BBM_XY) {
         plot_point(&f->p, " ", b.x - 0.5 * d.y, b.y + 0.5 * d.x);
@@ -489,9 +508,9 @@ static void draw_forces(film *f, int frame)
     visit_supports(f, frame, put_support);
     plot_put(&f->p, "\"/>\n");
     for (int kind = 0; kind < KINDS; kind++) {
-        if (f->most[kind] <= 0)
+        if (!f->seen[kind])
             continue;
-        plot_put(&f->p, "<path fill=\"none\" stroke-linejoin=\"round\" %s d=\"", style[kind]);
+        plot_put(&f->p, "<path fill=\"%s\" d=\"", arrow[kind].colour);
         visit_forces(f, frame, kind, put_arrow);
         plot_put(&f->p, "\"/>\n");
     }
@@ -515,8 +534,9 @@ static void draw_bolts(film *f, int frame)
 
 typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row */
 
-/* One more symbol and its text. Before the file is open this only counts the rows. */
-static void put_entry(film *f, legend *l, const char *symbol, const char *text)
+/* One more text; its symbol and the end of the group are to follow. Before the file is open this
+ * only counts the rows. */
+static void begin_entry(film *f, legend *l, const char *text)
 {
     const double w = ARROW + 32 + plot_text_width(text);
 
@@ -524,36 +544,42 @@ static void put_entry(film *f, legend *l, const char *symbol, const char *text)
         l->rows++;
         l->right = 0;
     }
-    plot_put(&f->p, "<g transform=\"translate(%.2f %.2f)\">%s\n", l->x + l->right,
-             l->y + ROW * (l->rows - 1), symbol);
+    plot_put(&f->p, "<g transform=\"translate(%.2f %.2f)\">\n", l->x + l->right,
+             l->y + ROW * (l->rows - 1));
     plot_text(&f->p, ARROW + 8, 5, "", text);
-    plot_put(&f->p, "</g>\n");
     l->right += w;
 }
 
-/* The longest arrow of a kind, and its force. */
-static void put_force_entry(film *f, legend *l, int kind, const char *name, const char *unit)
+static void put_entry(film *f, legend *l, const char *symbol, const char *text)
 {
-    const double size = f->most[kind];
-    static const char *const prefix[] = { "", "k", "M", "G" };
-    const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
-    char symbol[160], text[60];
+    begin_entry(f, l, text);
+    plot_put(&f->p, "%s</g>\n", symbol);
+}
 
-    if (size <= 0)
+/* The longest arrow of a kind, and its force. */
+static void put_force_entry(film *f, legend *l, int kind)
+{
+    static const char *const prefix[] = { "", "k", "M", "G" };
+    const double size = f->most[kind];
+    const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
+    char text[80];
+
+    if (!f->seen[kind])
         return;
-    snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%.2fm-6 -3l6 3l-6 3\" fill=\"none\" %s/>",
-             f->length[kind], kind == LOCKED ? "stroke=\"#000000\"" : style[kind]);
-    snprintf(text, sizeof text, "%s%.3g %s%s", name, size / pow(1000, power), prefix[power],
-             unit);
-    put_entry(f, l, symbol, text);
+    snprintf(text, sizeof text, "%s %.3g %s%s", arrow[kind].name, size / pow(1000, power),
+             prefix[power], arrow[kind].unit);
+    begin_entry(f, l, text);
+    plot_put(&f->p, "<path fill=\"%s\" d=\"", arrow[kind].colour);
+    put_shape(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
+    plot_put(&f->p, "\"/></g>\n");
 }
 
 /* Returns the number of rows. */
-static int draw_legend(film *f, double x, double y, double width)
+static int draw_legend(film *f, double x, double y, double room)
 {
-    legend l = { x, y, width, 0, 0 };
+    legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
-    char symbol[160], text[60];
+    char text[60];
     int held = 0;
 
     for (int b = 0; b < f->bodies; b++)
@@ -570,13 +596,8 @@ static int draw_legend(film *f, double x, double y, double width)
                   "fixed in one direction");
     if (f->s->bolts)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
-    put_force_entry(f, &l, LOAD, "load ", "N");
-    put_force_entry(f, &l, LINE_LOAD, "load ", "N/m");
-    for (int state = LOCKED; state <= SLIDING && f->most[LOCKED] > 0; state++) {
-        snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%d\" %s/>", ARROW, style[state]);
-        put_entry(f, &l, symbol, state == LOCKED ? "locked contact" : "sliding contact");
-    }
-    put_force_entry(f, &l, LOCKED, "contact force ", "N");
+    for (int kind = 0; kind < KINDS; kind++)
+        put_force_entry(f, &l, kind);
     if (f->s->mark_name)
         put_entry(f, &l, "<circle cx=\"40\" r=\"4.5\"/>", f->s->mark_name);
     if (f->seconds > 0) {
@@ -594,9 +615,9 @@ static int draw_legend(film *f, double x, double y, double width)
 
 /* ----------------------------------------------------------------------------------- the pages */
 
-static void widen_window(film *f, int kind, point from, point size)
+static void widen_window(film *f, int kind, point from, point size, double share)
 {
-    (void)kind;
+    (void)kind, (void)share;
     plot_widen(f->window[0], from.x);
     plot_widen(f->window[1], from.y);
     plot_widen(f->window[0], from.x + size.x / f->scale);
@@ -625,21 +646,16 @@ static void arrange(film *f, int n)
     l->h = f->scale * h + over;
 }
 
-/* The window that holds all vertices, or those that can move beside the chosen window. */
+/* The window that holds all vertices. */
 static void find_window(film *f)
 {
-    const double *w = f->s->window;
-    const int chosen = w[0] < w[1] && w[2] < w[3];
-
     for (int k = 0; k < 2; k++) {
-        f->window[k][0] = chosen ? w[2 * k] : INFINITY;
-        f->window[k][1] = chosen ? w[2 * k + 1] : -INFINITY;
+        f->window[k][0] = INFINITY;
+        f->window[k][1] = -INFINITY;
     }
-    for (int b = 0; b < f->bodies; b++)
-        for (int k = 0; k < f->body[b].n && !(chosen && f->body[b].held); k++)
-            for (int i = 0; i < f->s->frames; i++)
-                widen_window(f, 0, position(f, i, f->vertex[f->body[b].first + k]),
-                             (point){ 0, 0 });
+    for (int v = 0; v < f->m->vertices; v++)
+        for (int i = 0; i < f->s->frames; i++)
+            widen_window(f, 0, position(f, i, v), (point){ 0, 0 }, 0);
     const double more = 0.03 * fmax(f->window[0][1] - f->window[0][0],
                                     f->window[1][1] - f->window[1][0]);
     for (int k = 0; k < 2; k++) {
@@ -677,7 +693,7 @@ static void measure(film *f, int n)
     for (int round = 0; round < 4; round++) {
         f->length[LOAD] = ARROW;
         f->length[LINE_LOAD] = ARROW / 2;
-        f->length[LOCKED] = fmax(14, fmin(ARROW, 0.8 * block_size(f) * f->scale));
+        f->length[LOCKED] = fmax(6, fmin(ARROW, 0.5 * block_size(f) * f->scale));
         f->length[SLIDING] = f->length[LOCKED];
         find_window(f);
         for (int i = 0; i < f->s->frames; i++) {

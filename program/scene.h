@@ -24,7 +24,7 @@
 
 typedef struct {                /* of a closed contact                                            */
     double x, y;                /* m                                                              */
-    double fx, fy;              /* N        upwards, so that arrows stand on what carries         */
+    double fx, fy, N;           /* N        on the corner's block; its pressure                   */
     bbm_contact_state state;
 } scene_force;
 
@@ -46,8 +46,6 @@ typedef struct {
     const char *title;
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
-    double window[4];           /* m        x from, x to, y from, y to: this, and all that is     */
-                                /*          not fixed; zeros: everything                          */
     int    mark;                /*          a vertex to mark                                      */
     const char *mark_name;      /*          in the legend; NULL: none                             */
     /* --- the recording --- */
