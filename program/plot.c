@@ -173,12 +173,12 @@ static void power_text(char *text, size_t size, int exponent)
 
 /* ---------------------------------------------------------------------------------------- axes */
 
-/* m, N, s, Pa, alone or before a slash */
+/* m, N, s, J, Pa, alone or before a slash */
 static int takes_prefix(const char *unit)
 {
     const size_t n = strcspn(unit, "/");
 
-    return (n == 1 && strchr("mNs", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
+    return (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
 }
 
 /* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
@@ -417,9 +417,12 @@ static void begin_series(plot *p, const plot_chart *c, int k)
     static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
                                           "#CC79A7", "#E69F00" };
 
-    plot_put(p, "<g fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" "
-             "stroke-dasharray=\"%s\">\n",
-             colour[c->series[k].look % LENGTH(colour)], series_dashes(c, k));
+    const char *own = colour[c->series[k].look % LENGTH(colour)];
+    const int band = c->series[k].style == PLOT_BAND;
+
+    plot_put(p, "<g fill=\"%s\" fill-opacity=\"0.2\" stroke=\"%s\" stroke-width=\"%s\" "
+             "stroke-linejoin=\"round\" stroke-dasharray=\"%s\">\n",
+             band ? own : "none", own, band ? "0.6" : "1.8", series_dashes(c, k));
 }
 
 /* Columns of the legend: as few as keep it to the rows that the widest entry allows. */
@@ -441,7 +444,9 @@ static void draw_legend(plot *p, plot_box b, const plot_chart *c)
         const double x = b.x + b.w / 2 + (k % columns - columns / 2.0) * column + 10;
         const double y = b.y + ROW * (k / columns);
         begin_series(p, c, k);
-        if (c->series[k].style != PLOT_MARKS)
+        if (c->series[k].style == PLOT_BAND)
+            plot_rectangle(p, (plot_box){ x, y - 6, 40, 12 }, "");
+        else if (c->series[k].style != PLOT_MARKS)
             put_line(p, "", x, y, x + 40, y);
         if (c->series[k].style >= PLOT_MARKS)
             draw_mark(p, c->series[k].look, x + 20, y);

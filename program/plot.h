@@ -23,12 +23,13 @@
 
 typedef enum {
     PLOT_LINE,                  /* the first such series solid, later ones with dashes            */
+    PLOT_BAND,                  /* the area within the points                                     */
     PLOT_MARKS,                 /* a mark at each point                                           */
     PLOT_BOTH                   /* a solid line, marks along it at least 14 pixels apart          */
 } plot_style;
 
 typedef struct {                /* what an axis or a colour bar measures                          */
-    const char *name, *unit;    /* a unit m, N, Pa, s, alone or before a slash, may get a prefix  */
+    const char *name, *unit;    /* a unit m, N, s, J, Pa, alone or before a slash, may get a prefix  */
 } plot_quantity;
 
 typedef struct {
