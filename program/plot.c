@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXT = 14, ROW = 22, TICK_TEXT = 48, LEVELS = 11 };  /* pixels; the last: wanted bands */
+enum { TEXT = 14, TICK_TEXT = 48, LEVELS = 11 };    /* pixels; the last: wanted bands */
 
 static const double LETTER = 7.8;       /* pixels, generous mean width of a letter of size TEXT */
 static const double UNSEEN = 1e-3;      /* of a step: results end there that may be meant to be 0 */
@@ -99,6 +99,20 @@ double plot_text_width(const char *text)
     for (const char *s = text; s && *s; s++)
         letters += (*s & 0xC0) == 0x80 ? 0 : (*s & 0xE0) == 0xE0 ? 2 : 1;
     return LETTER * letters;
+}
+
+void plot_begin_entry(plot *p, plot_legend *l, const char *text)
+{
+    const double w = PLOT_SYMBOL + 32 + plot_text_width(text);
+
+    if (l->rows == 0 || l->right + w > l->room) {
+        l->rows++;
+        l->right = 0;
+    }
+    plot_put(p, "<g transform=\"translate(%.2f %.2f)\">\n", l->x + l->right,
+             l->y + PLOT_ROW * (l->rows - 1));
+    plot_text(p, PLOT_SYMBOL + 8, 5, "", text);
+    l->right += w;
 }
 
 void plot_title(plot *p, double x, double y, const char *text)
@@ -425,45 +439,30 @@ static void begin_series(plot *p, const plot_chart *c, int k)
              band ? own : "none", own, band ? "0.6" : "1.8", series_dashes(c, k));
 }
 
-/* Columns of the legend: as few as keep it to the rows that the widest entry allows. */
-static int legend_columns(const plot_chart *c, double width, double *column)
+/* Returns the number of rows. */
+static int draw_legend(plot *p, plot_legend l, const plot_chart *c)
 {
-    *column = 0;
-    for (int k = 0; k < c->count; k++)
-        *column = fmax(*column, 70 + plot_text_width(c->series[k].name));
-    const int fit = (int)fmax(1, width / fmax(*column, 1)), rows = (c->count + fit - 1) / fit;
-    return rows > 0 ? (c->count + rows - 1) / rows : 1;
-}
-
-static void draw_legend(plot *p, plot_box b, const plot_chart *c)
-{
-    double column;
-    const int columns = legend_columns(c, b.w, &column);
-
     for (int k = 0; k < c->count; k++) {
-        const double x = b.x + b.w / 2 + (k % columns - columns / 2.0) * column + 10;
-        const double y = b.y + ROW * (k / columns);
+        plot_begin_entry(p, &l, c->series[k].name);
         begin_series(p, c, k);
         if (c->series[k].style == PLOT_BAND)
-            plot_rectangle(p, (plot_box){ x, y - 6, 40, 12 }, "");
+            plot_rectangle(p, (plot_box){ 4, -6, 40, 12 }, "");
         else if (c->series[k].style != PLOT_MARKS)
-            put_line(p, "", x, y, x + 40, y);
+            put_line(p, "", 4, 0, 44, 0);
         if (c->series[k].style >= PLOT_MARKS)
-            draw_mark(p, c->series[k].look, x + 20, y);
-        plot_put(p, "</g>\n");
-        plot_text(p, x + 48, y + 5, "", c->series[k].name);
+            draw_mark(p, c->series[k].look, 24, 0);
+        plot_put(p, "</g></g>\n");
     }
+    return l.rows;
 }
 
 void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
 {
-    double column;
-
     chart_axes(p, box, c);
     const double left = 40 + widest_tick(&p->y), top = c->title ? 40 : 16;
     plot_box b = { box.x + left, box.y + top, box.w - left - 24, 0 };
-    const int columns = legend_columns(c, b.w, &column), rows = (c->count + columns - 1) / columns;
-    b.h = box.h - top - 60 - ROW * rows;
+    plot nowhere = { .failed = 0 };
+    b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&nowhere, (plot_legend){ .room = b.w }, c);
     place_axes(p, b);
     draw_axes(p, b, 1);
     plot_title(p, b.x + b.w / 2, b.y - 14, c->title);
@@ -476,7 +475,7 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
             draw_marks(p, s);
         plot_put(p, "</g>\n");
     }
-    draw_legend(p, (plot_box){ b.x, b.y + b.h + 66, b.w, 0 }, c);
+    draw_legend(p, (plot_legend){ b.x, b.y + b.h + 66, b.w, 0, 0 }, c);
 }
 
 int plot_write_chart(const char *path, const plot_chart *c)

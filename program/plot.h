@@ -77,6 +77,11 @@ void   plot_rectangle(plot *p, plot_box b, const char *attributes);
 void   plot_text(plot *p, double x, double y, const char *attributes, const char *text);
 double plot_text_width(const char *text);           /* pixels, generous                           */
 void   plot_title(plot *p, double x, double y, const char *text);           /* x: its middle      */
+/* One more entry of a legend: its text. A symbol around y = 0, x up to PLOT_SYMBOL, is to follow, and
+ * the end of the group, </g>. In a plot that is not open this only counts the rows. */
+enum { PLOT_ROW = 24, PLOT_SYMBOL = 48 };           /* pixels */
+typedef struct { double x, y, room, right; int rows; } plot_legend; /* from (x, y) on, row by row */
+void   plot_begin_entry(plot *p, plot_legend *l, const char *text);
 double plot_pixel(const plot_axis *a, double value);        /* p->x, p->y: value to pixel         */
 void   plot_widen(double range[2], double value);   /* so that it holds the value                 */
 double plot_nice(double x);                         /* 1, 2 or 5 times a power of ten, near x     */

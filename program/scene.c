@@ -28,7 +28,7 @@
 #include "plot.h"
 
 enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
-enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
+enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMBOL, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
@@ -532,32 +532,14 @@ static void draw_bolts(film *f, int frame)
 
 /* ------------------------------------------------------------------------------------- legend */
 
-typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row */
-
-/* One more text; its symbol and the end of the group are to follow. Before the file is open this
- * only counts the rows. */
-static void begin_entry(film *f, legend *l, const char *text)
+static void put_entry(film *f, plot_legend *l, const char *symbol, const char *text)
 {
-    const double w = ARROW + 32 + plot_text_width(text);
-
-    if (l->rows == 0 || l->right + w > l->width) {
-        l->rows++;
-        l->right = 0;
-    }
-    plot_put(&f->p, "<g transform=\"translate(%.2f %.2f)\">\n", l->x + l->right,
-             l->y + ROW * (l->rows - 1));
-    plot_text(&f->p, ARROW + 8, 5, "", text);
-    l->right += w;
-}
-
-static void put_entry(film *f, legend *l, const char *symbol, const char *text)
-{
-    begin_entry(f, l, text);
+    plot_begin_entry(&f->p, l, text);
     plot_put(&f->p, "%s</g>\n", symbol);
 }
 
 /* The longest arrow of a kind, and its force. */
-static void put_force_entry(film *f, legend *l, int kind)
+static void put_force_entry(film *f, plot_legend *l, int kind)
 {
     static const char *const prefix[] = { "", "k", "M", "G" };
     const double size = f->most[kind];
@@ -568,7 +550,7 @@ static void put_force_entry(film *f, legend *l, int kind)
         return;
     snprintf(text, sizeof text, "%s %.3g %s%s", arrow[kind].name, size / pow(1000, power),
              prefix[power], arrow[kind].unit);
-    begin_entry(f, l, text);
+    plot_begin_entry(&f->p, l, text);
     plot_put(&f->p, "<path fill=\"%s\" d=\"", arrow[kind].colour);
     put_shape(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
     plot_put(&f->p, "\"/></g>\n");
@@ -577,7 +559,7 @@ static void put_force_entry(film *f, legend *l, int kind)
 /* Returns the number of rows. */
 static int draw_legend(film *f, double x, double y, double room)
 {
-    legend l = { x, y, room, 0, 0 };
+    plot_legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
     char text[60];
     int held = 0;
@@ -720,14 +702,14 @@ static int open_page(film *f, const char *path, int n, double below)
     const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
     l->left = (width - l->columns * l->w) / 2;
-    if (!plot_open(&f->p, path, width, bottom + ROW * rows + 8))
+    if (!plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8))
         return 0;
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
              "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
              "<rect width=\"7\" height=\"7\" fill=\"#e4e4e4\"/>"
              "<path d=\"M0 0V7\" stroke=\"#a0a0a0\" stroke-width=\"1.5\"/></pattern></defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
-    draw_legend(f, MARGIN, bottom + ROW / 2.0, width - 2 * MARGIN);
+    draw_legend(f, MARGIN, bottom + PLOT_ROW / 2.0, width - 2 * MARGIN);
     return 1;
 }
 
