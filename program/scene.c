@@ -32,7 +32,7 @@ enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMB
        MARGIN = 20 };                           /* pixels */
 
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
-static const double FAIR = 0.3;         /* of an edge's length: how much its ends may move apart  */
+static const double FAIR = 0.5;         /* of an element's width: how much an edge may change     */
 
 typedef struct { double x, y; } point;
 
@@ -854,27 +854,22 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } sample;     /* pixels */
 
-/* Whether no edge changes by more than FAIR of its length, the other end's turn included, and no
- * element loses half of its area. */
-static int is_fair(const bbm_model *m, const nodal *n, double scale)
+/* By so much displacements may be magnified that no edge changes, in length or direction, by more
+ * than FAIR of its element's width: of its area by its longest edge. No element turns over then. */
+static double fair_scale(const bbm_model *m, const nodal *n)
 {
+    double scale = INFINITY;
+
     for (int e = 0; e < m->elements; e++) {
-        double start = 0, area = 0;
+        double longest = 0, change = 0;
         for (int v = m->element[e].first; v < m->element[e].first + m->element[e].n; v++) {
             const int i = m->vertex[v].node, j = m->vertex[next_vertex(m, v)].node;
-            const bbm_node *a = &m->node[i], *b = &m->node[j];
-            const point A = { a->x + scale * n[i].u, a->y + scale * n[i].v };
-            const point B = { b->x + scale * n[j].u, b->y + scale * n[j].v };
-            if (scale * hypot(n[j].u - n[i].u, n[j].v - n[i].v) > FAIR * hypot(b->x - a->x,
-                                                                               b->y - a->y))
-                return 0;
-            start += a->x * b->y - b->x * a->y;
-            area += A.x * B.y - B.x * A.y;
+            longest = fmax(longest, hypot(m->node[j].x - m->node[i].x, m->node[j].y - m->node[i].y));
+            change = fmax(change, hypot(n[j].u - n[i].u, n[j].v - n[i].v));
         }
-        if (area < start / 2)
-            return 0;
+        scale = fmin(scale, FAIR * m->element[e].A0 / longest / change);
     }
-    return 1;
+    return scale;
 }
 
 /* 1, 2 or 5 times a power of ten, 1 at least, by which displacements can be magnified. */
@@ -889,7 +884,7 @@ static double find_scale(const bbm_model *m, const nodal *n)
     }
     const double size = fmax(range[0][1] - range[0][0], range[1][1] - range[1][0]);
     double scale = moved > 1e-12 * size ? plot_nice(0.1 * size / moved) : 1;
-    while (scale > 1 && !is_fair(m, n, scale))
+    while (scale > 1 && scale > fair_scale(m, n))
         scale = plot_nice(scale / 2.2);
     return fmax(scale, 1);
 }
