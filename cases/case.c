@@ -268,11 +268,8 @@ void case_write_curves(case_results *r, const char *file, const char *header, in
         stop(r->path, strerror(errno));
     fprintf(f, "%s\n", header);
     for (int i = 0; i < rows; i++)
-        for (int j = 0; j < columns; j++) {
-            if (!isnan(column[j][i]))
-                fprintf(f, "%.15g", column[j][i]);
-            fputc(j + 1 < columns ? ',' : '\n', f);
-        }
+        for (int j = 0; j < columns; j++)
+            fprintf(f, "%.15g%c", column[j][i], j + 1 < columns ? ',' : '\n');
     if (ferror(f) | fclose(f))
         stop(r->path, "could not be written");
 }

@@ -411,19 +411,9 @@ static void draw_line(plot *p, const plot_series *s)
 
 static void draw_marks(plot *p, const plot_series *s)
 {
-    const double apart = s->style == PLOT_BOTH ? 14 : 0;
-    double last_x = -INFINITY, last_y = 0;
-
-    for (int i = 0; i < s->n; i++) {
-        if (!is_shown(s, i))
-            continue;
-        const double x = plot_pixel(&p->x, s->x[i]), y = plot_pixel(&p->y, s->y[i]);
-        if (hypot(x - last_x, y - last_y) < apart)
-            continue;
-        draw_mark(p, s->look, x, y);
-        last_x = x;
-        last_y = y;
-    }
+    for (int i = 0; i < s->n; i++)
+        if (is_shown(s, i))
+            draw_mark(p, s->look, plot_pixel(&p->x, s->x[i]), plot_pixel(&p->y, s->y[i]));
 }
 
 static void begin_series(plot *p, const plot_chart *c, int k)

@@ -363,8 +363,8 @@ static const struct { const char *colour; double width; const char *name, *unit;
     [SLIDING] = { "#cc3311", 5, "contact force", "N, sliding" },
 };
 
-/* Something at a point, in m, of a size in pixels, y upwards: an arrow from there, of a share of the
- * largest force of its kind, or a support. */
+/* Something at a point, in m, of a size in pixels, y upwards: a support, or an arrow from there, of
+ * a share of the largest force of its kind. */
 typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
@@ -787,24 +787,18 @@ int scene_write_panels(const scene *s, const bbm_model *m, const char *path, int
     return done;
 }
 
-/* A group that is visible from half an interval before its frame to half an interval behind it, at
- * first the first. */
+/* A group that is visible from half an interval before its frame to half an interval behind it, the
+ * last one to the end; at first the first. */
 static void begin_turn(film *f, int frame)
 {
     const int last = f->s->frames - 1, intervals = value_count(f) - 1;
-    const double from = (frame - 0.5) / intervals, to = (frame + 0.5) / intervals;
 
     plot_put(&f->p, "<g%s>", frame ? " visibility=\"hidden\"" : "");
-    if (last == 0)
-        return;
-    plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
-             "repeatCount=\"indefinite\" ", f->seconds);
-    if (frame == 0)
-        plot_put(&f->p, "values=\"visible;hidden\" keyTimes=\"0;%.5f\"/>\n", to);
-    else if (frame == last)
-        plot_put(&f->p, "values=\"hidden;visible\" keyTimes=\"0;%.5f\"/>\n", from);
-    else
-        plot_put(&f->p, "values=\"hidden;visible;hidden\" keyTimes=\"0;%.5f;%.5f\"/>\n", from, to);
+    if (last > 0)
+        plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
+                 "repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
+                 "keyTimes=\"0;%.5f;%.5f\"/>\n", f->seconds, fmax(0, (frame - 0.5) / intervals),
+                 frame == last ? 1 : (frame + 0.5) / intervals);
 }
 
 /* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
@@ -864,7 +858,8 @@ static double fair_scale(const bbm_model *m, const nodal *n)
         double longest = 0, change = 0;
         for (int v = m->element[e].first; v < m->element[e].first + m->element[e].n; v++) {
             const int i = m->vertex[v].node, j = m->vertex[next_vertex(m, v)].node;
-            longest = fmax(longest, hypot(m->node[j].x - m->node[i].x, m->node[j].y - m->node[i].y));
+            const bbm_node *a = &m->node[i], *b = &m->node[j];
+            longest = fmax(longest, hypot(b->x - a->x, b->y - a->y));
             change = fmax(change, hypot(n[j].u - n[i].u, n[j].v - n[i].v));
         }
         scale = fmin(scale, FAIR * m->element[e].A0 / longest / change);

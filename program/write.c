@@ -338,7 +338,8 @@ static void draw_now(write_results *w, const char *name)
 static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_series s[], int first,
                        const char *const name[])
 {
-    const int place = first < MONITORS ? w->p->monitors + (first == PASSES) : (first - MONITORS) / 2;
+    const int place = first < MONITORS ? w->p->monitors + (first == PASSES)
+                                       : (first - MONITORS) / 2;
 
     for (int k = 0; name[k]; k++, c.count++)
         s[k] = (plot_series){ .name = name[k], .n = w->row + 1, .x = column(w, T),
@@ -352,7 +353,7 @@ static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_serie
 static void draw_monitor(const write_results *w, plot *p, int monitor)
 {
     static const char *const name[] = { "u", "v", NULL },
-        *const expected[] = { "u expected", "v expected", "it leaves", "it stays" };
+        *const expected[] = { "u expected", "v expected", "to leave", "to stay" };
     const double from = column(w, T)[0], to = column(w, T)[w->row], x[] = { from, to, to, from };
     plot_chart c = { .title = w->p->monitor[monitor].name, .y = { "displacement", "m" } };
     plot_series s[2 + BANDS];
