@@ -34,6 +34,19 @@ enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMB
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
 static const double FAIR = 0.5;         /* of an element's width: how much an edge may change     */
 
+/* Arrows: the largest is so wide, in pixels; name, unit: in the legend, with the force between
+ * them. Contacts have a head on both sides. */
+enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, KINDS };
+
+static const struct { const char *colour; double width; const char *name, *unit; } arrow[KINDS] = {
+    [LOAD] = { "#aa2288", 4, "load", "N" }, [LINE_LOAD] = { "#aa2288", 3, "load", "N/m" },
+    [LOCKED] = { "#004488", 6, "contact force", "N, locked" },
+    [SLIDING] = { "#cc3311", 6, "contact force", "N, sliding" },
+    [PULLED] = { "#117733", 6, "contact force", "N, pulling" },
+};
+
+static int is_contact(int kind) { return kind >= LOCKED && kind <= PULLED; }
+
 typedef struct { double x, y; } point;
 
 typedef struct {                        /* a block                                                */
@@ -55,8 +68,8 @@ typedef struct {                        /* what the functions below draw with   
     point       *normal;                /*          [nodes] outward, of the boundary there        */
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
-    double       most[4], length[4];    /* of each kind of arrow: the largest force, its pixels   */
-    int          seen[4], supports[4];  /* of each kind of arrow; held in each way: whether       */
+    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its pixels   */
+    int          seen[KINDS], supports[4];  /* of each kind of arrow; held in each way: whether       */
     double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
@@ -104,8 +117,8 @@ static scene_force force_of(const bbm_model *m, const bbm_contact *c)
     double f[2];
 
     scene_contact_force(m, c, c->N, c->T, f);
-    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1], c->N,
-                          c->state };
+    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1],
+                          c->N < 0 ? PULLED : (int)c->state };
 }
 
 static int copy_frame(scene_frame *f, const bbm_model *m)
@@ -354,38 +367,29 @@ static void draw_blocks(film *f, int frame)
 
 /* ------------------------------------------------------------------- forces, loads and supports */
 
-enum { LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, LOAD = 0, LINE_LOAD = 3, KINDS = 4 };
-
-/* width: pixels, of the largest; name, unit: in the legend, with the force between them. */
-static const struct { const char *colour; double width; const char *name, *unit; } arrow[KINDS] = {
-    [LOAD] = { "#aa2288", 2, "load", "N" }, [LINE_LOAD] = { "#aa2288", 1.2, "load", "N/m" },
-    [LOCKED] = { "#004488", 5, "contact force", "N, locked" },
-    [SLIDING] = { "#cc3311", 5, "contact force", "N, sliding" },
-};
-
 /* Something at a point, in m, of a size in pixels, y upwards: a support, or an arrow from there, of
  * a share of the largest force of its kind. */
 typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
  * the arrow ends there. Arrows of loads are as long as the force is large, and left out if that is
- * less than 2 pixels; those of contacts are as wide, and left out below a fiftieth of the width. */
+ * less than 2 pixels; those of contacts are as wide, and left out below a fiftieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
     const double size = hypot(force.x, force.y), share = size / f->most[kind];
-    const int contact = kind == LOCKED || kind == SLIDING;
-    const double pixels = f->length[kind] / (contact ? size : f->most[kind]);
+    const double pixels = f->length[kind] / (is_contact(kind) ? size : f->most[kind]);
+    const double before = is_contact(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
     const point d = { pixels * force.x, pixels * force.y };
 
     if (!isfinite(size + from.x + from.y) || size == 0)
         return;
     if (!visit)                         /* the largest is looked for */
         f->most[kind] = fmax(f->most[kind], size);
-    if (!visit || share < (contact ? 0.02 : 2 / f->length[kind]))
+    if (!visit || share < (is_contact(kind) ? 0.02 : 2 / f->length[kind]))
         return;
     f->seen[kind] = 1;
-    if (force.x * side.x + force.y * side.y < 0)
-        from = (point){ from.x - d.x / f->scale, from.y - d.y / f->scale };
+    from.x -= before * d.x / f->scale;
+    from.y -= before * d.y / f->scale;
     visit(f, kind, from, d, share);
 }
 
@@ -429,13 +433,10 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     scene_line l;
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
         visit_edge(f, frame, &l, &last, visit);
-    for (int i = 0; i < 2 * g->forces; i++) {   /* on the corner's block, and on the edge's */
-        const scene_force *c = &g->force[i / 2];
-        const point q = i % 2 ? (point){ -c->fx, -c->fy } : (point){ c->fx, c->fy };
-        if ((int)c->state == kind)
-            visit_force(f, kind, (point){ c->x, c->y }, q, (point){ c->N * q.x, c->N * q.y },
-                        visit);
-    }
+    for (int i = 0; i < g->forces; i++)
+        if (g->force[i].kind == kind)
+            visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },
+                        (point){ g->force[i].fx, g->force[i].fy }, (point){ 0, 0 }, visit);
 }
 
 /* The supports of blocks that are not held as a whole, those of one kind 8 pixels apart or more. */
@@ -461,27 +462,28 @@ static void visit_supports(film *f, int frame, visitor *visit)
         }
 }
 
-/* From pixel a along d: a shaft, whose width says how large the force is, and a head. */
-static void put_shape(film *f, int kind, point a, point d, double share)
+/* From pixel a along d, with room for heads, which are 1.6 widths long. */
+static void put_shaft(film *f, int kind, point a, point d, double share)
 {
-    const double l = hypot(d.x, d.y), w = 0.4 + arrow[kind].width * share;
-    const double head = fmin(3.5 + w, 0.6 * l), shaft = l - head, wing = 1.5 + 0.2 * w;
-    const point t = { d.x / l, d.y / l }, n = { t.y, -t.x }, tip = { head * t.x, head * t.y },
-                back = { (w / 2 + wing) * n.x, (w / 2 + wing) * n.y };
+    const double l = hypot(d.x, d.y), w = fmax(0.5, fmin(arrow[kind].width, l / 4) * share);
+    const double head = 1.6 * w / l, before = is_contact(kind) * head;
 
-    plot_point(&f->p, "M", a.x + w / 2 * n.x, a.y + w / 2 * n.y);
-    plot_point(&f->p, "l", shaft * t.x, shaft * t.y);
-    plot_point(&f->p, " ", wing * n.x, wing * n.y);
-    plot_point(&f->p, " ", tip.x - back.x, tip.y - back.y);
-    plot_point(&f->p, " ", -tip.x - back.x, -tip.y - back.y);
-    plot_point(&f->p, " ", wing * n.x, wing * n.y);
-    plot_point(&f->p, " ", -shaft * t.x, -shaft * t.y);
-    plot_put(&f->p, "z");
+    plot_put(&f->p, "<path stroke-width=\"%.2g\" d=\"", w);
+    plot_point(&f->p, "M", a.x + before * d.x, a.y + before * d.y);
+    plot_point(&f->p, "l", (1 - head - before) * d.x, (1 - head - before) * d.y);
+    plot_put(&f->p, "\"/>\n");
 }
 
 static void put_arrow(film *f, int kind, point from, point size, double share)
 {
-    put_shape(f, kind, pixel(f, from), (point){ size.x, -size.y }, share);
+    put_shaft(f, kind, pixel(f, from), (point){ size.x, -size.y }, share);
+}
+
+/* What the arrows of a kind have in common. */
+static void begin_arrows(film *f, int kind)
+{
+    plot_put(&f->p, "<g stroke=\"%s\" marker-end=\"url(#head%d)\"", arrow[kind].colour, kind);
+    plot_put(&f->p, is_contact(kind) ? " marker-start=\"url(#head%d)\">\n" : ">\n", kind);
 }
 
 /* A triangle or, in one direction, a roller, and the ground. */
@@ -510,9 +512,9 @@ static void draw_forces(film *f, int frame)
     for (int kind = 0; kind < KINDS; kind++) {
         if (!f->seen[kind])
             continue;
-        plot_put(&f->p, "<path fill=\"%s\" d=\"", arrow[kind].colour);
+        begin_arrows(f, kind);
         visit_forces(f, frame, kind, put_arrow);
-        plot_put(&f->p, "\"/>\n");
+        plot_put(&f->p, "</g>\n");
     }
 }
 
@@ -551,9 +553,9 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
     snprintf(text, sizeof text, "%s %.3g %s%s", arrow[kind].name, size / pow(1000, power),
              prefix[power], arrow[kind].unit);
     plot_begin_entry(&f->p, l, text);
-    plot_put(&f->p, "<path fill=\"%s\" d=\"", arrow[kind].colour);
-    put_shape(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
-    plot_put(&f->p, "\"/></g>\n");
+    begin_arrows(f, kind);
+    put_shaft(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
+    plot_put(&f->p, "</g></g>\n");
 }
 
 /* Returns the number of rows. */
@@ -669,14 +671,16 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
-    f->most[LOCKED] = f->most[SLIDING] = fmax(f->most[LOCKED], f->most[SLIDING]);
+    const double most = fmax(f->most[LOCKED], fmax(f->most[SLIDING], f->most[PULLED]));
     find_window(f);
     arrange(f, n);
     for (int round = 0; round < 4; round++) {
         f->length[LOAD] = ARROW;
         f->length[LINE_LOAD] = ARROW / 2;
-        f->length[LOCKED] = fmax(6, fmin(ARROW, 0.5 * block_size(f) * f->scale));
-        f->length[SLIDING] = f->length[LOCKED];
+        for (int kind = LOCKED; kind <= PULLED; kind++) {
+            f->most[kind] = most;
+            f->length[kind] = fmax(12, fmin(ARROW, block_size(f) * f->scale));
+        }
         find_window(f);
         for (int i = 0; i < f->s->frames; i++) {
             visit_supports(f, i, widen_window);
@@ -707,7 +711,12 @@ static int open_page(film *f, const char *path, int n, double below)
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
              "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
              "<rect width=\"7\" height=\"7\" fill=\"#e4e4e4\"/>"
-             "<path d=\"M0 0V7\" stroke=\"#a0a0a0\" stroke-width=\"1.5\"/></pattern></defs>\n");
+             "<path d=\"M0 0V7\" stroke=\"#a0a0a0\" stroke-width=\"1.5\"/></pattern>");
+    for (int k = 0; k < KINDS; k++)
+        plot_put(&f->p, "<marker id=\"head%d\" orient=\"auto-start-reverse\" overflow=\"visible\">"
+                 "<path fill=\"%s\" d=\"%s\"/></marker>\n", k, arrow[k].colour,
+                 k == PULLED ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z");
+    plot_put(&f->p, "</defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
     draw_legend(f, MARGIN, bottom + PLOT_ROW / 2.0, width - 2 * MARGIN);
     return 1;

@@ -24,8 +24,8 @@
 
 typedef struct {                /* of a closed contact                                            */
     double x, y;                /* m                                                              */
-    double fx, fy, N;           /* N        on the corner's block; its pressure                   */
-    bbm_contact_state state;
+    double fx, fy;              /* N        on the corner's block                                 */
+    int    kind;                /* of its arrow                                                   */
 } scene_force;
 
 typedef struct {                /* what was recorded at one time                                  */
