@@ -393,16 +393,19 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
     visit(f, kind, from, d, share);
 }
 
-/* Arrows along a loaded edge, 10 pixels apart or more; each of its loads for the largest. */
+/* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
     const double length = hypot(b.x - a.x, b.y - a.y);
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
-    const int n = visit ? (int)fmax(1, length * f->scale / 16) : l->loads;
+    const int varies = l->loads > 1, n = varies ? l->loads : (int)fmax(1, length * f->scale / 16);
 
     for (int i = 0; i < n; i++) {
-        const double s = (i + 0.5) / n, *q = l->q[(int)(s * l->loads)];
+        const double *q = l->q[varies ? i : 0];
+        double s = (i + 0.5) / n, weight;
+        if (varies)
+            bbm_gauss_point(i, &s, &weight);
         const point x = { a.x + s * (b.x - a.x), a.y + s * (b.y - a.y) };
         if (visit && hypot(x.x - last->x, x.y - last->y) * f->scale < 10)
             continue;
@@ -676,7 +679,7 @@ static void measure(film *f, int n)
     arrange(f, n);
     for (int round = 0; round < 4; round++) {
         f->length[LOAD] = ARROW;
-        f->length[LINE_LOAD] = ARROW / 2;
+        f->length[LINE_LOAD] = ARROW;
         for (int kind = LOCKED; kind <= PULLED; kind++) {
             f->most[kind] = most;
             f->length[kind] = fmax(12, fmin(ARROW, block_size(f) * f->scale));
@@ -714,8 +717,9 @@ static int open_page(film *f, const char *path, int n, double below)
              "<path d=\"M0 0V7\" stroke=\"#a0a0a0\" stroke-width=\"1.5\"/></pattern>");
     for (int k = 0; k < KINDS; k++)
         plot_put(&f->p, "<marker id=\"head%d\" orient=\"auto-start-reverse\" overflow=\"visible\">"
-                 "<path fill=\"%s\" d=\"%s\"/></marker>\n", k, arrow[k].colour,
-                 k == PULLED ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z");
+                 "<path d=\"%s\" fill=\"%s\"/></marker>\n", k,
+                 k == PULLED ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z",
+                 arrow[k].colour);
     plot_put(&f->p, "</defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
     draw_legend(f, MARGIN, bottom + PLOT_ROW / 2.0, width - 2 * MARGIN);
@@ -744,22 +748,13 @@ static void end_panel(film *f, plot_box b)
     plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
 }
 
-static int is_whole(double x) { return fabs(x - floor(x + 0.5)) <= 1e-6 * fabs(x); }
-
-/* As many decimals as all frames' times have, within a tenth of their distance. */
+/* It begins at the same place in each frame of a film. */
 static void put_time(film *f, plot_box b, int frame)
 {
-    const scene_frame *g = f->s->frame;
-    const double apart = f->s->frames > 1 ? g[1].time - g[0].time : 1e-4 * g[0].time;
-    double unit = 1;
     char text[60];
-    int decimals = 0;
 
-    for (int i = 0; i < f->s->frames; i++)
-        for (; decimals < 9 && unit > apart / 10 && !is_whole(g[i].time / unit); decimals++)
-            unit /= 10;
-    snprintf(text, sizeof text, "t = %.*f s", decimals, g[frame].time);
-    plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", text);
+    snprintf(text, sizeof text, "t = %.6g s", f->s->frame[frame].time);
+    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", text);
 }
 
 /* What stands over the blocks of a panel. */
@@ -858,20 +853,22 @@ typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } sample;     /* pixels */
 
 /* By so much displacements may be magnified that no edge changes, in length or direction, by more
- * than FAIR of its element's width: of its area by its longest edge. No element turns over then. */
+ * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which is
+ * its least height. Before it turns over an edge changes by all of it. */
 static double fair_scale(const bbm_model *m, const nodal *n)
 {
     double scale = INFINITY;
 
     for (int e = 0; e < m->elements; e++) {
+        const bbm_element *i = &m->element[e];
         double longest = 0, change = 0;
-        for (int v = m->element[e].first; v < m->element[e].first + m->element[e].n; v++) {
-            const int i = m->vertex[v].node, j = m->vertex[next_vertex(m, v)].node;
-            const bbm_node *a = &m->node[i], *b = &m->node[j];
+        for (int v = i->first; v < i->first + i->n; v++) {
+            const int P = m->vertex[v].node, Q = m->vertex[next_vertex(m, v)].node;
+            const bbm_node *a = &m->node[P], *b = &m->node[Q];
             longest = fmax(longest, hypot(b->x - a->x, b->y - a->y));
-            change = fmax(change, hypot(n[j].u - n[i].u, n[j].v - n[i].v));
+            change = fmax(change, hypot(n[Q].u - n[P].u, n[Q].v - n[P].v));
         }
-        scale = fmin(scale, FAIR * m->element[e].A0 / longest / change);
+        scale = fmin(scale, FAIR * (i->n == 3 ? 2 : 1) * i->A0 / longest / change);
     }
     return scale;
 }

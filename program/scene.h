@@ -80,7 +80,8 @@ typedef struct {                /* contours of a field over the present state   
 
 int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
 
-/* A load along an edge from vertex a to b: the forces [N/m] at equal distances, and a pressure. */
+/* A load along an edge from vertex a to b: a force [N/m], or those at the Gauss points, and a
+ * pressure. */
 typedef struct {
     int a, b, loads;
     const double (*q)[2];
