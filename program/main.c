@@ -167,8 +167,7 @@ static void show_progress(progress *s, const bbm_model *m, int settling, int ste
     const double t = now(), apart = isatty(2) ? 0.1 : SILENCE;
     char left[40] = "";
 
-    if (done == 0)
-        s->start = t;
+    s->start = done == 0 ? t : s->start;
     if (!s->shown || done == 0 || (t < s->last + apart && !(isatty(2) && step == s->steps)))
         return;
     s->last = t;

@@ -31,6 +31,7 @@ enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the 
 enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMBOL, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 
+static const double nothing[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
 static const double FAIR = 0.5;         /* of an element's width: how much an edge may change     */
 
@@ -62,7 +63,7 @@ typedef struct {                        /* what the functions below draw with   
     layout       l;
     const scene *s;
     const bbm_model *m;
-    int          bodies;
+    int          bodies, held;          /* held: whether any is                                   */
     body        *body;
     int         *vertex;                /*          [vertices], block by block                    */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
@@ -239,6 +240,7 @@ static void find_bodies(film *f)
                 add_vertex(f, b, v);
             }
         f->bodies += b->n > 0;
+        f->held |= b->n > 0 && b->held;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -388,8 +390,7 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
     if (!visit || share < (is_contact(kind) ? 0.02 : 2 / f->length[kind]))
         return;
     f->seen[kind] = 1;
-    from.x -= before * d.x / f->scale;
-    from.y -= before * d.y / f->scale;
+    from = (point){ from.x - before * d.x / f->scale, from.y - before * d.y / f->scale };
     visit(f, kind, from, d, share);
 }
 
@@ -567,11 +568,8 @@ static int draw_legend(film *f, double x, double y, double room)
     plot_legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
     char text[60];
-    int held = 0;
 
-    for (int b = 0; b < f->bodies; b++)
-        held |= f->body[b].held;
-    if (held)
+    if (f->held)
         put_entry(f, &l, "<rect y=\"-8\" width=\"48\" height=\"16\" fill=\"url(#held)\" "
                   "stroke=\"#000000\"/>", "fixed block");
     if (f->supports[BBM_XY])
@@ -636,10 +634,7 @@ static void arrange(film *f, int n)
 /* The window that holds all vertices. */
 static void find_window(film *f)
 {
-    for (int k = 0; k < 2; k++) {
-        f->window[k][0] = INFINITY;
-        f->window[k][1] = -INFINITY;
-    }
+    memcpy(f->window, nothing, sizeof nothing);
     for (int v = 0; v < f->m->vertices; v++)
         for (int i = 0; i < f->s->frames; i++)
             widen_window(f, 0, position(f, i, v), (point){ 0, 0 }, 0);
@@ -876,8 +871,9 @@ static double fair_scale(const bbm_model *m, const nodal *n)
 /* 1, 2 or 5 times a power of ten, 1 at least, by which displacements can be magnified. */
 static double find_scale(const bbm_model *m, const nodal *n)
 {
-    double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } }, moved = 0;
+    double range[2][2], moved = 0;
 
+    memcpy(range, nothing, sizeof nothing);
     for (int i = 0; i < m->nodes; i++) {
         plot_widen(range[0], m->node[i].x);
         plot_widen(range[1], m->node[i].y);

@@ -18,7 +18,7 @@
 
 /* What history.svg shows: so many rows at most, and its columns; u and v of monitor k are from
  * MONITORS + 2 k on. */
-enum { ROWS = 1024, T = 0, PASSES, KINETIC, ELASTIC, SPRINGS, EXTERNAL, GAINED, MONITORS };
+enum { ROWS = 1025, T = 0, PASSES, KINETIC, ELASTIC, SPRINGS, EXTERNAL, GAINED, MONITORS };
 enum { PANEL = 300, BANDS = 6 };        /* pixels; expectations of a monitor that are drawn */
 
 /* ---------------------------------------------------------------------------------------- files */
@@ -162,21 +162,31 @@ static double time_of(const write_results *w)
 
 static double *column(const write_results *w, int k) { return w->kept + (size_t)k * ROWS; }
 
-/* Into the present row of history.svg; of passes the most since the row before. */
+/* Into the present row of history.svg, which is of 2^halved steps; of passes the most of them. */
 static void keep(const write_results *w, int first, int n, const double x[])
 {
+    const int more = (w->step - 1) % (1 << w->halved) > 0;
+
     for (int k = 0; k < n && w->kept; k++) {
         double *to = &column(w, first + k)[w->row];
-        *to = first == PASSES ? fmax(*to, x[k]) : x[k];
+        *to = first + k == PASSES && more ? fmax(*to, x[k]) : x[k];
     }
+}
+
+/* Every second row goes; of passes the larger number stays. */
+static void halve(write_results *w)
+{
+    for (int k = 0; k < MONITORS + 2 * w->p->monitors && w->kept; k++)
+        for (int r = 1; r <= ROWS / 2; r++) {
+            const double *x = &column(w, k)[2 * r];
+            column(w, k)[r] = k == PASSES ? fmax(x[-1], x[0]) : x[0];
+        }
+    w->halved++;
 }
 
 static void put_history(const write_results *w)
 {
     const model *p = w->p;
-    const double t = p->dynamic ? time_of(w) : w->step;
-
-    keep(w, T, 1, &t);
 
     fprintf(w->history.file, "%d,%.15g", w->step, time_of(w));
     for (int k = 0; k < p->monitors; k++) {
@@ -195,15 +205,14 @@ static void put_summary(const write_results *w)
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
-    const double energy[] = { e.kinetic, e.elastic, e.springs, b->work, b->gained },
-                 passes = i->passes;
-    keep(w, KINETIC, LENGTH(energy), energy);
+    const double row[] = { w->p->dynamic ? time_of(w) : w->step, w->step ? i->passes : 0,
+                           e.kinetic, e.elastic, e.springs, b->work, b->gained };
+    keep(w, T, LENGTH(row), row);
     if (w->step == 0)
         return;
-    keep(w, PASSES, 1, &passes);
     fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", w->step, time_of(w), i->passes,
             i->iterations, i->pcg.residual, i->contacts);
-    put_numbers(w->summary.file, LENGTH(energy), energy);
+    put_numbers(w->summary.file, MONITORS - KINETIC, row + KINETIC);
     fputc('\n', w->summary.file);
 }
 
@@ -399,15 +408,14 @@ static void draw_history(write_results *w)
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    scene_map map = { .title = w->p->title, .field = w->p->field, .scale = w->p->scale,
+    scene_map map = { .title = w->p->title, .field = w->p->field,  /* a static one is magnified */
+                      .scale = w->p->scale > 0 ? w->p->scale : w->p->dynamic,
                       .limits = { w->p->colours[0], w->p->colours[1] } };
     char path[LONGEST], name[100];
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
         note_picture(w, path, scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)));
-    if (w->p->dynamic && map.scale == 0)
-        map.scale = 1;                          /* a static one is magnified */
     snprintf(name, sizeof name, "%.90s.svg", map.field);
     note_picture(w, path, scene_write_map(m, path_of(w, name, path), &map));
     if (w->row > 0 && (w->p->dynamic || m->par.steps > 1))
@@ -569,10 +577,11 @@ int write_step(write_results *w, int step)
 {
     const clock_t start = clock();
     const model *p = w->p;
-    const int apart = 1 + (p->m->par.steps - 1) / (ROWS - 1);
 
     w->step = step;
-    w->row = (step + apart - 1) / apart;
+    if (step > (ROWS - 1) << w->halved)
+        halve(w);
+    w->row = step ? 1 + (step - 1) / (1 << w->halved) : 0;
     put_history(w);
     put_summary(w);
     if (p->svg && p->dynamic && (p->every == 0 || step % p->every == 0))

@@ -26,7 +26,7 @@ typedef struct {
     FILE *lock;                         /* of the folder */
     scene film;
     double *kept;                       /* [columns][ROWS] for history.svg, or NULL: no memory */
-    int row;                            /* of it, for so many steps: the present one */
+    int row, halved;                    /* of it: the present one; how often half of them went */
     int matrix_done, step;              /* step: the last one that has its rows */
     clock_t reading, start, writing;    /* CPU time: of reading, at the start, of writing        */
     int status;                         /* 0, or 1 after a message */

@@ -448,7 +448,7 @@ START_TEST(an_interrupted_run_keeps_what_it_has_computed)
              "until then is in out/model/long\n", step, step / 1000);
     ck_assert_msg(strstr(said, text) != NULL, "%s, not %s", said, text);
     ck_relative(cell("long", "nodes.csv", "2,b", "u"), step / 1000, 1e-9);
-    ck_assert(is_there("out/model/long/movie.svg"));
+    ck_assert(is_there("out/model/long/movie.svg") && is_there("out/model/long/history.svg"));
 }
 END_TEST
 

@@ -439,7 +439,7 @@ START_TEST(an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner
 }
 END_TEST
 
-/* u = t: the curve ends in the middle of its band, whose height is a fifth of the way. Every third
+/* u = t: the curve ends in the middle of its band, whose height is a fifth of the way. Every fourth
  * step of 3001 has a point, and the last one. */
 START_TEST(the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end)
 {
@@ -452,7 +452,7 @@ START_TEST(the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end)
     char *text = read_all("out/model/told/history.svg"), *s = strstr(text, "stroke-width=\"1.8\"");
     for (size_t k = 0; k < sizeof said / sizeof *said; k++)
         ck_assert_msg(strstr(text, said[k]), "no %s", said[k]);
-    ck_assert_int_eq(find_ends(strstr(s, "<path"), &first, &last), 1002);
+    ck_assert_int_eq(find_ends(strstr(s, "<path"), &first, &last), 752);
     ck_assert_int_eq(find_ends(strstr(strstr(s, "stroke-width=\"0.6\""), "<path"), &low, &high), 4);
     ck_near((low.y + high.y) / 2, last.y, fabs(last.y - first.y), 0.002);
     ck_near((low.y - high.y) / (first.y - last.y), 0.2, 1, 0.002);
