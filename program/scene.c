@@ -375,7 +375,7 @@ typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
  * the arrow ends there. Arrows of loads are as long as the force is large, and left out if that is
- * less than 2 pixels; those of contacts are as wide, and left out below a fiftieth. */
+ * less than 2 pixels; those of contacts are as wide, and left out below a twentieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
     const double size = hypot(force.x, force.y), share = size / f->most[kind];
@@ -387,7 +387,7 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
         return;
     if (!visit)                         /* the largest is looked for */
         f->most[kind] = fmax(f->most[kind], size);
-    if (!visit || share < (is_contact(kind) ? 0.02 : 2 / f->length[kind]))
+    if (!visit || share < (is_contact(kind) ? 0.05 : 2 / f->length[kind]))
         return;
     f->seen[kind] = 1;
     from = (point){ from.x - before * d.x / f->scale, from.y - before * d.y / f->scale };
