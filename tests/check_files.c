@@ -518,7 +518,7 @@ START_TEST(a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else)
     /* A run without pictures leaves none of an earlier one beside its tables. */
     ck_assert_int_eq(shell("sed -i /^output/d out/model/again.model; %s/bbm -q "
                            "out/model/again.model -o out/model/again", BUILD), 0);
-    ck_assert(!is_there("out/model/again/movie.svg")
+    ck_assert(!is_there("out/model/again/movie.svg") && !is_there("out/model/again/history.svg")
               && !is_there("out/model/again/step_000010.vtk"));
 }
 END_TEST

@@ -391,6 +391,9 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
         ck_assert_int_eq(count(name, "N, sliding<"), drawn[k].sliding);
         ck_assert_int_eq(count(name, ">contact force "), drawn[k].locked + drawn[k].sliding);
     }
+    /* 4.268 m of water on 4.334 m of a side of 5 m have the force and the moment of w (4.192 - 4.685 s): most at the
+     * Gauss point s = 0.0694. */
+    ck_assert_int_eq(count("water", ">load 37.9 kN/m<"), 1);
 }
 END_TEST
 
