@@ -146,38 +146,26 @@ double case_percent(double computed, double reference)
 
 /* ----------------------------------------------------------------------------- reference values */
 
-/* The number up to the next comma (NaN for an empty field); *p moves behind it. */
-static double next_number(char **p)
-{
-    char *end = *p + strcspn(*p, ",\n");
-    const double value = end == *p ? NAN : strtod(*p, NULL);
-
-    *p = *end ? end + 1 : end;
-    return value;
-}
-
+/* A line is: problem, variant, quantity, x, y, converged, six_node_triangles, one more; nan where
+ * there is none. */
 void case_read_reference(const char *problem, const char *variant, case_reference *r)
 {
-    char start[64], line[256];
+    char line[256], of[2][32];
     FILE *f = fopen("cases/fem.csv", "r");
+    struct case_value v;
 
     r->values = 0;
     if (!f)
         stop("cases/fem.csv", "cannot be read; run the program from the project's top folder");
-    snprintf(start, sizeof start, "%s,%s,", problem, variant);
-    while (fgets(line, sizeof line, f))
-        if (strncmp(line, start, strlen(start)) == 0) {
-            char *p = line + strlen(start), *end = p + strcspn(p, ",");
-            struct case_value *v = &r->value[r->values++];
-            if (r->values > LENGTH(r->value))
-                stop("cases/fem.csv", "has more values than there is room for");
-            snprintf(v->quantity, sizeof v->quantity, "%.*s", (int)(end - p), p);
-            end += *end == ',';
-            v->x = next_number(&end);
-            v->y = next_number(&end);
-            v->converged = next_number(&end);
-            v->six_node = next_number(&end);
-        }
+    while (fgets(line, sizeof line, f)) {
+        if (sscanf(line, "%31[^,],%31[^,],%31[^,],%lf,%lf,%lf,%lf", of[0], of[1], v.quantity, &v.x,
+                   &v.y, &v.converged, &v.six_node) < 7
+            || strcmp(of[0], problem) != 0 || strcmp(of[1], variant) != 0)
+            continue;
+        if (r->values == LENGTH(r->value))
+            stop("cases/fem.csv", "has more values than there is room for");
+        r->value[r->values++] = v;
+    }
     fclose(f);
 }
 
@@ -280,11 +268,8 @@ void case_write_curves(case_results *r, const char *file, const char *header, in
         stop(r->path, strerror(errno));
     fprintf(f, "%s\n", header);
     for (int i = 0; i < rows; i++)
-        for (int j = 0; j < columns; j++) {
-            if (!isnan(column[j][i]))
-                fprintf(f, "%.15g", column[j][i]);
-            fputc(j + 1 < columns ? ',' : '\n', f);
-        }
+        for (int j = 0; j < columns; j++)
+            fprintf(f, "%.15g%c", column[j][i], j + 1 < columns ? ',' : '\n');
     if (ferror(f) | fclose(f))
         stop(r->path, "could not be written");
 }
@@ -342,6 +327,21 @@ static void draw_maps(case_results *r, const case_experiment *e, const bbm_model
 
 /* ---------------------------------------------------------------------------- Experiments I, II */
 
+static void print_summary(const case_experiment *e, bbm_model *const m[],
+                          const case_reference ref[])
+{
+    printf("\n| %s, alpha = 1000 | computed | exact | error |\n|---|---|---|---|\n", e->summary);
+    for (int i = 0; i < e->points && m[e->point[i].run]; i++) {
+        const case_point *p = &e->point[i];
+        const double value = e->computed(m[p->run], p->quantity, p->x, p->y);
+        const double exact = case_find(&ref[p->run], p->quantity, p->x, p->y)->converged;
+        printf("| %s(%.0f,%.0f)%s | %.4f | %.4f | %+.2f %% |\n", p->quantity, p->x, p->y,
+               e->run[p->run].summary, p->unit * value, p->unit * exact,
+               case_percent(value, exact));
+    }
+    case_print_augmented(m[e->runs - 1]);
+}
+
 static void print_convergence(const case_experiment *e)
 {
     static const double alpha[4] = { 10, 100, 1000, 1e5 };
@@ -377,6 +377,7 @@ int case_main(const case_experiment *e, int argc, char **argv)
     for (int k = 0; k < e->runs; k++)
         m[k] = solve_run(&r, e, &e->run[k], &ref[k]);
     case_print_parameters(m[0]);
+    print_summary(e, m, ref);
     e->show(&r, (const bbm_model *const *)m, ref);
     draw_maps(&r, e, m[0]);
     printf("\nNumbers and pictures: %s/results.csv, %s\n", r.folder, e->files);

@@ -60,8 +60,11 @@ const struct case_value *case_find(const case_reference *r, const char *quantity
 typedef struct {                    /* a solution of an experiment, alpha = 1000                */
     const char *variant, *label;
     int beyond;                     /* with beyond/: quadrilaterals, as many as the triangles   */
-} case_run;                         /* of the others, which are the paper's way                 */
+    const char *summary;            /* of the others, which are the paper's way; the last: its  */
+} case_run;                         /* name in the summary                                      */
 typedef struct { const char *file; scene_map map; } case_map;
+/* A row of the summary: a value of a run, whose unit is one unit-th of SI's. */
+typedef struct { int run; const char *quantity; double x, y, unit; } case_point;
 
 typedef struct {                    /* Experiment I or II                                       */
     const char *name, *title;       /* of its folder, and of what it prints                     */
@@ -70,9 +73,11 @@ typedef struct {                    /* Experiment I or II                       
     void (*solve)(bbm_model *m, const char *variant, int cut, int k, double alpha);
     double (*computed)(const bbm_model *m, const char *quantity, double x, double y);
     double (*theory)(const char *quantity, double x, double y);
-    int runs, maps;                 /* runs: 4 at most; maps: of the first                      */
+    int runs, maps, points;         /* runs: 4 at most; maps: of the first                      */
     const case_run *run;
     const case_map *map;
+    const char *summary;            /* the head of the table of what the experiment comes to    */
+    const case_point *point;        /* [points] its rows, against converged finite elements     */
     /* Its tables and pictures, of each run, NULL where there is no beyond/, with its reference
      * values. */
     void (*show)(case_results *r, const bbm_model *const m[], const case_reference ref[]);

@@ -22,10 +22,10 @@ static const double I = 12.0 * 12 * 12 / 12;
 enum { PAPER_RUNS = 3, RUNS };
 
 static const case_run run[RUNS] = {
-    { "a", "load a, concentrated", 0 },
-    { "b", "load b, parabolic shear", 0 },
-    { "c", "load c, the end of (70)", 0 },
-    { "b", "load b, with beyond/", 1 },
+    { "a", "load a, concentrated", 0, ", load a" },
+    { "b", "load b, parabolic shear", 0, ", load b" },
+    { "c", "load c, the end of (70)", 0, ", load c" },
+    { "b", "load b, with beyond/", 1, ", load b, with beyond/" },
 };
 
 /* Eq. (70), u or v. */
@@ -160,8 +160,8 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         { .name = "DDA, one block", .n = N, .x = x, .y = v[0], .style = PLOT_BOTH, .look = 4 },
     };
     case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
-        .title = "Fig. 10: deflection of the axis", .x = { "x", "m", 0 },
-        .y = { "v", "m", 0 }, .count = LENGTH(s), .series = s }));
+        .title = "Fig. 10: deflection of the axis", .x = { "x", "m" },
+        .y = { "v", "m" }, .count = LENGTH(s), .series = s }));
     case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5,
                       (const double *const[]){ x, v[0], v[1], v[2], v[3] });
 }
@@ -208,24 +208,11 @@ static void print_stress(const bbm_model *m, const case_reference *ref)
     }
 }
 
-/* What the experiment comes to. */
-static void print_summary(const bbm_model *const m[RUNS], const case_reference ref[RUNS])
-{
-    static const struct { int k; double x; } at[] = {
-        { 0, 24 }, { 0, 36 }, { 1, 24 }, { 1, 48 }, { 2, 24 }, { 2, 48 }, { 3, 24 }, { 3, 48 },
-    };
-
-    printf("\n| Experiment I, deflection [mm], alpha = 1000 | computed | exact | error |\n"
-           "|---|---|---|---|\n");
-    for (int i = 0; i < LENGTH(at) && m[at[i].k]; i++) {
-        const int k = at[i].k;
-        const double exact = case_find(&ref[k], "v", at[i].x, 0)->converged;
-        const double v = case_at(m[k], "v", at[i].x, 0);
-        printf("| v(%.0f,0), load %s%s | %.4f | %.4f | %+.2f %% |\n", at[i].x, run[k].variant,
-               run[k].beyond ? ", with beyond/" : "", 1e3 * v, 1e3 * exact, case_percent(v, exact));
-    }
-    case_print_augmented(m[PAPER_RUNS]);
-}
+static const case_point point[] = {
+    { 0, "v", 24, 0, 1e3 }, { 0, "v", 36, 0, 1e3 }, { 1, "v", 24, 0, 1e3 },
+    { 1, "v", 48, 0, 1e3 }, { 2, "v", 24, 0, 1e3 }, { 2, "v", 48, 0, 1e3 },
+    { 3, "v", 24, 0, 1e3 }, { 3, "v", 48, 0, 1e3 },
+};
 
 /* Fig. 11-13: contours, and the deformed mesh. */
 static const case_map map[] = {
@@ -255,7 +242,6 @@ static void show(case_results *r, const bbm_model *const m[], const case_referen
     show_deflection(r, dda, m[0], &ref[0]);
     print_table_3(m, ref);
     print_stress(m[0], &ref[0]);
-    print_summary(m, ref);
     exp1_show_beyond(&ref[1]);
     bbm_model_free(dda);
 }
@@ -265,6 +251,7 @@ int main(int argc, char **argv)
     return case_main(&(case_experiment){
         .name = "exp1", .title = "Experiment I: cantilever", .solve = exp1_solve,
         .computed = case_at, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .summary = "Experiment I, deflection [mm]", .points = LENGTH(point), .point = point,
         .maps = LENGTH(map), .map = map, .triangles = 600, .print_errors = print_error,
         .errors = "Experiment I, load b, the paper's way: error of v(24,0) against the converged "
                   "finite element",

@@ -23,9 +23,9 @@ static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.1415926535897
 enum { PAPER_RUNS = 2, RUNS };
 
 static const case_run run[RUNS] = {
-    { "b5", "plate b5, uniform stress", 0 },
-    { "k5", "plate k5, exact tractions", 0 },
-    { "k5", "plate k5, with beyond/", 1 },
+    { "b5", "plate b5, uniform stress", 0, ", plate b5" },
+    { "k5", "plate k5, exact tractions", 0, "" },
+    { "k5", "plate k5, with beyond/", 1, ", with beyond/" },
 };
 
 /* Stress along the circle around the hole through (x, y). */
@@ -133,26 +133,13 @@ static void print_table(const char *variant, const bbm_model *m, const case_refe
     }
 }
 
-/* What the experiment comes to: plate k5, for which (72) is exact. */
-static void print_summary(const bbm_model *const m[RUNS])
-{
-    static const place_of at[] = {
-        { "u", 1, 0 }, { "v", 0, 1 }, { "u", 5, 0 }, { "sxx", 0, 1 }, { "sxx", 0, 2 },
-    };
-
-    printf("\n| Experiment II, plate k5 [1e-6 m, MPa], alpha = 1000 | computed | exact | error |\n"
-           "|---|---|---|---|\n");
-    for (int k = 1; k < RUNS && m[k]; k++)
-        for (int i = 0; i < LENGTH(at); i++) {
-            const double value = computed(m[k], at[i].quantity, at[i].x, at[i].y);
-            const double exact = theory(at[i].quantity, at[i].x, at[i].y);
-            const double unit = at[i].quantity[0] == 's' ? 1e-6 : 1e6;
-            printf("| %s(%.0f,%.0f)%s | %.4f | %.4f | %+.2f %% |\n", at[i].quantity, at[i].x,
-                   at[i].y, run[k].beyond ? ", with beyond/" : "", unit * value, unit * exact,
-                   case_percent(value, exact));
-        }
-    case_print_augmented(m[PAPER_RUNS]);
-}
+/* For plate k5 (72) is exact. */
+static const case_point point[] = {
+    { 1, "u", 1, 0, 1e6 }, { 1, "v", 0, 1, 1e6 }, { 1, "u", 5, 0, 1e6 },
+    { 1, "sxx", 0, 1, 1e-6 }, { 1, "sxx", 0, 2, 1e-6 },
+    { 2, "u", 1, 0, 1e6 }, { 2, "v", 0, 1, 1e6 }, { 2, "u", 5, 0, 1e6 },
+    { 2, "sxx", 0, 1, 1e-6 }, { 2, "sxx", 0, 2, 1e-6 },
+};
 
 /* --------------------------------------------------------------------------------------- curves */
 
@@ -210,9 +197,9 @@ static void draw_line(case_results *r, const bbm_model *const m[RUNS], const cas
     snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
     case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
         .title = l->title, .count = LENGTH(s) - !fems, .series = s,
-        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m", 0 },
+        .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m" },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
-               l->quantity[0] == 's' ? "Pa" : "m", 0 } }));
+               l->quantity[0] == 's' ? "Pa" : "m" } }));
     case_write_curves(r, csv, header, l->count, 4,
                       (const double *const[]){ at, value[0], value[1], exact });
 }
@@ -267,7 +254,6 @@ static void show(case_results *r, const bbm_model *const m[], const case_referen
         print_table(run[k].variant, m[k], &ref[k], stress, 5);
         print_table(run[k].variant, m[k], &ref[k], moved, 6);
     }
-    print_summary(m);
     draw_lines(r, m, &ref[0]);
 }
 
@@ -276,7 +262,8 @@ int main(int argc, char **argv)
     return case_main(&(case_experiment){
         .name = "exp2", .title = "Experiment II: plate with a hole", .solve = solve_plate,
         .computed = computed, .theory = theory, .runs = RUNS, .run = run, .show = show,
-        .maps = LENGTH(map), .map = map, .triangles = 816, .print_errors = print_errors,
+        .summary = "Experiment II, plate k5 [1e-6 m, MPa]", .points = LENGTH(point),
+        .point = point, .maps = LENGTH(map), .map = map, .triangles = 816, .print_errors = print_errors,
         .errors = "Experiment II, plate k5, the paper's way: error of u(1,0) | of sxx(0,1) "
                   "against theory (72)",
         .files = "fig15 to fig19 as csv and svg, fig20.svg to fig23.svg, deformed.svg" },

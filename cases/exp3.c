@@ -208,7 +208,7 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
     }
     const plot_series both[] = {
         { .name = "u = F t²/(2 m)", .n = N, .x = t, .y = exact, .look = 1 },
-        { .name = "v = 0", .n = N, .x = t, .y = zero, .look = 1, .style = PLOT_DASHED },
+        { .name = "v = 0", .n = N, .x = t, .y = zero, .look = 1 },
         { .name = "u, BBM", .n = MARKS, .x = some[0], .y = some[1], .style = PLOT_MARKS,
           .look = 2 },
         { .name = "v, BBM", .n = MARKS, .x = some[0], .y = some[2], .style = PLOT_MARKS,
@@ -220,11 +220,11 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
                                  .look = k + 2 };
     if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
         plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
-            .title = "Fig. 25: displacement of P", .x = { "t", "s", 0 },
-            .y = { "displacement", "m", 0 }, .count = LENGTH(both), .series = both });
+            .title = "Fig. 25: displacement of P", .x = { "t", "s" },
+            .y = { "displacement", "m" }, .count = LENGTH(both), .series = both });
         plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
-            .title = "Error of v of P, which is 0 in theory", .x = { "t", "s", 0 },
-            .y = { "v", "m", 0 }, .count = LENGTH(lift), .series = lift });
+            .title = "Error of v of P, which is 0 in theory", .x = { "t", "s" },
+            .y = { "v", "m" }, .count = LENGTH(lift), .series = lift });
         case_draw(r, plot_close(&p));
     }
     case_write_curves(r, "fig25.csv",
@@ -242,8 +242,7 @@ int main(void)
         { "line", "gravity, rigid plate, line load", 9.81, 1e13, 1, 0 },
         { "beyond", "gravity, plate of 10 GPa, with beyond/", 9.81, 1e10, 0, 1 },
     };
-    scene film = { .title = "Experiment III: a block slides without friction (10 kN, with gravity)",
-                   .window = { -10, 10, -1, 3 } };
+    scene film = { .title = "Experiment III: a block slides without friction (10 kN, with gravity)" };
     case_results r;
     slide s[RUNS];
     int runs = 0;

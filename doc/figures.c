@@ -783,32 +783,33 @@ static void draw_bending(drawing *d)
     name(d, (point){ 49, 0 }, 10, -68, LEFT, "x 800");
 }
 
-/* The error of v(24,0) against alpha; the triangles' and the springs' have opposite signs. */
+/* The error of v(24,0) against alpha; the triangles' and the springs' have opposite signs.
+ * Both are logarithms. */
 static void draw_error(drawing *d)
 {
     enum { MESHES = 3, ALPHAS = 7 };
     static const char *const label[MESHES] = { "64 triangles", "256 triangles", "1024 triangles" };
-    double alpha[ALPHAS], e[MESHES][ALPHAS], soft[ALPHAS];
+    double power[ALPHAS], e[MESHES][ALPHAS], soft[ALPHAS];
     plot_series s[MESHES + 1];
 
-    for (int k = 0; k < ALPHAS; k++)
-        alpha[k] = pow(10, k);
+    for (int k = 0; k < ALPHAS; k++) {
+        power[k] = k;
+        soft[k] = log10(300) - k;
+    }
     for (int k = 0; k < MESHES; k++) {
         for (int a = 0; a < ALPHAS; a++) {
-            bbm_model *m = solve_beam(8 << k, 2 << k, alpha[a]);
-            e[k][a] = m ? 100 * fabs(at_node(m, 24, 0).v / -2.8449e-3 - 1) : 0;
+            bbm_model *m = solve_beam(8 << k, 2 << k, pow(10, a));
+            e[k][a] = m ? log10(100 * fabs(at_node(m, 24, 0).v / -2.8449e-3 - 1)) : 0;
             bbm_model_free(m);
         }
-        s[k] = (plot_series){ .name = label[k], .n = ALPHAS, .x = alpha, .y = e[k], .look = k + 2,
+        s[k] = (plot_series){ .name = label[k], .n = ALPHAS, .x = power, .y = e[k], .look = k + 2,
                               .style = PLOT_BOTH };
     }
-    for (int a = 0; a < ALPHAS; a++)
-        soft[a] = 300 / alpha[a];
-    s[MESHES] = (plot_series){ .name = "springs alone: 3/alpha", .n = 5, .x = alpha, .y = soft,
-                               .look = 1, .style = PLOT_DASHED };
+    s[MESHES] = (plot_series){ .name = "springs alone: 3/alpha", .n = 5, .x = power, .y = soft,
+                               .look = 1 };
     plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 460 }, &(plot_chart){
         .title = "Error of v(24,0): too soft on the left, too stiff on the right",
-        .x = { "alpha", NULL, 1 }, .y = { "error, its sign left out", "%", 1 },
+        .x = { "log10(alpha)", NULL }, .y = { "log10(error in %)", NULL },
         .count = MESHES + 1, .series = s });
 }
 
@@ -858,7 +859,7 @@ static void draw_stress(drawing *d)
     if (m)
         plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 460 }, &(plot_chart){
             .title = "sxx at x = 24 m from the axis to the face, 1,024 triangles",
-            .x = { "y", "m", 0 }, .y = { "sxx", "Pa", 0 }, .count = 4,
+            .x = { "y", "m" }, .y = { "sxx", "Pa" }, .count = 4,
             .series = series });
     bbm_model_free(m);
 }

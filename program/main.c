@@ -39,7 +39,8 @@ static const char usage[] =
     "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
     "  --find NAME LOW HIGH\n"
     "              bisects `let NAME` until its expectations change; writes no results\n"
-    "  -o FOLDER   for the results; without it the model's name, in the present folder\n"
+    "  -o FOLDER   for the results; without it the model's name, in the present folder.\n"
+    "              Tables are in SI units; doc/tables.md has that of each column\n"
     "  -m FILE.mtx the matrix of the first solution (Matrix Market), and its right-hand "
     "side as FILE.mtx.rhs\n"
     "  -q          quiet: errors and warnings alone\n"
@@ -141,33 +142,42 @@ static const char *plural(int n) { return n == 1 ? "" : "s"; }
 typedef struct {
     int shown, steps, settling;                 /* steps, settling: in all */
     int begun, warned;                          /* begun: a line without its end */
-    double each;                                /* s            a step takes at present */
-    clock_t now, last;                          /* CPU time at the last step, at the last line */
-    time_t said;
+    double start, last;                         /* s            of t = 0, of the last line */
 } progress;
-enum { SILENCE = 10 };                          /* s between lines of progress that go to a file */
+enum { SILENCE = 10 };          /* s between lines of progress that go to a file */
 
-/* What a step takes is the mean of the last ones, of about a tenth of those done: contacts come and
- * go. */
+/* s, of a clock that goes on while others have the processor. */
+static double now(void)
+{
+#ifdef _WIN32
+    return difftime(time(NULL), 0);
+#else
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+#endif
+}
+
+/* What is left takes as long for each step as those since t = 0. Settling, whose steps are shorter,
+ * does not tell. */
 static void show_progress(progress *s, const bbm_model *m, int settling, int step)
 {
-    const int done = step + s->settling - settling;
-    const double took = (double)(clock() - s->now) / CLOCKS_PER_SEC;
+    const int done = settling ? s->settling - settling : step;
+    const double t = now(), apart = isatty(2) ? 0.1 : SILENCE;
+    char left[40] = "";
 
-    s->now = clock();
-    s->each += (took - s->each) / (done < 10 ? fmax(1, done) : 1 + done / 10);
-    if (!s->shown || done == 0
-        || (isatty(2) ? clock() - s->last < CLOCKS_PER_SEC / 10 && step < s->steps
-                      : time(NULL) < s->said + SILENCE))
+    s->start = done == 0 ? t : s->start;
+    if (!s->shown || done == 0 || (t < s->last + apart && !(isatty(2) && step == s->steps)))
         return;
-    s->last = clock();
-    s->said = time(NULL);
+    s->last = t;
     s->begun = isatty(2);
-    fprintf(stderr, "%s%sstep %d of %d, %d open-close pass%s, %d contact%s, %.0f s left%s",
-            s->begun ? "\r" : "", settling ? "settling, " : "", settling ? done : step,
+    if (!settling)
+        snprintf(left, sizeof left, ", %.0f s left", (t - s->start) / done * (s->steps - done));
+    fprintf(stderr, "%s%sstep %d of %d, %d open-close pass%s, %d contact%s%s%s",
+            s->begun ? "\r" : "", settling ? "settling, " : "", done,
             settling ? s->settling : s->steps, m->info.passes, m->info.passes == 1 ? "" : "es",
-            m->info.contacts, plural(m->info.contacts), s->each * (s->steps - step + settling),
-            s->begun ? "   " : "\n");
+            m->info.contacts, plural(m->info.contacts), left, s->begun ? "   " : "\n");
     fflush(stderr);
 }
 
@@ -384,7 +394,7 @@ static int run_model(model *p, const arguments *a, clock_t start)
     write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
                         .start = start, .reading = clock() - start };
     progress s = { .shown = !a->quiet, .steps = p->m->par.steps, .settling = p->settle,
-                   .now = clock(), .said = time(NULL) };
+                   .last = now() };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
 

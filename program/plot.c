@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXT = 14, ROW = 22, TICK_TEXT = 48, LEVELS = 11 };  /* pixels; the last: wanted bands */
+enum { TEXT = 14, TICK_TEXT = 48, LEVELS = 11 };    /* pixels; the last: wanted bands */
 
 static const double LETTER = 7.8;       /* pixels, generous mean width of a letter of size TEXT */
 static const double UNSEEN = 1e-3;      /* of a step: results end there that may be meant to be 0 */
@@ -101,6 +101,20 @@ double plot_text_width(const char *text)
     return LETTER * letters;
 }
 
+void plot_begin_entry(plot *p, plot_legend *l, const char *text)
+{
+    const double w = PLOT_SYMBOL + 32 + plot_text_width(text);
+
+    if (l->rows == 0 || l->right + w > l->room) {
+        l->rows++;
+        l->right = 0;
+    }
+    plot_put(p, "<g transform=\"translate(%.2f %.2f)\">\n", l->x + l->right,
+             l->y + PLOT_ROW * (l->rows - 1));
+    plot_text(p, PLOT_SYMBOL + 8, 5, "", text);
+    l->right += w;
+}
+
 void plot_title(plot *p, double x, double y, const char *text)
 {
     plot_text(p, x, y, "text-anchor=\"middle\" font-size=\"17\" font-weight=\"bold\"", text);
@@ -173,12 +187,12 @@ static void power_text(char *text, size_t size, int exponent)
 
 /* ---------------------------------------------------------------------------------------- axes */
 
-/* m, N, s, Pa, alone or before a slash */
+/* m, N, s, J, Pa, alone or before a slash */
 static int takes_prefix(const char *unit)
 {
     const size_t n = strcspn(unit, "/");
 
-    return (n == 1 && strchr("mNs", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
+    return (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
 }
 
 /* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
@@ -190,7 +204,7 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
     char power[48];
     int e = 0;
 
-    if (!a->log && largest > 1e-300 && (largest < 0.1 || largest >= 1e4))
+    if (largest > 1e-300 && (largest < 0.1 || largest >= 1e4))
         e = 3 * (int)floor(log10(largest) / 3);
     a->scale = pow(10, -e);
     power_text(power, sizeof power, e);
@@ -206,30 +220,24 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
  * widens the axis. */
 static plot_axis make_axis(const plot_quantity *q, const double range[2], double count)
 {
-    plot_axis a = { .log = q->log };
-    double end[2] = { range[0], range[1] };
+    const double none[2] = { 0, 1 }, *end = range[0] > range[1] ? none : range;
+    plot_axis a = { 0 };
 
-    if (end[0] > end[1]) {
-        end[0] = q->log ? 0.1 : 0;
-        end[1] = 1;
-    }
     scale_axis(&a, q, fmax(fabs(end[0]), fabs(end[1])));
-    a.lo = a.log ? log10(end[0]) : end[0] * a.scale;
-    a.hi = a.log ? log10(end[1]) : end[1] * a.scale;
+    a.lo = end[0] * a.scale;
+    a.hi = end[1] * a.scale;
     const double largest = fmax(fabs(a.lo), fabs(a.hi));
-    double margin = a.log ? 0.04 * (a.hi - a.lo) : 0;
-    if (a.hi - a.lo <= 1e-9 * largest || largest < 1e-300)
-        margin = a.log || largest < 1e-300 ? 0.5 : 0.05 * largest;
-    a.lo -= margin;
-    a.hi += margin;
-    a.step = a.log ? ceil((a.hi - a.lo) / 10) : plot_nice((a.hi - a.lo) / count);
+    if (a.hi - a.lo <= 1e-9 * largest || largest < 1e-300) {
+        const double margin = largest < 1e-300 ? 0.5 : 0.05 * largest;
+        a.lo -= margin;
+        a.hi += margin;
+    }
+    a.step = plot_nice((a.hi - a.lo) / count);
     return a;
 }
 
 static void round_axis(plot_axis *a)    /* to whole steps */
 {
-    if (a->log)
-        return;
     a->lo = floor(a->lo / a->step + UNSEEN) * a->step;
     a->hi = ceil(a->hi / a->step - UNSEEN) * a->step;
 }
@@ -241,37 +249,17 @@ static double shown_pixel(const plot_axis *a, double shown)
 
 double plot_pixel(const plot_axis *a, double value)
 {
-    return shown_pixel(a, a->log ? log10(value) : value * a->scale);
+    return shown_pixel(a, value * a->scale);
 }
 
-/* A logarithmic axis over few decades also has lines at 2 .. 9. */
-static double log_tick(const plot_axis *a, int i, char text[TICK_TEXT])
-{
-    const int fine = a->hi - a->lo < 6, m = fine ? i % 9 + 1 : 1;
-    const double exponent = floor(a->lo / a->step) * a->step + (fine ? i / 9 : i * a->step);
-
-    text[0] = '\0';
-    if (m == 1)
-        power_text(text, TICK_TEXT, (int)exponent);
-    return exponent + log10(m);
-}
-
-/* The next tick from *i on: pixel and text, which may be empty. Returns 0 past the last. */
+/* The next tick from *i on: pixel and text. Returns 0 past the last. */
 static int next_tick(const plot_axis *a, int *i, double *pixel, char text[TICK_TEXT])
 {
-    const double slack = 1e-6 * (a->hi - a->lo);
-    double at;
+    const double at = (ceil(a->lo / a->step - 1e-6) + (*i)++) * a->step;
 
-    do {
-        at = (ceil(a->lo / a->step - 1e-6) + *i) * a->step;
-        if (a->log)
-            at = log_tick(a, *i, text);
-        else
-            number_text(text, TICK_TEXT, at, a->step);
-        (*i)++;
-    } while (at < a->lo - slack);
+    number_text(text, TICK_TEXT, at, a->step);
     *pixel = shown_pixel(a, at);
-    return at <= a->hi + slack;
+    return at <= a->hi + 1e-6 * (a->hi - a->lo);
 }
 
 static double widest_tick(const plot_axis *a)
@@ -289,7 +277,7 @@ static void spread_ticks(plot_axis *a)
 {
     const double unit = fabs(a->to - a->from) / (a->hi - a->lo);
 
-    while (!a->log && a->step < a->hi - a->lo && widest_tick(a) + LETTER > a->step * unit)
+    while (a->step < a->hi - a->lo && widest_tick(a) + LETTER > a->step * unit)
         a->step = plot_nice(2.2 * a->step);
 }
 
@@ -338,7 +326,7 @@ static void place_axes(plot *p, plot_box b)
 /* The unit is that of the larger extent, not of the distance from the origin. */
 void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 {
-    static const plot_quantity q[2] = { { "x", "m", 0 }, { "y", "m", 0 } };
+    static const plot_quantity q[2] = { { "x", "m" }, { "y", "m" } };
     const double *const end[2] = { x, y };
 
     for (int k = 0; k < 2; k++) {
@@ -355,10 +343,9 @@ void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 
 /* -------------------------------------------------------------------------------------- charts */
 
-static int is_shown(const plot_chart *c, const plot_series *s, int i)
+static int is_shown(const plot_series *s, int i)
 {
-    return isfinite(s->x[i]) && isfinite(s->y[i]) && (!c->x.log || s->x[i] > 0)
-           && (!c->y.log || s->y[i] > 0);
+    return isfinite(s->x[i]) && isfinite(s->y[i]);
 }
 
 static void chart_axes(plot *p, plot_box box, const plot_chart *c)
@@ -368,7 +355,7 @@ static void chart_axes(plot *p, plot_box box, const plot_chart *c)
     for (int k = 0; k < c->count; k++) {
         const plot_series *s = &c->series[k];
         for (int i = 0; i < s->n; i++) {
-            if (!is_shown(c, s, i))
+            if (!is_shown(s, i))
                 continue;
             plot_widen(x, s->x[i]);
             plot_widen(y, s->y[i]);
@@ -386,12 +373,9 @@ static const char *series_dashes(const plot_chart *c, int k)
                                            "5 3 2 3 2 3" };
     int before = 0;
 
-    if (c->series[k].style >= PLOT_MARKS)
-        return pattern[0];
-    for (int i = 0; i < k; i++)
-        before += c->series[i].style == PLOT_LINE || c->series[i].style == PLOT_DASHED;
-    return pattern[before == 0 && c->series[k].style == PLOT_DASHED ? 5
-                   : before % LENGTH(pattern)];
+    for (int i = 0; i < k && c->series[k].style == PLOT_LINE; i++)
+        before += c->series[i].style == PLOT_LINE;
+    return pattern[before % LENGTH(pattern)];
 }
 
 static void draw_mark(plot *p, int look, double x, double y)
@@ -410,13 +394,13 @@ static void draw_mark(plot *p, int look, double x, double y)
     plot_put(p, "%s\"/>\n", shape[look % LENGTH(shape)]);
 }
 
-static void draw_line(plot *p, const plot_chart *c, const plot_series *s)
+static void draw_line(plot *p, const plot_series *s)
 {
     int drawing = 0;
 
     plot_put(p, "<path d=\"");
     for (int i = 0; i < s->n; i++) {
-        const int shown = is_shown(c, s, i);
+        const int shown = is_shown(s, i);
         if (shown)
             plot_point(p, drawing ? " " : "M", plot_pixel(&p->x, s->x[i]),
                        plot_pixel(&p->y, s->y[i]));
@@ -425,21 +409,11 @@ static void draw_line(plot *p, const plot_chart *c, const plot_series *s)
     plot_put(p, "\"/>\n");
 }
 
-static void draw_marks(plot *p, const plot_chart *c, const plot_series *s)
+static void draw_marks(plot *p, const plot_series *s)
 {
-    const double apart = s->style == PLOT_BOTH ? 14 : 0;
-    double last_x = -INFINITY, last_y = 0;
-
-    for (int i = 0; i < s->n; i++) {
-        if (!is_shown(c, s, i))
-            continue;
-        const double x = plot_pixel(&p->x, s->x[i]), y = plot_pixel(&p->y, s->y[i]);
-        if (hypot(x - last_x, y - last_y) < apart)
-            continue;
-        draw_mark(p, s->look, x, y);
-        last_x = x;
-        last_y = y;
-    }
+    for (int i = 0; i < s->n; i++)
+        if (is_shown(s, i))
+            draw_mark(p, s->look, plot_pixel(&p->x, s->x[i]), plot_pixel(&p->y, s->y[i]));
 }
 
 static void begin_series(plot *p, const plot_chart *c, int k)
@@ -447,48 +421,38 @@ static void begin_series(plot *p, const plot_chart *c, int k)
     static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
                                           "#CC79A7", "#E69F00" };
 
-    plot_put(p, "<g fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" stroke-linejoin=\"round\" "
-             "stroke-dasharray=\"%s\">\n",
-             colour[c->series[k].look % LENGTH(colour)], series_dashes(c, k));
+    const char *own = colour[c->series[k].look % LENGTH(colour)];
+    const int band = c->series[k].style == PLOT_BAND;
+
+    plot_put(p, "<g fill=\"%s\" fill-opacity=\"0.2\" stroke=\"%s\" stroke-width=\"%s\" "
+             "stroke-linejoin=\"round\" stroke-dasharray=\"%s\">\n",
+             band ? own : "none", own, band ? "0.6" : "1.8", series_dashes(c, k));
 }
 
-/* Columns of the legend: as few as keep it to the rows that the widest entry allows. */
-static int legend_columns(const plot_chart *c, double width, double *column)
+/* Returns the number of rows. */
+static int draw_legend(plot *p, plot_legend l, const plot_chart *c)
 {
-    *column = 0;
-    for (int k = 0; k < c->count; k++)
-        *column = fmax(*column, 70 + plot_text_width(c->series[k].name));
-    const int fit = (int)fmax(1, width / fmax(*column, 1)), rows = (c->count + fit - 1) / fit;
-    return rows > 0 ? (c->count + rows - 1) / rows : 1;
-}
-
-static void draw_legend(plot *p, plot_box b, const plot_chart *c)
-{
-    double column;
-    const int columns = legend_columns(c, b.w, &column);
-
     for (int k = 0; k < c->count; k++) {
-        const double x = b.x + b.w / 2 + (k % columns - columns / 2.0) * column + 10;
-        const double y = b.y + ROW * (k / columns);
+        plot_begin_entry(p, &l, c->series[k].name);
         begin_series(p, c, k);
-        if (c->series[k].style != PLOT_MARKS)
-            put_line(p, "", x, y, x + 40, y);
+        if (c->series[k].style == PLOT_BAND)
+            plot_rectangle(p, (plot_box){ 4, -6, 40, 12 }, "");
+        else if (c->series[k].style != PLOT_MARKS)
+            put_line(p, "", 4, 0, 44, 0);
         if (c->series[k].style >= PLOT_MARKS)
-            draw_mark(p, c->series[k].look, x + 20, y);
-        plot_put(p, "</g>\n");
-        plot_text(p, x + 48, y + 5, "", c->series[k].name);
+            draw_mark(p, c->series[k].look, 24, 0);
+        plot_put(p, "</g></g>\n");
     }
+    return l.rows;
 }
 
 void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
 {
-    double column;
-
     chart_axes(p, box, c);
     const double left = 40 + widest_tick(&p->y), top = c->title ? 40 : 16;
     plot_box b = { box.x + left, box.y + top, box.w - left - 24, 0 };
-    const int columns = legend_columns(c, b.w, &column), rows = (c->count + columns - 1) / columns;
-    b.h = box.h - top - 60 - ROW * rows;
+    plot nowhere = { .failed = 0 };
+    b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&nowhere, (plot_legend){ .room = b.w }, c);
     place_axes(p, b);
     draw_axes(p, b, 1);
     plot_title(p, b.x + b.w / 2, b.y - 14, c->title);
@@ -496,12 +460,12 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
         const plot_series *s = &c->series[k];
         begin_series(p, c, k);
         if (s->style != PLOT_MARKS)
-            draw_line(p, c, s);
+            draw_line(p, s);
         if (s->style >= PLOT_MARKS)
-            draw_marks(p, c, s);
+            draw_marks(p, s);
         plot_put(p, "</g>\n");
     }
-    draw_legend(p, (plot_box){ b.x, b.y + b.h + 66, b.w, 0 }, c);
+    draw_legend(p, (plot_legend){ b.x, b.y + b.h + 66, b.w, 0, 0 }, c);
 }
 
 int plot_write_chart(const char *path, const plot_chart *c)

@@ -23,14 +23,13 @@
 
 typedef enum {
     PLOT_LINE,                  /* the first such series solid, later ones with dashes            */
-    PLOT_DASHED,                /* as PLOT_LINE, but never solid                                  */
+    PLOT_BAND,                  /* the area within the points                                     */
     PLOT_MARKS,                 /* a mark at each point                                           */
-    PLOT_BOTH                   /* a solid line, marks along it at least 14 pixels apart          */
+    PLOT_BOTH                   /* a solid line, and a mark at each point                         */
 } plot_style;
 
 typedef struct {                /* what an axis or a colour bar measures                          */
-    const char *name, *unit;    /* a unit m, N, Pa, s, alone or before a slash, may get a prefix  */
-    int    log;                 /* logarithmic axis; values <= 0 are left out                     */
+    const char *name, *unit;    /* m, N, s, J, Pa, alone or before a slash, may get a prefix      */
 } plot_quantity;
 
 typedef struct {
@@ -58,10 +57,9 @@ int plot_write_chart(const char *path, const plot_chart *c);
 typedef struct { double x, y, w, h; } plot_box;
 
 typedef struct {
-    double lo, hi, step;        /* ends and distance of the ticks, in the shown unit; log: powers */
+    double lo, hi, step;        /* ends and distance of the ticks, in the shown unit              */
     double scale;               /* shown value = scale * value                                    */
     double from, to;            /* pixels of lo and hi                                            */
-    int    log;
     char   label[160];          /* v [mm]                                                         */
 } plot_axis;
 
@@ -79,6 +77,11 @@ void   plot_rectangle(plot *p, plot_box b, const char *attributes);
 void   plot_text(plot *p, double x, double y, const char *attributes, const char *text);
 double plot_text_width(const char *text);           /* pixels, generous                           */
 void   plot_title(plot *p, double x, double y, const char *text);           /* x: its middle      */
+/* One more entry of a legend: its text. A symbol around y = 0, x up to PLOT_SYMBOL, is to follow,
+ * and the end of the group, </g>. In a plot that is not open this only counts the rows. */
+enum { PLOT_ROW = 24, PLOT_SYMBOL = 48 };           /* pixels */
+typedef struct { double x, y, room, right; int rows; } plot_legend; /* from (x, y) on, row by row */
+void   plot_begin_entry(plot *p, plot_legend *l, const char *text);
 double plot_pixel(const plot_axis *a, double value);        /* p->x, p->y: value to pixel         */
 void   plot_widen(double range[2], double value);   /* so that it holds the value                 */
 double plot_nice(double x);                         /* 1, 2 or 5 times a power of ten, near x     */

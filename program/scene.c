@@ -28,11 +28,25 @@
 #include "plot.h"
 
 enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
-enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ROW = 26, ARROW = 48, SUPPORT = 10,
+enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMBOL, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 
+static const double nothing[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
-static const double FAIR = 0.3;         /* of an edge's length: how much its ends may move apart  */
+static const double FAIR = 0.5;         /* of an element's width: how much an edge may change     */
+
+/* Arrows: the largest is so wide, in pixels; name, unit: in the legend, with the force between
+ * them. Contacts have a head on both sides. */
+enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, KINDS };
+
+static const struct { const char *colour; double width; const char *name, *unit; } arrow[KINDS] = {
+    [LOAD] = { "#aa2288", 4, "load", "N" }, [LINE_LOAD] = { "#aa2288", 3, "load", "N/m" },
+    [LOCKED] = { "#004488", 6, "contact force", "N, locked" },
+    [SLIDING] = { "#cc3311", 6, "contact force", "N, sliding" },
+    [PULLED] = { "#117733", 6, "contact force", "N, pulling" },
+};
+
+static int is_contact(int kind) { return kind >= LOCKED && kind <= PULLED; }
 
 typedef struct { double x, y; } point;
 
@@ -49,14 +63,14 @@ typedef struct {                        /* what the functions below draw with   
     layout       l;
     const scene *s;
     const bbm_model *m;
-    int          bodies;
+    int          bodies, held;          /* held: whether any is                                   */
     body        *body;
     int         *vertex;                /*          [vertices], block by block                    */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
-    double       most[4], length[4];    /* of each kind of arrow: the largest force, its pixels   */
-    int          supports[4];           /* how many held in each way                              */
+    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its pixels   */
+    int          seen[KINDS], supports[4];  /* of each kind of arrow; held in each way: whether       */
     double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
@@ -98,16 +112,14 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-/* Turned round if it points down, so that it points into what is carried. */
 static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
     double f[2];
 
     scene_contact_force(m, c, c->N, c->T, f);
-    const double up = f[1] < 0 ? -1 : 1;
-    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], up * f[0], up * f[1],
-                          c->state };
+    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1],
+                          c->N < 0 ? PULLED : (int)c->state };
 }
 
 static int copy_frame(scene_frame *f, const bbm_model *m)
@@ -228,6 +240,7 @@ static void find_bodies(film *f)
                 add_vertex(f, b, v);
             }
         f->bodies += b->n > 0;
+        f->held |= b->n > 0 && b->held;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -356,43 +369,44 @@ static void draw_blocks(film *f, int frame)
 
 /* ------------------------------------------------------------------- forces, loads and supports */
 
-enum { LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, LOAD = 0, LINE_LOAD = 3, KINDS = 4 };
-
-static const char *const style[KINDS] = {
-    "stroke=\"#aa2288\" stroke-width=\"2\"", "stroke=\"#004488\" stroke-width=\"1.8\"",
-    "stroke=\"#cc3311\" stroke-width=\"1.8\"", "stroke=\"#aa2288\" stroke-width=\"1.2\"" };
-
-/* Something at a point, in m, of a size in pixels, y upwards: an arrow from there, or a support. */
-typedef void visitor(film *f, int kind, point from, point size);
+/* Something at a point, in m, of a size in pixels, y upwards: a support, or an arrow from there, of
+ * a share of the largest force of its kind. */
+typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
- * the arrow ends there. */
+ * the arrow ends there. Arrows of loads are as long as the force is large, and left out if that is
+ * less than 2 pixels; those of contacts are as wide, and left out below a twentieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
-    const double size = hypot(force.x, force.y);
-    const double pixels = f->most[kind] > 0 ? f->length[kind] / f->most[kind] : 0;
+    const double size = hypot(force.x, force.y), share = size / f->most[kind];
+    const double pixels = f->length[kind] / (is_contact(kind) ? size : f->most[kind]);
+    const double before = is_contact(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
     const point d = { pixels * force.x, pixels * force.y };
 
-    if (!isfinite(size + from.x + from.y) || (visit && hypot(d.x, d.y) < 2))
+    if (!isfinite(size + from.x + from.y) || size == 0)
         return;
     if (!visit)                         /* the largest is looked for */
         f->most[kind] = fmax(f->most[kind], size);
-    else if (force.x * side.x + force.y * side.y < 0)
-        visit(f, kind, (point){ from.x - d.x / f->scale, from.y - d.y / f->scale }, d);
-    else
-        visit(f, kind, from, d);
+    if (!visit || share < (is_contact(kind) ? 0.05 : 2 / f->length[kind]))
+        return;
+    f->seen[kind] = 1;
+    from = (point){ from.x - before * d.x / f->scale, from.y - before * d.y / f->scale };
+    visit(f, kind, from, d, share);
 }
 
-/* Arrows along a loaded edge, 10 pixels apart or more. */
+/* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
     const double length = hypot(b.x - a.x, b.y - a.y);
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
-    const int n = (int)fmax(1, length * f->scale / 16);
+    const int varies = l->loads > 1, n = varies ? l->loads : (int)fmax(1, length * f->scale / 16);
 
     for (int i = 0; i < n; i++) {
-        const double s = (i + 0.5) / n, *q = l->q[(int)(s * l->loads)];
+        const double *q = l->q[varies ? i : 0];
+        double s = (i + 0.5) / n, weight;
+        if (varies)
+            bbm_gauss_point(i, &s, &weight);
         const point x = { a.x + s * (b.x - a.x), a.y + s * (b.y - a.y) };
         if (visit && hypot(x.x - last->x, x.y - last->y) * f->scale < 10)
             continue;
@@ -423,8 +437,8 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     scene_line l;
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
         visit_edge(f, frame, &l, &last, visit);
-    for (int i = 0; (kind == LOCKED || kind == SLIDING) && i < g->forces; i++)
-        if ((int)g->force[i].state == kind)
+    for (int i = 0; i < g->forces; i++)
+        if (g->force[i].kind == kind)
             visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },
                         (point){ g->force[i].fx, g->force[i].fy }, (point){ 0, 0 }, visit);
 }
@@ -448,29 +462,40 @@ static void visit_supports(film *f, int frame, visitor *visit)
                 d = held == BBM_X ? (point){ d.x < 0 ? -1 : 1, 0 } : (point){ 0, d.y > 0 ? 1 : -1 };
             const double l = hypot(d.x, d.y);
             d = l > 0 ? (point){ SUPPORT * d.x / l, SUPPORT * d.y / l } : (point){ 0, -SUPPORT };
-            visit(f, held, x, d);
+            visit(f, held, x, d, 1);
         }
 }
 
-static void put_arrow(film *f, int kind, point from, point size)
+/* From pixel a along d, with room for heads, which are 1.6 widths long. */
+static void put_shaft(film *f, int kind, point a, point d, double share)
 {
-    const point a = pixel(f, from), d = { size.x, -size.y };
-    const double length = hypot(d.x, d.y), head = fmin(6, length / 2) / length;
-    const point h = { head * d.x, head * d.y };
+    const double l = hypot(d.x, d.y), w = fmax(0.5, fmin(arrow[kind].width, l / 4) * share);
+    const double head = 1.6 * w / l, before = is_contact(kind) * head;
 
-    (void)kind;
-    plot_point(&f->p, "M", a.x, a.y);
-    plot_point(&f->p, "l", d.x, d.y);
-    plot_point(&f->p, "m", -h.x + 0.5 * h.y, -h.y - 0.5 * h.x);
-    plot_point(&f->p, "l", h.x - 0.5 * h.y, h.y + 0.5 * h.x);
-    plot_point(&f->p, " ", -h.x - 0.5 * h.y, -h.y + 0.5 * h.x);
+    plot_put(&f->p, "<path stroke-width=\"%.2g\" d=\"", w);
+    plot_point(&f->p, "M", a.x + before * d.x, a.y + before * d.y);
+    plot_point(&f->p, "l", (1 - head - before) * d.x, (1 - head - before) * d.y);
+    plot_put(&f->p, "\"/>\n");
+}
+
+static void put_arrow(film *f, int kind, point from, point size, double share)
+{
+    put_shaft(f, kind, pixel(f, from), (point){ size.x, -size.y }, share);
+}
+
+/* What the arrows of a kind have in common. */
+static void begin_arrows(film *f, int kind)
+{
+    plot_put(&f->p, "<g stroke=\"%s\" marker-end=\"url(#head%d)\"", arrow[kind].colour, kind);
+    plot_put(&f->p, is_contact(kind) ? " marker-start=\"url(#head%d)\">\n" : ">\n", kind);
 }
 
 /* A triangle or, in one direction, a roller, and the ground. */
-static void put_support(film *f, int held, point from, point size)
+static void put_support(film *f, int held, point from, point size, double share)
 {
     const point a = pixel(f, from), d = { size.x, -size.y }, b = { a.x + d.x, a.y + d.y };
 
+    (void)share;
     plot_point(&f->p, "M", a.x, a.y);
     if (held == BBM_XY) {
         plot_point(&f->p, " ", b.x - 0.5 * d.y, b.y + 0.5 * d.x);
@@ -489,11 +514,11 @@ static void draw_forces(film *f, int frame)
     visit_supports(f, frame, put_support);
     plot_put(&f->p, "\"/>\n");
     for (int kind = 0; kind < KINDS; kind++) {
-        if (f->most[kind] <= 0)
+        if (!f->seen[kind])
             continue;
-        plot_put(&f->p, "<path fill=\"none\" stroke-linejoin=\"round\" %s d=\"", style[kind]);
+        begin_arrows(f, kind);
         visit_forces(f, frame, kind, put_arrow);
-        plot_put(&f->p, "\"/>\n");
+        plot_put(&f->p, "</g>\n");
     }
 }
 
@@ -513,52 +538,38 @@ static void draw_bolts(film *f, int frame)
 
 /* ------------------------------------------------------------------------------------- legend */
 
-typedef struct { double x, y, width, right; int rows; } legend;     /* from (x, y) on, row by row */
-
-/* One more symbol and its text. Before the file is open this only counts the rows. */
-static void put_entry(film *f, legend *l, const char *symbol, const char *text)
+static void put_entry(film *f, plot_legend *l, const char *symbol, const char *text)
 {
-    const double w = ARROW + 32 + plot_text_width(text);
-
-    if (l->rows == 0 || l->right + w > l->width) {
-        l->rows++;
-        l->right = 0;
-    }
-    plot_put(&f->p, "<g transform=\"translate(%.2f %.2f)\">%s\n", l->x + l->right,
-             l->y + ROW * (l->rows - 1), symbol);
-    plot_text(&f->p, ARROW + 8, 5, "", text);
-    plot_put(&f->p, "</g>\n");
-    l->right += w;
+    plot_begin_entry(&f->p, l, text);
+    plot_put(&f->p, "%s</g>\n", symbol);
 }
 
 /* The longest arrow of a kind, and its force. */
-static void put_force_entry(film *f, legend *l, int kind, const char *name, const char *unit)
+static void put_force_entry(film *f, plot_legend *l, int kind)
 {
-    const double size = f->most[kind];
     static const char *const prefix[] = { "", "k", "M", "G" };
+    const double size = f->most[kind];
     const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
-    char symbol[160], text[60];
+    char text[80];
 
-    if (size <= 0)
+    if (!f->seen[kind])
         return;
-    snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%.2fm-6 -3l6 3l-6 3\" fill=\"none\" %s/>",
-             f->length[kind], kind == LOCKED ? "stroke=\"#000000\"" : style[kind]);
-    snprintf(text, sizeof text, "%s%.3g %s%s", name, size / pow(1000, power), prefix[power],
-             unit);
-    put_entry(f, l, symbol, text);
+    snprintf(text, sizeof text, "%s %.3g %s%s", arrow[kind].name, size / pow(1000, power),
+             prefix[power], arrow[kind].unit);
+    plot_begin_entry(&f->p, l, text);
+    begin_arrows(f, kind);
+    put_shaft(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
+    plot_put(&f->p, "</g></g>\n");
 }
 
 /* Returns the number of rows. */
-static int draw_legend(film *f, double x, double y, double width)
+static int draw_legend(film *f, double x, double y, double room)
 {
-    legend l = { x, y, width, 0, 0 };
+    plot_legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
-    char symbol[160], text[60];
-    int held = 0;
+    char text[60];
 
-    for (int b = 0; b < f->bodies; b++)
-        held |= f->body[b].held;
-    if (held)
+    if (f->held)
         put_entry(f, &l, "<rect y=\"-8\" width=\"48\" height=\"16\" fill=\"url(#held)\" "
                   "stroke=\"#000000\"/>", "fixed block");
     if (f->supports[BBM_XY])
@@ -570,13 +581,8 @@ static int draw_legend(film *f, double x, double y, double width)
                   "fixed in one direction");
     if (f->s->bolts)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
-    put_force_entry(f, &l, LOAD, "load ", "N");
-    put_force_entry(f, &l, LINE_LOAD, "load ", "N/m");
-    for (int state = LOCKED; state <= SLIDING && f->most[LOCKED] > 0; state++) {
-        snprintf(symbol, sizeof symbol, "<path d=\"M0 0H%d\" %s/>", ARROW, style[state]);
-        put_entry(f, &l, symbol, state == LOCKED ? "locked contact" : "sliding contact");
-    }
-    put_force_entry(f, &l, LOCKED, "contact force ", "N");
+    for (int kind = 0; kind < KINDS; kind++)
+        put_force_entry(f, &l, kind);
     if (f->s->mark_name)
         put_entry(f, &l, "<circle cx=\"40\" r=\"4.5\"/>", f->s->mark_name);
     if (f->seconds > 0) {
@@ -594,9 +600,9 @@ static int draw_legend(film *f, double x, double y, double width)
 
 /* ----------------------------------------------------------------------------------- the pages */
 
-static void widen_window(film *f, int kind, point from, point size)
+static void widen_window(film *f, int kind, point from, point size, double share)
 {
-    (void)kind;
+    (void)kind, (void)share;
     plot_widen(f->window[0], from.x);
     plot_widen(f->window[1], from.y);
     plot_widen(f->window[0], from.x + size.x / f->scale);
@@ -625,21 +631,13 @@ static void arrange(film *f, int n)
     l->h = f->scale * h + over;
 }
 
-/* The window that holds all vertices, or those that can move beside the chosen window. */
+/* The window that holds all vertices. */
 static void find_window(film *f)
 {
-    const double *w = f->s->window;
-    const int chosen = w[0] < w[1] && w[2] < w[3];
-
-    for (int k = 0; k < 2; k++) {
-        f->window[k][0] = chosen ? w[2 * k] : INFINITY;
-        f->window[k][1] = chosen ? w[2 * k + 1] : -INFINITY;
-    }
-    for (int b = 0; b < f->bodies; b++)
-        for (int k = 0; k < f->body[b].n && !(chosen && f->body[b].held); k++)
-            for (int i = 0; i < f->s->frames; i++)
-                widen_window(f, 0, position(f, i, f->vertex[f->body[b].first + k]),
-                             (point){ 0, 0 });
+    memcpy(f->window, nothing, sizeof nothing);
+    for (int v = 0; v < f->m->vertices; v++)
+        for (int i = 0; i < f->s->frames; i++)
+            widen_window(f, 0, position(f, i, v), (point){ 0, 0 }, 0);
     const double more = 0.03 * fmax(f->window[0][1] - f->window[0][0],
                                     f->window[1][1] - f->window[1][0]);
     for (int k = 0; k < 2; k++) {
@@ -671,14 +669,16 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
-    f->most[LOCKED] = f->most[SLIDING] = fmax(f->most[LOCKED], f->most[SLIDING]);
+    const double most = fmax(f->most[LOCKED], fmax(f->most[SLIDING], f->most[PULLED]));
     find_window(f);
     arrange(f, n);
     for (int round = 0; round < 4; round++) {
         f->length[LOAD] = ARROW;
-        f->length[LINE_LOAD] = ARROW / 2;
-        f->length[LOCKED] = fmax(14, fmin(ARROW, 0.8 * block_size(f) * f->scale));
-        f->length[SLIDING] = f->length[LOCKED];
+        f->length[LINE_LOAD] = ARROW;
+        for (int kind = LOCKED; kind <= PULLED; kind++) {
+            f->most[kind] = most;
+            f->length[kind] = fmax(12, fmin(ARROW, block_size(f) * f->scale));
+        }
         find_window(f);
         for (int i = 0; i < f->s->frames; i++) {
             visit_supports(f, i, widen_window);
@@ -704,14 +704,20 @@ static int open_page(film *f, const char *path, int n, double below)
     const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
     l->left = (width - l->columns * l->w) / 2;
-    if (!plot_open(&f->p, path, width, bottom + ROW * rows + 8))
+    if (!plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8))
         return 0;
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
              "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
              "<rect width=\"7\" height=\"7\" fill=\"#e4e4e4\"/>"
-             "<path d=\"M0 0V7\" stroke=\"#a0a0a0\" stroke-width=\"1.5\"/></pattern></defs>\n");
+             "<path d=\"M0 0V7\" stroke=\"#a0a0a0\" stroke-width=\"1.5\"/></pattern>");
+    for (int k = 0; k < KINDS; k++)
+        plot_put(&f->p, "<marker id=\"head%d\" orient=\"auto-start-reverse\" overflow=\"visible\">"
+                 "<path d=\"%s\" fill=\"%s\"/></marker>\n", k,
+                 k == PULLED ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z",
+                 arrow[k].colour);
+    plot_put(&f->p, "</defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
-    draw_legend(f, MARGIN, bottom + ROW / 2.0, width - 2 * MARGIN);
+    draw_legend(f, MARGIN, bottom + PLOT_ROW / 2.0, width - 2 * MARGIN);
     return 1;
 }
 
@@ -737,22 +743,13 @@ static void end_panel(film *f, plot_box b)
     plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
 }
 
-static int is_whole(double x) { return fabs(x - floor(x + 0.5)) <= 1e-6 * fabs(x); }
-
-/* As many decimals as all frames' times have, within a tenth of their distance. */
+/* It begins at the same place in each frame of a film. */
 static void put_time(film *f, plot_box b, int frame)
 {
-    const scene_frame *g = f->s->frame;
-    const double apart = f->s->frames > 1 ? g[1].time - g[0].time : 1e-4 * g[0].time;
-    double unit = 1;
     char text[60];
-    int decimals = 0;
 
-    for (int i = 0; i < f->s->frames; i++)
-        for (; decimals < 9 && unit > apart / 10 && !is_whole(g[i].time / unit); decimals++)
-            unit /= 10;
-    snprintf(text, sizeof text, "t = %.*f s", decimals, g[frame].time);
-    plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", text);
+    snprintf(text, sizeof text, "t = %.6g s", f->s->frame[frame].time);
+    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", text);
 }
 
 /* What stands over the blocks of a panel. */
@@ -789,24 +786,18 @@ int scene_write_panels(const scene *s, const bbm_model *m, const char *path, int
     return done;
 }
 
-/* A group that is visible from half an interval before its frame to half an interval behind it, at
- * first the first. */
+/* A group that is visible from half an interval before its frame to half an interval behind it, the
+ * last one to the end; at first the first. */
 static void begin_turn(film *f, int frame)
 {
     const int last = f->s->frames - 1, intervals = value_count(f) - 1;
-    const double from = (frame - 0.5) / intervals, to = (frame + 0.5) / intervals;
 
     plot_put(&f->p, "<g%s>", frame ? " visibility=\"hidden\"" : "");
-    if (last == 0)
-        return;
-    plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
-             "repeatCount=\"indefinite\" ", f->seconds);
-    if (frame == 0)
-        plot_put(&f->p, "values=\"visible;hidden\" keyTimes=\"0;%.5f\"/>\n", to);
-    else if (frame == last)
-        plot_put(&f->p, "values=\"hidden;visible\" keyTimes=\"0;%.5f\"/>\n", from);
-    else
-        plot_put(&f->p, "values=\"hidden;visible;hidden\" keyTimes=\"0;%.5f;%.5f\"/>\n", from, to);
+    if (last > 0)
+        plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
+                 "repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
+                 "keyTimes=\"0;%.5f;%.5f\"/>\n", f->seconds, fmax(0, (frame - 0.5) / intervals),
+                 frame == last ? 1 : (frame + 0.5) / intervals);
 }
 
 /* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
@@ -856,34 +847,33 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } sample;     /* pixels */
 
-/* Whether no edge changes by more than FAIR of its length, the other end's turn included, and no
- * element loses half of its area. */
-static int is_fair(const bbm_model *m, const nodal *n, double scale)
+/* By so much displacements may be magnified that no edge changes, in length or direction, by more
+ * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which is
+ * its least height. Before it turns over an edge changes by all of it. */
+static double fair_scale(const bbm_model *m, const nodal *n)
 {
+    double scale = INFINITY;
+
     for (int e = 0; e < m->elements; e++) {
-        double start = 0, area = 0;
-        for (int v = m->element[e].first; v < m->element[e].first + m->element[e].n; v++) {
-            const int i = m->vertex[v].node, j = m->vertex[next_vertex(m, v)].node;
-            const bbm_node *a = &m->node[i], *b = &m->node[j];
-            const point A = { a->x + scale * n[i].u, a->y + scale * n[i].v };
-            const point B = { b->x + scale * n[j].u, b->y + scale * n[j].v };
-            if (scale * hypot(n[j].u - n[i].u, n[j].v - n[i].v) > FAIR * hypot(b->x - a->x,
-                                                                               b->y - a->y))
-                return 0;
-            start += a->x * b->y - b->x * a->y;
-            area += A.x * B.y - B.x * A.y;
+        const bbm_element *i = &m->element[e];
+        double longest = 0, change = 0;
+        for (int v = i->first; v < i->first + i->n; v++) {
+            const int P = m->vertex[v].node, Q = m->vertex[next_vertex(m, v)].node;
+            const bbm_node *a = &m->node[P], *b = &m->node[Q];
+            longest = fmax(longest, hypot(b->x - a->x, b->y - a->y));
+            change = fmax(change, hypot(n[Q].u - n[P].u, n[Q].v - n[P].v));
         }
-        if (area < start / 2)
-            return 0;
+        scale = fmin(scale, FAIR * (i->n == 3 ? 2 : 1) * i->A0 / longest / change);
     }
-    return 1;
+    return scale;
 }
 
 /* 1, 2 or 5 times a power of ten, 1 at least, by which displacements can be magnified. */
 static double find_scale(const bbm_model *m, const nodal *n)
 {
-    double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } }, moved = 0;
+    double range[2][2], moved = 0;
 
+    memcpy(range, nothing, sizeof nothing);
     for (int i = 0; i < m->nodes; i++) {
         plot_widen(range[0], m->node[i].x);
         plot_widen(range[1], m->node[i].y);
@@ -891,7 +881,7 @@ static double find_scale(const bbm_model *m, const nodal *n)
     }
     const double size = fmax(range[0][1] - range[0][0], range[1][1] - range[1][0]);
     double scale = moved > 1e-12 * size ? plot_nice(0.1 * size / moved) : 1;
-    while (scale > 1 && !is_fair(m, n, scale))
+    while (scale > 1 && scale > fair_scale(m, n))
         scale = plot_nice(scale / 2.2);
     return fmax(scale, 1);
 }

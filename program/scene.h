@@ -24,8 +24,8 @@
 
 typedef struct {                /* of a closed contact                                            */
     double x, y;                /* m                                                              */
-    double fx, fy;              /* N        upwards, so that arrows stand on what carries         */
-    bbm_contact_state state;
+    double fx, fy;              /* N        on the corner's block                                 */
+    int    kind;                /* of its arrow                                                   */
 } scene_force;
 
 typedef struct {                /* what was recorded at one time                                  */
@@ -46,8 +46,6 @@ typedef struct {
     const char *title;
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
-    double window[4];           /* m        x from, x to, y from, y to: this, and all that is     */
-                                /*          not fixed; zeros: everything                          */
     int    mark;                /*          a vertex to mark                                      */
     const char *mark_name;      /*          in the legend; NULL: none                             */
     /* --- the recording --- */
@@ -82,7 +80,8 @@ typedef struct {                /* contours of a field over the present state   
 
 int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
 
-/* A load along an edge from vertex a to b: the forces [N/m] at equal distances, and a pressure. */
+/* A load along an edge from vertex a to b: a force [N/m], or those at the Gauss points, and a
+ * pressure. */
 typedef struct {
     int a, b, loads;
     const double (*q)[2];

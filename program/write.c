@@ -11,9 +11,15 @@
 
 #include "field.h"
 #include "length.h"
+#include "plot.h"
 #include "write.h"
 
 #define LOCK "bbm.lock"
+
+/* What history.svg shows: so many rows at most, and its columns; u and v of monitor k are from
+ * MONITORS + 2 k on. */
+enum { ROWS = 1025, T = 0, PASSES, KINETIC, ELASTIC, SPRINGS, EXTERNAL, GAINED, MONITORS };
+enum { PANEL = 300, BANDS = 6 };        /* pixels; expectations of a monitor that are drawn */
 
 /* ---------------------------------------------------------------------------------------- files */
 
@@ -154,6 +160,30 @@ static double time_of(const write_results *w)
     return w->p->dynamic ? w->step * w->p->m->par.dt : 0;
 }
 
+static double *column(const write_results *w, int k) { return w->kept + (size_t)k * ROWS; }
+
+/* Into the present row of history.svg, which is of 2^halved steps; of passes the most of them. */
+static void keep(const write_results *w, int first, int n, const double x[])
+{
+    const int more = (w->step - 1) % (1 << w->halved) > 0;
+
+    for (int k = 0; k < n && w->kept; k++) {
+        double *to = &column(w, first + k)[w->row];
+        *to = first + k == PASSES && more ? fmax(*to, x[k]) : x[k];
+    }
+}
+
+/* Every second row goes; of passes the larger number stays. */
+static void halve(write_results *w)
+{
+    for (int k = 0; k < MONITORS + 2 * w->p->monitors && w->kept; k++)
+        for (int r = 1; r <= ROWS / 2; r++) {
+            const double *x = &column(w, k)[2 * r];
+            column(w, k)[r] = k == PASSES ? fmax(x[-1], x[0]) : x[0];
+        }
+    w->halved++;
+}
+
 static void put_history(const write_results *w)
 {
     const model *p = w->p;
@@ -163,6 +193,7 @@ static void put_history(const write_results *w)
         double u[2];
         model_displacement(p, &p->monitor[k], u);
         put_numbers(w->history.file, 2, u);
+        keep(w, MONITORS + 2 * k, 2, u);
     }
     fputc('\n', w->history.file);
 }
@@ -174,10 +205,14 @@ static void put_summary(const write_results *w)
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
+    const double row[] = { w->p->dynamic ? time_of(w) : w->step, w->step ? i->passes : 0,
+                           e.kinetic, e.elastic, e.springs, b->work, b->gained };
+    keep(w, T, LENGTH(row), row);
+    if (w->step == 0)
+        return;
     fprintf(w->summary.file, "%d,%.15g,%d,%d,%.15g,%d", w->step, time_of(w), i->passes,
             i->iterations, i->pcg.residual, i->contacts);
-    put_numbers(w->summary.file, 5,
-                (double[]){ e.kinetic, e.elastic, e.springs, b->work, b->gained });
+    put_numbers(w->summary.file, MONITORS - KINETIC, row + KINETIC);
     fputc('\n', w->summary.file);
 }
 
@@ -307,20 +342,84 @@ static void draw_now(write_results *w, const char *name)
     scene_free(&now);
 }
 
+/* A panel of history.svg: the columns from `first` on, by their names, and behind them the c.count
+ * other curves that are in s. */
+static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_series s[], int first,
+                       const char *const name[])
+{
+    const int place = first < MONITORS ? w->p->monitors + (first == PASSES)
+                                       : (first - MONITORS) / 2;
+
+    for (int k = 0; name[k]; k++, c.count++)
+        s[k] = (plot_series){ .name = name[k], .n = w->row + 1, .x = column(w, T),
+                              .y = column(w, first + k), .look = k + 2 };
+    c.x = w->p->dynamic ? (plot_quantity){ "t", "s" } : (plot_quantity){ "step", NULL };
+    c.series = s;
+    plot_draw_chart(p, (plot_box){ 0, 40 + PANEL * place, 860, PANEL }, &c);
+}
+
+/* u and v, and the bands in which they are expected to end. */
+static void draw_monitor(const write_results *w, plot *p, int monitor)
+{
+    static const char *const name[] = { "u", "v", NULL },
+        *const expected[] = { "u expected", "v expected", "to leave", "to stay" };
+    const double from = column(w, T)[0], to = column(w, T)[w->row], x[] = { from, to, to, from };
+    plot_chart c = { .title = w->p->monitor[monitor].name, .y = { "displacement", "m" } };
+    plot_series s[2 + BANDS];
+    double y[BANDS][4];
+
+    for (int k = 0; k < w->p->expectations && c.count < BANDS; k++) {
+        const model_expected *e = &w->p->expected[k];
+        if (e->monitor != monitor)
+            continue;
+        for (int i = 0; i < 4; i++)
+            y[c.count][i] = e->value + (i < 2 ? -e->within : e->within);
+        s[2 + c.count] = (plot_series){ .name = expected[e->kind], .n = 4, .x = x,
+                                        .y = y[c.count], .style = PLOT_BAND, .look = 2 + e->kind };
+        c.count++;
+    }
+    draw_panel(w, p, c, s, MONITORS + 2 * monitor, name);
+}
+
+/* What a run has been through: monitors, energies, passes. */
+static void draw_history(write_results *w)
+{
+    const model *m = w->p;
+    char path[LONGEST];
+    plot_series s[5];
+    plot p;
+
+    errno = ENOMEM;
+    int done = w->kept && plot_open(&p, path_of(w, "history.svg", path), 860,
+                                    40 + PANEL * (m->monitors + 2));
+    if (done) {
+        plot_title(&p, 430, 28, m->title);
+        for (int k = 0; k < m->monitors; k++)
+            draw_monitor(w, &p, k);
+        draw_panel(w, &p, (plot_chart){ .title = "Energies", .y = { "energy", "J" } }, s, KINETIC,
+                   (const char *[]){ "kinetic", "elastic", "springs", "external", "gained", NULL });
+        draw_panel(w, &p, (plot_chart){ .title = "Open-close iteration", .y = { "passes", NULL } },
+                   s, PASSES, (const char *[]){ "passes of a step, at most", NULL });
+        done = plot_close(&p);
+    }
+    note_picture(w, path_of(w, "history.svg", path), done);
+}
+
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    scene_map map = { .title = w->p->title, .field = w->p->field, .scale = w->p->scale,
+    scene_map map = { .title = w->p->title, .field = w->p->field,  /* a static one is magnified */
+                      .scale = w->p->scale > 0 ? w->p->scale : w->p->dynamic,
                       .limits = { w->p->colours[0], w->p->colours[1] } };
     char path[LONGEST], name[100];
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
         note_picture(w, path, scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)));
-    if (w->p->dynamic && map.scale == 0)
-        map.scale = 1;                          /* a static one is magnified */
     snprintf(name, sizeof name, "%.90s.svg", map.field);
     note_picture(w, path, scene_write_map(m, path_of(w, name, path), &map));
+    if (w->row > 0 && (w->p->dynamic || m->par.steps > 1))
+        draw_history(w);
 }
 
 /* -------------------------------------------------------------------------------- Matrix Market */
@@ -380,7 +479,7 @@ static size_t is_ours(const char *name)
 {
     static const char *const all[] = {
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
-        "reactions.csv", "bolts.csv", "contacts.svg", "movie.svg", "model.svg",
+        "reactions.csv", "bolts.csv", "contacts.svg", "movie.svg", "model.svg", "history.svg",
     };
     const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
     const size_t start = strncmp(name, "step_", 5) == 0 ? 5
@@ -470,6 +569,7 @@ int write_open(write_results *w)
     output_keep(&w->history);
     output_keep(&w->summary);
     w->film = (scene){ .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt };
+    w->kept = calloc(ROWS * (MONITORS + 2 * (size_t)w->p->monitors), sizeof *w->kept);
     return 1;
 }
 
@@ -479,9 +579,11 @@ int write_step(write_results *w, int step)
     const model *p = w->p;
 
     w->step = step;
+    if (step > (ROWS - 1) << w->halved)
+        halve(w);
+    w->row = step ? 1 + (step - 1) / (1 << w->halved) : 0;
     put_history(w);
-    if (step > 0)
-        put_summary(w);
+    put_summary(w);
     if (p->svg && p->dynamic && (p->every == 0 || step % p->every == 0))
         scene_record(&w->film, p->m);
     if (p->vtk && p->every && step % p->every == 0)
@@ -513,6 +615,7 @@ int write_close(write_results *w)
     if (p->svg)
         draw_pictures(w);
     scene_free(&w->film);
+    free(w->kept);
     w->writing += clock() - start;
     write_file(w, path_of(w, "timing.csv", path), put_timing);
     return leave_folder(w);

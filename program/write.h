@@ -25,6 +25,8 @@ typedef struct {
     output history, summary;
     FILE *lock;                         /* of the folder */
     scene film;
+    double *kept;                       /* [columns][ROWS] for history.svg, or NULL: no memory */
+    int row, halved;                    /* of it: the present one; how often half of them went */
     int matrix_done, step;              /* step: the last one that has its rows */
     clock_t reading, start, writing;    /* CPU time: of reading, at the start, of writing        */
     int status;                         /* 0, or 1 after a message */

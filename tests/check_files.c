@@ -200,7 +200,7 @@ END_TEST
     "gravity 0 -9.81\ncontact friction 5\nvelocity block 1 0\n" \
     "dynamic dt 0.01 steps " steps "\nmonitor p node 5\noutput every 2 svg vtk\n"
 
-static const char *const pictures[] = { "contacts.svg", "movie.svg", "mises.svg" };
+static const char *const pictures[] = { "contacts.svg", "movie.svg", "mises.svg", "history.svg" };
 static const char *const tables[] = { "nodes.csv", "elements.csv", "history.csv", "summary.csv",
                                       "timing.csv" };
 
@@ -230,7 +230,7 @@ START_TEST(a_picture_that_cannot_be_made_is_said_and_costs_nothing_else)
     snprintf(text, sizeof text, "out/model/picture/%s cannot be written: Is a directory",
              pictures[_i]);
     check_text("out/model/picture.err", text);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
         snprintf(path, sizeof path, "out/model/picture/%s", pictures[k]);
         ck_assert(is_there(path));
     }
@@ -448,7 +448,7 @@ START_TEST(an_interrupted_run_keeps_what_it_has_computed)
              "until then is in out/model/long\n", step, step / 1000);
     ck_assert_msg(strstr(said, text) != NULL, "%s, not %s", said, text);
     ck_relative(cell("long", "nodes.csv", "2,b", "u"), step / 1000, 1e-9);
-    ck_assert(is_there("out/model/long/movie.svg"));
+    ck_assert(is_there("out/model/long/movie.svg") && is_there("out/model/long/history.svg"));
 }
 END_TEST
 
@@ -518,75 +518,35 @@ START_TEST(a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else)
     /* A run without pictures leaves none of an earlier one beside its tables. */
     ck_assert_int_eq(shell("sed -i /^output/d out/model/again.model; %s/bbm -q "
                            "out/model/again.model -o out/model/again", BUILD), 0);
-    ck_assert(!is_there("out/model/again/movie.svg")
+    ck_assert(!is_there("out/model/again/movie.svg") && !is_there("out/model/again/history.svg")
               && !is_there("out/model/again/step_000010.vtk"));
 }
 END_TEST
 
 /* ------------------------------------------------------------ what the file leaves out, is said */
 
-START_TEST(contacts_are_as_stiff_as_the_softest_material_that_is_not_fixed)
+/* E t = 1e19, 5e9, 1e9 x 2; the first says "rigid". */
+#define STACK(fixed, contact) \
+    "material rigid E 1e19 nu 0.2 density 2500\nmaterial rock E 5e9 nu 0.2 density 2500\n" \
+    "material clay E 1e9 nu 0.2 density 2000 thickness 2\n" \
+    "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 0 2\nnode 6 1 2\nnode 7 0 3\n" \
+    "node 8 1 3\nelement 1 base rigid 1 2 3 4\nelement 2 a rock 4 3 6 5\nelement 3 b clay 5 6 8 7\n" \
+    "gravity 0 -10\ndynamic dt 0.01 steps 5 settle 5\n" fixed "contact friction 30 " contact
+
+/* Contacts are 50 E t stiff, and 0.4 of it, by the softest material that is not fixed, or of all; `settle 0` is none. */
+START_TEST(what_is_left_out_has_its_default)
 {
-    /* E t = 1e19, 5e9, 1e9 x 2; the first says "rigid". */
-    static const char text[] =
-        "material rigid E 1e19 nu 0.2 density 2500\nmaterial rock E 5e9 nu 0.2 density 2500\n"
-        "material clay E 1e9 nu 0.2 density 2000 thickness 2\n"
-        "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nnode 5 0 2\nnode 6 1 2\nnode 7 0 3\n"
-        "node 8 1 3\nelement 1 base rigid 1 2 3 4\nelement 2 a rock 4 3 6 5\nelement 3 b clay 5 6 8 7\n"
-        "%s gravity 0 -10\ndynamic dt 0.01 steps 5 settle 5\ncontact friction 30 %s\n";
-    static const struct { const char *fixed, *stiffness; } call[] = {
-        { "fixblock base\n", "kn 1e11 ks 4e10" },               /* 50 E t, and 0.4 of it */
-        { "fixblock base\nfixblock b\n", "kn 2.5e11 ks 1e11" },
-        { "fixblock base\nfixblock b\nfixblock a\n", "kn 1e11 ks 4e10" },      /* the softest of all */
+    static const char *const same[][2] = {
+        { STACK("fixblock base\n", ""), STACK("fixblock base\n", "kn 1e11 ks 4e10") },
+        { STACK("fixblock base\nfixblock b\n", ""), STACK("fixblock base\nfixblock b\n", "kn 2.5e11 ks 1e11") },
+        { STACK("fixblock base\nfixblock b\nfixblock a\n", ""),
+          STACK("fixblock base\nfixblock b\nfixblock a\n", "kn 1e11 ks 4e10") },
+        { SLIDE("10"), SLIDE("10 settle 0") },
     };
-    char model[LONG];
 
-    for (int k = 0; k < 3; k++) {
-        snprintf(model, sizeof model, text, call[k].fixed, "");
-        ck_assert_int_eq(run_text("left", model), 0);
-        snprintf(model, sizeof model, text, call[k].fixed, call[k].stiffness);
-        ck_assert_int_eq(run_text("given", model), 0);
-        ck_assert_int_eq(shell("cmp out/model/left/nodes.csv out/model/given/nodes.csv"), 0);
-    }
-}
-END_TEST
-
-START_TEST(settle_0_is_none)
-{
-    ck_assert_int_eq(run_text("unsettled", SLIDE("10")), 0);
-    ck_assert_int_eq(run_text("zero", SLIDE("10 settle 0")), 0);
-    ck_assert_int_eq(shell("cmp out/model/unsettled/history.csv out/model/zero/history.csv"), 0);
-}
-END_TEST
-
-START_TEST(what_is_hardly_meant_is_a_warning)
-{
-    static const char fall[] = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
-        "gravity 0 -10\n%sdynamic dt 0.01 steps 2\n";
-    static const char two[] = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\n"
-        "element 1 a steel 1 2 3\nelement 2 b steel 1 3 4\nfixblock a\n"
-        "gravity 0 -10\n%sdynamic dt 0.01 steps 2\n";
-    static const char falls[] = "out/model/warn.model: warning: nothing is fixed: under gravity all "
-        "blocks fall; fixblock or fix holds them\n";
-    static const char slips[] = "out/model/warn.model: warning: no friction between blocks: "
-        "`contact friction DEGREES` gives it\n";
-    static const char rod[] = STEEL "grid rod steel 0 0 10 0.5 20 1\nfix set rod.left\nstatic\n"
-        "load set rod.right 0 %s\n";             /* turns by P L^2/(2 E I): 0.05, 0.19 */
-    static const char turns[] = "out/model/warn.model: warning: elements turn by more than 0.1 rad, "
-        "which statics takes as small: lengths are wrong; dynamic with velocity_factor 0 has them right\n";
-    const struct { const char *text, *more, *said; } call[] = {
-        { rod, "1e6", "" }, { rod, "4e6", turns },
-        { fall, "", falls }, { fall, "fix node 1\n", "" }, { fall, "fixblock b\n", "" },
-        { two, "", slips }, { two, "contact kn 1e9\n", slips }, { two, "contact friction 0\n", "" },
-        { two, "contact friction 30\n", "" }, { two, "contact kn 0\n", "" },
-    };
-    char model[LONG], said[LONG];
-
-    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
-        snprintf(model, sizeof model, call[k].text, call[k].more);
-        ck_assert_int_eq(run_text("warn", model), 0);
-        ck_assert_str_eq(slurp("out/model/warn.err", said), call[k].said);
-    }
+    ck_assert_int_eq(run_text("left", same[_i][0]), 0);
+    ck_assert_int_eq(run_text("given", same[_i][1]), 0);
+    ck_assert_int_eq(shell("cd out/model; cmp left/nodes.csv given/nodes.csv && cmp left/history.csv given/history.csv"), 0);
 }
 END_TEST
 
@@ -700,7 +660,7 @@ Suite *files_suite(void)
     tcase_add_test(t, a_closed_pipe_is_status_1);
     tcase_add_test(t, a_file_that_is_cut_off_never_stands_under_its_name);
     tcase_add_test(t, a_file_without_end_is_refused);
-    tcase_add_loop_test(t, a_picture_that_cannot_be_made_is_said_and_costs_nothing_else, 0, 3);
+    tcase_add_loop_test(t, a_picture_that_cannot_be_made_is_said_and_costs_nothing_else, 0, 4);
     tcase_add_test(t, a_picture_of_an_experiment_or_stdout_that_cannot_be_made_costs_no_results);
     tcase_add_loop_test(t, without_memory_a_run_says_so_at_every_allocation, 0, 3);
     tcase_add_test(t, without_memory_an_experiment_says_so);
@@ -708,9 +668,7 @@ Suite *files_suite(void)
     tcase_add_test(t, a_second_signal_ends_a_run_at_once_and_the_next_run_removes_what_it_left);
     tcase_add_test(t, a_second_run_in_the_same_folder_is_refused_and_disturbs_nothing);
     tcase_add_test(t, a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else);
-    tcase_add_test(t, contacts_are_as_stiff_as_the_softest_material_that_is_not_fixed);
-    tcase_add_test(t, settle_0_is_none);
-    tcase_add_test(t, what_is_hardly_meant_is_a_warning);
+    tcase_add_loop_test(t, what_is_left_out_has_its_default, 0, 4);
     tcase_add_test(t, a_run_that_fails_says_at_which_step_and_what_the_library_says);
     tcase_add_test(t, what_the_shipped_models_leave_is_nothing_for_git);
     t = new_case(s, "library");

@@ -145,7 +145,7 @@ static void check_places(const char *path, const char *text)
     for (const char *s = strstr(text, "<clipPath"); s; s = strstr(s + 1, "<"))
         if (strncmp(s, "<animate attributeName=\"d\"", 26) == 0)
             check_path(path, strstr(s, " values=\"") + 9, frame, n);
-        else if (strncmp(s, "<path", 5) == 0 && (has(s, "fill=\"#") || has(s, "stroke-linejoin")))
+        else if (strncmp(s, "<path stroke-width", 18) == 0 || (strncmp(s, "<path", 5) == 0 && has(s, "fill=\"#")))
             check_path(path, path_of(s), frame, n);
 }
 
@@ -333,44 +333,29 @@ END_TEST
 #define FALL STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n" \
     "velocity b 1 0\noutput svg\n"
 
-START_TEST(a_picture_says_the_time_that_it_shows)
+START_TEST(a_picture_says_its_title_and_the_time_that_it_shows)
 {
-    static const struct { const char *dynamic, *said; } call[] = {
+    static const struct { const char *model, *said; } call[] = {
         { "dynamic dt 0.015 steps 100\n", ">t = 1.5 s<" },
         { "dynamic dt 0.5 steps 2\n", ">t = 1 s<" },
         { "dynamic dt 0.001 steps 1234\n", ">t = 1.234 s<" },
         { "dynamic dt 1e-4 steps 3\n", ">t = 0.0003 s<" },
-    };
-    char model[LONG];
-
-    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
-        snprintf(model, sizeof model, FALL "%s", call[k].dynamic);
-        ck_assert_int_eq(run_text("time", model), 0);
-        check_text("out/model/time/mises.svg", call[k].said);
-        check_text("out/model/time/contacts.svg", call[k].said);
-    }
-    check_text("out/model/time/movie.svg", ">0.00015 × real speed<");   /* 3e-4 s in 3/9 of 6 s */
-}
-END_TEST
-
-START_TEST(a_title_with_other_letters_is_right)
-{
-    static const struct { const char *title, *drawn; } call[] = {
-        { "Böschung, 坡", ">Böschung, 坡<" },
-        { "B\xF6schung", ">B&#246;schung<" },               /* Latin-1 */
-        { "a < b & c > d", ">a &#60; b &#38; c &#62; d<" },
+        { "dynamic dt 0.1 steps 2\ntitle Böschung, 坡\n", ">Böschung, 坡<" },
+        { "dynamic dt 0.1 steps 2\ntitle B\xF6schung\n", ">B&#246;schung<" },      /* Latin-1 */
+        { "dynamic dt 0.1 steps 2\ntitle a < b & c > d\n", ">a &#60; b &#38; c &#62; d<" },
         /* Half a pair and a slash that is too long are no UTF-8. */
-        { "\xED\xA0\x80\xC0\xAF", ">&#237;&#160;&#192;&#175;<" },
+        { "dynamic dt 0.1 steps 2\ntitle \xED\xA0\x80\xC0\xAF\n", ">&#237;&#160;&#192;&#175;<" },
     };
     char model[LONG];
 
-    for (size_t k = 0; k < sizeof call / sizeof *call; k++) {
-        snprintf(model, sizeof model, FALL "dynamic dt 0.1 steps 2\ntitle %s\n", call[k].title);
-        ck_assert_int_eq(run_text("title", model), 0);
-        check_text("out/model/title/contacts.svg", call[k].drawn);
-        check_text("out/model/title/movie.svg", call[k].drawn);
-        check_text("out/model/title/mises.svg", call[k].drawn);
-    }
+    snprintf(model, sizeof model, FALL "%s", call[_i].model);
+    ck_assert_int_eq(run_text("titled", model), 0);
+    check_text("out/model/titled/mises.svg", call[_i].said);
+    check_text("out/model/titled/contacts.svg", call[_i].said);
+    for (int k = 0; k < 2 && _i > 3; k++)
+        check_text(k ? "out/model/titled/movie.svg" : "out/model/titled/history.svg", call[_i].said);
+    if (_i == 3)
+        check_text("out/model/titled/movie.svg", ">0.00015 × real speed<");   /* 3e-4 s in 3/9 of 6 s */
 }
 END_TEST
 
@@ -390,10 +375,10 @@ static int count(const char *model, const char *what)
 
 START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
 {
-    static const struct { const char *model; int hatched, fixed, roller, load; } drawn[] = {
-        { "exp1", 0, 1, 0, 1 }, { "exp2", 0, 0, 1, 1 }, { "exp3", 1, 0, 0, 1 },
-        { "dam", 0, 1, 1, 1 }, { "disc", 0, 1, 1, 1 },
-        { "incline", 1, 0, 0, 0 }, { "arch", 2, 0, 0, 0 },
+    static const struct { const char *model; int hatched, fixed, roller, load, locked, sliding; } drawn[] = {
+        { "exp1", 0, 1, 0, 1, 0, 0 }, { "exp2", 0, 0, 1, 1, 0, 0 }, { "exp3", 1, 0, 0, 1, 0, 1 },
+        { "dam", 0, 1, 1, 1, 1, 0 }, { "disc", 0, 1, 1, 1, 0, 0 },
+        { "incline", 1, 0, 0, 0, 0, 1 }, { "arch", 2, 0, 0, 0, 1, 0 },
     };
 
     for (size_t k = 0; k < sizeof drawn / sizeof *drawn; k++) {
@@ -402,7 +387,85 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
         ck_assert_int_eq(count(name, ">fixed point<"), drawn[k].fixed);
         ck_assert_int_eq(count(name, ">fixed in one direction<"), drawn[k].roller);
         ck_assert_int_eq(count(name, ">load "), drawn[k].load);
+        ck_assert_int_eq(count(name, "N, locked<"), drawn[k].locked);
+        ck_assert_int_eq(count(name, "N, sliding<"), drawn[k].sliding);
+        ck_assert_int_eq(count(name, ">contact force "), drawn[k].locked + drawn[k].sliding);
     }
+    /* 4.268 m of water on 4.334 m of a side of 5 m have the force and the moment of w (4.192 - 4.685 s): most at the
+     * Gauss point s = 0.0694. */
+    ck_assert_int_eq(count("water", ">load 37.9 kN/m<"), 1);
+}
+END_TEST
+
+/* The ends of a path's first and last lines, in order; the number of its points. */
+static int find_ends(const char *s, point *first, point *last)
+{
+    const char *d = path_of(s);
+    point p = { 0, 0 };
+    int n = 0;
+
+    for (int new; next_point(&d, &p, &new); *last = p)
+        *first = n++ ? *first : p;
+    return n;
+}
+
+/* A square of 39 kN that is loaded above its left corner by as much again: the corners carry 58.5 and
+ * 19.5 kN. Turned round it hangs from bonded contacts. The widest arrow has 6 pixels; two digits. */
+START_TEST(an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner)
+{
+    static const char *const load[] = { "gravity 0 -10\nload at 0 1 of b 0 -39000\ncontact friction 30\n",
+                                        "gravity 0 10\nload at 0 1 of b 0 39000\ncontact friction 30 tension 1e9\n" };
+    double width[2] = { 0, 0 };
+    char model[LONG];
+
+    snprintf(model, sizeof model, "material steel E 2e11 nu 0 density 3900\nblock table steel -1 -1 2 -1 2 0 -1 0\n"
+             "block b steel 0 0 1 0 1 1 0 1\nfixblock table\ndynamic dt 0.01 steps 2 settle 50\noutput svg\n%s",
+             load[_i]);
+    ck_assert_int_eq(run_text("carried", model), 0);
+    char *text = read_all("out/model/carried/contacts.svg");
+    const char *s = strstr(strstr(text, "<clipPath"), "marker-start"), *block = strstr(text, "<path fill=\"#");
+    for (int k = 0; k < 2; k++) {
+        point a, b, p = { 0, 0 };
+        int new, found = 0;
+        s = strstr(s + 1, "<path");
+        ck_assert_int_eq(find_ends(s, &a, &b), 2);
+        width[k] = attribute(s, "stroke-width");
+        for (const char *d = path_of(block); next_point(&d, &p, &new); )
+            found |= hypot(p.x - (a.x + b.x) / 2, p.y - (a.y + b.y) / 2) < 0.1;
+        ck_assert_msg(found, "the middle of arrow %d is no corner", k);
+    }
+    ck_near(fmax(width[0], width[1]), 6, 6, 0.01);
+    ck_near(fmin(width[0], width[1]), 2, 6, 0.01);
+    free(text);
+    check_text("out/model/carried/contacts.svg",
+               _i ? ">contact force 58.5 kN, pulling<" : ">contact force 58.5 kN, locked<");
+}
+END_TEST
+
+/* u = t: the curve ends in the middle of its band, whose height is a fifth of the way. Every fourth
+ * step of 3001 has a point, and the last one. */
+START_TEST(the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end)
+{
+    static const char *const said[] = { ">p<", ">u<", ">v<", ">u expected<", ">to stay<", ">Energies<", ">kinetic<",
+        ">elastic<", ">springs<", ">external<", ">gained<", ">passes of a step, at most<" };
+    point first, last, low, high;
+
+    ck_assert_int_eq(run_text("told", FALL "dynamic dt 0.0005 steps 3001\nmonitor p node 2\n"
+                              "expect p u 1.5 within 0.15\nexpect p stays by 2\n"), 0);
+    char *text = read_all("out/model/told/history.svg"), *s = strstr(text, "stroke-width=\"1.8\"");
+    for (size_t k = 0; k < sizeof said / sizeof *said; k++)
+        ck_assert_msg(strstr(text, said[k]), "no %s", said[k]);
+    ck_assert_int_eq(find_ends(strstr(s, "<path"), &first, &last), 752);
+    ck_assert_int_eq(find_ends(strstr(strstr(s, "stroke-width=\"0.6\""), "<path"), &low, &high), 4);
+    ck_near((low.y + high.y) / 2, last.y, fabs(last.y - first.y), 0.002);
+    ck_near((low.y - high.y) / (first.y - last.y), 0.2, 1, 0.002);
+    ck_near(high.x, first.x, last.x - first.x, 1e-3);
+    free(text);
+    ck_assert_int_eq(run_text("told", FALL "dynamic dt 0.1 steps 2\n"), 0);
+    text = read_all("out/model/told/history.svg");
+    ck_assert(!strstr(text, "displacement") && strstr(text, ">Energies<"));
+    free(text);                         /* statics of several steps, and of one */
+    ck_assert_int_eq(shell("cd out/model && [ -f drawn-dam/history.svg ] && ! [ -f drawn-exp1/history.svg ]"), 0);
 }
 END_TEST
 
@@ -424,56 +487,47 @@ START_TEST(a_field_that_is_one_level_has_one_colour_and_large_forces_are_short)
 }
 END_TEST
 
-/* Each row of the table of program/field.c; what an earlier run drew goes. */
-START_TEST(each_field_is_drawn_under_its_name_with_its_unit)
+/* Each row of the table of program/field.c, in colours of its own range or of one that is asked for; what an earlier run
+ * drew goes. */
+START_TEST(each_field_is_drawn_under_its_name_with_its_unit_and_range)
 {
-    static const struct { const char *name, *label; } shown[] = {
-        { "u", ">u [m], " }, { "v", ">v [m], " }, { "rotation", ">rotation [rad], " },
-        { "sxx", ">sxx [" }, { "syy", ">syy [" }, { "sxy", ">sxy [" },
-        { "mises", ">von Mises stress [" }, { "s1", ">s1 [" }, { "s2", ">s2 [" },
-        { "vx", ">vx [m/s], " }, { "vy", ">vy [m/s], " }, { "spin", ">spin [rad/s], " },
+    static const struct { const char *field, *said; int status; } shown[] = {
+        { "u", ">u [m], ", 0 }, { "v", ">v [m], ", 0 }, { "rotation", ">rotation [rad], ", 0 },
+        { "sxx", ">sxx [Pa], from ", 0 }, { "syy", ">syy [", 0 }, { "sxy", ">sxy [", 0 },
+        { "mises", ">von Mises stress [", 0 }, { "s1", ">s1 [", 0 }, { "s2", ">s2 [", 0 },
+        { "vx", ">vx [m/s], ", 0 }, { "vy", ">vy [m/s], ", 0 }, { "spin", ">spin [rad/s], ", 0 },
+        { "sxx low -2e6 high 3e6", ">sxx [MPa], from 0.007 to ", 0 }, { "u low 3", "colours from 3 to 0", 2 },
+        { "u low 3 high 3", "colours from 3 to 3, expected low below high", 2 },
     };
     char model[LONG], path[100];
 
     snprintf(model, sizeof model, STEEL "grid a steel 0 0 2 1 2 1\nvelocity a 3 4 2\n"
-             "dynamic dt 0.1 steps 2\noutput svg field %s\n", shown[_i].name);
-    ck_assert_int_eq(shell("mkdir -p out/model/shown; touch out/model/shown/spin.svg "
+             "dynamic dt 0.1 steps 2\noutput svg field %s\n", shown[_i].field);
+    ck_assert_int_eq(shell("rm -rf out/model/shown; mkdir -p out/model/shown; touch out/model/shown/spin.svg "
                            "out/model/shown/s1.svg"), 0);
     write_text("out/model/shown.model", model);
-    ck_assert_int_eq(shell("%s/bbm -q out/model/shown.model -o out/model/shown 2> out/model/said",
-                           BUILD), 0);
-    snprintf(path, sizeof path, "out/model/shown/%s.svg", shown[_i].name);
-    check_text(path, shown[_i].label);
-    ck_assert_int_eq(shell("[ $(ls out/model/shown/*.svg | wc -l) = 3 ]"), 0);
-}
-END_TEST
-
-/* Values of 2 kPa in colours from -2 to 3 MPa, whose unit the bar has; beyond them it tells the extremes. */
-START_TEST(colours_have_the_range_that_is_asked_for)
-{
-    static const struct { const char *range, *said; int status; } call[] = {
-        { "low -2e6 high 3e6", ">sxx [MPa], from 0.00", 0 }, { "", ">sxx [Pa], from ", 0 },
-        { "low 3 high 3", "colours from 3 to 3, expected low below high", 2 }, { "low 3", "colours from 3 to 0", 2 },
-    };
-    char model[LONG];
-
-    snprintf(model, sizeof model, STEEL "grid a steel 0 0 2 1 2 1\nfix set a.left\nload set a.right 1e3 0\nstatic\n"
-             "output svg field sxx %s\n", call[_i].range);
-    ck_assert_int_eq(run_text("range", model), call[_i].status);
-    check_text(_i < 2 ? "out/model/range/sxx.svg" : "out/model/range.err", call[_i].said);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/shown.model -o out/model/shown 2> out/model/said", BUILD),
+                     shown[_i].status);
+    snprintf(path, sizeof path, "out/model/shown/%.*s.svg", (int)strcspn(shown[_i].field, " "), shown[_i].field);
+    check_text(shown[_i].status ? "out/model/said" : path, shown[_i].said);
+    ck_assert_int_eq(shell("[ $(ls out/model/shown/*.svg | wc -l) = %d ]", shown[_i].status ? 2 : 4), 0);
 }
 END_TEST
 
 /* In a block that turns, a corner that one element has is the fastest, and the slowest, of all. */
 START_TEST(a_field_of_elements_is_their_mean_at_a_node)
 {
-    double from = 0, to = 0;
+    static const char *const column[] = { "vx", "vy", "spin" };
+    double from = 0, to = 0, mean[] = { 3, 4, 2 };
 
     ck_assert_int_eq(run_text("turned", STEEL "grid a steel 0 0 2 1 4 2\nvelocity a 3 4 2\n"
                               "dynamic dt 0.1 steps 2\noutput svg field vx\n"), 0);
     char *text = read_all("out/model/turned/vx.svg"), *range = strstr(text, "vx [m/s], from ");
     ck_assert_ptr_nonnull(range);
     ck_assert_int_eq(sscanf(range, "vx [m/s], from %lf to %lf", &from, &to), 2);
+    for (int k = 0; k < 3; k++)         /* of opposite elements; the bonds swing by 1e-5 */
+        ck_relative((cell("turned", "elements.csv", "1,", column[k]) + cell("turned", "elements.csv", "8,", column[k])) / 2,
+                    mean[k], 1e-4);
     ck_relative(from, cell("turned", "elements.csv", "8,", "vx"), 1e-3); /* it has four digits */
     ck_relative(to, cell("turned", "elements.csv", "1,", "vx"), 1e-3);
     free(text);
@@ -545,11 +599,11 @@ Suite *pictures_suite(void)
     tcase_add_test(t, pictures_are_well_formed_and_all_is_inside_and_no_texts_touch);
     tcase_add_loop_test(t, the_numbers_of_axes_do_not_touch, 0, 5);
     tcase_add_loop_test(t, no_element_is_turned_over_by_magnified_displacements, 0, 2);
-    tcase_add_test(t, a_picture_says_the_time_that_it_shows);
-    tcase_add_test(t, a_title_with_other_letters_is_right);
+    tcase_add_loop_test(t, a_picture_says_its_title_and_the_time_that_it_shows, 0, 8);
+    tcase_add_loop_test(t, an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner, 0, 2);
+    tcase_add_test(t, the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end);
     tcase_add_test(t, a_field_that_is_one_level_has_one_colour_and_large_forces_are_short);
-    tcase_add_loop_test(t, colours_have_the_range_that_is_asked_for, 0, 4);
-    tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit, 0, 12);
+    tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit_and_range, 0, 15);
     tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);

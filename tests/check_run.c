@@ -35,6 +35,7 @@ static const struct { const char *file, *first; int rows; } written[] = {
     { "timing.csv", "phase,seconds", 7 },
     { "contacts.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>", -1 },
     { "movie.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>", -1 },
+    { "history.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>", -1 },
     { "s1.svg", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>", -1 },
     { "step_000000.vtk", "# vtk DataFile Version 3.0", -1 },
     { "step_000001.vtk", "# vtk DataFile Version 3.0", -1 },

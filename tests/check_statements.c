@@ -244,16 +244,6 @@ START_TEST(contacts_and_reactions_carry_the_weight)
 }
 END_TEST
 
-START_TEST(a_slide_has_its_velocities)
-{
-    ck_assert_int_eq(run_text("thrown", ROCK "block a rock 0 0 1 0 1 1 0 1\nvelocity a 3 4 0.5\n"
-                              "dynamic dt 0.01 steps 10\n"), 0);
-    ck_relative(cell("thrown", "elements.csv", "1,", "vx"), 3, 1e-9);
-    ck_relative(cell("thrown", "elements.csv", "1,", "vy"), 4, 1e-9);
-    ck_relative(cell("thrown", "elements.csv", "1,", "spin"), 0.5, 1e-6);
-}
-END_TEST
-
 /* A shipped model with other numbers; the exit status. */
 static int run_with(const char *model, const char *lets)
 {
@@ -339,7 +329,17 @@ END_TEST
 
 /* What runs, and is hardly meant: the line that takes the place of one of these, and what is said. */
 #define TWO ROCK "block base rock 0 0 10 0 10 1 0 1\nfixblock base\n"
+#define FALLS "block b rock 0 0 1 0 1 1\ngravity 0 -10\ndynamic dt 0.01 steps 2\n" ROCK
+#define PAIR FALLS "block c rock 0 0 1 1 0 1\nfixblock b\n"
+#define ROD "material a E 2e11 nu 0.3 density 7800 thickness 0.5\ngrid rod a 0 0 10 0.5 20 1\nfix set rod.left\nstatic\n"
+static const char slips[] = "warning: no friction between blocks: `contact friction DEGREES` gives it";
 static const struct { const char *text, *said; } doubtful[] = {
+    { FALLS, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds them" }, { FALLS "fix at 0 0\n", NULL },
+    { FALLS "fixblock b\n", NULL }, { PAIR, slips }, { PAIR "contact kn 1e9\n", slips }, { PAIR "contact friction 0\n", NULL },
+    { PAIR "contact friction 30\n", NULL }, { PAIR "contact kn 0\n", NULL },
+    /* turns by P L^2/(2 E I): 0.05, 0.19 */
+    { ROD "load set rod.right 0 1e6\n", NULL }, { ROD "load set rod.right 0 4e6\n", "elements turn by more than 0.1 rad, "
+      "which statics takes as small: lengths are wrong; dynamic with velocity_factor 0 has them right" },
     { TWO "block stone rock 4 1.001 5 1.001 5 2 4 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n",
       "block 'stone' touches nothing that is held: it falls; between it and block 'base' there is a gap of 0.001 m" },
     { TWO "block a rock 4 3 5 3 5 4 4 4\nblock b rock 5 3 6 3 6 4 5 4\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\n"
@@ -372,9 +372,10 @@ START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
 {
     char said[LONG];
 
-    run_text("doubtful", doubtful[_i].text);
-    const char *at = strstr(slurp("out/model/doubtful.err", said), doubtful[_i].said);
-    ck_assert_msg(at && strchr(at, '\n') && strchr(at, '\n')[1] == '\0' && strncmp(said, "out/model/doubtful.model:", 25) == 0,
+    const int status = run_text("doubtful", doubtful[_i].text);
+    slurp("out/model/doubtful.err", said);
+    const char *at = doubtful[_i].said ? strstr(said, doubtful[_i].said) : NULL;
+    ck_assert_msg(!doubtful[_i].said ? status == 0 && !*said : at && strchr(at, '\n') && strchr(at, '\n')[1] == '\0' && strncmp(said, "out/model/doubtful.model:", 25) == 0,
                   "%s", said);
     const char *same = strstr(said, "same places");
     ck_assert(!same || !strstr(same + 1, "same places"));
@@ -626,7 +627,6 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 2);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
-    tcase_add_test(t, a_slide_has_its_velocities);
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
     tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0,
                         sizeof limits / sizeof *limits);
