@@ -225,8 +225,8 @@ static void compare_files(const char *one, const char *other)
 
 START_TEST(two_runs_write_the_same_digits)
 {
-    compare_files("out/exp1/results.csv", "out/again/out/exp1/results.csv");
-    compare_files("out/exp1/fig13.svg", "out/again/out/exp1/fig13.svg");
+    compare_files("out/exp2/results.csv", "out/again/out/exp2/results.csv");
+    compare_files("out/exp2/fig15.svg", "out/again/out/exp2/fig15.svg");
 }
 END_TEST
 

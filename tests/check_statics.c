@@ -154,7 +154,7 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
 }
 END_TEST
 
-/* Three by four bricks at seventeen tilts, 31 to 55 degrees. Sooner or later friction would wedge
+/* Three by four bricks at six tilts, 31 to 54 degrees. Sooner or later friction would wedge
  * one in. */
 START_TEST(a_contact_that_no_friction_holds_opens)
 {
@@ -171,7 +171,7 @@ START_TEST(a_contact_that_no_friction_holds_opens)
     m->par.dt = 0.01;
     m->par.p_n = 5e12;
     m->par.p_s = 2e12;
-    m->par.gravity[0] = -6 - 0.5 * _i;
+    m->par.gravity[0] = -6 - 1.5 * _i;
     ck_ok(bbm_prepare(m), m);
     run_steps(m, 2);
 }
@@ -183,7 +183,7 @@ Suite *statics_suite(void)
     const loop_test e[] = {
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
-        { a_contact_that_no_friction_holds_opens, 17 },
+        { a_contact_that_no_friction_holds_opens, 6 },
     };
 
     add_case(s, "statics", e, COUNT(e));
