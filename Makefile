@@ -108,8 +108,14 @@ $O/figures: $O/doc/figures.o $O/program/plot.o $O/program/output.o $(CORE:%=$O/%
 $O/bbm: $(PROGRAM:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
+# The direct solver that bench compares with, where it is installed; nothing else needs it.
+CHOLMOD_HERE = $(shell mkdir -p out && echo 'int main(void) { return 0; }' > out/none.c && \
+$(CC) -include suitesparse/cholmod.h -o out/none out/none.c -lcholmod 2>/dev/null && echo -DCHOLMOD)
+
+$O/tests/bench.o: override CPPFLAGS += $(CHOLMOD_HERE)
+
 $O/bench: $O/tests/bench.o $O/tests/rock.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(CHOLMOD_HERE:-DCHOLMOD=-lcholmod) -lm
 
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
