@@ -349,8 +349,7 @@ START_TEST(statics_goes_on_where_all_contacts_of_a_block_slide)
     m->par.p_n = 1e11;
     m->par.p_s = 4e10;
     m->par.steps = 5;
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     double N = 0;
     for (int k = 0; k < m->contacts; k++)
         N += m->contact[k].N;

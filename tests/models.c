@@ -346,8 +346,21 @@ void list_middles(bbm_model *m)
             memset(m->gap[g].own.W, 0, sizeof m->gap[g].own.W);
 }
 
+void prepare(bbm_model *m)
+{
+    if (!m->is_prepared)
+        ck_ok(bbm_prepare(m), m);
+}
+
+void run(bbm_model *m)
+{
+    prepare(m);
+    ck_ok(bbm_run(m), m);
+}
+
 void run_steps(bbm_model *m, int steps)
 {
+    prepare(m);
     for (int i = 0; i < steps; i++)
         ck_ok(bbm_step(m), m);
 }
@@ -363,6 +376,7 @@ void settle(bbm_model *m, int steps)
 
 void set_velocity(bbm_model *m, int element, double vx, double vy)
 {
+    prepare(m);
     m->element[element].V[0] = vx;
     m->element[element].V[1] = vy;
 }
@@ -507,6 +521,7 @@ void add_outline(bbm_model *m, int block, const outline *o, int strip)
 
 void detect(bbm_model *m)
 {
+    prepare(m);
     m->h = m->par.dt;
     bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
@@ -607,6 +622,7 @@ bbm_contact *list_contacts(const bbm_model *m, int *n)
 
 bbm_contact *start_step(bbm_model *m, int *n)
 {
+    prepare(m);
     m->h = m->par.dt;
     bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
