@@ -42,7 +42,7 @@ PROGRAMS = check_cases check_model check_statements check_moving check_files che
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \
            check_entrance check_open_close check_sliding check_joints check_blocks check_repeat check_solver \
            check_coarse check_beyond check_motion check_bars check_statics check_refused \
-           check_theory check_equations check_run check_impact
+           check_theory check_run check_impact
 SHARING  = models shapes systems programs
 HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h page/*.h tests/*.h)
 O        = out/build
@@ -235,12 +235,21 @@ $O/musl/page_native: tests/page_native.c $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(HEADER
 	@mkdir -p $(@D)
 	musl-gcc $(STRICT) -O2 -o $@ $(filter %.c,$^) -lm
 
-# The figures of the documents, their commands and what these print.
+# The figures of the documents, the names in them, the table of the equations, the commands and what
+# these print.
+HOUSE = grep -ohE '[a-z0-9]+(_[a-z0-9]+)+' doc/house.svg
+
 check-documents: $O/figures $O/bbm experiments
 	@rm -rf $O/drawn && mkdir $O/drawn && $O/figures $O/drawn && diff -r $O/drawn doc/figures || \
 	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
 	@for f in $$(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do \
 	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
+	@[ $$($(HOUSE) | wc -l) -gt 30 ] && for w in $$($(HOUSE)); do \
+	grep -qw $$w bbm.h bbm.c contact.c solver.c base/base.h base/build.c beyond/beyond.c || { echo "doc/house.svg names $$w"; exit 1; }; done
+	@for f in $$(grep -owE '[a-z0-9_]+[.]c' doc/house.svg); do [ -f $$f ] || [ -f base/$$f ] || [ -f beyond/$$f ] || \
+	{ echo "doc/house.svg names $$f"; exit 1; }; done
+	@for f in beyond/*.c; do grep -qw $${f#*/} doc/house.svg || { echo "doc/house.svg lacks $$f"; exit 1; }; done
+	@awk -f tests/equations.awk doc/equations.md *.c */*.c
 	@sed -n '/no error/!s/.*\[BBM_[A-Z_]*\] = "\([^"]*\)".*/\1/p' base/step.c | while read -r text; do \
 	grep -qF -- "- **$$text**" doc/failures.md || { echo "doc/failures.md has no \"$$text\""; exit 1; }; done
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md

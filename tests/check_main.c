@@ -64,7 +64,7 @@ static make_suite *const SUITES[] = {
     blocks_suite, repeat_suite,
     solver_suite, coarse_suite,
     beyond_suite, motion_suite, bars_suite, statics_suite, refused_suite,
-    theory_suite, equations_suite, run_suite, impact_suite,
+    theory_suite, run_suite, impact_suite,
 #endif
 #ifdef CASES
     cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
