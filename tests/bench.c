@@ -1,14 +1,10 @@
 /* bench.c - `make bench`: how long the linear solver takes, what contact costs, and finding the
- * contacts. First an iteration of the paper's SSOR-PCG, then whole solutions of it and on two
- * levels, then quadrilaterals and triangles up to sizes that take seconds, beside CHOLMOD if it is
- * there; then steps of walls, of jointed rock, of a tunnel in it and of blocks that slide, with
- * friction in K and as a load; then how the time to find the contacts grows with the model. What is compared is timed in turn in one run; printed are
- * medians and their ratio, since these survive a busy machine. Solutions and iterations are as many
- * on every machine.
- *
- *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix
- *                                         Market form, so that any other solver can be timed with
- *                                         the same equations
+ * contacts. First solutions by the paper's SSOR-PCG and on two levels, then triangles and
+ * quadrilaterals up to sizes that take seconds, beside CHOLMOD if it is there; then steps of walls,
+ * of jointed rock, of a tunnel in it and of blocks that slide, with friction in K and as a load;
+ * then how the time to find the contacts grows with the model. What is compared is timed in turn in
+ * one run; printed are medians and their ratio, since these survive a busy machine. Solutions and
+ * iterations are as many on every machine.
  *
  * With BENCH_LARGE in the environment CHOLMOD solves the largest model, too.
  */
@@ -25,7 +21,7 @@
 #include "../cases/case.h"
 #include "rock.h"
 
-enum { TURNS = 9, ITERATIONS = 100 };
+enum { TURNS = 9 };
 
 static void place(double i, double j, const void *unused, double xy[2])
 {
@@ -60,37 +56,6 @@ static void touch(bbm_matrix *K)
     case_must(NULL, bbm_matrix_add(K, 0, 0, zero));
 }
 
-/* Seconds of a solve that is cut short after some iterations. */
-static double solve_time(bbm_model *m, int iterations)
-{
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-300, .iterations = iterations };
-    bbm_pcg_info info;
-
-    touch(m->K);
-    const clock_t start = clock();
-    (void)bbm_solve(m->K, m->F, m->D, &pcg, &info);
-    return (double)(clock() - start) / CLOCKS_PER_SEC;
-}
-
-/* Seconds of one iteration: what further iterations add to a solve of one, so that setting up does
- * not count. */
-static double iteration_time(bbm_model *m)
-{
-    const double one = solve_time(m, 1);
-
-    return (solve_time(m, 1 + ITERATIONS) - one) / ITERATIONS;
-}
-
-/* Iterations of a whole solve. */
-static int iterations(bbm_model *m)
-{
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 };
-    bbm_pcg_info info;
-
-    case_must(NULL, bbm_solve(m->K, m->F, m->D, &pcg, &info));
-    return info.iterations;
-}
-
 static int ascending(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -102,21 +67,6 @@ static double median(double v[], int turns)
 {
     qsort(v, (size_t)turns, sizeof *v, ascending);
     return v[turns / 2];
-}
-
-static void print_iteration(void)
-{
-    printf("SSOR-PCG, omega = 1, alpha = 100: microseconds an iteration, medians of %d turns\n\n"
-           "| unknowns | microseconds | iterations to 1e-10 |\n|---|---|---|\n", TURNS);
-    for (int n = 1; n <= 4; n *= 2) {
-        bbm_model *m = beam(24 * n, 6 * n, CELL_CROSSED, 100);
-        double t[TURNS];
-        for (int i = 0; i < TURNS; i++)
-            t[i] = 1e6 * iteration_time(m);
-        printf("| %d | %.1f | %d |\n", 6 * m->elements, median(t, TURNS), iterations(m));
-        fflush(stdout);
-        bbm_model_free(m);
-    }
 }
 
 /* A wall of n x n bricks in running bond. */
@@ -213,8 +163,8 @@ static void print_levels(void)
 
     printf("\nSolutions to 1e-10, SSOR-PCG against two levels; growth is the power of the number of unknowns by which a\n"
            "time grows from the line above\n\n"
-           "| unknowns | alpha | SSOR: iterations | ms | growth | two levels: iterations | ms | growth | ratio |\n"
-           "|---|---|---|---|---|---|---|---|---|\n");
+           "| unknowns | alpha | SSOR: iterations | us each | ms | growth | two levels: iterations | ms | growth | ratio |\n"
+           "|---|---|---|---|---|---|---|---|---|---|\n");
     for (double alpha = 10; alpha <= 1000; alpha *= 10) {
         double last[3] = { 0 };
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
@@ -223,8 +173,8 @@ static void print_levels(void)
             int one, two;
             const double t1 = whole_time(m, NULL, turns, &one), t2 = whole_time(m, &bbm_two_level, TURNS, &two);
             const double by = log(n / last[0]);
-            printf(k ? "| %d | %g | %d | %.1f | %.2f |" : "| %d | %g | %d | %.1f | |", n, alpha, one, t1,
-                   log(t1 / last[1]) / by);
+            printf(k ? "| %d | %g | %d | %.1f | %.1f | %.2f |" : "| %d | %g | %d | %.1f | %.1f | |", n, alpha, one,
+                   1e3 * t1 / one, t1, log(t1 / last[1]) / by);
             printf(k ? " %d | %.1f | %.2f |" : " %d | %.1f | |", two, t2, log(t2 / last[2]) / by);
             printf(" %.1f |\n", t1 / t2);
             fflush(stdout);
@@ -355,7 +305,7 @@ static void print_sizes(void)
         { CELL_ALTERNATING, 158, 1 },
     };
     const double start = resident();
-    double last[2] = { 0 }, most = start;
+    double last[2][2] = { { 0 } }, most = start;
 
     printf("\nSolutions to 1e-10 on two levels, alpha = 100, with the layout of K and all that is made of it; growth as\n"
            "above; in turn with CHOLMOD, supernodal, which analyses, factorizes and solves\n\n"
@@ -365,21 +315,20 @@ static void print_sizes(void)
         bbm_model *m = beam(4 * size[k].rows, size[k].rows, size[k].cut, 100);
         const int turns = size[k].turns, direct = 6 * m->elements < 1000000 || getenv("BENCH_LARGE");
         double ours[TURNS], theirs[TURNS], now = 0, difference = NAN;
-        int count = 0;
+        int count = 0, quads = size[k].cut == CELL_QUADS;
         for (int i = 0; i < turns; i++) {
             ours[i] = anew_time(m, &count);
             now = i == 0 ? resident() : now;
             theirs[i] = direct ? direct_time(m, &difference) : NAN;
         }
         const double t = median(ours, turns), other = median(theirs, turns), n = 6.0 * m->elements;
-        printf("| %s | %.0f | %d | %.1f | ", size[k].cut == CELL_QUADS ? "quadrilaterals" : "triangles",
-               n, count, t);
-        printf(k == 0 || n < last[0] ? "" : "%.2f", log(t / last[1]) / log(n / last[0]));
+        printf("| %s | %.0f | %d | %.1f | ", quads ? "quadrilaterals" : "triangles", n, count, t);
+        printf(last[quads][0] > 0 ? "%.2f" : "", log(t / last[quads][1]) / log(n / last[quads][0]));
         printf(now > most ? " | %.1f |" : " | |", (now - start) / m->elements);
         printf(isnan(other) ? " | | |\n" : " %.1f | %.2f | %.0e |\n", other, other / t, difference);
         most = fmax(most, now);
         fflush(stdout);
-        last[0] = n, last[1] = t;
+        last[quads][0] = n, last[quads][1] = t;
         bbm_model_free(m);
     }
 #ifndef CHOLMOD
@@ -533,44 +482,8 @@ static void print_contact(void)
     }
 }
 
-/* ---------------------------------------------------------------------------- for other solvers */
-
-static void write_block(FILE *f, const bbm_matrix *K, int i, int j)
+int main(void)
 {
-    double B[6][6];
-
-    get_block(K, i, j, B);
-    for (int a = 0; a < 6; a++)
-        for (int b = 0; b < (i == j ? a + 1 : 6); b++)
-            fprintf(f, "%d %d %.17g\n", 6 * i + a + 1, 6 * j + b + 1, B[a][b]);
-}
-
-/* The lower triangle of K. */
-static int write_matrix(const char *file, int rows)
-{
-    bbm_model *m = beam(4 * rows, rows, CELL_ALTERNATING, 100);
-    FILE *f = fopen(file, "w");
-
-    if (!f) {
-        fprintf(stderr, "%s: cannot be written\n", file);
-        return 1;
-    }
-    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %d\n", 6 * m->elements,
-            6 * m->elements, 21 * m->elements + 36 * m->bonds);
-    for (int i = 0; i < m->elements; i++)
-        write_block(f, m->K, i, i);
-    for (int b = 0; b < m->bonds; b++)
-        write_block(f, m->K, m->bond[b].i > m->bond[b].j ? m->bond[b].i : m->bond[b].j,
-                    m->bond[b].i > m->bond[b].j ? m->bond[b].j : m->bond[b].i);
-    bbm_model_free(m);
-    return fclose(f) != 0;
-}
-
-int main(int count, char **argument)
-{
-    if (count == 4 && strcmp(argument[1], "matrix") == 0 && atoi(argument[3]) > 0)
-        return write_matrix(argument[2], atoi(argument[3]));
-    print_iteration();
     print_levels();
     print_sizes();
     print_steps();

@@ -454,7 +454,6 @@ START_TEST(of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle)
             e[tip] = tip ? add_wedge(m, b, at[1], a - radians(askew ? 60 : 20), a + radians(20))
                          : add_wedge(m, b, at[0], a + PI - wide, a + PI + wide);
         }
-        ck_ok(bbm_prepare(m), m);
         const int moves = e[!other_moves];
         set_velocity(m, moves, -2 * way / m->par.dt * cos(a), -2 * way / m->par.dt * sin(a));
         bbm_contact *list = start_step(m, &n);

@@ -240,10 +240,9 @@ START_TEST(stress_is_that_of_the_present_section)
     ck_ok(bbm_fix_node(m, 3, BBM_X, 0, 0), m);
     ck_ok(bbm_add_load(m, 1, 25, 0), m);
     ck_ok(bbm_add_load(m, 2, 25, 0), m);
-    ck_ok(bbm_prepare(m), m);
     m->par.steps = 50;
     m->par.tolerance = 1e-13;
-    ck_ok(bbm_run(m), m);
+    run(m);
     const double h = m->vertex[2].y - m->vertex[1].y;
     ck_assert(h < 0.98);
     ck_relative(m->element[0].stress[0], 50 / (SOLID.thickness * h), SOLVED);
@@ -257,9 +256,8 @@ START_TEST(a_body_without_load_stays_where_it_is)
 
     ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
     ck_ok(bbm_fix_node(m, 1, BBM_Y, 0, 0), m);
-    ck_ok(bbm_prepare(m), m);
     m->par.tolerance = 1e-6;
-    ck_ok(bbm_run(m), m);
+    run(m);
     ck_assert(m->info.step == 1 && m->info.change == 0 && result_at(m, 2).u == 0 &&
               result_at(m, 2).mises == 0);
 }
@@ -330,9 +328,8 @@ START_TEST(without_a_tolerance_a_run_does_all_its_steps_even_at_rest)
 
     ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
     ck_ok(bbm_fix_node(m, 1, BBM_Y, 0, 0), m);
-    ck_ok(bbm_prepare(m), m);
     m->par.steps = 3;
-    ck_ok(bbm_run(m), m);
+    run(m);
     ck_assert(m->info.step == 3 && m->info.t == 0);
 }
 END_TEST
