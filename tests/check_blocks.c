@@ -137,8 +137,7 @@ START_TEST(a_bonded_block_at_rest_has_the_stress_of_its_own_weight)
     ck_ok(bbm_add_material(m, &soft, &material), m);
     m->par.faces = _i;
     m->par.friction = 30;
-    m->par.p_n = 1e10;
-    m->par.p_s = 4e9;
+    set_springs(m, 1e10, 4e9);
     add_table(m, 0);
     const int e = add_rectangle(m, 1, material, (rectangle){ .x = 0, .y = 0, .w = 2, .h = 2,
                                                              .nx = 4, .ny = 4 });
@@ -294,8 +293,7 @@ START_TEST(stiff_blocks_that_hit_keep_both_momenta)
     ck_ok(bbm_add_material(m, &(bbm_material){ 1e12, 0.25, DENSITY, 1 }, &stiff), m);
     m->par.dt = _i % 4 == 3 ? 1e-4 : 2e-5;
     m->par.friction = _i / 4 * 30;
-    m->par.p_n = p_n;
-    m->par.p_s = 0.4 * p_n;
+    set_springs(m, p_n, 0.4 * p_n);
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, stiff, (rectangle){ .x = 1.05 * k - 0.5, .y = 0.3 * k - 0.5, .w = 1,
                                                 .h = 1 });

@@ -458,8 +458,7 @@ START_TEST(rounding_in_a_model_file_does_not_undo_a_contact)
         m->par.gravity[0] = GRAVITY * sin(radians(ANGLES[k]));
         m->par.gravity[1] = -GRAVITY * cos(radians(ANGLES[k]));
         m->par.friction = 30;
-        m->par.p_n = 1e12;
-        m->par.p_s = 4e11;
+        set_springs(m, 1e12, 4e11);
         settle(m, 20);
         ck_assert_int_eq(m->info.contacts, 2);
         ck_relative(normal_force(m, 0, 1), W, 1e-5);

@@ -26,8 +26,7 @@ START_TEST(a_block_rebounds_at_the_velocity_asked_for_whatever_the_step)
 
     for (int k = 0; k < COUNT(Ws); k++) {
         bbm_model *m = hard_blocks(E, friction[_i / 3 % 3]);
-        m->par.p_n = Ws[k] * 5000 / (m->par.dt * m->par.dt);
-        m->par.p_s = 0.4 * m->par.p_n;
+        set_springs(m, Ws[k] * 5000 / (m->par.dt * m->par.dt), 0.4 * m->par.p_n);
         add_table(m, 0);
         add_rectangle(m, 1, ROCK, (rectangle){ -1, 1e-3 + _i / 9 * 3e-3, 2, 1, .fixed = 0 });
         set_velocity(m, 1, 2, -3);

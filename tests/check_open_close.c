@@ -431,8 +431,7 @@ START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
     const double turn = _i < 2 ? 5e-5 : 3e-4;
     bbm_pass pass;
 
-    m->par.p_n = 1e6;
-    m->par.p_s = 1e12;
+    set_springs(m, 1e6, 1e12);
     if (_i >= 2)
         ck_ok(bbm_add_load(m, m->vertex[m->element[1].first].node, 1, 0), m);
     for (int k = 0; k < 3; k++) {

@@ -138,10 +138,7 @@ START_TEST(whichever_allocation_fails_contacts_leave_the_model_fit_to_go_on)
         status = fall(m);
         test_allocations_left = TEST_ALLOCATIONS_UNLIMITED;
         ck_assert(status == BBM_NO_MEMORY || status == BBM_OK);
-        if (status && m->info.step == 0)
-            ck_ok(bbm_prepare(m), m);
-        while (m->info.step < 40)
-            ck_ok(bbm_step(m), m);
+        run_steps(m, 40 - m->info.step);
         ck_assert(same_state(m, reference));
         release(m);
     }
@@ -155,8 +152,7 @@ START_TEST(blocks_prepared_again_in_a_run_keep_holding_each_other)
 {
     bbm_model *m = new_blocks();
 
-    m->par.p_n = 1e7;
-    m->par.p_s = 4e6;
+    set_springs(m, 1e7, 4e6);
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
     settle(m, 60);

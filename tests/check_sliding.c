@@ -197,8 +197,7 @@ START_TEST(a_block_comes_to_rest_against_a_stop_in_statics)
     m->par.dt = INFINITY;
     m->par.velocity_factor = 0;
     m->par.friction = 29;
-    m->par.p_n = 5e11;
-    m->par.p_s = 2e11;
+    set_springs(m, 5e11, 2e11);
     add_rectangle(m, 0, BASE, (rectangle){ -8, -1, 16, 1, 30, .fixed = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ -2, 0, 1, 0.5, 30, .fixed = 1 });
     add_rectangle(m, 2, ROCK, (rectangle){ -1, 0, 1, 1 + _i, 30, .nx = 1 });

@@ -346,6 +346,12 @@ void list_middles(bbm_model *m)
             memset(m->gap[g].own.W, 0, sizeof m->gap[g].own.W);
 }
 
+void set_springs(bbm_model *m, double p_n, double p_s)
+{
+    m->par.p_n = p_n;
+    m->par.p_s = p_s;
+}
+
 void prepare(bbm_model *m)
 {
     if (!m->is_prepared)
@@ -573,8 +579,7 @@ bbm_model *incline(double phi, double p_n, int pieces)
     bbm_model *m = new_blocks();
 
     m->par.friction = phi;
-    m->par.p_n = p_n;
-    m->par.p_s = 0.4 * p_n;
+    set_springs(m, p_n, 0.4 * p_n);
     add_rectangle(m, 0, BASE, (rectangle){ -8, -1, 10, 1, 30, .nx = pieces, .fixed = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ 0.013, 0, 1, 0.5, 30, .fixed = 0 });
     ck_ok(bbm_prepare(m), m);
