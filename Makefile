@@ -1,7 +1,7 @@
 # make           builds the experiments        make check     every test (needs libcheck)
 # make run       runs them: tables, pictures   make quick     the fast ones, and ./bbm once
 # make paper     the paper alone, without beyond/: runs the experiments its way, and the tests of the formulas
-# make bench     solver, friction: ratios      make memcheck  the tests under valgrind
+# make bench     solver, steps: ratios         make memcheck  the tests under valgrind
 # make gallery   the model files, each beside its theory: blocks that slide, topple, fall
 # make torture   scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make fuzz      arbitrary bytes for the readers of files, ten minutes (clang)
@@ -109,8 +109,8 @@ $O/bbm: $(PROGRAM:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 # The direct solver that bench compares with, where it is installed; nothing else needs it.
-CHOLMOD_HERE = $(shell mkdir -p out && echo 'int main(void) { return 0; }' > out/none.c && \
-$(CC) -include suitesparse/cholmod.h -o out/none out/none.c -lcholmod 2>/dev/null && echo -DCHOLMOD)
+CHOLMOD_HERE = $(shell mkdir -p out && echo 'int main(void) { return 0; }' > out/probe.c && \
+$(CC) -include suitesparse/cholmod.h -o out/probe out/probe.c -lcholmod 2>/dev/null && echo -DCHOLMOD)
 
 $O/tests/bench.o: override CPPFLAGS += $(CHOLMOD_HERE)
 
