@@ -323,8 +323,8 @@ static void print_sizes(void)
         }
         const double t = median(ours, turns), other = median(theirs, turns), n = 6.0 * m->elements;
         printf("| %s | %.0f | %d | %.1f | ", quads ? "quadrilaterals" : "triangles", n, count, t);
-        printf(last[quads][0] > 0 ? "%.2f" : "", log(t / last[quads][1]) / log(n / last[quads][0]));
-        printf(now > most ? " | %.1f |" : " | |", (now - start) / m->elements);
+        printf(last[quads][0] > 0 ? "%.2f |" : "|", log(t / last[quads][1]) / log(n / last[quads][0]));
+        printf(now > most ? " %.1f |" : " |", (now - start) / m->elements);
         printf(isnan(other) ? " | | |\n" : " %.1f | %.2f | %.0e |\n", other, other / t, difference);
         most = fmax(most, now);
         fflush(stdout);
