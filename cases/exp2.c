@@ -10,8 +10,8 @@
  *         1 o  o    5       One large step, as in the paper.
  *
  * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for four
- * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
- * say so are by as many quadrilaterals with beyond/. */
+ * values of alpha, solved on two levels where there is beyond/. All else is the paper's way, by the
+ * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/. */
 #include <math.h>
 #include <string.h>
 
