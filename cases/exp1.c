@@ -10,7 +10,8 @@
  *
  * `exp1` writes tables and out/exp1/; `exp1 converge` prints the errors on three meshes for four
  * values of alpha, solved on two levels where there is beyond/. All else is the paper's way, by the
- * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/. More of that is in exp1_beyond.c. */
+ * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/.
+ * More of that is in exp1_beyond.c. */
 #include <math.h>
 
 #include "exp.h"
