@@ -34,16 +34,13 @@
 
 #include "beyond.h"
 
-/* Of a pivot, against its share of P^T D P. */
-#define VANISHING 1e-12
-
 typedef struct {
     int n;                      /* nodes, some without a corner                                 */
     int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
                                 /*           start[i] .. start[j]-1                             */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
     double (*P)[6][2];          /* as node                                                      */
-    bbm_envelope Kc;            /* then its factor, with 1/C_ii on the diagonal                 */
+    bbm_factor Kc;              /* then its factor                                              */
     double *size, *x;           /* [2 n]     what a pivot is measured by; a vector              */
     double *z;                  /* [6 rows]  a vector                                           */
     int pays;                   /* in the step in hand                                          */
@@ -51,28 +48,14 @@ typedef struct {
 
 /* ----------------------------------------------------------------------------------- the layout */
 
-/* first, node and start; the nodes are numbered from the last row on, from the last number down. */
-static bbm_status list_nodes(const bbm_matrix *K, const int *first, const int *node,
-                             coarse_space *c)
+/* first and node, these still with the caller's numbers. */
+static void copy_nodes(const bbm_matrix *K, const int *first, const int *node, coarse_space *c)
 {
-    int *number = c->Kc.left;           /* not in use yet: 0 */
-
-    for (int i = 0; i < K->n; i++)
-        c->first[i + 1] = c->first[i] + first[K->caller[i] + 1] - first[K->caller[i]];
-    c->start[K->n] = c->n;
-    for (int k = K->components - 1; k >= 0; k--)
-        for (int i = K->start[k + 1] - 1; i >= K->start[k]; i--) {
-            const int *row = node + first[K->caller[i]];
-            c->start[i] = c->start[i + 1];
-            for (int a = c->first[i]; a < c->first[i + 1]; a++, row++) {
-                if (number[*row] == 0)
-                    number[*row] = c->start[i]--;
-                if (number[*row] > c->start[K->start[k + 1]])
-                    return BBM_BAD_INDEX;               /* it is in two components */
-                c->node[a] = number[*row] - 1;
-            }
-        }
-    return BBM_OK;
+    for (int i = 0; i < K->n; i++) {
+        const int *row = node + first[K->caller[i]], n = first[K->caller[i] + 1] - first[K->caller[i]];
+        c->first[i + 1] = c->first[i] + n;
+        memcpy(c->node + c->first[i], row, (size_t)n * sizeof *row);
+    }
 }
 
 /* Whether two rows are triangles with a side in common. The springs of a side feel no more than the
@@ -88,24 +71,92 @@ static int share_a_side(const coarse_space *c, int i, int j)
     return common == 2;
 }
 
-/* left. Both rows of a node begin with the first node that it meets in an element, or in elements
- * that a block of K joins. */
-static void find_neighbours(const bbm_matrix *K, const coarse_space *c)
+/* The entries of Kc below its diagonal: the pairs of nodes that meet in an element, or in elements
+ * that a block of K joins, some several times. entry NULL: counts them. */
+static int list_entries(const bbm_matrix *K, const coarse_space *c, int (*entry)[2])
 {
-    int *left = c->Kc.left;
+    int n = 0;
 
-    for (int k = 0; k < 2 * c->n; k++)
-        left[k] = k / 2 * 2;
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
             const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = share_a_side(c, i, j);
             for (int a = c->first[i]; a < c->first[i + 1] && !side; a++)
-                for (int b = c->first[j]; b < c->first[j + 1]; b++) {
-                    const int p = 2 * c->node[a], q = 2 * c->node[b], row = p > q ? p : q;
-                    if (p + q - row < left[row])
-                        left[row] = left[row + 1] = p + q - row;
-                }
+                for (int b = i == j ? a + 1 : c->first[j]; b < c->first[j + 1]; b++, n++)
+                    if (entry) {
+                        entry[n][0] = c->node[a];
+                        entry[n][1] = c->node[b];
+                    }
         }
+    return n;
+}
+
+/* What a node is numbered by: the component of K, 0 for none; its cell, which is the smallest that
+ * has the nodes of higher places to which an entry joins it: the last place there and how many
+ * places it has, less 1. */
+enum { COMPONENT, LAST, SIZE, NODE, KEYS };
+
+static int compare_keys(const void *a, const void *b)
+{
+    const unsigned *p = a, *q = b;
+    int k = 0;
+
+    while (k < NODE && p[k] == q[k])
+        k++;
+    return (p[k] > q[k]) - (p[k] < q[k]);
+}
+
+/* All components, and cells by the places of the nodes. */
+static bbm_status find_keys(const bbm_matrix *K, const coarse_space *c, const unsigned *place,
+                            int entries, int (*entry)[2], unsigned (*key)[KEYS])
+{
+    for (int i = 0; i < K->n; i++)
+        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
+            unsigned *of = key[c->node[a]];
+            const unsigned component = 1 + (unsigned)K->component[K->caller[i]];
+            if (of[COMPONENT] != 0 && of[COMPONENT] != component)
+                return BBM_BAD_INDEX;
+            of[COMPONENT] = component;
+        }
+    for (int k = 0; k < entries; k++) {
+        const int p = entry[k][0], q = entry[k][1];
+        key[place[p] < place[q] ? p : q][SIZE] |= place[p] ^ place[q];
+    }
+    for (int v = 0; v < c->n; v++) {
+        unsigned all = 0;
+        while (all < key[v][SIZE])
+            all = 2 * all + 1;
+        key[v][SIZE] = all;
+        key[v][LAST] = place[v] | all;
+        key[v][NODE] = (unsigned)v;
+    }
+    return BBM_OK;
+}
+
+/* Numbers the nodes, also in the entries. */
+static bbm_status number_nodes(const bbm_matrix *K, coarse_space *c, const unsigned *place,
+                               int entries, int (*entry)[2])
+{
+    unsigned (*key)[KEYS] = calloc((size_t)c->n + 1, sizeof *key);
+    int *number = calloc((size_t)c->n + 1, sizeof *number), v = 0;
+    bbm_status status = key && number ? find_keys(K, c, place, entries, entry, key) : BBM_NO_MEMORY;
+
+    if (!status) {
+        qsort(key, (size_t)c->n, sizeof *key, compare_keys);
+        for (int k = 0; k < c->n; k++)
+            number[key[k][NODE]] = k;
+        for (int a = 0; a < c->first[K->n]; a++)
+            c->node[a] = number[c->node[a]];
+        for (int k = 0; k < 2 * entries; k++)
+            entry[k / 2][k % 2] = number[entry[k / 2][k % 2]];
+        for (int k = 0; k <= K->components; k++) {
+            while (v < c->n && (int)key[v][COMPONENT] <= k)
+                v++;
+            c->start[k < K->components ? K->start[k] : K->n] = v;
+        }
+    }
+    free(key);
+    free(number);
+    return status;
 }
 
 static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
@@ -114,10 +165,8 @@ static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
 
     c->start = calloc(2 * rows + corners, sizeof *c->start);
     c->P = calloc(corners, sizeof *c->P);
-    c->Kc.left = calloc(2 * n, sizeof *c->Kc.left);
-    c->Kc.n = 2 * c->n;
     c->size = calloc(4 * n + 6 * rows, sizeof *c->size);
-    if (!c->start || !c->P || !c->Kc.left || !c->size)
+    if (!c->start || !c->P || !c->size)
         return BBM_NO_MEMORY;
     c->first = c->start + rows;
     c->node = c->first + rows;
@@ -127,17 +176,24 @@ static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
 }
 
 static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
-                          coarse_space *c)
+                          const unsigned *place, coarse_space *c)
 {
     c->n = nodes;
     c->pays = 1;
     bbm_status status = allocate(K, (size_t)first[K->n], c);
-    if (!status)
-        status = list_nodes(K, first, node, c);
     if (status)
         return status;
-    find_neighbours(K, c);
-    return bbm_envelope_lay_out(&c->Kc, 1);
+    copy_nodes(K, first, node, c);
+    const int entries = list_entries(K, c, NULL);
+    int (*entry)[2] = calloc((size_t)entries + 1, sizeof *entry);
+    if (!entry)
+        return BBM_NO_MEMORY;
+    list_entries(K, c, entry);
+    status = number_nodes(K, c, place, entries, entry);
+    if (!status)
+        status = bbm_factor_lay_out(&c->Kc, c->n, entries, entry);
+    free(entry);
+    return status;
 }
 
 static void coarse_free(void *extra)
@@ -149,14 +205,15 @@ static void coarse_free(void *extra)
     free(c->start);
     free(c->P);
     free(c->size);
-    bbm_envelope_free(&c->Kc);
+    bbm_factor_free(&c->Kc);
     free(c);
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
  * node[first[i+1]-1], all different, or none, and no two components the same node. Rows of three
  * nodes that share two of them must be triangles bonded along that side. */
-bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node)
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
+                             const unsigned *place)
 {
     for (int k = 0; k < first[K->n]; k++)
         if (node[k] < 0 || node[k] >= nodes)
@@ -170,7 +227,7 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     coarse_space *c = calloc(1, sizeof *c);
     if (!c)
         return BBM_NO_MEMORY;
-    const bbm_status status = lay_out(K, nodes, first, node, c);
+    const bbm_status status = lay_out(K, nodes, first, node, place, c);
     if (status)
         coarse_free(c);
     else
@@ -232,17 +289,16 @@ static void add_block(const coarse_space *c, double f, double P[6][2], int i, do
 /* Kc = P^T (D + L + L^T) P, of which the first is what pivots are measured by. */
 static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
 {
-    const int n = c->Kc.n;
     double Y[6][2];
 
-    memset(c->Kc.A, 0, (c->Kc.diagonal[n - 1] + 1) * sizeof *c->Kc.A);
+    memset(c->Kc.A, 0, c->Kc.entries * sizeof *c->Kc.A);
     for (int i = 0; i < K->n; i++)
         for (int b = c->first[i]; b < c->first[i + 1]; b++) {
             multiply(K->D[i], c->P[b], Y);
             for (int a = c->first[i]; a <= b; a++)
                 add_block(c, a == b ? 0.5 : 1, c->P[a], c->node[a], Y, c->node[b]);
         }
-    for (int k = 0; k < n; k++)
+    for (int k = 0; k < 2 * c->n; k++)
         c->size[k] = *bbm_entry(&c->Kc, k, k);
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
@@ -256,53 +312,12 @@ static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
         }
 }
 
-/* s = the products of the rows a0 and a1 with b0 and b1, over an even number of columns, each in
- * two partial sums: one alone would wait for each addition to end. */
-static void multiply_rows(int n, const double *a0, const double *a1, const double *b0,
-                          const double *b1, double s[4])
-{
-    double sum[4][2] = { { 0 } };
-
-    for (int k = 0; k < n; k += 2)
-        for (int e = 0; e < 2; e++) {
-            sum[0][e] += a0[k + e] * b0[k + e];
-            sum[1][e] += a0[k + e] * b1[k + e];
-            sum[2][e] += a1[k + e] * b0[k + e];
-            sum[3][e] += a1[k + e] * b1[k + e];
-        }
-    for (int k = 0; k < 4; k++)
-        s[k] = sum[k][0] + sum[k][1];
-}
-
-/* Kc = C C^T:  C_ij = (Kc_ij - sum_k<j C_ik C_jk)/C_jj, two rows and two columns at a time. */
-static void factor(const bbm_envelope *e, const double *size)
-{
-    const int *left = e->left;
-
-    for (int i = 0; i < e->n; i += 2)
-        for (int j = left[i]; j <= i; j += 2) {
-            const int from = left[i] > left[j] ? left[i] : left[j];
-            double sum[4];
-            multiply_rows(j - from, bbm_entry(e, i, from), bbm_entry(e, i + 1, from),
-                          bbm_entry(e, j, from), bbm_entry(e, j + 1, from), sum);
-            for (int a = 0; a < 2; a++)
-                for (int b = 0; b < 2 && j + b <= i + a; b++) {
-                    double *to = bbm_entry(e, i + a, j + b), *pivot = bbm_entry(e, j + b, j + b);
-                    const double t = *to - sum[2 * a + b] - (b ? to[-1] * pivot[-1] : 0);
-                    if (to != pivot)
-                        *to = t * *pivot;
-                    else
-                        *to = t > VANISHING * size[i + a] ? 1 / sqrt(t) : 0;
-                }
-        }
-}
-
 static void make_ready(bbm_matrix *K)
 {
     const coarse_space *c = K->extra;
 
     sum_coarse(K, c);
-    factor(&c->Kc, c->size);
+    bbm_factor_make(&c->Kc, c->size);
 }
 
 /* x = P^T z for the rows in hand. */
@@ -341,7 +356,7 @@ static void correct(const bbm_matrix *K, const double *y, double *f)
     memset(c->z + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *c->z);
     bbm_add_upper(K, y, c->z);
     restrict_to_nodes(K, c);
-    bbm_substitute(&c->Kc, &c->Kc, 2 * c->start[K->from], 2 * c->start[K->to], c->x);
+    bbm_substitute(&c->Kc, c->start[K->from], c->start[K->to], c->x);
     interpolate(K, c);
     bbm_add_lower(K, c->z, f);
 }

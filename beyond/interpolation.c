@@ -75,6 +75,26 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
+/* Where each vertex lies in squares that are halved again and again, left and right and then below
+ * and above: from its first bit on, place[v] says in which half. */
+static void find_places(const bbm_model *m, unsigned *place)
+{
+    double low[2] = { INFINITY, INFINITY }, size = 0;
+
+    for (int k = 0; k < m->vertices; k++) {
+        low[0] = fmin(low[0], m->vertex[k].x);
+        low[1] = fmin(low[1], m->vertex[k].y);
+    }
+    for (int k = 0; k < m->vertices; k++)
+        size = fmax(size, fmax(m->vertex[k].x - low[0], m->vertex[k].y - low[1]));
+    for (int k = 0; k < m->vertices; k++) {
+        const unsigned x = (unsigned)((m->vertex[k].x - low[0]) / size * 65535);
+        const unsigned y = (unsigned)((m->vertex[k].y - low[1]) / size * 65535);
+        for (int bit = 0; bit < 16; bit++)
+            place[k] |= (x >> bit & 1) << (2 * bit + 1) | (y >> bit & 1) << 2 * bit;
+    }
+}
+
 /* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
  * them. An element without bonds is in it, too, if it lies against others with bonds: left out, it
  * is to them a stiff block that only SSOR moves. Where nothing is bonded, there would be as many
@@ -84,9 +104,10 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
     int *up = calloc(2 * v + 2 * n + 1, sizeof *up);
+    unsigned *place = calloc(v, sizeof *place);
 
-    if (!up)
-        return BBM_NO_MEMORY;
+    if (!up || !place)
+        return free(up), free(place), BBM_NO_MEMORY;
     int *node = up + v, *first = node + v, *has_bonds = first + n + 1;  /* a component of K */
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
@@ -104,8 +125,10 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
             node[first[i] + k] = bbm_root_of(up, e->first + k);
         first[i + 1] = first[i] + count;
     }
-    const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node);
+    find_places(m, place);
+    const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node, place);
     free(up);
+    free(place);
     return status;
 }
 

@@ -24,12 +24,8 @@
  * d is a M^-1 K p. In each iteration z is computed from r once, for if it were only updated, by
  * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever.
  *
- * It may fail. Where it does, and where that is faster, in small components, the solution is by LU,
- *
- *     K = L U,  L_ij = K_ij - sum_k<j L_ik U_kj,  U_ji = (K_ji - sum_k<j L_jk U_ki)/L_jj,  U_ii = 1
- *
- * in the envelope of K, which has the same shape below and above the diagonal: rows of L up to it,
- * columns of U above it. No rows are interchanged.
+ * It may fail. Then small components are solved by elimination of the whole K, with the largest
+ * pivot of each column.
  *
  * In statics a block that all its contacts let slide is held by nothing. K is singular then, and
  * has no L U; but every x above is made of products with K, and no force asks for that motion:
@@ -42,8 +38,8 @@
 
 /* Of a pivot, against the diagonal of K: rounding of what cancelled. */
 #define VANISHING 1e-12
-/* Block rows up to which LU is faster, measured on walls. */
-#define SMALL 100
+/* Block rows up to which elimination is tried. */
+#define MOST 200
 
 static int is_in_hand(const bbm_matrix *K, const bbm_term *t)
 {
@@ -71,103 +67,63 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
     return count;
 }
 
-/* ----------------------------------------------------------------------------------- the factor */
+/* -------------------------------------------------------------------------------- the elimination */
 
-/* Of the rows in hand, which are counted from 0 here; of U the columns, like the rows of L. */
-typedef struct { bbm_envelope L, U; } factors;
-
-static bbm_status lay_out(const bbm_matrix *K, factors *f)
+/* A x = b, in place of b, which is column n of A; A_ij is A[j n + i]. Returns the first column whose
+ * pivot, the largest entry left in it, vanishes against size[j], or n. */
+static int eliminate(int n, double *A, const double *size)
 {
-    bbm_envelope *L = &f->L;
+    double *b = A + n * n;
 
-    L->n = 6 * (K->to - K->from);
-    L->left = calloc((size_t)L->n, sizeof *L->left);
-    if (!L->left)
-        return BBM_NO_MEMORY;
-    for (int row = 0; row < L->n; row++) {
-        const int i = K->from + row / 6;
-        int back = 0;
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            back = K->back[k] > back ? K->back[k] : back;
-        L->left[row] = 6 * (row / 6 - back);
-    }
-    const bbm_status status = bbm_envelope_lay_out(L, 2);
-    f->U = *L;
-    if (!status)
-        f->U.A += L->diagonal[L->n - 1] + 1;
-    return status;
-}
-
-/* K_ij = B, and K_ji = B^T, for i >= j. */
-static void put_block(const factors *f, int i, int j, double B[6][6])
-{
-    for (int a = 0; a < 36; a++) {
-        const int row = 6 * i + a / 6, column = 6 * j + a % 6;
-        if (column <= row)
-            *bbm_entry(&f->L, row, column) = *bbm_entry(&f->U, row, column) = B[a / 6][a % 6];
-    }
-}
-
-/* The rows in hand of K and its terms. */
-static void fill(const bbm_matrix *K, const factors *f)
-{
-    for (int i = K->from; i < K->to; i++) {
-        put_block(f, i - K->from, i - K->from, K->D[i]);
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            put_block(f, i - K->from, i - K->from - K->back[k], K->L[k]);
-    }
-    for (const bbm_term *t = K->term; t < K->term + K->terms; t++)
-        for (int a = 0; a < 144 && is_in_hand(K, t); a++) {
-            const int p = a / 12, q = a % 12, i = 6 * (t->row[p / 6] - K->from) + p % 6;
-            const int j = 6 * (t->row[q / 6] - K->from) + q % 6;
-            *(i >= j ? bbm_entry(&f->L, i, j) : bbm_entry(&f->U, j, i)) +=
-                t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
+    for (int k = 0; k < n; k++) {
+        const double *c = A + k * n;
+        int largest = k;
+        for (int i = k + 1; i < n; i++)
+            largest = fabs(c[i]) > fabs(c[largest]) ? i : largest;
+        if (!(fabs(c[largest]) > VANISHING * size[k]) || isinf(c[largest]))
+            return k;
+        for (int j = k; j <= n; j++) {
+            double *to = A + j * n;
+            const double pivot = to[largest];
+            to[largest] = to[k];
+            to[k] = pivot;
+            for (int i = k + 1; i < n && j > k; i++)
+                to[i] -= c[i] / c[k] * pivot;
         }
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        b[k] /= A[k * n + k];
+        for (int i = 0; i < k; i++)
+            b[i] -= A[k * n + i] * b[k];
+    }
+    return n;
 }
 
-/* L with 1/L_ii on its diagonal and U in place of K. Returns the row of a pivot that vanishes or is
- * no number, or n. */
-static int factor(const bbm_matrix *K, const factors *f)
+/* K x = F for the rows in hand. The columns of K are its products with unit vectors. */
+static bbm_status solve_directly(bbm_matrix *K, const double *F, bbm_pcg_info *info)
 {
-    const int *left = f->L.left;
+    const int from = 6 * K->from, n = 6 * K->to - from;
+    const size_t bytes = (size_t)n * sizeof(double);
+    double *A = n > 6 * MOST ? NULL : malloc(((size_t)n + 2) * bytes);
 
-    for (int i = 0; i < f->L.n; i++) {
-        for (int j = left[i]; j <= i; j++) {
-            const int from = left[i] > left[j] ? left[i] : left[j];
-            double *L = bbm_entry(&f->L, i, from), *U = bbm_entry(&f->U, i, from);
-            L[j - from] -= bbm_dot(j - from, L, bbm_entry(&f->U, j, from));
-            if (j < i)
-                U[j - from] = (U[j - from] - bbm_dot(j - from, bbm_entry(&f->L, j, from), U))
-                              * *bbm_entry(&f->L, j, j);
-        }
-        double *pivot = bbm_entry(&f->L, i, i);
-        const double before = K->D[K->from + i / 6][i % 6][i % 6];
-        if (!(fabs(*pivot) > VANISHING * before) || isinf(*pivot))
-            return i;
-        *pivot = 1 / *pivot;
-        *bbm_entry(&f->U, i, i) = 1;
+    if (!A)
+        return n > 6 * MOST ? BBM_NOT_CONVERGED : BBM_NO_MEMORY;
+    double *b = A + n * n, *size = b + n;
+    memcpy(b, F, bytes);
+    memset(K->p + from, 0, bytes);
+    for (int j = 0; j < n; j++) {
+        K->p[from + j] = 1;
+        bbm_multiply(K, K->p, K->q);
+        K->p[from + j] = 0;
+        memcpy(A + j * n, K->q + from, bytes);
+        size[j] = K->D[K->from + j / 6][j % 6][j % 6];
     }
-    return f->L.n;
-}
-
-/* x = K^-1 x */
-static bbm_status solve_directly(const bbm_matrix *K, double *x, bbm_pcg_info *info)
-{
-    factors f = { { 0 }, { 0 } };
-    bbm_status status = lay_out(K, &f);
-
-    if (!status) {
-        fill(K, &f);
-        const int row = factor(K, &f), n = f.L.n;
-        status = row < n ? BBM_NOT_POSITIVE_DEFINITE : BBM_OK;
-        info->element = row < n ? K->caller[K->from + row / 6] : -1;
-    }
-    if (!status) {
-        bbm_substitute(&f.L, &f.U, 0, f.L.n, x);
-        info->iterations++;
-    }
-    bbm_envelope_free(&f.L);
-    return status;
+    const int k = eliminate(n, A, size);
+    info->element = k < n ? K->caller[K->from + k / 6] : -1;
+    info->iterations++;
+    memcpy(K->x + from, b, k < n ? 0 : bytes);
+    free(A);
+    return k < n ? BBM_NOT_POSITIVE_DEFINITE : BBM_OK;
 }
 
 /* ------------------------------------------------------------------------------- the iteration */
@@ -215,14 +171,13 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     return status;
 }
 
-/* In dynamics K is regular: LU has the last word, after no more iterations than there are
+/* In dynamics K is regular: elimination has the last word, after no more iterations than there are
  * unknowns. */
 static bbm_status solve_regular(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     const int unknowns = 6 * (K->to - K->from);
     const size_t bytes = (size_t)unknowns * sizeof(double);
     double *F = malloc(bytes);
-    bbm_status status = BBM_NOT_CONVERGED;
     bbm_pcg few = *pcg;
 
     if (!F)
@@ -230,12 +185,9 @@ static bbm_status solve_regular(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info 
     memcpy(F, K->r + 6 * K->from, bytes);
     if (few.iterations > unknowns)
         few.iterations = unknowns;
-    if (unknowns > 6 * SMALL)
-        status = iterate(K, &few, info);
-    if (status) {
+    bbm_status status = iterate(K, &few, info);
+    if (status)
         status = solve_directly(K, F, info);
-        memcpy(K->x + 6 * K->from, F, status ? 0 : bytes);
-    }
     free(F);
     return status;
 }
