@@ -75,21 +75,20 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
-/* Where each vertex lies in squares that are halved again and again, left and right and then below
- * and above: from its first bit on, place[v] says in which half. */
-static void find_places(const bbm_model *m, unsigned *place)
+/* Where each vertex lies in the square round its component of K, which is halved again and again,
+ * left and right and then below and above: from its first bit on, place[v] says in which half. */
+static void find_places(const bbm_model *m, bbm_box *box, unsigned *place)
 {
-    double low[2] = { INFINITY, INFINITY }, size = 0;
-
-    for (int k = 0; k < m->vertices; k++) {
-        low[0] = fmin(low[0], m->vertex[k].x);
-        low[1] = fmin(low[1], m->vertex[k].y);
-    }
+    for (int k = 0; k < m->elements; k++)
+        box[k] = bbm_empty_box(k);
     for (int k = 0; k < m->vertices; k++)
-        size = fmax(size, fmax(m->vertex[k].x - low[0], m->vertex[k].y - low[1]));
+        bbm_widen_box(&box[bbm_component_of(m->K, m->vertex[k].element)], m->vertex[k].x,
+                      m->vertex[k].y, 0);
     for (int k = 0; k < m->vertices; k++) {
-        const unsigned x = (unsigned)((m->vertex[k].x - low[0]) / size * 65535);
-        const unsigned y = (unsigned)((m->vertex[k].y - low[1]) / size * 65535);
+        const bbm_box *b = &box[bbm_component_of(m->K, m->vertex[k].element)];
+        const double size = fmax(b->high[1] - b->low[1], b->high[2] - b->low[2]) / 65535;
+        const unsigned x = (unsigned)((m->vertex[k].x - b->low[1]) / size);
+        const unsigned y = (unsigned)((m->vertex[k].y - b->low[2]) / size);
         for (int bit = 0; bit < 16; bit++)
             place[k] |= (x >> bit & 1) << (2 * bit + 1) | (y >> bit & 1) << 2 * bit;
     }
@@ -105,9 +104,10 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
     int *up = calloc(2 * v + 2 * n + 1, sizeof *up);
     unsigned *place = calloc(v, sizeof *place);
+    bbm_box *box = malloc(n * sizeof *box);
 
-    if (!up || !place)
-        return free(up), free(place), BBM_NO_MEMORY;
+    if (!up || !place || !box)
+        return free(up), free(place), free(box), BBM_NO_MEMORY;
     int *node = up + v, *first = node + v, *has_bonds = first + n + 1;  /* a component of K */
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
@@ -125,10 +125,11 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
             node[first[i] + k] = bbm_root_of(up, e->first + k);
         first[i + 1] = first[i] + count;
     }
-    find_places(m, place);
+    find_places(m, box, place);
     const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node, place);
     free(up);
     free(place);
+    free(box);
     return status;
 }
 

@@ -69,33 +69,25 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
 
 /* -------------------------------------------------------------------------------- the elimination */
 
-/* A x = b, in place of b, which is column n of A; A_ij is A[j n + i]. Returns the first column whose
- * pivot, the largest entry left in it, vanishes against size[j], or n. */
+/* A x = b, in place of b, which is column n of A; A_ij is A[j n + i]. Returns the first row whose
+ * pivot vanishes against size[k], or n. */
 static int eliminate(int n, double *A, const double *size)
 {
     double *b = A + n * n;
 
     for (int k = 0; k < n; k++) {
-        const double *c = A + k * n;
-        int largest = k;
-        for (int i = k + 1; i < n; i++)
-            largest = fabs(c[i]) > fabs(c[largest]) ? i : largest;
-        if (!(fabs(c[largest]) > VANISHING * size[k]) || isinf(c[largest]))
+        const double *c = A + k * n, pivot = c[k];
+        if (!(fabs(pivot) > VANISHING * size[k]) || isinf(pivot))
             return k;
-        for (int j = k; j <= n; j++) {
-            double *to = A + j * n;
-            const double pivot = to[largest];
-            to[largest] = to[k];
-            to[k] = pivot;
-            for (int i = k + 1; i < n && j > k; i++)
-                to[i] -= c[i] / c[k] * pivot;
+        for (double *to = A + (k + 1) * n; to <= b; to += n) {
+            to[k] /= pivot;
+            for (int i = k + 1; i < n && to[k] != 0; i++)
+                to[i] -= c[i] * to[k];
         }
     }
-    for (int k = n - 1; k >= 0; k--) {
-        b[k] /= A[k * n + k];
+    for (int k = n - 1; k >= 0; k--)
         for (int i = 0; i < k; i++)
             b[i] -= A[k * n + i] * b[k];
-    }
     return n;
 }
 
