@@ -36,11 +36,6 @@
 
 #include "beyond.h"
 
-/* Of a pivot, against the diagonal of K: rounding of what cancelled. */
-#define VANISHING 1e-12
-/* Block rows up to which elimination is tried. */
-#define MOST 200
-
 static int is_in_hand(const bbm_matrix *K, const bbm_term *t)
 {
     return t->row[0] >= K->from && t->row[0] < K->to;
@@ -65,57 +60,6 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
         count++;
     }
     return count;
-}
-
-/* -------------------------------------------------------------------------------- the elimination */
-
-/* A x = b, in place of b, which is column n of A; A_ij is A[j n + i]. Returns the first row whose
- * pivot vanishes against size[k], or n. */
-static int eliminate(int n, double *A, const double *size)
-{
-    double *b = A + n * n;
-
-    for (int k = 0; k < n; k++) {
-        const double *c = A + k * n, pivot = c[k];
-        if (!(fabs(pivot) > VANISHING * size[k]) || isinf(pivot))
-            return k;
-        for (double *to = A + (k + 1) * n; to <= b; to += n) {
-            to[k] /= pivot;
-            for (int i = k + 1; i < n && to[k] != 0; i++)
-                to[i] -= c[i] * to[k];
-        }
-    }
-    for (int k = n - 1; k >= 0; k--)
-        for (int i = 0; i < k; i++)
-            b[i] -= A[k * n + i] * b[k];
-    return n;
-}
-
-/* K x = F for the rows in hand. The columns of K are its products with unit vectors. */
-static bbm_status solve_directly(bbm_matrix *K, const double *F, bbm_pcg_info *info)
-{
-    const int from = 6 * K->from, n = 6 * K->to - from;
-    const size_t bytes = (size_t)n * sizeof(double);
-    double *A = n > 6 * MOST ? NULL : malloc(((size_t)n + 2) * bytes);
-
-    if (!A)
-        return n > 6 * MOST ? BBM_NOT_CONVERGED : BBM_NO_MEMORY;
-    double *b = A + n * n, *size = b + n;
-    memcpy(b, F, bytes);
-    memset(K->p + from, 0, bytes);
-    for (int j = 0; j < n; j++) {
-        K->p[from + j] = 1;
-        bbm_multiply(K, K->p, K->q);
-        K->p[from + j] = 0;
-        memcpy(A + j * n, K->q + from, bytes);
-        size[j] = K->D[K->from + j / 6][j % 6][j % 6];
-    }
-    const int k = eliminate(n, A, size);
-    info->element = k < n ? K->caller[K->from + k / 6] : -1;
-    info->iterations++;
-    memcpy(K->x + from, b, k < n ? 0 : bytes);
-    free(A);
-    return k < n ? BBM_NOT_POSITIVE_DEFINITE : BBM_OK;
 }
 
 /* ------------------------------------------------------------------------------- the iteration */
@@ -163,27 +107,6 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     return status;
 }
 
-/* In dynamics K is regular: elimination has the last word, after no more iterations than there are
- * unknowns. */
-static bbm_status solve_regular(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
-{
-    const int unknowns = 6 * (K->to - K->from);
-    const size_t bytes = (size_t)unknowns * sizeof(double);
-    double *F = malloc(bytes);
-    bbm_pcg few = *pcg;
-
-    if (!F)
-        return BBM_NO_MEMORY;
-    memcpy(F, K->r + 6 * K->from, bytes);
-    if (few.iterations > unknowns)
-        few.iterations = unknowns;
-    bbm_status status = iterate(K, &few, info);
-    if (status)
-        status = solve_directly(K, F, info);
-    free(F);
-    return status;
-}
-
 /* Adds the friction of a sliding contact for the N of the solution; 0: there is none. */
 int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
                           bbm_submatrices *f)
@@ -194,7 +117,6 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
 
     if (p == 0)
         return 0;
-    m->K->solve_terms = bbm_is_static(m) ? iterate : solve_regular;
     bbm_normal_vectors(t, &n);
     bbm_shear_vectors(t, c->anchor, &s);
     bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
@@ -216,6 +138,6 @@ bbm_status bbm_lay_out_sliding(bbm_model *m)
 {
     m->K->term = calloc((size_t)m->links + 1, sizeof *m->K->term);
     m->K->add_terms = add_terms;
-    m->K->solve_terms = solve_regular;
+    m->K->solve_terms = iterate;
     return m->K->term ? BBM_OK : BBM_NO_MEMORY;
 }
