@@ -86,7 +86,6 @@ extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const unsigned *place);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
-void       bbm_matrix_use_coarse(bbm_matrix *K, int pays);
 
 /* factor.c */
 typedef struct { int from, to; size_t at; } bbm_part;  /* columns, in pairs; its first entry in A */

@@ -43,7 +43,6 @@ typedef struct {
     bbm_factor Kc;              /* then its factor                                              */
     double *size, *x;           /* [2 n]     what a pivot is measured by; a vector              */
     double *z;                  /* [6 rows]  a vector                                           */
-    int pays;                   /* in the step in hand                                          */
 } coarse_space;
 
 /* ----------------------------------------------------------------------------------- the layout */
@@ -179,7 +178,6 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
                           const unsigned *place, coarse_space *c)
 {
     c->n = nodes;
-    c->pays = 1;
     bbm_status status = allocate(K, (size_t)first[K->n], c);
     if (status)
         return status;
@@ -249,15 +247,6 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
     memcpy(c->P[first[0] + k], P, sizeof *c->P);
     K->ready = 0;
     return BBM_OK;
-}
-
-/* Whether it is worth its while in the step in hand. */
-void bbm_matrix_use_coarse(bbm_matrix *K, int pays)
-{
-    coarse_space *c = K->extra;
-
-    if (c)
-        c->pays = pays;
 }
 
 /* ---------------------------------------------------------------------------- Kc and its factor */
@@ -366,7 +355,7 @@ static void choose(const bbm_matrix *K, bbm_pcg *pcg)
 {
     const coarse_space *c = K->extra;
 
-    if (c && c->pays)
+    if (c)
         pcg->omega = 1;
     else
         pcg->method = NULL;

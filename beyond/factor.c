@@ -23,57 +23,46 @@ typedef struct {
                                 /* entry in its row, [entries]; -1: none                        */
     int *parent;                /* [n]      of column j, -1: none yet                           */
     int *seen;                  /* [n]      the row that has column j, the last one so far      */
-    int parts, room;            /* parts found so far, and for how many there is memory         */
+    int parts;                  /* found so far                                                 */
 } search;
 
 static size_t width(const bbm_part *p) { return 2 * (size_t)(p->to - p->from); }
 
 static size_t place_in(const bbm_part *p, int j) { return p->at + 2 * (size_t)(j - p->from); }
 
-static int by_column(const void *a, const void *b)
+static bbm_status add_part(bbm_factor *f, search *s, int j)
 {
-    return ((const bbm_part *)a)->from - ((const bbm_part *)b)->from;
+    const bbm_part column = { j, j + 1, 0 };
+
+    return bbm_append(NULL, (void **)&f->part, &s->parts, sizeof column, &column, NULL);
 }
 
-/* One part more, of one column; 0: no memory. */
-static int add_part(bbm_factor *f, search *s, int column)
+/* The parts of row i. */
+static bbm_status find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
 {
-    if (s->parts == s->room) {
-        bbm_part *more = realloc(f->part, 2 * (size_t)s->room * sizeof *more);
-        if (!more)
-            return 0;
-        f->part = more;
-        s->room *= 2;
-    }
-    f->part[s->parts++] = (bbm_part){ column, column + 1, 0 };
-    return 1;
-}
-
-/* The parts of row i; 0: no memory. */
-static int find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
-{
-    int n = s->parts, good = add_part(f, s, i);
+    int n = s->parts, last = i;
+    bbm_status status = add_part(f, s, i);
 
     f->first[i] = n;
     s->seen[i] = i;
     for (int k = s->last[i]; k >= 0; k = s->before[k])
-        for (int j = entry[k][0] + entry[k][1] - i, last = i; s->seen[j] != i && good;
-             last = j, j = s->parent[j]) {
+        for (int j = entry[k][0] + entry[k][1] - i; s->seen[j] != i && !status; j = s->parent[j]) {
             s->parent[j] = s->parent[j] < 0 ? i : s->parent[j];
             s->seen[j] = i;
             if (j == last + 1)
                 f->part[s->parts - 1].to++;
             else
-                good = add_part(f, s, j);
+                status = add_part(f, s, j);
+            last = j;
         }
-    qsort(f->part + n, (size_t)(s->parts - n), sizeof *f->part, by_column);
+    qsort(f->part + n, (size_t)(s->parts - n), sizeof *f->part, bbm_compare_pairs);
     for (int k = n + 1; k < s->parts; k++)
         if (f->part[k].from == f->part[n].to)
             f->part[n].to = f->part[k].to;
         else
             f->part[++n] = f->part[k];
     s->parts = n + 1;
-    return good;
+    return status;
 }
 
 /* Room for C of n pairs of rows: beside the diagonal K is not zero at the entries, two different
@@ -81,13 +70,13 @@ static int find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
 bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2])
 {
     const size_t rows = (size_t)n;
-    int *memory = malloc((3 * rows + (size_t)entries + 1) * sizeof *memory), good = 1;
-    search s = { memory, memory + 3 * rows, memory + rows, memory + 2 * rows, 0, 2 * n + 1 };
+    int *memory = malloc((3 * rows + (size_t)entries + 1) * sizeof *memory);
+    search s = { memory, memory + 3 * rows, memory + rows, memory + 2 * rows, 0 };
+    bbm_status status = memory ? BBM_OK : BBM_NO_MEMORY;
 
     f->n = n;
     f->first = calloc(rows + 1, sizeof *f->first);
-    f->part = malloc((size_t)s.room * sizeof *f->part);
-    if (memory && f->first && f->part) {
+    if (memory && f->first) {
         for (size_t k = 0; k < 3 * rows; k++)
             memory[k] = -1;
         for (int k = 0; k < entries; k++) {
@@ -95,12 +84,12 @@ bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2]
             s.before[k] = s.last[row];
             s.last[row] = k;
         }
-        for (int i = 0; i < n && good; i++)
-            good = find_parts(f, &s, i, entry);
+        for (int i = 0; i < n && !status; i++)
+            status = find_parts(f, &s, i, entry);
         f->first[n] = s.parts;
         for (int k = 0; k < s.parts; f->entries += 2 * width(&f->part[k++]))
             f->part[k].at = f->entries;
-        f->A = good ? calloc(f->entries + 1, sizeof *f->A) : NULL;
+        f->A = status ? NULL : calloc(f->entries + 1, sizeof *f->A);
     }
     free(memory);
     return f->A ? BBM_OK : BBM_NO_MEMORY;

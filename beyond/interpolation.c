@@ -94,6 +94,16 @@ static void find_places(const bbm_model *m, bbm_box *box, unsigned *place)
     }
 }
 
+/* Whether two levels pay for a bonded element. In a short step inertia holds every element by itself,
+ * and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs to cross some
+ * elements. */
+static int pays(const bbm_model *m, const bbm_element *e)
+{
+    const double way2 = e->material.E / e->material.density * m->par.dt * m->par.dt;
+
+    return way2 > CROSSED * CROSSED * e->A && !bbm_is_held_all_round(m, e);
+}
+
 /* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
  * them. An element without bonds is in it, too, if it lies against others with bonds: left out, it
  * is to them a stiff block that only SSOR moves. Where nothing is bonded, there would be as many
@@ -108,18 +118,18 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
 
     if (!up || !place || !box)
         return free(up), free(place), free(box), BBM_NO_MEMORY;
-    int *node = up + v, *first = node + v, *has_bonds = first + n + 1;  /* a component of K */
+    int *node = up + v, *first = node + v, *worth = first + n + 1;   /* of a component of K */
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
         const bbm_bond *b = &m->bond[k];
         for (int end = 0; end < 2; end++)
             up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
-        has_bonds[bbm_component_of(m->K, b->i)] |= !bbm_is_held_all_round(m, &m->element[b->i]);
+        worth[bbm_component_of(m->K, b->i)] |= pays(m, &m->element[b->i]);
     }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
-        const int in = has_bonds[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
+        const int in = worth[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
         const int count = in ? e->n : 0;
         for (int k = 0; k < count; k++)
             node[first[i] + k] = bbm_root_of(up, e->first + k);
@@ -133,20 +143,6 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     return status;
 }
 
-/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element
- * by itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs
- * to cross some elements. */
-static int step_is_long(const bbm_model *m)
-{
-    for (int b = 0; b < m->bonds; b++) {
-        const bbm_element *e = &m->element[m->bond[b].i];
-        const double way2 = e->material.E / e->material.density * m->h * m->h;
-        if (way2 > CROSSED * CROSSED * e->A && !bbm_is_held_all_round(m, e))
-            return 1;
-    }
-    return 0;
-}
-
 /* The coarse space of the present geometry, unless it is that already. Elements that are not in it
  * are refused, which does no harm. */
 void bbm_interpolate_elements(bbm_model *m)
@@ -155,13 +151,9 @@ void bbm_interpolate_elements(bbm_model *m)
 
     if (!m->K->extra || m->K->ready || m->par.pcg.method != &bbm_two_level)
         return;
-    const int pays = step_is_long(m);
-    bbm_matrix_use_coarse(m->K, pays);
-    for (int i = 0; i < m->elements && pays; i++) {
-        const bbm_element *e = &m->element[i];
-        for (int a = 0; a < e->n; a++) {
-            bbm_interpolation(e, &m->vertex[e->first], a, P);
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 0; a < m->element[i].n; a++) {
+            bbm_interpolation(&m->element[i], &m->vertex[m->element[i].first], a, P);
             (void)bbm_matrix_interpolate(m->K, i, a, P);
         }
-    }
 }
