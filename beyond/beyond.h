@@ -82,9 +82,10 @@ struct bbm_beyond {
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
 
 /* coarse.c: two levels, for pcg.method */
+#define BBM_PLACES (1LL << 30)  /* of a component */
 extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
-                             const unsigned *place);
+                             const long long *place);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
 
 /* factor.c */
@@ -94,11 +95,12 @@ typedef struct {
     bbm_part *part;
     size_t entries;
     double *A;                  /* of a part the first row, then the second                     */
+    double *size;               /* [2 n]    what a pivot is measured by                         */
 } bbm_factor;
 bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2]);
 void       bbm_factor_free(bbm_factor *f);
 double    *bbm_entry(const bbm_factor *f, int i, int j);
-void       bbm_factor_make(const bbm_factor *f, const double *size);
+void       bbm_factor_make(const bbm_factor *f);
 void       bbm_substitute(const bbm_factor *f, int from, int to, double *x);
 
 /* interpolation.c */

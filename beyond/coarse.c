@@ -41,7 +41,7 @@ typedef struct {
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
     double (*P)[6][2];          /* as node                                                      */
     bbm_factor Kc;              /* then its factor                                              */
-    double *size, *x;           /* [2 n]     what a pivot is measured by; a vector              */
+    double *x;                  /* [2 n]     a vector                                           */
     double *z;                  /* [6 rows]  a vector                                           */
 } coarse_space;
 
@@ -89,14 +89,13 @@ static int list_entries(const bbm_matrix *K, const coarse_space *c, int (*entry)
     return n;
 }
 
-/* What a node is numbered by: the component of K, 0 for none; its cell, which is the smallest that
- * has the nodes of higher places to which an entry joins it: the last place there and how many
- * places it has, less 1. */
-enum { COMPONENT, LAST, SIZE, NODE, KEYS };
+/* What a node is numbered by: its cell is the smallest that has it and the nodes of higher places
+ * to which an entry joins it; the last place there, and how many there are, less 1. */
+enum { LAST, SIZE, NODE, KEYS };
 
 static int compare_keys(const void *a, const void *b)
 {
-    const unsigned *p = a, *q = b;
+    const long long *p = a, *q = b;
     int k = 0;
 
     while (k < NODE && p[k] == q[k])
@@ -104,58 +103,41 @@ static int compare_keys(const void *a, const void *b)
     return (p[k] > q[k]) - (p[k] < q[k]);
 }
 
-/* All components, and cells by the places of the nodes. */
-static bbm_status find_keys(const bbm_matrix *K, const coarse_space *c, const unsigned *place,
-                            int entries, int (*entry)[2], unsigned (*key)[KEYS])
+static void find_keys(int nodes, const long long *place, int entries, int (*entry)[2],
+                      long long (*key)[KEYS])
 {
-    for (int i = 0; i < K->n; i++)
-        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
-            unsigned *of = key[c->node[a]];
-            const unsigned component = 1 + (unsigned)K->component[K->caller[i]];
-            if (of[COMPONENT] != 0 && of[COMPONENT] != component)
-                return BBM_BAD_INDEX;
-            of[COMPONENT] = component;
-        }
     for (int k = 0; k < entries; k++) {
         const int p = entry[k][0], q = entry[k][1];
         key[place[p] < place[q] ? p : q][SIZE] |= place[p] ^ place[q];
     }
-    for (int v = 0; v < c->n; v++) {
-        unsigned all = 0;
+    for (int v = 0; v < nodes; v++) {
+        long long all = 0;
         while (all < key[v][SIZE])
             all = 2 * all + 1;
         key[v][SIZE] = all;
         key[v][LAST] = place[v] | all;
-        key[v][NODE] = (unsigned)v;
+        key[v][NODE] = v;
     }
-    return BBM_OK;
 }
 
-/* Numbers the nodes, also in the entries. */
-static bbm_status number_nodes(const bbm_matrix *K, coarse_space *c, const unsigned *place,
-                               int entries, int (*entry)[2])
+/* Numbers the nodes by sorted keys, also in the entries. number: [n], scratch. */
+static void number_nodes(const bbm_matrix *K, coarse_space *c, int entries, int (*entry)[2],
+                         long long (*key)[KEYS], int *number)
 {
-    unsigned (*key)[KEYS] = calloc((size_t)c->n + 1, sizeof *key);
-    int *number = calloc((size_t)c->n + 1, sizeof *number), v = 0;
-    bbm_status status = key && number ? find_keys(K, c, place, entries, entry, key) : BBM_NO_MEMORY;
+    int v = 0;
 
-    if (!status) {
-        qsort(key, (size_t)c->n, sizeof *key, compare_keys);
-        for (int k = 0; k < c->n; k++)
-            number[key[k][NODE]] = k;
-        for (int a = 0; a < c->first[K->n]; a++)
-            c->node[a] = number[c->node[a]];
-        for (int k = 0; k < 2 * entries; k++)
-            entry[k / 2][k % 2] = number[entry[k / 2][k % 2]];
-        for (int k = 0; k <= K->components; k++) {
-            while (v < c->n && (int)key[v][COMPONENT] <= k)
-                v++;
-            c->start[k < K->components ? K->start[k] : K->n] = v;
-        }
+    qsort(key, (size_t)c->n, sizeof *key, compare_keys);
+    for (int k = 0; k < c->n; k++)
+        number[key[k][NODE]] = k;
+    for (int a = 0; a < c->first[K->n]; a++)
+        c->node[a] = number[c->node[a]];
+    for (int k = 0; k < 2 * entries; k++)
+        entry[k / 2][k % 2] = number[entry[k / 2][k % 2]];
+    for (int k = 0; k <= K->components; k++) {
+        while (v < c->n && key[v][LAST] < BBM_PLACES * k)
+            v++;
+        c->start[K->start[k]] = v;
     }
-    free(key);
-    free(number);
-    return status;
 }
 
 static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
@@ -164,18 +146,17 @@ static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
 
     c->start = calloc(2 * rows + corners, sizeof *c->start);
     c->P = calloc(corners, sizeof *c->P);
-    c->size = calloc(4 * n + 6 * rows, sizeof *c->size);
-    if (!c->start || !c->P || !c->size)
+    c->x = calloc(2 * n + 6 * rows, sizeof *c->x);
+    if (!c->start || !c->P || !c->x)
         return BBM_NO_MEMORY;
     c->first = c->start + rows;
     c->node = c->first + rows;
-    c->x = c->size + 2 * n;
     c->z = c->x + 2 * n;
     return BBM_OK;
 }
 
 static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
-                          const unsigned *place, coarse_space *c)
+                          const long long *place, coarse_space *c)
 {
     c->n = nodes;
     bbm_status status = allocate(K, (size_t)first[K->n], c);
@@ -183,14 +164,17 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
         return status;
     copy_nodes(K, first, node, c);
     const int entries = list_entries(K, c, NULL);
-    int (*entry)[2] = calloc((size_t)entries + 1, sizeof *entry);
-    if (!entry)
-        return BBM_NO_MEMORY;
-    list_entries(K, c, entry);
-    status = number_nodes(K, c, place, entries, entry);
-    if (!status)
-        status = bbm_factor_lay_out(&c->Kc, c->n, entries, entry);
+    int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
+    long long (*key)[KEYS] = calloc((size_t)nodes, sizeof *key);
+    status = BBM_NO_MEMORY;
+    if (entry && key) {
+        list_entries(K, c, entry);
+        find_keys(nodes, place, entries, entry, key);
+        number_nodes(K, c, entries, entry, key, entry[entries]);
+        status = bbm_factor_lay_out(&c->Kc, nodes, entries, entry);
+    }
     free(entry);
+    free(key);
     return status;
 }
 
@@ -202,7 +186,7 @@ static void coarse_free(void *extra)
         return;
     free(c->start);
     free(c->P);
-    free(c->size);
+    free(c->x);
     bbm_factor_free(&c->Kc);
     free(c);
 }
@@ -211,7 +195,7 @@ static void coarse_free(void *extra)
  * node[first[i+1]-1], all different, or none, and no two components the same node. Rows of three
  * nodes that share two of them must be triangles bonded along that side. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
-                             const unsigned *place)
+                             const long long *place)
 {
     for (int k = 0; k < first[K->n]; k++)
         if (node[k] < 0 || node[k] >= nodes)
@@ -238,11 +222,9 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
 {
     const coarse_space *c = K->extra;
+    const int *first = c && i >= 0 && i < K->n ? &c->first[K->place[i]] : NULL;
 
-    if (!c || i < 0 || i >= K->n)
-        return BBM_BAD_INDEX;
-    const int *first = &c->first[K->place[i]];
-    if (k < 0 || k >= first[1] - first[0])
+    if (!first || k < 0 || k >= first[1] - first[0])
         return BBM_BAD_INDEX;
     memcpy(c->P[first[0] + k], P, sizeof *c->P);
     K->ready = 0;
@@ -260,8 +242,9 @@ static void multiply(double B[6][6], double X[6][2], double Y[6][2])
             Y[a][k % 2] += B[a][k / 2] * X[k / 2][k % 2];
 }
 
-/* Kc += f (P^T Y + its transpose), where P belongs to node i and Y to node j. */
-static void add_block(const coarse_space *c, double f, double P[6][2], int i, double Y[6][2], int j)
+/* Kc += P^T Y + its transpose, where P belongs to node i and Y to node j; `own`: P is Y's, the sum
+ * is symmetric and is added once. Pivots are measured by such sums. */
+static void add_block(const coarse_space *c, double P[6][2], int i, double Y[6][2], int j, int own)
 {
     double sum[2][2] = { { 0 } };
 
@@ -270,33 +253,29 @@ static void add_block(const coarse_space *c, double f, double P[6][2], int i, do
             sum[k / 2][k % 2] += P[b][k / 2] * Y[b][k % 2];
     for (int k = 0; k < 4; k++) {
         const int p = 2 * i + k / 2, q = 2 * j + k % 2;
-        *bbm_entry(&c->Kc, p > q ? p : q, p > q ? q : p)
-            += (p == q ? 2 : 1) * f * sum[k / 2][k % 2];
+        if (!own || p >= q)
+            *bbm_entry(&c->Kc, p > q ? p : q, p > q ? q : p)
+                += (p == q && !own ? 2 : 1) * sum[k / 2][k % 2];
+        if (own && p == q)
+            c->Kc.size[p] += sum[k / 2][k / 2];
     }
 }
 
-/* Kc = P^T (D + L + L^T) P, of which the first is what pivots are measured by. */
+/* Kc = P^T (D + L + L^T) P. */
 static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
 {
     double Y[6][2];
 
-    memset(c->Kc.A, 0, c->Kc.entries * sizeof *c->Kc.A);
+    memset(c->Kc.A, 0, (c->Kc.entries + 2 * (size_t)c->n) * sizeof *c->Kc.A);
     for (int i = 0; i < K->n; i++)
-        for (int b = c->first[i]; b < c->first[i + 1]; b++) {
-            multiply(K->D[i], c->P[b], Y);
-            for (int a = c->first[i]; a <= b; a++)
-                add_block(c, a == b ? 0.5 : 1, c->P[a], c->node[a], Y, c->node[b]);
-        }
-    for (int k = 0; k < 2 * c->n; k++)
-        c->size[k] = *bbm_entry(&c->Kc, k, k);
-    for (int i = 0; i < K->n; i++)
-        for (int k = K->first[i]; k < K->first[i + 1]; k++) {
-            const int j = i - K->back[k], side = share_a_side(c, i, j);
+        for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
+            const int D = k == K->first[i + 1], j = D ? i : i - K->back[k];
+            const int side = share_a_side(c, i, j);
             for (int b = c->first[j]; b < c->first[j + 1]; b++) {
-                multiply(K->L[k], c->P[b], Y);
-                for (int a = c->first[i]; a < c->first[i + 1]; a++)
+                multiply(D ? K->D[i] : K->L[k], c->P[b], Y);
+                for (int a = c->first[i]; a < (D ? b + 1 : c->first[i + 1]); a++)
                     if (!side || c->node[a] == c->node[b])
-                        add_block(c, 1, c->P[a], c->node[a], Y, c->node[b]);
+                        add_block(c, c->P[a], c->node[a], Y, c->node[b], D && a == b);
             }
         }
 }
@@ -306,7 +285,7 @@ static void make_ready(bbm_matrix *K)
     const coarse_space *c = K->extra;
 
     sum_coarse(K, c);
-    bbm_factor_make(&c->Kc, c->size);
+    bbm_factor_make(&c->Kc);
 }
 
 /* x = P^T z for the rows in hand. */
@@ -353,9 +332,7 @@ static void correct(const bbm_matrix *K, const double *y, double *f)
 /* Without a coarse space, or where it does not pay, the paper's method. */
 static void choose(const bbm_matrix *K, bbm_pcg *pcg)
 {
-    const coarse_space *c = K->extra;
-
-    if (c)
+    if (K->extra)
         pcg->omega = 1;
     else
         pcg->method = NULL;

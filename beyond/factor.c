@@ -10,6 +10,7 @@
  * their parents, and so on up to i. They are few or many by the order of the rows.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "beyond.h"
 
@@ -55,6 +56,8 @@ static bbm_status find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
                 status = add_part(f, s, j);
             last = j;
         }
+    if (status)
+        return status;
     qsort(f->part + n, (size_t)(s->parts - n), sizeof *f->part, bbm_compare_pairs);
     for (int k = n + 1; k < s->parts; k++)
         if (f->part[k].from == f->part[n].to)
@@ -62,7 +65,7 @@ static bbm_status find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
         else
             f->part[++n] = f->part[k];
     s->parts = n + 1;
-    return status;
+    return BBM_OK;
 }
 
 /* Room for C of n pairs of rows: beside the diagonal K is not zero at the entries, two different
@@ -77,8 +80,7 @@ bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2]
     f->n = n;
     f->first = calloc(rows + 1, sizeof *f->first);
     if (memory && f->first) {
-        for (size_t k = 0; k < 3 * rows; k++)
-            memory[k] = -1;
+        memset(memory, -1, 3 * rows * sizeof *memory);
         for (int k = 0; k < entries; k++) {
             const int row = entry[k][entry[k][0] < entry[k][1]];
             s.before[k] = s.last[row];
@@ -89,7 +91,8 @@ bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2]
         f->first[n] = s.parts;
         for (int k = 0; k < s.parts; f->entries += 2 * width(&f->part[k++]))
             f->part[k].at = f->entries;
-        f->A = status ? NULL : calloc(f->entries + 1, sizeof *f->A);
+        f->A = status ? NULL : calloc(f->entries + 2 * rows + 1, sizeof *f->A);
+        f->size = f->A + f->entries;
     }
     free(memory);
     return f->A ? BBM_OK : BBM_NO_MEMORY;
@@ -159,8 +162,8 @@ static double find_pivot(double square, double size)
  *
  *     C_ij = (K_ij - sum_k<j C_ik C_jk)/C_jj,      C_jj^2 = K_jj - sum_k<j C_jk^2.
  *
- * Pivots are measured by size[j]. What stands above the diagonal is never used. */
-void bbm_factor_make(const bbm_factor *f, const double *size)
+ * Pivots are measured by `size`. What stands above the diagonal is never used. */
+void bbm_factor_make(const bbm_factor *f)
 {
     double s[4];
 
@@ -172,9 +175,9 @@ void bbm_factor_make(const bbm_factor *f, const double *size)
                 multiply_rows(f, i, j, s);
                 for (int a = 0; a < 2; a++, c += width(p)) {
                     c[0] -= s[2 * a];
-                    c[0] = i == j && a == 0 ? find_pivot(c[0], size[2 * i]) : c[0] * d[0];
+                    c[0] = i == j && a == 0 ? find_pivot(c[0], f->size[2 * i]) : c[0] * d[0];
                     c[1] -= s[2 * a + 1] + c[0] * e[0];
-                    c[1] = i == j && a == 1 ? find_pivot(c[1], size[2 * i + 1]) : c[1] * e[1];
+                    c[1] = i == j && a == 1 ? find_pivot(c[1], f->size[2 * i + 1]) : c[1] * e[1];
                 }
             }
 }
@@ -200,7 +203,7 @@ void bbm_substitute(const bbm_factor *f, int from, int to, double *restrict x)
         const bbm_part *last = f->part + f->first[i + 1] - 1;
         const double *d = f->A + place_in(last, i), *e = d + width(last);
         for (const bbm_part *p = f->part + f->first[i]; p <= last; p++)
-            subtract_products(width(p) - 2 * (p == last), f->A + p->at, width(p), x + 2 * p->from,
+            subtract_products(width(p) - (p == last ? 2 : 0), f->A + p->at, width(p), x + 2 * p->from,
                               x + 2 * i);
         x[2 * i] *= d[0];
         x[2 * i + 1] = (x[2 * i + 1] - e[0] * x[2 * i]) * e[1];
@@ -212,7 +215,7 @@ void bbm_substitute(const bbm_factor *f, int from, int to, double *restrict x)
         for (const bbm_part *p = f->part + f->first[i]; p <= last; p++) {
             const double *u = f->A + p->at, *v = u + width(p);
             double *restrict y = x + 2 * p->from;
-            for (size_t k = 0; k < width(p) - 2 * (p == last); k += 2) {
+            for (size_t k = 0; k < width(p) - (p == last ? 2 : 0); k += 2) {
                 y[k] -= u[k] * x0 + v[k] * x1;
                 y[k + 1] -= u[k + 1] * x0 + v[k + 1] * x1;
             }

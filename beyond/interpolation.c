@@ -75,9 +75,10 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
-/* Where each vertex lies in the square round its component of K, which is halved again and again,
- * left and right and then below and above: from its first bit on, place[v] says in which half. */
-static void find_places(const bbm_model *m, bbm_box *box, unsigned *place)
+/* Where each vertex lies: in its component of K, and in a square round this, which is halved again
+ * and again, left and right and then below and above. From its first bit on, what place[v] is more
+ * than BBM_PLACES times the component says in which half. */
+static void find_places(const bbm_model *m, bbm_box *box, long long *place)
 {
     for (int k = 0; k < m->elements; k++)
         box[k] = bbm_empty_box(k);
@@ -85,12 +86,14 @@ static void find_places(const bbm_model *m, bbm_box *box, unsigned *place)
         bbm_widen_box(&box[bbm_component_of(m->K, m->vertex[k].element)], m->vertex[k].x,
                       m->vertex[k].y, 0);
     for (int k = 0; k < m->vertices; k++) {
-        const bbm_box *b = &box[bbm_component_of(m->K, m->vertex[k].element)];
-        const double size = fmax(b->high[1] - b->low[1], b->high[2] - b->low[2]) / 65535;
-        const unsigned x = (unsigned)((m->vertex[k].x - b->low[1]) / size);
-        const unsigned y = (unsigned)((m->vertex[k].y - b->low[2]) / size);
-        for (int bit = 0; bit < 16; bit++)
-            place[k] |= (x >> bit & 1) << (2 * bit + 1) | (y >> bit & 1) << 2 * bit;
+        const int component = bbm_component_of(m->K, m->vertex[k].element);
+        const bbm_box *b = &box[component];
+        const double size = fmax(b->high[1] - b->low[1], b->high[2] - b->low[2]) / 32767;
+        const int x = (int)((m->vertex[k].x - b->low[1]) / size);
+        const int y = (int)((m->vertex[k].y - b->low[2]) / size);
+        place[k] = BBM_PLACES * component;
+        for (int bit = 1; bit <= 1 << 14; bit *= 2)
+            place[k] += bit * (2 * (x & bit) + (y & bit));
     }
 }
 
@@ -113,12 +116,12 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
     int *up = calloc(2 * v + 2 * n + 1, sizeof *up);
-    unsigned *place = calloc(v, sizeof *place);
+    long long *place = calloc(v, sizeof *place);
     bbm_box *box = malloc(n * sizeof *box);
 
     if (!up || !place || !box)
         return free(up), free(place), free(box), BBM_NO_MEMORY;
-    int *node = up + v, *first = node + v, *worth = first + n + 1;   /* of a component of K */
+    int *node = up + v, *first = node + v, *worth = first + n + 1;  /* [components of K] */
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
