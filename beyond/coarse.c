@@ -22,11 +22,16 @@
  * positive definite by its form. On triangles some 15 iterations suffice on a mesh of any fineness.
  * What the nodes of a model are, and P, is in interpolation.c.
  *
- * Kc is factored by Cholesky in its envelope. The nodes are numbered by the last row that has them,
- * so that the envelope is narrow as the band of K is. Displacements of the nodes that move no
- * element (the hourglass of quadrilaterals) have no stiffness: of their pivots rounding is left,
- * some eps of what was summed up before it cancelled. A pivot below VANISHING of that is struck out
- * with its row: the coarse space is then a little smaller, and the preconditioner as positive
+ * Kc is factored by Cholesky (factor.c), in the order of nested dissection (A. George, SIAM J. Numer.
+ * Anal. 10, 1973). The plane is halved again and again. What joins the halves of a cell are entries
+ * of Kc between a node in the one and a node in the other; the nodes in the lower half that have such
+ * entries are numbered behind all others of the cell. Without them nothing joins the halves, nor does
+ * an entry of the factor, and there are few of them: n nodes have some n log n entries, in place of
+ * the n^1.5 of a band.
+ *
+ * Displacements of the nodes that move no element (the hourglass of quadrilaterals) have no
+ * stiffness: of their pivots rounding is left, some eps of what was summed up before it cancelled.
+ * They are struck out: the coarse space is then a little smaller, and the preconditioner as positive
  * definite as before.
  */
 #include <stdlib.h>
@@ -192,8 +197,9 @@ static void coarse_free(void *extra)
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
- * node[first[i+1]-1], all different, or none, and no two components the same node. Rows of three
- * nodes that share two of them must be triangles bonded along that side. */
+ * node[first[i+1]-1], all different, or none. Rows of three nodes that share two of them must be
+ * triangles bonded along that side. place[v] is BBM_PLACES times the component of K that node v is
+ * in, and less than BBM_PLACES more: near nodes should have the upper bits in common. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place)
 {

@@ -27,9 +27,8 @@
  * Terms are few, so that K without them is nearly K. In small components, where that is faster, M is
  * this whole matrix, factored by factor.c.
  *
- * In statics a block that all its contacts let slide is held by nothing. K is singular then, and
- * has no L U; but every x above is made of products with K, and no force asks for that motion:
- * where there is an equilibrium it is found.
+ * In statics a block that all its contacts let slide is held by nothing, and K is singular. But no
+ * force asks for that motion, and it is in no residual: where there is an equilibrium it is found.
  */
 #include <stdlib.h>
 #include <string.h>
