@@ -22,17 +22,17 @@
  * positive definite by its form. On triangles some 15 iterations suffice on a mesh of any fineness.
  * What the nodes of a model are, and P, is in interpolation.c.
  *
- * Kc is factored by Cholesky (factor.c), in the order of nested dissection (A. George, SIAM J. Numer.
- * Anal. 10, 1973). The plane is halved again and again. What joins the halves of a cell are entries
- * of Kc between a node in the one and a node in the other; the nodes in the lower half that have such
- * entries are numbered behind all others of the cell. Without them nothing joins the halves, nor does
- * an entry of the factor, and there are few of them: n nodes have some n log n entries, in place of
- * the n^1.5 of a band.
+ * Kc is factored by Cholesky (factor.c), in the order of nested dissection (A. George, SIAM J.
+ * Numer. Anal. 10, 1973). The plane is halved again and again. What joins the halves of a cell are
+ * entries of Kc between a node in the one and a node in the other; the nodes in the lower half that
+ * have such entries are numbered behind all others of the cell. Without them nothing joins the
+ * halves, nor does an entry of the factor. They are few: n nodes have a factor of some n log n
+ * entries, in place of the n^1.5 of a band.
  *
  * Displacements of the nodes that move no element (the hourglass of quadrilaterals) have no
  * stiffness: of their pivots rounding is left, some eps of what was summed up before it cancelled.
- * They are struck out: the coarse space is then a little smaller, and the preconditioner as positive
- * definite as before.
+ * They are struck out: the coarse space is then a little smaller, and the preconditioner as
+ * positive definite as before.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -56,9 +56,9 @@ typedef struct {
 static void copy_nodes(const bbm_matrix *K, const int *first, const int *node, coarse_space *c)
 {
     for (int i = 0; i < K->n; i++) {
-        const int *row = node + first[K->caller[i]], n = first[K->caller[i] + 1] - first[K->caller[i]];
-        c->first[i + 1] = c->first[i] + n;
-        memcpy(c->node + c->first[i], row, (size_t)n * sizeof *row);
+        const int *from = first + K->caller[i];
+        c->first[i + 1] = c->first[i] + from[1] - from[0];
+        memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
     }
 }
 

@@ -117,19 +117,22 @@ double *bbm_entry(const bbm_factor *f, int i, int j)
 
 /* ----------------------------------------------------------------------------------- the factor */
 
-/* sum += the products of two rows at a with two at b over n columns, an even number; a row's second
- * one lies m or l behind it. Each is two partial sums: one alone would wait for each addition. */
+/* s += the products of two rows at a with two at b over n columns, an even number; the second row
+ * lies m or l behind the first. Each has two partial sums: one alone would wait for each addition. */
 static void add_products(size_t n, const double *a, size_t m, const double *b, size_t l,
-                         double sum[4][2])
+                         double s[4])
 {
+    double sum[4][2] = { { 0 } };
+
     for (size_t k = 0; k < n; k += 2)
         for (size_t e = 0; e < 2; e++) {
-            const double a0 = a[k + e], a1 = a[m + k + e], b0 = b[k + e], b1 = b[l + k + e];
-            sum[0][e] += a0 * b0;
-            sum[1][e] += a0 * b1;
-            sum[2][e] += a1 * b0;
-            sum[3][e] += a1 * b1;
+            sum[0][e] += a[k + e] * b[k + e];
+            sum[1][e] += a[k + e] * b[l + k + e];
+            sum[2][e] += a[m + k + e] * b[k + e];
+            sum[3][e] += a[m + k + e] * b[l + k + e];
         }
+    for (int k = 0; k < 4; k++)
+        s[k] += sum[k][0] + sum[k][1];
 }
 
 /* s = the products of the rows i with the rows j <= i, pairs both, over the columns before j. */
@@ -137,19 +140,17 @@ static void multiply_rows(const bbm_factor *f, int i, int j, double s[4])
 {
     const bbm_part *p = f->part + f->first[i], *q = f->part + f->first[j];
     const bbm_part *end = f->part + f->first[j + 1];
-    double sum[4][2] = { { 0 } };
 
+    memset(s, 0, 4 * sizeof *s);
     while (q < end) {
         const int from = p->from > q->from ? p->from : q->from;
         const int stop = q + 1 == end ? j : q->to, to = p->to < stop ? p->to : stop;
         if (from < to)
             add_products(2 * (size_t)(to - from), f->A + place_in(p, from), width(p),
-                         f->A + place_in(q, from), width(q), sum);
+                         f->A + place_in(q, from), width(q), s);
         p += p->to < stop;
         q += to == stop;
     }
-    for (int k = 0; k < 4; k++)
-        s[k] = sum[k][0] + sum[k][1];
 }
 
 /* 1/C_jj from C_jj^2; 0, which strikes out the row, where that vanishes against `size`. */
@@ -171,7 +172,8 @@ void bbm_factor_make(const bbm_factor *f)
         for (const bbm_part *p = f->part + f->first[i]; p < f->part + f->first[i + 1]; p++)
             for (int j = p->from; j < p->to; j++) {
                 const bbm_part *last = f->part + f->first[j + 1] - 1;
-                double *c = f->A + place_in(p, j), *d = f->A + place_in(last, j), *e = d + width(last);
+                double *c = f->A + place_in(p, j);
+                const double *d = f->A + place_in(last, j), *e = d + width(last);
                 multiply_rows(f, i, j, s);
                 for (int a = 0; a < 2; a++, c += width(p)) {
                     c[0] -= s[2 * a];
@@ -203,8 +205,8 @@ void bbm_substitute(const bbm_factor *f, int from, int to, double *restrict x)
         const bbm_part *last = f->part + f->first[i + 1] - 1;
         const double *d = f->A + place_in(last, i), *e = d + width(last);
         for (const bbm_part *p = f->part + f->first[i]; p <= last; p++)
-            subtract_products(width(p) - (p == last ? 2 : 0), f->A + p->at, width(p), x + 2 * p->from,
-                              x + 2 * i);
+            subtract_products(width(p) - (p == last ? 2 : 0), f->A + p->at, width(p),
+                              x + 2 * p->from, x + 2 * i);
         x[2 * i] *= d[0];
         x[2 * i + 1] = (x[2 * i + 1] - e[0] * x[2 * i]) * e[1];
     }

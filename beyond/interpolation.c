@@ -97,9 +97,9 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
     }
 }
 
-/* Whether two levels pay for a bonded element. In a short step inertia holds every element by itself,
- * and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs to cross some
- * elements. */
+/* Whether two levels pay for a bonded element. In a short step inertia holds every element by
+ * itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs to
+ * cross some elements. */
 static int pays(const bbm_model *m, const bbm_element *e)
 {
     const double way2 = e->material.E / e->material.density * m->par.dt * m->par.dt;

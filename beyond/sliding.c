@@ -24,8 +24,8 @@
  * d is a M^-1 K p. In each iteration z is computed from r once, for if it were only updated, by
  * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever.
  *
- * Terms are few, so that K without them is nearly K. In small components, where that is faster, M is
- * this whole matrix, factored by factor.c.
+ * Terms are few, so that K without them is nearly K. In small components, where that is faster, M
+ * is this whole matrix, factored by factor.c.
  *
  * In statics a block that all its contacts let slide is held by nothing, and K is singular. But no
  * force asks for that motion, and it is in no residual: where there is an equilibrium it is found.
