@@ -92,7 +92,7 @@ bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2]
         for (int k = 0; k < s.parts; f->entries += 2 * width(&f->part[k++]))
             f->part[k].at = f->entries;
         f->A = status ? NULL : calloc(f->entries + 2 * rows + 1, sizeof *f->A);
-        f->size = f->A + f->entries;
+        f->size = f->A ? f->A + f->entries : NULL;
     }
     free(memory);
     return f->A ? BBM_OK : BBM_NO_MEMORY;
