@@ -94,8 +94,9 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return m->beyond->is_round ? BBM_PASS_SAME_K : next;
 }
 
-/* A step that went well: right as far as one can tell, no corner passed, no energy from nowhere. */
-static bbm_status accept(bbm_model *m)
+/* Moves the model to the end of the step, with the velocities after the jump, if the step went
+ * well: right as far as one can tell, no corner passed, no energy from nowhere. */
+static bbm_status move(bbm_model *m)
 {
     bbm_status status;
 
@@ -108,14 +109,9 @@ static bbm_status accept(bbm_model *m)
         return status;
     bbm_store_multipliers(m);
     bbm_stop_supports(m);
+    memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
+    memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);
     return BBM_OK;
-}
-
-/* The model has moved: with the velocities after the jump. */
-static void moved(bbm_model *m)
-{
-    for (int i = 0; i < m->elements; i++)
-        memcpy(m->element[i].V, m->beyond->end_element[i].V, sizeof m->element[i].V);
 }
 
 bbm_status bbm_beyond_new(bbm_model **out)
@@ -149,8 +145,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .motion = bbm_find_motion,
         .before_solution = bbm_interpolate_elements,
         .renew = renew,
-        .accept = accept,
-        .moved = moved,
+        .move = move,
         .failed = bbm_try_otherwise,
     };
     return BBM_OK;
