@@ -53,12 +53,11 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
     const bbm_element *e = &m->element[a->element];
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
     const bbm_edge_load *now = load;
-    double T[2][6], am[2], bm[2], c[2] = { 0, 0 };
+    double T[2][6], am[2], bm[2], c[2];
 
     bbm_step_point(e, a->x, a->y, T, am);
     bbm_step_point(e, b->x, b->y, T, bm);
-    if (load->weight > 0)
-        press(load->level - am[1], load->level - bm[1], c);
+    press(load->level - am[1], load->level - bm[1], c);
     for (int g = 0; g < BBM_GAUSS; g++) {
         double s, share;
         bbm_gauss_point(g, &s, &share);
