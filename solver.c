@@ -273,8 +273,8 @@ static int invert(double w, double D[6][6], double B[6][6])
     return 1;
 }
 
-/* Checks K, F and the parameters, then inverts the diagonal blocks; if one is not positive definite,
- * info->element is its row. Further solutions with the same K find this done. */
+/* Checks K, F and the parameters, then inverts the diagonal blocks. If one is not positive
+ * definite, info->element is its row. Further solutions with the same K find this done. */
 static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
                              bbm_pcg_info *info)
 {
