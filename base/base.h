@@ -183,8 +183,7 @@ struct bbm_hooks {
                                                             /* 1: added for the N of the solution */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
-    bbm_status (*accept)(bbm_model *m);                     /* before the model moves           */
-    void (*moved)(bbm_model *m);                            /* it has: may change velocities    */
+    bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */
     bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */
 };
 

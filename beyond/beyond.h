@@ -125,7 +125,6 @@ void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
-int        bbm_renew_middle(bbm_model *m);
 
 /* bending.c */
 void       bbm_condense(int n, int rows, double W[n][n]);
