@@ -289,6 +289,8 @@ double     bbm_shear_strength(const bbm_strength *s, double N);                 
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
+void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor,
+                               bbm_spring v[2]);
 bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 
