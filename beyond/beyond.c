@@ -89,8 +89,8 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
     if (bbm_contact_turns_over(m))
         return BBM_PASS_GIVE_UP;
-    if (next == BBM_PASS_DONE && bbm_take_over(m))
-        return BBM_PASS_SAME_K;
+    if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)
+        return next;
     return bbm_renew_middle(m) ? BBM_PASS_AGAIN : next;
 }
 

@@ -136,7 +136,7 @@ void       bbm_list_edge_gaps(bbm_model *m);
 /* multipliers.c */
 void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
 void       bbm_start_multipliers(bbm_model *m);
-int        bbm_take_over(bbm_model *m);
+bbm_pass   bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */

@@ -279,15 +279,20 @@ END_TEST
 
 /* A block on a base that is held at all its vertices: multipliers have nothing to do in dynamics,
  * and a settled step is one solution. In statics they hold the base; so they do in dynamics where
- * one vertex of it is free. */
+ * one vertex of it is free. Under nine jointed blocks in pieces, which come to rest, other contacts
+ * slide in each round. They begin it so: with the states of the step's end it takes five solutions.
+ */
 START_TEST(a_base_needs_no_multipliers_in_dynamics)
 {
     bbm_model *m = new_blocks();
 
-    m->par.friction = 30;
+    m->par.friction = 35;
     add_rectangle(m, 0, BASE, (rectangle){ -2, -1, 5, 1, 0, .fixed = 1 });
-    add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, 1, 0, .fixed = 0 });
+    for (int k = 0; k < (_i == 3 ? 9 : 1); k++)
+        add_rectangle(m, 1 + k, ROCK, (rectangle){ k % 3 + k / 3 * 0.3, k / 3, 1, 1, 0,
+                                                   .nx = 1 + _i / 3, .ny = 1 + _i / 3 });
     m->node[0].held = _i == 2 ? BBM_X : BBM_XY;
+    m->par.velocity_factor = _i == 3 ? 0 : m->par.velocity_factor;
     m->par.dt = _i == 1 ? INFINITY : m->par.dt;
     m->beyond->multiplier_rounds = 2;
     ck_ok(bbm_prepare(m), m);
@@ -569,7 +574,7 @@ Suite *open_close_suite(void)
         { states_are_the_same_number_whatever_was_before, 2 },
         { what_closes_on_an_edge_that_stretches_has_not_slipped, 2 },
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
-        { a_base_needs_no_multipliers_in_dynamics, 3 },
+        { a_base_needs_no_multipliers_in_dynamics, 4 },
         { a_cycle_is_broken_one_by_one_for_as_many_passes_again, 2 },
         { the_contact_that_fits_worst_changes_first, 2 },
         { a_contact_that_closes_outside_the_cone_of_friction_slides, 4 },
