@@ -71,6 +71,11 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    contact;             /* where those of the corner a begin in model.contact           */
 };
 
+typedef struct {                /* what a contact settled on in a round of multipliers          */
+    bbm_contact_state state;
+    double sign, time_left;     /* see bbm_contact; time_left 0: on nothing yet                 */
+} bbm_settled;
+
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
     /* --- identity: two boundary edges. P1 starts `corner`; P3 starts `edge`, P2 ends it --- */
     int    corner, edge;
@@ -86,6 +91,7 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double slip;                /* m        how far it has slid in all steps since it closed    */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
+    bbm_settled settled[3];     /* in each round of the last step; later rounds share the last  */
     int    hit;                 /* a hook has given it an impulse in place of its spring's      */
     /* --- of the step --- */
     bbm_strength strength;
@@ -133,6 +139,7 @@ struct bbm_contact_scratch {
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- contact.c: the iteration --- */
+    int round;                  /* of multipliers: its place in bbm_contact.settled             */
     int passes, friction_passes;
     int one_until;              /* before this pass one contact alone changes its state in each */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
@@ -288,6 +295,8 @@ double     bbm_shear_strength(const bbm_strength *s, double N);                 
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
+void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor,
+                               bbm_spring v[2]);
 bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 

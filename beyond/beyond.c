@@ -76,22 +76,20 @@ static bbm_status listed(bbm_model *m)
     return status ? status : bbm_check_supports(m);
 }
 
-/* After a pass: if it turns a block too far, no further one will do; T of the step is renewed,
- * unless K is kept; when all has settled, multipliers take over what the springs carry. */
+/* After a pass: if it turns a block too far, no further one will do; when all has settled,
+ * multipliers take over what the springs carry; in the end, and where K is new anyway, T of the
+ * step is renewed. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
-    const int is_round = m->beyond->is_round;
-
-    m->beyond->is_round = 0;
     if (bbm_contact_turns_over(m))
         return BBM_PASS_GIVE_UP;
-    if (!is_round && bbm_middle_is_off(m)) {
-        bbm_set_middle(m);
-        bbm_list_gaps(m);
-        return BBM_PASS_AGAIN;
-    }
-    m->beyond->is_round = next == BBM_PASS_DONE && bbm_take_over(m);
-    return m->beyond->is_round ? BBM_PASS_SAME_K : next;
+    if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)
+        return next;
+    if (!bbm_middle_is_off(m))
+        return next;
+    bbm_set_middle(m);
+    bbm_list_gaps(m);
+    return BBM_PASS_AGAIN;
 }
 
 /* Moves the model to the end of the step, with the velocities after the jump, if the step went

@@ -55,7 +55,6 @@ struct bbm_beyond {
     double reach;               /* -        statics.c: how far blocks may part in a static step */
     double restitution;         /* -        impact.c: -1: none, as the springs do               */
     int rounds_done;            /* in this step                                                 */
-    int is_round;               /* the solution in hand is one: K was kept                      */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
     int joints;
@@ -136,7 +135,7 @@ void       bbm_list_edge_gaps(bbm_model *m);
 /* multipliers.c */
 void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
 void       bbm_start_multipliers(bbm_model *m);
-int        bbm_take_over(bbm_model *m);
+bbm_pass   bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */
