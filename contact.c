@@ -216,7 +216,6 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
 
     c->time_left = 1;
     c->N_of_friction = c->N;
-    c->N_locked = c->T_locked = 0;
     c->closings = 0;
     for (int k = 0; k < 4; k++)
         lines += c->entrance[k] >= 0;
@@ -254,23 +253,19 @@ static int is_strengthless(const bbm_contact *c, double N)
     return is_strong(c) && bbm_shear_strength(&c->strength, N) == 0;
 }
 
-/* Friction of a sliding contact, Eq. (65), with N_of_friction for N. While the N are still changing
- * one may be negative. Its friction is, too: each N then depends linearly on the last. A strong
- * joint may stay in tension, so it has its strength instead. */
-static double friction_force(const bbm_contact *c)
-{
-    const double N = c->N_of_friction;
-
-    return c->sign * (is_strong(c) ? bbm_shear_strength(&c->strength, N) : N * c->strength.tan_phi);
-}
-
-/* Friction as a load with the N of the last solution, Eq. (65), (69), or what a hook adds. */
+/* Friction of a sliding contact as a load, Eq. (65), (69), with N_of_friction for N, or what a hook
+ * adds. While the N are still changing one may be negative. Its friction is, too: each N then
+ * depends linearly on the last. A strong joint may stay in tension, so it has its strength instead.
+ */
 static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
 {
-    c->friction_in_K = m->hook->friction && !is_strengthless(c, c->N_of_friction)
+    const double N = c->N_of_friction, strength = bbm_shear_strength(&c->strength, N);
+    const double friction = c->sign * (is_strong(c) ? strength : N * c->strength.tan_phi);
+
+    c->friction_in_K = m->hook->friction && !is_strengthless(c, N)
                     && m->hook->friction(m, c, t, s);
     if (!c->friction_in_K)
-        bbm_friction_submatrices(t, c->anchor, friction_force(c), s);
+        bbm_friction_submatrices(t, c->anchor, friction, s);
 }
 
 /* Adds the closed contacts to K and F. LOCK: the normal and the shear spring, Eq. (58) and (63).
@@ -409,25 +404,9 @@ static void change_state(const bbm_model *m, bbm_contact *c)
         const int slides = ++c->closings > 1 || T > bbm_shear_strength(&c->strength, N);
         c->next_state = slides ? BBM_SLIDE : BBM_LOCK;
     }
-    if (c->next_state == BBM_SLIDE) {
+    if (c->next_state == BBM_SLIDE)
         c->sign = copysign(1, slip);
-        c->N_locked = closes ? 0 : c->N;
-        c->T_locked = closes ? 0 : fabs(c->T);
-    }
     c->state = c->next_state;
-}
-
-/* Whether friction would wedge in a contact that was locked, slides, and would lock again. As long
- * as no other state changes N is linear in the shear force, which was T_locked and is the strength
- * now. If N rises faster than tan(phi) lets the strength follow, the force is too large for the one
- * state and too small for the other: none of the two fits. On that line N without friction is
- * tension, so the contact opens. */
-static int is_wedge(const bbm_contact *c)
-{
-    const double more = bbm_shear_strength(&c->strength, c->N) - c->T_locked;
-
-    return c->T_locked > 0 && more > c->force_tolerance && !is_strong(c)
-        && c->N_locked * more < c->T_locked * (c->N - c->N_locked);
 }
 
 /* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
@@ -442,9 +421,6 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
         return BBM_OPEN;
     if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0)
         return BBM_SLIDE;
-    if (c->state == BBM_SLIDE && next == BBM_LOCK && is_wedge(c)
-        && m->scratch->passes < m->scratch->one_until)
-        return BBM_OPEN;
     return next;
 }
 

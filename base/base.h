@@ -110,7 +110,6 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double d_n, d_s;            /* m        normal distance and slip at the end                 */
     double past[2];             /* m        how far P1 is past P3 and P2 at the end, if open    */
     double N_of_friction;       /* N        the N that friction is taken for                    */
-    double N_locked, T_locked;  /* N        N and |T| when it went from LOCK to SLIDE, or 0     */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
     bbm_contact_state next_state;               /* in the next pass                             */

@@ -85,26 +85,19 @@ static int breadth_first(graph *g, int start, int *order)
     return count;
 }
 
-/* The rows of a component in the order to reverse: from the row on that a search finds last, for it
- * lies at an end of the component. `rows`: scratch. Returns their number. */
-static int order_component(graph *g, int start, int *order, int *rows)
-{
-    const int count = breadth_first(g, start, rows);
-
-    for (int k = 0; k < count; k++)
-        g->level[rows[k]] = -1;
-    return breadth_first(g, rows[count - 1], order);
-}
-
-/* place[i] of row i: all components one after the other, then the whole order reversed. `order`:
- * scratch. */
+/* place[i] of row i: all components one after the other, then the whole order reversed. A component
+ * begins with the row that a search finds last, for it lies at an end. `order`: scratch. */
 static void reverse_cuthill_mckee(graph *g, int order[], int place[])
 {
     int done = 0;
 
     for (int i = 0; i < g->n; i++)
-        if (g->level[i] < 0)
-            done += order_component(g, i, order + done, place);
+        if (g->level[i] < 0) {
+            const int count = breadth_first(g, i, place);
+            for (int k = 0; k < count; k++)
+                g->level[place[k]] = -1;
+            done += breadth_first(g, place[count - 1], order + done);
+        }
     for (int i = 0; i < g->n; i++)
         place[order[i]] = g->n - 1 - i;
 }

@@ -52,16 +52,6 @@ typedef struct {
 
 /* ----------------------------------------------------------------------------------- the layout */
 
-/* first and node, these still with the caller's numbers. */
-static void copy_nodes(const bbm_matrix *K, const int *first, const int *node, coarse_space *c)
-{
-    for (int i = 0; i < K->n; i++) {
-        const int *from = first + K->caller[i];
-        c->first[i + 1] = c->first[i] + from[1] - from[0];
-        memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
-    }
-}
-
 /* Whether two rows are triangles with a side in common. The springs of a side feel no more than the
  * displacements of its two ends: K_ij adds to their diagonal blocks of Kc, and to nothing else. */
 static int share_a_side(const coarse_space *c, int i, int j)
@@ -108,14 +98,15 @@ static int compare_keys(const void *a, const void *b)
     return (p[k] > q[k]) - (p[k] < q[k]);
 }
 
-static void find_keys(int nodes, const long long *place, int entries, int (*entry)[2],
-                      long long (*key)[KEYS])
+/* Numbers the nodes by sorted keys, also in the entries. key, number: [n], scratch, the first 0. */
+static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *place, int entries,
+                         int (*entry)[2], long long (*key)[KEYS], int *number)
 {
     for (int k = 0; k < entries; k++) {
         const int p = entry[k][0], q = entry[k][1];
         key[place[p] < place[q] ? p : q][SIZE] |= place[p] ^ place[q];
     }
-    for (int v = 0; v < nodes; v++) {
+    for (int v = 0; v < c->n; v++) {
         long long all = 0;
         while (all < key[v][SIZE])
             all = 2 * all + 1;
@@ -123,14 +114,6 @@ static void find_keys(int nodes, const long long *place, int entries, int (*entr
         key[v][LAST] = place[v] | all;
         key[v][NODE] = v;
     }
-}
-
-/* Numbers the nodes by sorted keys, also in the entries. number: [n], scratch. */
-static void number_nodes(const bbm_matrix *K, coarse_space *c, int entries, int (*entry)[2],
-                         long long (*key)[KEYS], int *number)
-{
-    int v = 0;
-
     qsort(key, (size_t)c->n, sizeof *key, compare_keys);
     for (int k = 0; k < c->n; k++)
         number[key[k][NODE]] = k;
@@ -138,7 +121,7 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, int entries, int 
         c->node[a] = number[c->node[a]];
     for (int k = 0; k < 2 * entries; k++)
         entry[k / 2][k % 2] = number[entry[k / 2][k % 2]];
-    for (int k = 0; k <= K->components; k++) {
+    for (int k = 0, v = 0; k <= K->components; k++) {
         while (v < c->n && key[v][LAST] < BBM_PLACES * k)
             v++;
         c->start[K->start[k]] = v;
@@ -167,15 +150,18 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
     bbm_status status = allocate(K, (size_t)first[K->n], c);
     if (status)
         return status;
-    copy_nodes(K, first, node, c);
+    for (int i = 0; i < K->n; i++) {
+        const int *from = first + K->caller[i];
+        c->first[i + 1] = c->first[i] + from[1] - from[0];
+        memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
+    }
     const int entries = list_entries(K, c, NULL);
     int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
     long long (*key)[KEYS] = calloc((size_t)nodes, sizeof *key);
     status = BBM_NO_MEMORY;
     if (entry && key) {
         list_entries(K, c, entry);
-        find_keys(nodes, place, entries, entry, key);
-        number_nodes(K, c, entries, entry, key, entry[entries]);
+        number_nodes(K, c, place, entries, entry, key, entry[entries]);
         status = bbm_factor_lay_out(&c->Kc, nodes, entries, entry);
     }
     free(entry);
@@ -213,9 +199,7 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     if (first[K->n] == 0)
         return BBM_OK;
     coarse_space *c = calloc(1, sizeof *c);
-    if (!c)
-        return BBM_NO_MEMORY;
-    const bbm_status status = lay_out(K, nodes, first, node, place, c);
+    const bbm_status status = c ? lay_out(K, nodes, first, node, place, c) : BBM_NO_MEMORY;
     if (status)
         coarse_free(c);
     else
