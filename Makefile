@@ -24,7 +24,7 @@ PAPER    = bbm contact solver
 BASE     = build detect order step
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
-BEYOND   = beyond bending coarse energy envelope impact interpolation joints mesh multipliers overlap refuse rotation sliding statics \
+BEYOND   = beyond bending coarse energy factor impact interpolation joints mesh multipliers overlap refuse rotation sliding statics \
            surroundings sweep
 RUN      = exp1 exp2 exp3
 CASES    = $(RUN)

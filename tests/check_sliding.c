@@ -206,7 +206,8 @@ START_TEST(a_block_comes_to_rest_against_a_stop_in_statics)
 END_TEST
 
 /* A free block whose K a term u v^T changes: at 0 the first unknown's column is half as long again;
- * then it vanishes, is no number, or is infinite. The dense oracle: K D = F row by row. */
+ * then it vanishes, but no load asks for that unknown; then it is no number, or infinite. The dense
+ * oracle: K D = F row by row. */
 START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
 {
     bbm_model *m = new_blocks();
@@ -224,25 +225,23 @@ START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
     }
     m->K->terms = 1;
     const bbm_status status = bbm_solve(m->K, m->F, D, &m->par.pcg, &info);
-    ck_assert_int_eq(status, _i == 0 ? BBM_OK : BBM_NOT_POSITIVE_DEFINITE);
-    ck_assert_int_eq(info.element, _i == 0 ? -1 : 0);
-    for (int a = 0; a < 6 && _i == 0; a++) {
-        KD[a] = 0.5 * B[a][0] * D[0];
+    ck_assert_int_eq(status, _i < 2 ? BBM_OK : BBM_NOT_POSITIVE_DEFINITE);
+    for (int a = 0; a < 6 && _i < 2; a++) {
+        KD[a] = (_i == 0 ? 0.5 : -1) * B[a][0] * D[0];
         for (int b = 0; b < 6; b++)
             KD[a] += B[a][b] * D[b];
         ck_near(KD[a], m->F[a], DENSITY * GRAVITY, SOLVED);
     }
-    ck_assert(_i > 0 || info.residual < SOLVED);
+    ck_assert(_i > 1 || info.residual < SOLVED);
 }
 END_TEST
 
-/* eps |K| |D|/|F| is some 1e-9 for bonded elements, which LU leaves, and 600 iterations ten times
- * that. */
+/* eps |K| |D|/|F| is some 1e-9 for bonded elements, and 600 iterations leave ten times that. */
 #define RESIDUAL 1e-7
 
-/* A long block of bonded quadrilaterals slides, too many for LU at once: each method with its own
- * corrections and omega is the preconditioner of the same equations, whose residual is small when
- * computed afresh. Where the iteration does not end, LU solves them. */
+/* A long block of bonded quadrilaterals slides: each method with its own corrections and omega is the
+ * preconditioner of the same equations, whose residual is small when computed afresh. Five iterations
+ * are too few, and that is said. */
 START_TEST(friction_in_the_matrix_is_solved_with_every_method)
 {
     static const bbm_method *const method[] = { &bbm_two_level, NULL };
@@ -267,10 +266,8 @@ START_TEST(friction_in_the_matrix_is_solved_with_every_method)
         ck_near(m[1]->element[i].sum[0], m[0]->element[i].sum[0], 0.1, RESIDUAL);
     ck_assert_int_gt(m[1]->info.pcg.iterations, 5);
     m[1]->par.pcg.iterations = 5;
-    ck_assert_int_eq(bbm_solve(m[1]->K, m[1]->F, m[0]->D, &m[1]->par.pcg, &info), BBM_OK);
-    ck_assert_int_eq(info.iterations, 6);               /* and LU */
-    for (int i = 0; i < 6 * m[0]->elements; i++)
-        ck_near(m[0]->D[i], m[1]->D[i], 0.1, RESIDUAL);
+    ck_assert_int_eq(bbm_solve(m[1]->K, m[1]->F, m[0]->D, &m[1]->par.pcg, &info),
+                     BBM_NOT_CONVERGED);
 }
 END_TEST
 
