@@ -97,21 +97,12 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
     }
 }
 
-/* Whether two levels pay for a bonded element. In a short step inertia holds every element by
- * itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs to
- * cross some elements. */
-static int pays(const bbm_model *m, const bbm_element *e)
-{
-    const double way2 = e->material.E / e->material.density * m->par.dt * m->par.dt;
-
-    return way2 > CROSSED * CROSSED * e->A && !bbm_is_held_all_round(m, e);
-}
-
 /* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
  * them. An element without bonds is in it, too, if it lies against others with bonds: left out, it
  * is to them a stiff block that only SSOR moves. Where nothing is bonded, there would be as many
- * coarse unknowns as there are others; an element held at every corner hardly moves. SSOR is
- * faster for both. */
+ * coarse unknowns as there are others; an element held at every corner hardly moves; in short steps
+ * inertia holds every element by itself, and SSOR alone needs no more iterations than a wave, of
+ * speed sqrt(E/density), needs to cross some elements. SSOR is faster for all three. */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
@@ -128,7 +119,10 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
         const bbm_bond *b = &m->bond[k];
         for (int end = 0; end < 2; end++)
             up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
-        worth[bbm_component_of(m->K, b->i)] |= pays(m, &m->element[b->i]);
+        const bbm_element *e = &m->element[b->i];
+        const double way2 = e->material.E / e->material.density * m->par.dt * m->par.dt;
+        worth[bbm_component_of(m->K, b->i)] |= way2 > CROSSED * CROSSED * e->A
+                                            && !bbm_is_held_all_round(m, e);
     }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];

@@ -38,9 +38,8 @@ static int recall_states(bbm_model *m, int round)
     w->passes = w->one_until = 0;
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         const bbm_settled *s = &c->settled[round];
-        const int same = s->state == c->state && s->sign == c->sign;
-        if (same || s->time_left == 0 || bbm_is_static(m) || c->has_left
-            || (c->beyond_end && !c->was_closed))
+        if ((s->state == c->state && s->sign == c->sign) || s->time_left == 0
+            || bbm_is_static(m) || c->has_left || (c->beyond_end && !c->was_closed))
             continue;
         if (c->state == BBM_OPEN) {
             c->anchor = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;

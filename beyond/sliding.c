@@ -22,7 +22,10 @@
  *         p = z + (z0.r / its last value) (a/c) (p - (c/a) d)
  *
  * d is a M^-1 K p. In each iteration z is computed from r once, for if it were only updated, by
- * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever.
+ * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever. Where
+ * z and q are nearly orthogonal c would be nothing, and the iteration would stop for ever: c is at
+ * least LEAST sqrt(r.z/v.q). In the end r is computed afresh, and what is left of it is solved for:
+ * between stiffnesses far apart rounding leaves more than the tolerance.
  *
  * Terms are few, so that K without them is nearly K. In small components, where that is faster, M
  * is this whole matrix, factored by factor.c.
@@ -37,6 +40,8 @@
 
 /* Block rows up to which K without its terms is factored, which is faster; measured on walls. */
 #define SMALL 200
+/* Of c, against |z|/|q| in these norms (Sleijpen, van der Vorst, Numer. Algorithms 10, 1995). */
+#define LEAST 0.7
 
 /* y += u v^T x for the rows in hand. Returns the number of terms. */
 static int add_terms(const bbm_matrix *K, const double *x, double *y)
@@ -112,10 +117,10 @@ static void precondition(const bbm_matrix *K, const bbm_factor *f, const double 
 
 /* ------------------------------------------------------------------------------- the iteration */
 
-/* The iteration of the head, from x = 0 and r = F to x; d: room for three vectors; a length is the
- * square root of rz, and `last` is z0.r. */
-static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, const bbm_pcg *pcg,
-                          bbm_pcg_info *info)
+/* The iteration of the head, from x and r = F - K x; d: room for three vectors; a length is the
+ * square root of rz, and `last` is z0.r. stop: 0, or the length that was small enough before. */
+static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, double *stop,
+                          const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     double *r = K->r, *z = K->u, *p = K->p, *q = K->q, *z0 = d + 6 * K->n, *v = z0 + 6 * K->n;
     bbm_status status = BBM_OK;
@@ -124,11 +129,8 @@ static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, const b
     bbm_combine(K, z, 0, z, z0);
     bbm_combine(K, z, 0, z, p);
     double rz = bbm_dot_rows(K, r, z), last = rz;
-    const double stop = pcg->tolerance * sqrt(rz);
-    while (!(rz <= stop * stop)) {
-        status = bbm_count_iteration(rz, pcg, info);
-        if (status)
-            break;
+    *stop = *stop > 0 ? *stop : pcg->tolerance * sqrt(rz);
+    while (!(rz <= *stop * *stop) && !(status = bbm_count_iteration(rz, pcg, info))) {
         bbm_multiply(K, p, q);
         const double a = last / bbm_dot_rows(K, z0, q);
         bbm_combine(K, K->x, a, p, K->x);
@@ -138,7 +140,9 @@ static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, const b
         bbm_combine(K, d, -1, z, d);
         bbm_multiply(K, z, q);
         precondition(K, f, q, v);
-        const double vq = bbm_dot_rows(K, v, q), c = vq > 0 ? bbm_dot_rows(K, z, q) / vq : 0;
+        const double vq = bbm_dot_rows(K, v, q), zq = bbm_dot_rows(K, z, q);
+        const double least = LEAST * sqrt(bbm_dot_rows(K, r, z) / vq);
+        const double c = vq > 0 ? copysign(fmax(fabs(zq / vq), least), zq) : 0;
         bbm_combine(K, K->x, c, z, K->x);
         bbm_combine(K, r, -c, q, r);
         bbm_combine(K, z, -c, v, z);
@@ -155,13 +159,18 @@ static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, const b
 static bbm_status solve(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     bbm_factor f = { 0 };
-    double *d = malloc(18 * (size_t)K->n * sizeof *d);
+    double *d = malloc(24 * (size_t)K->n * sizeof *d), stop = 0;
     bbm_status status = d ? BBM_OK : BBM_NO_MEMORY;
 
     if (!status && K->to - K->from <= SMALL)
         status = factor(K, &f);
     if (!status)
-        status = iterate(K, &f, d, pcg, info);
+        bbm_combine(K, K->r, 0, K->r, d + 18 * K->n);
+    for (int turn = 0; turn < 2 && !status; turn++) {
+        bbm_multiply(K, K->x, K->q);
+        bbm_combine(K, d + 18 * K->n, -1, K->q, K->r);
+        status = iterate(K, &f, d, &stop, pcg, info);
+    }
     bbm_factor_free(&f);
     free(d);
     return status;
