@@ -14,7 +14,7 @@ static bbm_model *new_scene(double friction)
     m->par.dt = INFINITY;
     set_springs(m, 1e10, 4e9);
     m->par.friction = friction;
-    m->par.pcg.iterations = 10000;
+    m->par.pcg.iterations = 100000;
     add_table(m, 0);
     return m;
 }
