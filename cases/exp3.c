@@ -102,7 +102,7 @@ static void measure(const slide *s, double at[4])
 }
 
 /* Returns 0 if there is no such model. */
-static int run(slide *s, const variant *v, scene *film)
+static int run(slide *s, const variant *v)
 {
     double start[4], now[4];
 
@@ -120,8 +120,6 @@ static int run(slide *s, const variant *v, scene *film)
             case_must(s->m, bbm_step(s->m));
             s->passes = s->passes > s->m->info.passes ? s->passes : s->m->info.passes;
         }
-        if (film)
-            scene_record(film, s->m);
         measure(s, now);
         for (int c = 0; c < 4; c++)
             s->at[c][i] = now[c] - start[c];
@@ -242,27 +240,19 @@ int main(void)
         { "line", "gravity, rigid plate, line load", 9.81, 1e13, 1, 0 },
         { "beyond", "gravity, plate of 10 GPa, with beyond/", 9.81, 1e10, 0, 1 },
     };
-    scene film = { .title = "Experiment III: a block slides without friction (10 kN, with gravity)" };
     case_results r;
     slide s[RUNS];
     int runs = 0;
 
     printf("\n# Experiment III: frictionless sliding, the paper's way\n\n");
     case_open(&r, "exp3");
-    while (runs < RUNS && run(&s[runs], &v[runs], runs == 1 ? &film : NULL))
+    while (runs < RUNS && run(&s[runs], &v[runs]))
         runs++;
     case_print_parameters(s[1].m);
     print_tables(&r, s, v, runs);
     print_summary(s, v, runs);
     draw_figure(&r, s, v);
-    film.mark = s[1].m->element[s[1].first + 3].first + 1;
-    film.mark_name = "P";
-    case_draw(&r, scene_write_movie(&film, s[1].m, case_path(&r, "slide.svg")));
-    case_draw(&r, scene_write_panels(&film, s[1].m, case_path(&r, "states.svg"), 3,
-                                     (double[]){ 0, 1, 2 }));
-    printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg, slide.svg (it moves), "
-           "states.svg\n", r.folder);
-    scene_free(&film);
+    printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg\n", r.folder);
     for (int k = 0; k < runs; k++)
         bbm_model_free(s[k].m);
     return case_close(&r);
