@@ -259,21 +259,6 @@ static bbm_model *solve_run(case_results *r, const case_experiment *p, const cas
     return m;
 }
 
-void case_write_curves(case_results *r, const char *file, const char *header, int rows,
-                       int columns, const double *const column[])
-{
-    FILE *f = fopen(case_path(r, file), "w");
-
-    if (!f)
-        stop(r->path, strerror(errno));
-    fprintf(f, "%s\n", header);
-    for (int i = 0; i < rows; i++)
-        for (int j = 0; j < columns; j++)
-            fprintf(f, "%.15g%c", column[j][i], j + 1 < columns ? ',' : '\n');
-    if (ferror(f) | fclose(f))
-        stop(r->path, "could not be written");
-}
-
 int case_draw(case_results *r, int done)
 {
     if (!done) {

@@ -102,9 +102,6 @@ int    case_close(case_results *r);
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
                 double reference, const char *kind);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
-/* column [columns][rows] as CSV */
-void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
-                         int columns, const double *const column[]);
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);

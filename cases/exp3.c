@@ -225,10 +225,6 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
             .y = { "v", "m" }, .count = LENGTH(lift), .series = lift });
         case_draw(r, plot_close(&p));
     }
-    case_write_curves(r, "fig25.csv",
-                      "t,u_theory,u_without,v_without,u_gravity,v_gravity,u_rigid,v_rigid", N, 8,
-                      (const double *const[]){ t, exact, s[0].at[2], s[0].at[3], s[1].at[2],
-                                               s[1].at[3], s[2].at[2], s[2].at[3] });
 }
 
 int main(void)
@@ -252,7 +248,7 @@ int main(void)
     print_tables(&r, s, v, runs);
     print_summary(s, v, runs);
     draw_figure(&r, s, v);
-    printf("\nNumbers and pictures: %s/results.csv, fig25.csv, fig25.svg\n", r.folder);
+    printf("\nNumbers and pictures: %s/results.csv, fig25.svg\n", r.folder);
     for (int k = 0; k < runs; k++)
         bbm_model_free(s[k].m);
     return case_close(&r);
