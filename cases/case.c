@@ -136,7 +136,7 @@ double case_at(const bbm_model *m, const char *quantity, double x, double y)
             least = distance, nearest = n;
     }
     case_must(NULL, bbm_nodal_result(m, nearest, -1, &r));
-    return field_find(strcmp(quantity, "svm") ? quantity : "mises")->of_result(&r);
+    return field_find(quantity)->of_result(&r);
 }
 
 double case_percent(double computed, double reference)
@@ -327,6 +327,23 @@ static void print_summary(const case_experiment *e, bbm_model *const m[],
     case_print_augmented(m[e->runs - 1]);
 }
 
+/* The values of a run, beside six-node triangles, the finite element that converged, and theory. */
+static void print_table(const case_experiment *e, const case_table *t, const char *variant,
+                        const bbm_model *m, const case_reference *ref)
+{
+    printf("\n%s, %s - %s; FEM: six-node triangles\n\n"
+           "| | BBM | FEM | FEM, converged | theory | against FEM | against converged |\n"
+           "|---|---|---|---|---|---|---|\n", t->name, variant, t->what);
+    for (const case_place *p = t->place; p < t->place + t->places; p++) {
+        const struct case_value *f = case_find(ref, p->quantity, p->x, p->y);
+        const double value = e->computed(m, p->quantity, p->x, p->y);
+        printf("| %s(%.4g,%.4g) | %.5f | %.5f | %.5f | %.5f | %+.2f %% | %+.2f %% |\n",
+               p->quantity, p->x, p->y, t->unit * value, t->unit * f->six_node,
+               t->unit * f->converged, t->unit * e->theory(p->quantity, p->x, p->y),
+               case_percent(value, f->six_node), case_percent(value, f->converged));
+    }
+}
+
 static void print_convergence(const case_experiment *e)
 {
     static const double alpha[4] = { 10, 100, 1000, 1e5 };
@@ -363,6 +380,9 @@ int case_main(const case_experiment *e, int argc, char **argv)
         m[k] = solve_run(&r, e, &e->run[k], &ref[k]);
     case_print_parameters(m[0]);
     print_summary(e, m, ref);
+    for (int k = 0; k < e->runs; k++)
+        for (int i = 0; i < e->tables && !e->run[k].beyond; i++)
+            print_table(e, &e->table[i], e->run[k].variant, m[k], &ref[k]);
     e->show(&r, (const bbm_model *const *)m, ref);
     draw_maps(&r, e, m[0]);
     printf("\nNumbers and pictures: %s/results.csv, %s\n", r.folder, e->files);

@@ -20,9 +20,7 @@
 
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
 
-enum { PAPER_RUNS = 2, RUNS };
-
-static const case_run run[RUNS] = {
+static const case_run run[] = {
     { "b5", "plate b5, uniform stress", 0, ", plate b5" },
     { "k5", "plate k5, exact tractions", 0, "" },
     { "k5", "plate k5, with beyond/", 1, ", with beyond/" },
@@ -109,29 +107,16 @@ static double computed(const bbm_model *m, const char *quantity, double x, doubl
 
 /* --------------------------------------------------------------------------------------- tables */
 
-typedef struct { const char *quantity; double x, y; } place_of;
-
-/* Table 4, of stresses, or Table 5, of displacements. */
-static void print_table(const char *variant, const bbm_model *m, const case_reference *ref,
-                        const place_of at[], int n)
-{
-    const int stress = at[0].quantity[0] == 's';
-    const double unit = stress ? 1e-6 : 1e6;
-
-    printf(stress ? "\nTable 4, %s - stress sxx [MPa]" : "\nTable 5, %s - displacements [1e-6 m]",
-           variant);
-    printf("; FEM: six-node triangles\n\n"
-           "| | BBM | FEM | FEM, converged | theory (72) | against FEM | against converged |\n"
-           "|---|---|---|---|---|---|---|\n");
-    for (int i = 0; i < n; i++) {
-        const struct case_value *f = case_find(ref, at[i].quantity, at[i].x, at[i].y);
-        const double value = computed(m, at[i].quantity, f->x, f->y);
-        printf("| %s(%.4g,%.4g) | %.5f | %.5f | %.5f | %.5f | %+.2f %% | %+.2f %% |\n",
-               at[i].quantity, f->x, f->y, unit * value, unit * f->six_node, unit * f->converged,
-               unit * theory(at[i].quantity, f->x, f->y), case_percent(value, f->six_node),
-               case_percent(value, f->converged));
-    }
-}
+static const case_place stress[] = {
+    { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
+};
+static const case_place moved[] = {
+    { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
+};
+static const case_table table[] = {
+    { "Table 4", "stress sxx [MPa]", 1e-6, LENGTH(stress), stress },
+    { "Table 5", "displacements [1e-6 m]", 1e6, LENGTH(moved), moved },
+};
 
 /* For plate k5 (72) is exact. */
 static const case_point point[] = {
@@ -165,7 +150,7 @@ static int on_line(const line_of *l, const struct case_value *f)
 }
 
 /* A chart, and rows of results.csv. */
-static void draw_line(case_results *r, const bbm_model *const m[RUNS], const case_reference *b5,
+static void draw_line(case_results *r, const bbm_model *const m[], const case_reference *b5,
                       const line_of *l)
 {
     double at[128], value[2][128], exact[128], fem_at[16], fem[16];
@@ -204,7 +189,7 @@ static void draw_line(case_results *r, const bbm_model *const m[RUNS], const cas
 }
 
 /* Fig. 15-19. */
-static void draw_lines(case_results *r, const bbm_model *const m[RUNS], const case_reference *b5)
+static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
 {
     enum { NX = 2 * 17, NY = 2 * 12, ROW = NX + 1 };
     const line_of line[] = {
@@ -219,7 +204,7 @@ static void draw_lines(case_results *r, const bbm_model *const m[RUNS], const ca
     };
 
     for (int i = 0; i < LENGTH(line); i++)
-        draw_line(r, m, b5, &line[i]);
+        draw_line(r, m, &ref[0], &line[i]);
 }
 
 /* Fig. 20-23. */
@@ -240,29 +225,15 @@ static void print_errors(const bbm_model *m)
            case_percent(computed(m, "sxx", 0, 1), theory("sxx", 0, 1)));
 }
 
-static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
-{
-    static const place_of stress[5] = {
-        { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
-    };
-    static const place_of moved[6] = {
-        { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
-    };
-
-    for (int k = 0; k < PAPER_RUNS; k++) {
-        print_table(run[k].variant, m[k], &ref[k], stress, 5);
-        print_table(run[k].variant, m[k], &ref[k], moved, 6);
-    }
-    draw_lines(r, m, &ref[0]);
-}
-
 int main(int argc, char **argv)
 {
     return case_main(&(case_experiment){
         .name = "exp2", .title = "Experiment II: plate with a hole", .solve = solve_plate,
-        .computed = computed, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .computed = computed, .theory = theory, .runs = LENGTH(run), .run = run,
+        .tables = LENGTH(table), .table = table, .show = show,
         .summary = "Experiment II, plate k5 [1e-6 m, MPa]", .points = LENGTH(point),
-        .point = point, .maps = LENGTH(map), .map = map, .triangles = 816, .print_errors = print_errors,
+        .point = point, .maps = LENGTH(map), .map = map, .triangles = 816,
+        .print_errors = print_errors,
         .errors = "Experiment II, plate k5, the paper's way: error of u(1,0) | of sxx(0,1) "
                   "against theory (72)",
         .files = "fig15.svg to fig23.svg, deformed.svg" },
