@@ -347,21 +347,26 @@ static void print_table(const case_experiment *e, const case_table *t, const cha
 static void print_convergence(const case_experiment *e)
 {
     static const double alpha[4] = { 10, 100, 1000, 1e5 };
+    case_reference ref;
 
+    case_read_reference(e->name, e->run[1].variant, &ref);
     printf("\n%s\n\n"
            "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
-           "|---|---|---|---|---|\n", e->errors);
-    for (int k = 1; k <= 3; k++) {
-        printf("| %d |", e->triangles * k * k);
-        for (int a = 0; a < 4; a++) {
-            bbm_model *m = case_paper_model();
-            e->solve(m, e->run[1].variant, CELL_CROSSED, k, alpha[a]);
-            e->print_errors(m);
-            fflush(stdout);
-            bbm_model_free(m);
-        }
-        printf("\n");
+           "|---|---|---|---|---|", e->errors);
+    for (int k = 0; k < 3 * 4; k++) {                /* three meshes, each with four alphas */
+        bbm_model *m = case_paper_model();
+        e->solve(m, e->run[1].variant, CELL_CROSSED, k / 4 + 1, alpha[k % 4]);
+        if (k % 4 == 0)
+            printf("\n| %d |", m->elements);
+        for (const case_place *p = e->error; p < e->error + 2 && p->quantity; p++)
+            printf("%s %+.3f %%", p == e->error ? "" : ",",
+                   case_percent(e->computed(m, p->quantity, p->x, p->y),
+                                case_find(&ref, p->quantity, p->x, p->y)->converged));
+        printf(" |");
+        fflush(stdout);
+        bbm_model_free(m);
     }
+    printf("\n");
 }
 
 int case_main(const case_experiment *e, int argc, char **argv)
@@ -385,7 +390,7 @@ int case_main(const case_experiment *e, int argc, char **argv)
             print_table(e, &e->table[i], e->run[k].variant, m[k], &ref[k]);
     e->show(&r, (const bbm_model *const *)m, ref);
     draw_maps(&r, e, m[0]);
-    printf("\nNumbers and pictures: %s/results.csv, %s\n", r.folder, e->files);
+    printf("\nNumbers and pictures: %s\n", r.folder);
     for (int k = 0; k < e->runs; k++)
         bbm_model_free(m[k]);
     return case_close(&r);

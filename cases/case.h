@@ -90,12 +90,10 @@ typedef struct {                    /* Experiment I or II                       
     /* Its other tables and pictures, of each run, NULL where there is no beyond/, with its
      * reference values. */
     void (*show)(case_results *r, const bbm_model *const m[], const case_reference ref[]);
-    /* The table of convergence, of the variant of the second run: so many triangles times k k;
-     * prints what a cell holds. */
+    /* The table of convergence, of the variant of the second run: the errors at one or two places,
+     * against converged finite elements. */
     const char *errors;
-    int triangles;
-    void (*print_errors)(const bbm_model *m);
-    const char *files;              /* what it has written                                      */
+    case_place error[2];
 } case_experiment;
 
 /* All of it, or with the argument `converge` the table of convergence alone; the exit status. */

@@ -189,16 +189,6 @@ static const case_map map[] = {
                         .field = "mises", .scale = 0 } },
 };
 
-/* The error of v(24,0), load b, the paper's way. */
-static void print_error(const bbm_model *m)
-{
-    case_reference ref;
-
-    case_read_reference("exp1", "b", &ref);
-    const double exact = case_find(&ref, "v", 24, 0)->converged;
-    printf(" %+.3f %% |", case_percent(case_at(m, "v", 24, 0), exact));
-}
-
 static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
 {
     bbm_model *dda = solve_dda(1000);
@@ -216,8 +206,7 @@ int main(int argc, char **argv)
         .computed = case_at, .theory = theory, .runs = LENGTH(run), .run = run,
         .tables = LENGTH(table), .table = table, .show = show,
         .summary = "Experiment I, deflection [mm]", .points = LENGTH(point), .point = point,
-        .maps = LENGTH(map), .map = map, .triangles = 600, .print_errors = print_error,
+        .maps = LENGTH(map), .map = map, .error = { { "v", 24, 0 } },
         .errors = "Experiment I, load b, the paper's way: error of v(24,0) against the converged "
-                  "finite element",
-        .files = "fig10.svg to fig13.svg, deformed.svg" }, argc, argv);
+                  "finite element" }, argc, argv);
 }
