@@ -164,12 +164,11 @@ static void print_table(case_results *r, const slide s[], const variant v[], int
     case_print_augmented(s[PAPER_RUNS].m);
 }
 
-/* Fig. 25: u and v of P, all that can be seen, and v once more in a scale in which it can be
- * seen. */
+/* Fig. 25: u of P, and v in a scale in which it can be seen. */
 static void draw_figure(case_results *r, const slide s[], const variant v[])
 {
     enum { N = STEPS + 1, MARKS = 21 };
-    double t[N], exact[N], zero[N] = { 0 }, some[3][MARKS];
+    double t[N], exact[N], some[2][MARKS];
     plot p;
 
     for (int i = 0; i < N; i++) {
@@ -180,15 +179,11 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
         const int step = i * STEPS / (MARKS - 1);
         some[0][i] = t[step];
         some[1][i] = s[0].at[2][step];
-        some[2][i] = s[0].at[3][step];
     }
-    const plot_series both[] = {
+    const plot_series way[] = {
         { .name = "u = F t²/(2 m)", .n = N, .x = t, .y = exact, .look = 1 },
-        { .name = "v = 0", .n = N, .x = t, .y = zero, .look = 1 },
         { .name = "u, BBM", .n = MARKS, .x = some[0], .y = some[1], .style = PLOT_MARKS,
           .look = 2 },
-        { .name = "v, BBM", .n = MARKS, .x = some[0], .y = some[2], .style = PLOT_MARKS,
-          .look = 3 },
     };
     plot_series lift[3];
     for (int k = 0; k < 3; k++)
@@ -196,10 +191,10 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
                                  .look = k + 2 };
     if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
         plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
-            .title = "Fig. 25: displacement of P", .x = { "t", "s" },
-            .y = { "displacement", "m" }, .count = LENGTH(both), .series = both });
+            .title = "Fig. 25: u of P", .x = { "t", "s" }, .y = { "u", "m" },
+            .count = LENGTH(way), .series = way });
         plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
-            .title = "Error of v of P, which is 0 in theory", .x = { "t", "s" },
+            .title = "Fig. 25: v of P, which is 0 in theory", .x = { "t", "s" },
             .y = { "v", "m" }, .count = LENGTH(lift), .series = lift });
         case_draw(r, plot_close(&p));
     }
@@ -225,7 +220,7 @@ int main(void)
     case_print_parameters(s[1].m);
     print_table(&r, s, v, runs);
     draw_figure(&r, s, v);
-    printf("\nNumbers and pictures: %s/results.csv, fig25.svg\n", r.folder);
+    printf("\nNumbers and pictures: %s\n", r.folder);
     for (int k = 0; k < runs; k++)
         bbm_model_free(s[k].m);
     return case_close(&r);
