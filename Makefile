@@ -54,7 +54,7 @@ all: $(CASES:%=$O/%) $O/bench bbm
 
 run: $(RUN:%=$O/%)
 	@for c in $(RUN); do $O/$$c || exit 1; done
-	@echo; echo "Open out/exp1/fig10.svg, out/exp2/fig15.svg and out/exp3/slide.svg, which moves, in a browser."
+	@echo; echo "Open out/exp1/fig10.svg, out/exp2/fig15.svg and out/exp3/fig25.svg; ./bbm cases/models/exp3.model draws the film."
 
 gallery: bbm
 	@mkdir -p out/models

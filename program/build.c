@@ -93,16 +93,22 @@ static int add_nodes(model_reader *r)
     return !p->status;
 }
 
+/* The copy of a node for a block, -1: any block; or -1, there is none. */
+static int find_copy(const model_reader *r, int block, int node)
+{
+    int c = r->node[node].first;
+
+    while (c >= 0 && block >= 0 && r->copy[c].block != block)
+        c = r->copy[c].next;
+    return c;
+}
+
 static int add_element(model_reader *r, const model_element *e)
 {
     int *corner = &r->corner[e->first], index;
 
-    for (int k = 0; k < e->n; k++) {
-        int c = r->node[corner[k]].first;
-        while (r->copy[c].block != e->block)
-            c = r->copy[c].next;
-        corner[k] = r->copy[c].node;
-    }
+    for (int k = 0; k < e->n; k++)
+        corner[k] = r->copy[find_copy(r, e->block, corner[k])].node;
     const bbm_status status = bbm_add_element(r->p->m, e->block, e->material, e->n, corner, &index);
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
@@ -173,22 +179,12 @@ enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 /* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
 typedef struct { int kind, found, block, whole; double x[4]; } selection;
 
-/* Whether the block has the node; -1: some block. */
-static int has_node(const model_reader *r, int block, int node)
-{
-    int c = r->node[node].first;
-
-    while (c >= 0 && block >= 0 && r->copy[c].block != block)
-        c = r->copy[c].next;
-    return c >= 0;
-}
-
 /* Takes the library nodes of a node, each once for a WHERE. */
 static void choose(model_reader *r, const selection *w, int node)
 {
     model_node *n = &r->node[node];
 
-    if (n->mark == r->wheres || !has_node(r, w->block, node))
+    if (n->mark == r->wheres || find_copy(r, w->block, node) < 0)
         return;
     n->mark = r->wheres;
     r->file_nodes++;
@@ -205,7 +201,7 @@ static int find_nearest(const model_reader *r, const selection *w, int *others)
 
     *others = 0;
     for (int n = 0; n < r->nodes; n++) {
-        const double d = has_node(r, w->block, n)
+        const double d = find_copy(r, w->block, n) >= 0
                              ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1])
                              : INFINITY;
         if (d < best - r->margin)
@@ -325,7 +321,7 @@ static int where(model_reader *r, int nearest)
         choose_nearest(r, &w);
     else
         for (int n = 0; n < r->nodes; n++)
-            if (w.kind == BY_SET ? has_node(r, w.whole, n) : is_there(r, &w, &r->node[n]))
+            if (w.kind == BY_SET ? find_copy(r, w.whole, n) >= 0 : is_there(r, &w, &r->node[n]))
                 choose(r, &w, n);
     return r->chosen > 0 ? 1 : blame_nowhere(r, &w);
 }
