@@ -63,14 +63,15 @@ typedef struct {                        /* what the functions below draw with   
     layout       l;
     const scene *s;
     const bbm_model *m;
-    int          bodies, held, thrust;  /* held: whether any is; whether there is a line of thrust */
+    int          bodies, held, thrust;  /* whether any is held; whether there is a line of thrust */
     body        *body;
     int         *vertex;                /*          [vertices], block by block                    */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
-    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its pixels   */
-    int          seen[KINDS], supports[4];  /* of each kind of arrow; held in each way: whether       */
+    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its  */
+                                        /* pixels                                                 */
+    int          seen[KINDS], supports[4];      /* of each kind of arrow; held in each way        */
     double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
@@ -525,8 +526,8 @@ static void draw_forces(film *f, int frame)
 
 #define THRUST "fill=\"none\" stroke=\"#ee7733\" stroke-width=\"2.5\" stroke-linecap=\"round\""
 
-/* What a block feels of two others: how many touch it, 3 for more, which, and the forces on it, with
- * the sums of N and of N times the place. */
+/* What a block feels of two others: how many touch it, 3 for more, which, and the forces on it,
+ * with the sums of N and of N times the place. */
 typedef struct { int n, other[2]; point at[2], force[2]; double N[2]; } neighbours;
 
 static void add_force(neighbours *b, const scene_force *c, int side)
@@ -877,8 +878,8 @@ typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } sample;     /* pixels */
 
 /* By so much displacements may be magnified that no edge changes, in length or direction, by more
- * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which is
- * its least height. Before it turns over an edge changes by all of it. */
+ * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which
+ * is its least height. Before it turns over an edge changes by all of it. */
 static double fair_scale(const bbm_model *m, const nodal *n)
 {
     double scale = INFINITY;
