@@ -68,8 +68,8 @@ static bbm_status find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
     return BBM_OK;
 }
 
-/* Room for C of n pairs of rows: beside the diagonal K is not zero at the entries, two different
- * pairs of rows each, of which some may come twice. */
+/* Room for C of n pairs of rows: K is not zero at the entries, two pairs of rows each, in any
+ * order; some may come twice, and the diagonal need not be among them. */
 bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2])
 {
     const size_t rows = (size_t)n;
