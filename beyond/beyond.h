@@ -85,7 +85,7 @@ bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with a
 extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place);
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2], double x, double y);
 
 /* factor.c */
 typedef struct { int from, to; size_t at; } bbm_part;  /* columns, in pairs; its first entry in A */
@@ -103,6 +103,7 @@ void       bbm_factor_make(const bbm_factor *f);
 void       bbm_substitute(const bbm_factor *f, int from, int to, double *x);
 
 /* interpolation.c */
+void       bbm_linear_unknowns(double value, double fx, double fy, double P[6][2]);
 void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a,
                              double P[6][2]);
 int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);

@@ -29,6 +29,17 @@
  * halves, nor does an entry of the factor. They are few: n nodes have a factor of some n log n
  * entries, in place of the n^1.5 of a band.
  *
+ * Rows i and j with a side in common. The springs of a side measure gaps between t_i and t_j, the
+ * displacements of the side as either element has it. P gives a triangle there what is linear
+ * between the two nodes of the side, s, so t_i = t_j = s. But on a quadrilateral t_i hangs on all
+ * four nodes, and Kc would join nodes that no element has both: its factor would have three times
+ * as many entries. So Kc measures t_i - s and t_j - s in place of t_i - t_j. A linear displacement
+ * opens none of these. With R for the unknowns of i, or j, that s makes, K_ij adds
+ *
+ *     P_i^T K_ij P_j - (P_i - R_i)^T K_ij (P_j - R_j),
+ *
+ * and Kc still is positive semidefinite. It takes a third more iterations and half the time.
+ *
  * Displacements of the nodes that move no element (the hourglass of quadrilaterals) have no
  * stiffness: of their pivots rounding is left, some eps of what was summed up before it cancelled.
  * They are struck out: the coarse space is then a little smaller, and the preconditioner as
@@ -45,6 +56,7 @@ typedef struct {
                                 /*           start[i] .. start[j]-1                             */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
     double (*P)[6][2];          /* as node                                                      */
+    double (*at)[2];            /* as node: from the row's centroid                             */
     bbm_factor Kc;              /* then its factor                                              */
     double *x;                  /* [2 n]     a vector                                           */
     double *z;                  /* [6 rows]  a vector                                           */
@@ -52,28 +64,28 @@ typedef struct {
 
 /* ----------------------------------------------------------------------------------- the layout */
 
-/* Whether two rows are triangles with a side in common. The springs of a side feel no more than the
- * displacements of its two ends: K_ij adds to their diagonal blocks of Kc, and to nothing else. */
-static int share_a_side(const coarse_space *c, int i, int j)
+/* The corners of row i that row j has, too, if both are elements with a side in common, that is,
+ * share two of three nodes or more. Returns how many nodes both have, these twice; 0: no side. */
+static int find_side(const coarse_space *c, int i, int j, int corner[2])
 {
+    const int ni = c->first[i + 1] - c->first[i], nj = c->first[j + 1] - c->first[j];
     int common = 0;
 
-    if (i == j || c->first[i + 1] - c->first[i] != 3 || c->first[j + 1] - c->first[j] != 3)
-        return 0;
-    for (int k = 0; k < 9; k++)
-        common += c->node[c->first[i] + k / 3] == c->node[c->first[j] + k % 3];
-    return common == 2;
+    for (int k = 0; k < ni * nj; k++)
+        if (c->node[c->first[i] + k / nj] == c->node[c->first[j] + k % nj])
+            corner[common++ % 2] = c->first[i] + k / nj;
+    return common == 2 && ni > 2 && nj > 2 ? ni + nj : 0;
 }
 
 /* The entries of Kc below its diagonal: the pairs of nodes that meet in an element, or in elements
- * that a block of K joins, some several times. entry NULL: counts them. */
+ * that a block of K joins without a common side, some several times. entry NULL: counts them. */
 static int list_entries(const bbm_matrix *K, const coarse_space *c, int (*entry)[2])
 {
-    int n = 0;
+    int n = 0, p[2];
 
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
-            const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = share_a_side(c, i, j);
+            const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = find_side(c, i, j, p);
             for (int a = c->first[i]; a < c->first[i + 1] && !side; a++)
                 for (int b = i == j ? a + 1 : c->first[j]; b < c->first[j + 1]; b++, n++)
                     if (entry) {
@@ -133,10 +145,11 @@ static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
     const size_t n = (size_t)c->n, rows = (size_t)K->n + 1;
 
     c->start = calloc(2 * rows + corners, sizeof *c->start);
-    c->P = calloc(corners, sizeof *c->P);
+    c->P = calloc(corners, sizeof *c->P + sizeof *c->at);
     c->x = calloc(2 * n + 6 * rows, sizeof *c->x);
     if (!c->start || !c->P || !c->x)
         return BBM_NO_MEMORY;
+    c->at = (double (*)[2])(c->P + corners);
     c->first = c->start + rows;
     c->node = c->first + rows;
     c->z = c->x + 2 * n;
@@ -183,9 +196,9 @@ static void coarse_free(void *extra)
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
- * node[first[i+1]-1], all different, or none. Rows of three nodes that share two of them must be
- * triangles bonded along that side. place[v] is BBM_PLACES times the component of K that node v is
- * in, and less than BBM_PLACES more: near nodes should have the upper bits in common. */
+ * node[first[i+1]-1], all different, or none. Rows of three nodes or more that share two of them
+ * must be elements bonded along that side. place[v] is BBM_PLACES times the component of K that
+ * node v is in, and less than BBM_PLACES more: near nodes should have the upper bits in common. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place)
 {
@@ -208,8 +221,8 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
 }
 
 /* The displacement (u, v) of the k-th node of block row i alone gives the row's unknowns,
- * P (u, v). */
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
+ * P (u, v). (x, y) [m]: where the node lies, from the element's centroid. */
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2], double x, double y)
 {
     const coarse_space *c = K->extra;
     const int *first = c && i >= 0 && i < K->n ? &c->first[K->place[i]] : NULL;
@@ -217,19 +230,21 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2])
     if (!first || k < 0 || k >= first[1] - first[0])
         return BBM_BAD_INDEX;
     memcpy(c->P[first[0] + k], P, sizeof *c->P);
+    c->at[first[0] + k][0] = x;
+    c->at[first[0] + k][1] = y;
     K->ready = 0;
     return BBM_OK;
 }
 
 /* ---------------------------------------------------------------------------- Kc and its factor */
 
-/* Y = B X */
-static void multiply(double B[6][6], double X[6][2], double Y[6][2])
+/* Y = f B X */
+static void multiply(double f, double B[6][6], double X[6][2], double Y[6][2])
 {
     memset(Y, 0, 12 * sizeof Y[0][0]);
     for (int a = 0; a < 6; a++)
         for (int k = 0; k < 12; k++)
-            Y[a][k % 2] += B[a][k / 2] * X[k / 2][k % 2];
+            Y[a][k % 2] += f * B[a][k / 2] * X[k / 2][k % 2];
 }
 
 /* Kc += P^T Y + its transpose, where P belongs to node i and Y to node j; `own`: P is Y's, the sum
@@ -251,21 +266,47 @@ static void add_block(const coarse_space *c, double P[6][2], int i, double Y[6][
     }
 }
 
-/* Kc = P^T (D + L + L^T) P. */
+/* Z = P - R of corner a of a row with this side: R is what makes s (u, v) at a and 0 at the other
+ * end, or 0 if a is not on the side. Returns whether it is. */
+static int find_rest(const coarse_space *c, int a, const int side[2], double Z[6][2])
+{
+    const int common = a == side[0] || a == side[1];
+    const double *from = c->at[a], *to = c->at[side[a == side[0]]];
+    const double x = to[0] - from[0], y = to[1] - from[1], l2 = x * x + y * y;
+    double R[6][2];
+
+    bbm_linear_unknowns((to[0] * x + to[1] * y) / l2, -x / l2, -y / l2, R);
+    for (int k = 0; k < 12; k++)
+        Z[k / 2][k % 2] = c->P[a][k / 2][k % 2] - (common ? R[k / 2][k % 2] : 0);
+    return common;
+}
+
+/* Kc = P^T (D + L + L^T) P, but for rows with a side in common what the head says. Between
+ * triangles all of that is 0 but the sums of a node with itself. */
 static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
 {
-    double Y[6][2];
+    double Y[6][2], Z[6][2], W[6][2];
+    int p[2], q[2];
 
     memset(c->Kc.A, 0, (c->Kc.entries + 2 * (size_t)c->n) * sizeof *c->Kc.A);
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
             const int D = k == K->first[i + 1], j = D ? i : i - K->back[k];
-            const int side = share_a_side(c, i, j);
+            const int side = find_side(c, i, j, p);
+            find_side(c, j, i, q);
             for (int b = c->first[j]; b < c->first[j + 1]; b++) {
-                multiply(D ? K->D[i] : K->L[k], c->P[b], Y);
-                for (int a = c->first[i]; a < (D ? b + 1 : c->first[i + 1]); a++)
-                    if (!side || c->node[a] == c->node[b])
-                        add_block(c, c->P[a], c->node[a], Y, c->node[b], D && a == b);
+                const int common = side > 6 && find_rest(c, b, q, Z);
+                multiply(1, D ? K->D[i] : K->L[k], c->P[b], Y);
+                if (side > 6)
+                    multiply(-1, K->L[k], Z, W);
+                for (int a = c->first[i]; a < (D ? b + 1 : c->first[i + 1]); a++) {
+                    if (side == 6 ? c->node[a] != c->node[b]
+                                  : side > 6 && !find_rest(c, a, p, Z) && !common)
+                        continue;
+                    add_block(c, c->P[a], c->node[a], Y, c->node[b], D && a == b);
+                    if (side > 6)
+                        add_block(c, Z, c->node[a], W, c->node[b], 0);
+                }
             }
         }
 }

@@ -17,6 +17,9 @@
 /* Of a pivot, against what it is measured by: rounding of what cancelled. */
 #define VANISHING 1e-12
 
+/* Pairs of rows that are factored together, and how many of their columns at a time; no fewer. */
+enum { GROUP = 16, BLOCK = 32 };
+
 /* ----------------------------------------------------------------------------------- the layout */
 
 typedef struct {
@@ -160,29 +163,50 @@ static double find_pivot(double square, double size)
     return square > VANISHING * size ? 1 / sqrt(square) : 0;
 }
 
-/* C in place of K, with 1/C_jj on the diagonal, two rows and two columns at a time:
+/* C_ij in place of K_ij in the part p of the rows i, two rows and two columns at a time, with 1/C_jj
+ * on the diagonal:
  *
- *     C_ij = (K_ij - sum_k<j C_ik C_jk)/C_jj,      C_jj^2 = K_jj - sum_k<j C_jk^2.
- *
- * Pivots are measured by `size`. What stands above the diagonal is never used. */
+ *     C_ij = (K_ij - sum_k<j C_ik C_jk)/C_jj,      C_jj^2 = K_jj - sum_k<j C_jk^2. */
+static void make_entry(const bbm_factor *f, int i, int j, const bbm_part *p)
+{
+    const bbm_part *last = f->part + f->first[j + 1] - 1;
+    double *c = f->A + place_in(p, j), s[4];
+    const double *d = f->A + place_in(last, j), *e = d + width(last);
+
+    multiply_rows(f, i, j, s);
+    for (int a = 0; a < 2; a++, c += width(p)) {
+        c[0] -= s[2 * a];
+        c[0] = i == j && a == 0 ? find_pivot(c[0], f->size[2 * i]) : c[0] * d[0];
+        c[1] -= s[2 * a + 1] + c[0] * e[0];
+        c[1] = i == j && a == 1 ? find_pivot(c[1], f->size[2 * i + 1]) : c[1] * e[1];
+    }
+}
+
+/* C in place of K. Pivots are measured by `size`. What stands above the diagonal is never used. Of
+ * GROUP pairs of rows the columns are made BLOCK by BLOCK, so that the rows j of a block come from
+ * memory once for all of them. */
 void bbm_factor_make(const bbm_factor *f)
 {
-    double s[4];
-
-    for (int i = 0; i < f->n; i++)
-        for (const bbm_part *p = f->part + f->first[i]; p < f->part + f->first[i + 1]; p++)
-            for (int j = p->from; j < p->to; j++) {
-                const bbm_part *last = f->part + f->first[j + 1] - 1;
-                double *c = f->A + place_in(p, j);
-                const double *d = f->A + place_in(last, j), *e = d + width(last);
-                multiply_rows(f, i, j, s);
-                for (int a = 0; a < 2; a++, c += width(p)) {
-                    c[0] -= s[2 * a];
-                    c[0] = i == j && a == 0 ? find_pivot(c[0], f->size[2 * i]) : c[0] * d[0];
-                    c[1] -= s[2 * a + 1] + c[0] * e[0];
-                    c[1] = i == j && a == 1 ? find_pivot(c[1], f->size[2 * i + 1]) : c[1] * e[1];
+    for (int first = 0; first < f->n; first += GROUP) {
+        const int rows = f->n - first < GROUP ? f->n - first : GROUP;
+        const bbm_part *p[GROUP];
+        int next[GROUP], j;
+        for (int r = 0; r < rows; r++) {
+            p[r] = f->part + f->first[first + r];
+            next[r] = p[r]->from;
+        }
+        do {
+            j = next[0];
+            for (int r = 1; r < rows; r++)
+                j = next[r] < j ? next[r] : j;
+            for (int r = 0; r < rows; r++)
+                while (next[r] <= first + r && next[r] < j + BLOCK) {
+                    make_entry(f, first + r, next[r], p[r]);
+                    if (++next[r] == p[r]->to && next[r] <= first + r)
+                        next[r] = (++p[r])->from;
                 }
-            }
+        } while (j + BLOCK < first + rows);
+    }
 }
 
 /* x -= the products of two rows, m apart, with y over n columns, an even number. */

@@ -12,14 +12,10 @@
  *
  * At a common side both neighbours do the same but for the change of a or b from one to the next:
  * the gaps are differences of a along s, and of b along t. No sweep sees much of that, and the
- * finer the mesh, or the stiffer the bonds, the less. If f changes smoothly from node to node, then
- * nodes that move by f to and fro by turns make a = df/dt, b = df/ds, which opens no gap; that is
- * in the space. Orthogonal to all of these are
- *
- *     a = dg/ds,  b = -dg/dt,
- *
- * and these are not: on quadrilaterals the iterations grow with the number of elements along a
- * body, and with alpha. They remain far fewer than those of SSOR alone.
+ * finer the mesh, or the stiffer the bonds, the less. Nodes that move by f to and fro by turns, f
+ * smooth, make a = df/dt, b = df/ds, but Kc as coarse.c has it holds them fast. Orthogonal to these
+ * are a = dg/ds, b = -dg/dt, which no nodes make. So on quadrilaterals the iterations grow with the
+ * number of elements along a body, and with alpha. They remain far fewer than those of SSOR alone.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -30,13 +26,23 @@
  * with blocks of 2 to 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
 
+/* The unknowns D = P (u, v) of the displacement f (u, v), f linear in x and y, `value` at the
+ * centroid: ux = u f_x and so on, ex = ux, ey = vy, gxy = uy + vx, r0 = (vx - uy)/2. */
+void bbm_linear_unknowns(double value, double fx, double fy, double P[6][2])
+{
+    const double matrix[6][2] = {
+        { value, 0 }, { 0, value }, { -fy / 2, fx / 2 }, { fx, 0 }, { 0, fy }, { fy, fx }
+    };
+
+    memcpy(P, matrix, sizeof matrix);
+}
+
 /* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
  * displacements linear in x, y the one nearest to the means of the corners' over the n sides, by
  * least squares; on a triangle, and for a quadrilateral's middles, it is exact. Fitted about the
  * mean of the corners, a linear function has the value mean(u) there and, with d_k the middle of
  * side k from there, u_k that mean and M = sum d d^T, the gradient g = M^-1 sum_k d_k u_k:
- *     u_a adds ux = g_x, uy = g_y, v_a the same to v;   ex = ux, ey = vy, gxy = uy + vx,
- *     r0 = (vx - uy)/2. */
+ *     u_a adds ux = g_x, uy = g_y, v_a the same to v. */
 void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a, double P[6][2])
 {
     double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0;
@@ -57,12 +63,7 @@ void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a, double
     }
     const double det = xx * yy - xy * xy;
     const double gx = (yy * X - xy * Y) / det, gy = (xx * Y - xy * X) / det;
-    const double u0 = 1.0 / e->n + gx * (e->x - x) + gy * (e->y - y);
-    const double matrix[6][2] = {
-        { u0, 0 }, { 0, u0 }, { -gy / 2, gx / 2 }, { gx, 0 }, { 0, gy }, { gy, gx }
-    };
-
-    memcpy(P, matrix, sizeof matrix);
+    bbm_linear_unknowns(1.0 / e->n + gx * (e->x - x) + gy * (e->y - y), gx, gy, P);
 }
 
 /* Whether fixed points hold every corner of an element. */
@@ -148,9 +149,10 @@ void bbm_interpolate_elements(bbm_model *m)
 
     if (!m->K->extra || m->K->ready || m->par.pcg.method != &bbm_two_level)
         return;
-    for (int i = 0; i < m->elements; i++)
-        for (int a = 0; a < m->element[i].n; a++) {
-            bbm_interpolation(&m->element[i], &m->vertex[m->element[i].first], a, P);
-            (void)bbm_matrix_interpolate(m->K, i, a, P);
-        }
+    for (int k = 0; k < m->vertices; k++) {
+        const bbm_vertex *v = &m->vertex[k];
+        const bbm_element *e = &m->element[v->element];
+        bbm_interpolation(e, &m->vertex[e->first], k - e->first, P);
+        (void)bbm_matrix_interpolate(m->K, v->element, k - e->first, P, v->x - e->x, v->y - e->y);
+    }
 }
