@@ -33,7 +33,7 @@ BEYOND_LIMITS = arch:t=1 topple:phi=19 slope:phi=38.114 tilt:gx=4.76864 spread:h
                 conveyor:phi=9.9 keyblock:part=0.99 portal:part=1.01 retaining:part=1.01 water:part=1.01
 COMMON   = cases/case cases/theory $(addprefix program/,cell field force output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
-READER   = $(addprefix program/,statements numbers build hooked msh reader model cell field)
+READER   = $(addprefix program/,statements numbers build hooked stage msh reader model cell field)
 PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene force edge_load)
 TORTURE  = scenes ledger trial
 PAGE     = page/page $(READER) $(addprefix program/,run warn force edge_load)

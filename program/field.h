@@ -22,6 +22,16 @@ typedef struct {
 
 extern const field field_table[];       /* the last row has no name                             */
 
+/* Whether a stage has removed the block of vertex v, by the mark that stage.c gives its elements.
+ * No other one has it: szz is at most half of sx + sy. */
+#define FIELD_GONE 1
+static inline int field_is_gone(const bbm_model *m, int v)
+{
+    return m->element[m->vertex[v].element].out_of_plane == FIELD_GONE;
+}
+
+/* Where vertex v is drawn, m; those of a block that is gone in one point, where it began. */
+void field_place(const bbm_model *m, int v, double at[2]);
 const field *field_find(const char *name);                      /* NULL: there is none          */
 double field_of_element(const field *f, const bbm_model *m, int element);
 /* What belongs to elements: the mean of those that meet there. */

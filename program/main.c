@@ -215,7 +215,7 @@ static void summarise(const model *p, const char *folder)
     bbm_energy e;
 
     for (int v = 0; v < m->vertices; v++)
-        if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
+        if (hypot(m->vertex[v].u, m->vertex[v].v) > far && !field_is_gone(m, v))
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int k = 0; k < m->elements; k++)
         if (field_of_element(mises, m, k) > most)
@@ -291,6 +291,8 @@ static bbm_status run_all(run *r, write_results *w, progress *s)
             break;
         if (r->has_begun)
             write_step(w, i->step);
+        if (r->stage_is_over && !r->is_over)
+            write_stage(w);
         warn_in_step(r->p, w->source, i->step, &s->warned);
         show_progress(s, r->p->m, r->settling, !r->has_begun ? 0 : r->is_over ? s->steps : i->step);
     }

@@ -39,14 +39,19 @@ const char *model_says(const model *p, bbm_status status, char out[400])
     return out;
 }
 
-/* A displaced support is where it belongs at the time t, to which its way is even. */
+/* A displaced support is where it belongs at the time t, to which its way is even; in a stage it
+ * arrives before the end. */
 void model_move_supports(model *p, double t)
 {
-    const double share = p->ramp > 0 ? fmin(1, t / p->ramp) : 1;
+    const double dt = p->m->par.dt, most = p->now ? dt * p->stage[p->now].steps : INFINITY,
+                 ramp = fmin(p->ramp, most),
+                 share = ramp > 0 ? fmin(1, (t - dt * p->begun) / ramp) : 1;
 
-    for (int n = 0; n < p->m->nodes && p->moving; n++)
+    for (int n = 0; n < p->m->nodes && p->moving; n++) {
+        const double *from = p->moved_from[n], *way = p->moved_to[n];
         if (p->m->node[n].held)
-            bbm_move_support(p->m, n, share * p->moved_to[n][0], share * p->moved_to[n][1]);
+            bbm_move_support(p->m, n, from[0] + share * way[0], from[1] + share * way[1]);
+    }
 }
 
 void model_displacement(const model *p, const model_monitor *m, double u[2])
@@ -104,6 +109,11 @@ void model_free(model *p)
     free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
         free((void *)p->element);
     free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to),
-        free(p->note), free(p->shaking), free(p->bolt);
+        free(p->note), free(p->shaking), free(p->bolt), free(p->moved_from), free(p->gone);
+    for (int k = 0; k <= p->stages && p->stage; k++) {
+        free(p->stage[k].node), free(p->stage[k].moved_to);
+        free(p->stage[k].joint), free(p->stage[k].edge_load);
+    }
+    free(p->stage);
     *p = (model){ 0 };
 }

@@ -18,6 +18,16 @@ typedef struct { int monitor, kind; double value, within; } model_expected;     
 
 typedef struct { double t, a[2]; } model_shaking;     /* s, m/s^2: of the base, a row of a record */
 
+typedef struct {                /* what holds from a stage on; the first is the run before them */
+    const char *name;
+    int steps, joints, edge_loads;
+    double gravity[2], friction, cohesion, tension;
+    bbm_node *node;             /* [nodes]      their directions held, and loads */
+    double (*moved_to)[2];      /* [nodes]      m, from where they are as the stage begins */
+    bbm_joint *joint;           /* [joints] */
+    bbm_edge_load *edge_load;   /* [edge_loads] */
+} model_stage;
+
 enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                 /* kinds of what is expected */
 
 typedef struct {
@@ -40,8 +50,12 @@ typedef struct {
     int    expectations;
     model_expected *expected;   /* [expectations] value and within: m */
     int    moving;              /* supports: whether any moves */
-    double (*moved_to)[2];      /* [m->nodes]   m, from the start */
+    double (*moved_to)[2];      /* [m->nodes]   m, from where they were */
+    double (*moved_from)[2];    /* [m->nodes]   m, from the start, as the stage began */
     double ramp;                /* s            in which; 0: at once */
+    int    stages, now, begun;  /* after the first run; the one in hand, 0: none, and its start */
+    model_stage *stage;         /* [stages+1] */
+    int   *gone;                /* [blocks]     the stage that removes it; 0: none */
     int    shakings;            /* rows of a record of the base's acceleration */
     model_shaking *shaking;     /* [shakings]   between them it is linear, outside it is 0 */
     double shake;               /* its scale */
@@ -68,6 +82,7 @@ void model_move_supports(model *p, double t);                  /* to where they 
 void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
 /* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);
+bbm_status model_next_stage(model *p);          /* stage.c: begins it, from where the run is */
 void model_free(model *p);
 
 #endif

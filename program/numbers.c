@@ -12,6 +12,7 @@
  *     repeat NAME FROM TO         the statements up to its `end`, for each whole number from FROM
  *       ...                       to TO, which is $NAME in them; a `let` there is that of the
  *     end                         round alone
+ *     stage NAME ... end          notes in the statements between which stage they belong to
  *
  * The `let`s outside of `repeat` are read first, so that statements above them may use them. */
 #include <ctype.h>
@@ -296,6 +297,7 @@ static int add_statement(model_reader *r, const model_statement *source)
     model_statement s = *source;
 
     s.at.round = r->round;
+    s.stage = r->stage;
     s.first = r->words;
     if (!model_add(r, &r->statement, &r->statements, sizeof s, &s))
         return 0;
@@ -315,9 +317,10 @@ static int add_statement(model_reader *r, const model_statement *source)
     return 1;
 }
 
-/* ----------------------------------------------------------------------------- let, repeat, end */
+/* ---------------------------------------------------------------------- let, repeat, stage, end */
 
 static int is(const model_statement *s, const char *word) { return strcmp(s->name, word) == 0; }
+static int opens(const model_statement *s) { return is(s, "repeat") || is(s, "stage"); }
 
 static int is_new(model_reader *r, const char *word)
 {
@@ -352,11 +355,11 @@ static int read_let(model_reader *r)
     return model_enter(r, &r->let_of, word, at);
 }
 
-/* The `end` of the `repeat` at k; -1: there is none. */
+/* The `end` of the `repeat` or `stage` at k; -1: there is none. */
 static int find_end(const model_reader *r, int k)
 {
     for (int open = 0; k < r->cuts; k++) {
-        open += is(&r->cut[k], "repeat") - is(&r->cut[k], "end");
+        open += opens(&r->cut[k]) - is(&r->cut[k], "end");
         if (open == 0)
             return k;
     }
@@ -408,14 +411,27 @@ static int repeat(model_reader *r, int from, int end)
     return 1;
 }
 
+/* A stage and the statements up to its `end`. */
+static int stage(model_reader *r, int from, int end)
+{
+    if (r->stage)
+        return model_fail(r, r->cut[from].at, "a stage in a stage, expected its `end` before");
+    r->stage = ++r->p->stages;
+    const int good = add_statement(r, &r->cut[from]) && walk(r, from + 1, end)
+                     && add_statement(r, &r->cut[end]) && model_at_end(r);
+    r->stage = 0;
+    return good;
+}
+
 /* The statements from .. to-1; the `let`s of the file have been read before. */
 static int walk(model_reader *r, int from, int to)
 {
     for (int k = from; k < to; k++) {
         const model_statement *s = &r->cut[k];
-        const int end = is(s, "repeat") ? find_end(r, k) : k;
+        const int end = opens(s) ? find_end(r, k) : k;
         if (is(s, "repeat") ? !repeat(r, k, end)
-            : is(s, "let") ? r->round && (!add_statement(r, s) || !read_let(r))
+            : is(s, "stage") ? !stage(r, k, end)
+            : is(s, "let") ? (r->round || r->stage) && (!add_statement(r, s) || !read_let(r))
             : !add_statement(r, s))
             return 0;
         k = end;
@@ -423,16 +439,16 @@ static int walk(model_reader *r, int from, int to)
     return 1;
 }
 
-/* Reads each `let` outside of `repeat`; each `repeat` has its `end`. */
+/* Reads each `let` outside of `repeat` and `stage`, which have their `end`. */
 static int read_lets(model_reader *r)
 {
     for (int k = 0; k < r->cuts; k++) {
         const model_statement *s = &r->cut[k];
-        const int end = is(s, "repeat") ? find_end(r, k) : k;
+        const int end = opens(s) ? find_end(r, k) : k;
         if (end < 0)
-            return model_fail(r, s->at, "repeat without its `end`, expected: %s", s->form);
+            return model_fail(r, s->at, "%s without its `end`, expected: %s", s->name, s->form);
         if (is(s, "end"))
-            return model_fail(r, s->at, "end without `repeat`, expected: %s", s->form);
+            return model_fail(r, s->at, "end without `repeat` or `stage`, expected: %s", s->form);
         if (is(s, "let") && (!add_statement(r, s) || !read_let(r)))
             return 0;
         k = end;

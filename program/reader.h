@@ -26,7 +26,7 @@ typedef struct {                /* from a word to a number */
 
 typedef struct {                /* words first .. first+n-1 */
     model_place at;
-    int first, n, kind;         /* kind: its row in the table of statements.c */
+    int first, n, kind, stage;  /* kind: its row in the table of statements.c; stage: 0, of none */
     const char *name, *form;    /* its first word; what it looks like, for messages */
 } model_statement;
 
@@ -62,7 +62,7 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    int cuts, cut_words, locals, depth, repeated;
+    int cuts, cut_words, locals, depth, repeated, stage;
     model_statement *cut;                   /* [cuts]       as the file has them, and their words */
     char **cut_word;                        /* [cut_words]  */
     model_local *local;                     /* [locals]     of the round in hand */
@@ -178,6 +178,12 @@ int   model_expand(model_reader *r);
 /* --- hooked.c: what takes part in the library's step by hooks --- */
 int   model_read_record(model_reader *r, const char *path);     /* of the base's acceleration */
 int   model_hook(model_reader *r);
+
+/* --- stage.c: what holds from a stage on --- */
+int   model_stage_head(model_reader *r);                /* NAME [steps N] [remove BLOCK ...] */
+int   model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
+void  model_use_stage(model *p, int k);
+void  model_gather_loads(bbm_model *m);
 
 /* --- build.c: the library's model, and the statements that need it --- */
 int   model_build(model_reader *r);

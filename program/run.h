@@ -12,11 +12,13 @@
 
 typedef struct {
     model *p;
-    int settling, has_begun, is_over;   /* settling: quasi-static steps that are left */
+    int settling, has_begun;            /* settling: quasi-static steps that are left */
+    int stage_is_over, is_over;
 } run;
 
 /* Settles by a step; if that is done, begins at t = 0; then takes the steps of the model, until all
- * are done or (71) is met. BBM_STEPS_EXHAUSTED: all are done, and it is not met. */
+ * are done or (71) is met, and those of its stages. BBM_STEPS_EXHAUSTED: all are done, and it is
+ * not met. */
 bbm_status run_step(run *r);
 void run_says(const run *r, bbm_status status, char out[500]);      /* why a run failed */
 int  run_is_met(const model *p, int k, char out[300]);  /* expectation k beside what came out */

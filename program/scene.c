@@ -130,10 +130,8 @@ static int copy_frame(scene_frame *f, const bbm_model *m)
         drop_frame(f);
         return 0;
     }
-    for (int v = 0; v < m->vertices; v++) {
-        f->at[v][0] = m->vertex[v].x + m->origin[0];
-        f->at[v][1] = m->vertex[v].y + m->origin[1];
-    }
+    for (int v = 0; v < m->vertices; v++)
+        field_place(m, v, f->at[v]);
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)
             f->force[f->forces++] = force_of(m, &m->contact[k]);
@@ -220,13 +218,15 @@ static void add_vertex(film *f, body *b, int v)
     const point x = position(f, 0, v);
     const bbm_node *i = &f->m->node[f->m->vertex[v].node];
 
-    b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0;
+    b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0
+               && !field_is_gone(f->m, v);
     b->n++;
     plot_widen(b->box[0], x.x);
     plot_widen(b->box[1], x.y);
 }
 
-/* Block by block, which are numbered from 0, in the order of their elements. */
+/* Block by block, which are numbered from 0, in the order of their elements; without those that are
+ * gone in the first frame. */
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
@@ -239,6 +239,8 @@ static void find_bodies(film *f)
                 f->vertex[n++] = v;
                 add_vertex(f, b, v);
             }
+        if (b->box[0][0] == b->box[0][1] && b->box[1][0] == b->box[1][1])
+            continue;
         f->bodies += b->n > 0;
         f->held |= b->n > 0 && b->held;
     }
@@ -451,7 +453,7 @@ static void visit_supports(film *f, int frame, visitor *visit)
     for (int b = 0; b < f->bodies; b++)
         for (int k = 0; k < f->body[b].n && !f->body[b].held; k++) {
             const int v = f->vertex[f->body[b].first + k], n = f->m->vertex[v].node;
-            const int held = f->m->node[n].held;
+            const int held = field_is_gone(f->m, v) ? 0 : f->m->node[n].held;
             const point x = position(f, frame, v);
             point d = f->normal[n];
             if (held == 0 || hypot(x.x - last[held].x, x.y - last[held].y) * f->scale < 8)
@@ -1029,6 +1031,8 @@ static int find_values(const bbm_model *m, const field *shown, nodal *n)
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
         n[i] = (nodal){ r.u, r.v, field_of_node(shown, m, i) };
+        if (field_is_gone(m, m->adjacent[m->adjacent_first[i]]))
+            n[i] = (nodal){ 0 };
         finite &= isfinite(r.u + r.v + n[i].value);
     }
     return finite;
@@ -1055,6 +1059,9 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
         for (int v = 0; v < 2 * m->vertices; v++) {
             const int i = m->vertex[v % m->vertices].node;
             const double times = v < m->vertices ? 0 : scale;
+            field_place(m, v % m->vertices, place[v]);
+            if (field_is_gone(m, v % m->vertices))
+                continue;
             place[v][0] = m->node[i].x + times * n[i].u;
             place[v][1] = m->node[i].y + times * n[i].v;
         }

@@ -9,7 +9,9 @@
  *     ALL_NODES        set                        needs nodes
  *     BLOCKS           use, fixblock              need blocks
  *     MODEL            the rest, on the library's model, which is built and prepared: build.c
- *     MONITORS         expect                     needs monitors */
+ *     MONITORS         expect                     needs monitors
+ *
+ * The statements of a stage follow, stage by stage, on the finished model: stage.c. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,6 +22,7 @@
 #include "reader.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
+enum { ONCE = 1, STAGED };      /* a statement that may stand once, and one that a stage may have */
 
 /* Letters of an id; cells of a grid; memory for each element, at least. */
 enum { ID_ROOM = 24, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
@@ -111,13 +114,20 @@ static int read_contact(model_reader *r)
     bbm_parameters *p = &r->p->m->par;
     bbm_beyond *b = r->p->m->beyond;
     model_option o[] = {
-        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &b->cohesion),
-        FROM_ZERO("tension", &b->tension),
-        ANGLE("friction", &p->friction),
+        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s),
         RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
+        FROM_ZERO("cohesion", &b->cohesion), FROM_ZERO("tension", &b->tension),
+        ANGLE("friction", &p->friction),
     };
 
-    return model_options(r, LENGTH(o), o) && model_note_friction(r, p->friction);
+    if (!model_options(r, LENGTH(o), o) || !model_note_friction(r, p->friction))
+        return 0;
+    if (r->s->stage && (o[0].seen || o[1].seen || o[2].seen))
+        return model_blame(r, "kn, ks or restitution in a stage, expected friction, cohesion or "
+                              "tension");
+    if (r->no_shear)
+        p->friction = b->cohesion = 0;
+    return 1;
 }
 
 static int read_static(model_reader *r)
@@ -443,33 +453,35 @@ static int read_expect(model_reader *r)
 static const struct kind {
     const char *name, *form;
     int (*read)(model_reader *r);
-    int phase, once;
+    int phase, may;
 } kinds[] = {
-    { "let", "let NAME VALUE", NULL, NUMBERS, 0 },
-    { "repeat", "repeat NAME FROM TO, statements, end", NULL, NUMBERS, 0 },
-    { "end", "end", NULL, NUMBERS, 0 },
-    { "title", "title TEXT", read_title, NOTHING_NEEDED, 1 },
+    { "let", "let NAME VALUE", NULL, NUMBERS, STAGED },
+    { "repeat", "repeat NAME FROM TO, statements, end", NULL, NUMBERS, STAGED },
+    { "stage", "stage NAME [steps N] [remove BLOCK ...], statements, end", model_stage_head,
+      NOTHING_NEEDED, STAGED },
+    { "end", "end", NULL, NUMBERS, STAGED },
+    { "title", "title TEXT", read_title, NOTHING_NEEDED, ONCE },
     { "node", "node ID X Y", read_node, NOTHING_NEEDED, 0 },
     { "mesh", "mesh FILE.msh", read_mesh, NOTHING_NEEDED, 0 },
     { "material", "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material,
       NOTHING_NEEDED, 0 },
-    { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, 1 },
-    { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, 1 },
-    { "shake", "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NOTHING_NEEDED, 1 },
+    { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, ONCE },
+    { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, ONCE | STAGED },
+    { "shake", "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NOTHING_NEEDED, ONCE },
     { "contact",
       "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
       "[restitution E]",
-      read_contact, NOTHING_NEEDED, 1 },
-    { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
+      read_contact, NOTHING_NEEDED, ONCE | STAGED },
+    { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, ONCE },
     { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",
-      read_dynamic, NOTHING_NEEDED, 1 },
+      read_dynamic, NOTHING_NEEDED, ONCE },
     { "bond", "bond [alpha VALUE] [augment N] [at vertices|moment|auto]", read_bond,
-      NOTHING_NEEDED, 1 },
+      NOTHING_NEEDED, ONCE },
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
-      NOTHING_NEEDED, 1 },
-    { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
+      NOTHING_NEEDED, ONCE },
+    { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, ONCE },
     { "output", "output [every N] [vtk] [svg] [field NAME] [scale N] [low VALUE] [high VALUE]",
-      read_output, NOTHING_NEEDED, 1 },
+      read_output, NOTHING_NEEDED, ONCE },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
     { "grid", "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE,
@@ -478,12 +490,13 @@ static const struct kind {
     { "use", "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
     { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
     { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
-      model_joint, MODEL, 0 },
-    { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, 0 },
-    { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, 0 },
-    { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, 0 },
-    { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, 0 },
-    { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
+      model_joint, MODEL, STAGED },
+    { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]; in a stage: fix WHERE free [x] [y]",
+      model_fix, MODEL, STAGED },
+    { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, STAGED },
+    { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, STAGED },
+    { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, STAGED },
+    { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, STAGED },
     { "bolt", "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts,
       MODEL, 0 },
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
@@ -499,7 +512,7 @@ static const char *find_other(const char *word)
 {
     static const struct { const char *words, *here; } other[] = {
         { " anchor cable spring ", "see bolt" },
-        { " excavate remove stage ", "a file with the block and one without are two runs" },
+        { " excavate remove ", "see stage" },
         { " accelerogram earthquake pulse ", "see shake, which reads a record" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
         { " var define ", "see let" }, { " force ", "see load" },
@@ -542,7 +555,7 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
                           model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text),
                           model_hint(word));
     }
-    const model_statement s = { at, r->cut_words, 0, k, kinds[k].name, kinds[k].form };
+    const model_statement s = { at, r->cut_words, 0, k, 0, kinds[k].name, kinds[k].form };
     return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
 }
 
@@ -551,7 +564,13 @@ static int note_places(model_reader *r)
 {
     for (int i = 0; i < r->statements; i++) {
         const model_statement *s = &r->statement[i];
-        if (kinds[s->kind].once && r->seen[s->kind].line > 0)
+        if (s->stage && !(kinds[s->kind].may & STAGED))
+            return model_fail(r, s->at, "%s cannot stand in a stage, which may have load, "
+                              "traction, pressure, water, fix, contact, joint and gravity",
+                              s->name);
+        if (s->stage)
+            continue;
+        if (kinds[s->kind].may & ONCE && r->seen[s->kind].line > 0)
             return model_fail(r, s->at, "%s for the second time, after line %d, expected it once",
                               s->name, r->seen[s->kind].line);
         r->seen[s->kind] = s->at;
@@ -614,12 +633,12 @@ static int cut_file(model_reader *r, char *text, size_t size)
     return 1;
 }
 
-static int read_phase(model_reader *r, int phase)
+static int read_phase(model_reader *r, int phase, int stage)
 {
     for (int k = 0; k < r->statements && !r->p->status; k++) {
         r->s = &r->statement[k];
         r->next = 0;
-        if (kinds[r->s->kind].phase == phase)
+        if (kinds[r->s->kind].phase == phase && r->s->stage == stage)
             kinds[r->s->kind].read(r);
     }
     return !r->p->status;
@@ -660,6 +679,27 @@ static void free_reader(model_reader *r)
     free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
 }
 
+/* Each stage begins with what the one before it has, and is kept until the run comes to it. */
+static int read_stages(model_reader *r)
+{
+    model *p = r->p;
+
+    p->stage = model_room(r, p->stages, sizeof *p->stage);
+    for (int k = 0; k <= p->stages && !p->status; k++) {
+        p->stage[k].steps = k ? p->stage[0].steps : p->m->par.steps;
+        if (k)
+            memset(p->moved_to, 0, (size_t)p->m->nodes * sizeof *p->moved_to);
+        for (int phase = NUMBERS + 1; phase < PHASES && k; phase++)
+            read_phase(r, phase, k);
+        p->m->par.steps += k ? p->stage[k].steps : 0;
+        if (!p->status)
+            model_keep_stage(r, k);
+    }
+    if (!p->status)
+        model_use_stage(p, 0);
+    return !p->status;
+}
+
 static int read_all(model_reader *r)
 {
     size_t size;
@@ -668,12 +708,12 @@ static int read_all(model_reader *r)
     if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;
     for (int phase = NUMBERS + 1; phase < PHASES; phase++)
-        if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase))
+        if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase, 0))
             return 0;
     r->s = r->light;
     if (r->light && (r->p->m->par.gravity[0] != 0 || r->p->m->par.gravity[1] != 0))
         model_note(r, "warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?");
-    return model_finish(r);
+    return model_finish(r) && read_stages(r);
 }
 
 int model_read(const char *path, int lets, char *const let[], model *p)

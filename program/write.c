@@ -86,6 +86,8 @@ static void put_results(FILE *f, const model *p, int files)
             fprintf(f, ",%s", q->name);
     fputc('\n', f);
     for (int k = 0; k < (nodes ? m->nodes : m->elements); k++) {
+        if (field_is_gone(m, nodes ? m->adjacent[m->adjacent_first[k]] : m->element[k].first))
+            continue;
         fprintf(f, "%s,%s", nodes ? p->node[k] : p->element[k],
                 p->block[nodes ? p->node_block[k] : m->element[k].block]);
         put_numbers(f, 2, nodes ? (double[]){ m->node[k].x, m->node[k].y } : p->centre[k]);
@@ -134,7 +136,7 @@ static void put_reactions(FILE *f, const write_results *w)
     fprintf(f, "node,x,y,fx,fy\n");
     for (int n = 0; n < p->m->nodes; n++) {
         const bbm_node *a = &p->m->node[n];
-        if (!a->held)
+        if (!a->held || field_is_gone(p->m, p->m->adjacent[p->m->adjacent_first[n]]))
             continue;
         fprintf(f, "%s", p->node[n]);
         put_numbers(f, 2, (double[]){ a->x, a->y });
@@ -249,7 +251,8 @@ static void put_cells(FILE *f, const bbm_model *m)
     }
     fprintf(f, "CELL_TYPES %d\n", m->elements);
     for (int e = 0; e < m->elements; e++)
-        fprintf(f, "%d\n", m->element[e].n == 3 ? 5 : m->element[e].n == 4 ? 9 : 7);
+        fprintf(f, "%d\n", field_is_gone(m, m->element[e].first) ? 0 : m->element[e].n == 3 ? 5
+                            : m->element[e].n == 4 ? 9 : 7);
 }
 
 /* Points where they started, with the displacement as a vector to warp by; cells with stress. */
@@ -275,7 +278,8 @@ static void put_vtk(FILE *f, const write_results *w)
     for (int n = 0; n < m->nodes; n++) {
         bbm_result r;
         bbm_nodal_result(m, n, -1, &r);
-        fprintf(f, "%.15g %.15g 0\n", r.u, r.v);
+        const int there = !field_is_gone(m, m->adjacent[m->adjacent_first[n]]);
+        fprintf(f, "%.15g %.15g 0\n", there * r.u, r.v);
     }
 }
 
@@ -310,15 +314,26 @@ static void put_vtk_contacts(FILE *f, const write_results *w)
     }
 }
 
+/* A file with the number of the step in its name. */
+static int write_numbered(write_results *w, const char *name, const char *ending,
+                          void (*put)(FILE *f, const write_results *w))
+{
+    char numbered[50], path[LONGEST];
+
+    snprintf(numbered, sizeof numbered, "%s_%06d.%s", name, w->step, ending);
+    return write_file(w, path_of(w, numbered, path), put);
+}
+
 static void write_vtk(write_results *w)
 {
-    char name[32], path[LONGEST];
+    if (write_numbered(w, "step", "vtk", put_vtk))
+        write_numbered(w, "contacts", "vtk", put_vtk_contacts);
+}
 
-    snprintf(name, sizeof name, "step_%06d.vtk", w->step);
-    if (!write_file(w, path_of(w, name, path), put_vtk))
-        return;
-    snprintf(name, sizeof name, "contacts_%06d.vtk", w->step);
-    write_file(w, path_of(w, name, path), put_vtk_contacts);
+void write_stage(write_results *w)
+{
+    if (write_numbered(w, "nodes", "csv", put_nodes))
+        write_numbered(w, "reactions", "csv", put_reactions);
 }
 
 /* ------------------------------------------------------------------------------------- pictures */
@@ -481,13 +496,21 @@ static size_t is_ours(const char *name)
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
         "reactions.csv", "bolts.csv", "contacts.svg", "movie.svg", "model.svg", "history.svg",
     };
+    static const struct { const char *start, *ending; } numbered[] = {
+        { "step_", ".vtk" }, { "contacts_", ".vtk" }, { "nodes_", ".csv" },
+        { "reactions_", ".csv" },
+    };
     const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
-    const size_t start = strncmp(name, "step_", 5) == 0 ? 5
-                       : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
-    const size_t digits = start ? strspn(name + start, "0123456789") : 0;
 
-    if (digits > 0 && n == start + digits + 4 && strncmp(name + start + digits, ".vtk", 4) == 0)
-        return n;
+    for (int k = 0; k < LENGTH(numbered); k++) {
+        const size_t start = strlen(numbered[k].start);
+        if (strncmp(name, numbered[k].start, start) != 0)
+            continue;
+        const size_t digits = strspn(name + start, "0123456789");
+        if (digits > 0 && n == start + digits + 4
+            && strncmp(name + start + digits, numbered[k].ending, 4) == 0)
+            return n;
+    }
     for (int k = 0; k < LENGTH(all); k++)
         if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
             return n;

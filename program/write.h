@@ -4,6 +4,7 @@
  *     write_open       makes the folder and locks it, or empties it of an earlier run, begins
  *                      history.csv, summary.csv
  *     write_step       a row of each, a picture, for the start (step 0) and each nominal step
+ *     write_stage      tables of where a stage ends and another one begins
  *     write_close      the end of the run: nodes.csv, elements.csv, contacts.csv, ... pictures
  *
  * A file has its name when it is complete (output.h); history.csv and summary.csv, if they cannot
@@ -35,6 +36,7 @@ typedef struct {
 int  write_check(write_results *w);                         /* model.svg alone */
 int  write_open(write_results *w);
 int  write_step(write_results *w, int step);                /* 1, or 0 after an error */
+void write_stage(write_results *w);     /* nodes_N.csv, reactions_N.csv of the last step N */
 int  write_close(write_results *w);
 void write_matrix(write_results *w);                /* K and F of -m, once: of the first solution */
 
