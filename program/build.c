@@ -162,8 +162,6 @@ int model_build(model_reader *r)
             model_enter(r, &r->set_of, r->block[b].name, -2 - b);
     p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
     p->gone = model_room(r, r->blocks, sizeof *p->gone);
-    p->moved_to = model_room(r, p->m->nodes, sizeof *p->moved_to);
-    p->moved_from = model_room(r, p->m->nodes, sizeof *p->moved_from);
     r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
     return !p->status;
 }
@@ -175,10 +173,10 @@ enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 /* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
 typedef struct { int kind, found, block, whole; double x[4]; } selection;
 
-/* Whether the block of a copy is the one, -1: any, and no stage has removed it. */
-static int is_of(const model_reader *r, const model_copy *c, int block)
+/* Whether the copy is that of the block, -1: of any, and no stage has removed it. */
+static int is_of(const model_reader *r, int block, int c)
 {
-    return (block < 0 || c->block == block) && !r->p->gone[c->block];
+    return (block < 0 || r->copy[c].block == block) && !r->p->gone[r->copy[c].block];
 }
 
 /* Whether the block has the node; -1: some block. */
@@ -186,7 +184,7 @@ static int has_node(const model_reader *r, int block, int node)
 {
     int c = r->node[node].first;
 
-    while (c >= 0 && !is_of(r, &r->copy[c], block))
+    while (c >= 0 && !is_of(r, block, c))
         c = r->copy[c].next;
     return c >= 0;
 }
@@ -201,7 +199,7 @@ static void choose(model_reader *r, const selection *w, int node)
     n->mark = r->wheres;
     r->file_nodes++;
     for (int c = n->first; c >= 0; c = r->copy[c].next)
-        if (is_of(r, &r->copy[c], w->block))
+        if (is_of(r, w->block, c))
             r->chosen_node[r->chosen++] = r->copy[c].node;
 }
 
@@ -341,7 +339,7 @@ static int where(model_reader *r, int nearest)
 /* --------------------------------------------------------------- statements that need the model */
 
 /* x and y, each with `by`; none: both. In a stage `by` counts from where the node is then, and
- * `free` gives it free. */
+ * `free` ends what holds it. */
 int model_fix(model_reader *r)
 {
     static const char *const name[] = { "x", "y" };
@@ -351,7 +349,7 @@ int model_fix(model_reader *r)
 
     if (!where(r, 0))
         return 0;
-    const int release = r->s->stage && model_skip(r, "free");
+    const int ends = r->s->stage && model_skip(r, "free");
     while (model_look(r)) {
         const int a = model_skip(r, "x") ? 0 : model_skip(r, "y") ? 1 : -1;
         if (a < 0)
@@ -360,26 +358,22 @@ int model_fix(model_reader *r)
             return model_blame(r, "%s for the second time, expected: %s", name[a],
                                r->s->form);
         directions |= 1 << a;
-        if (!release && model_skip(r, "by") && !model_number(r, &by[a]))
+        if (!ends && model_skip(r, "by") && !model_number(r, &by[a]))
             return 0;
     }
     directions = directions ? directions : BBM_XY;
     for (int k = 0; k < r->chosen; k++) {
         const int n = r->chosen_node[k];
-        if (release) {
-            p->m->node[n].held &= ~directions;
-            continue;
-        }
-        for (int a = 0; a < 2; a++) {
-            if (directions & p->m->node[n].held & 1 << a && p->moved_to[n][a] != by[a]
-                && (!r->s->stage || p->moved_to[n][a] != 0))
+        bbm_node *at = &p->m->node[n];
+        for (int a = 0; a < 2; a++)
+            if (directions & at->held & 1 << a && at->wall[a] != by[a]
+                && !(r->s->stage && at->wall[a] == 0))
                 return model_blame(r, "node %.60s is displaced by %g in %s here, by %g in another "
                                       "statement, expected one of them", p->node[n], by[a],
-                                   name[a], p->moved_to[n][a]);
-            p->moved_to[n][a] = directions & 1 << a ? by[a] : p->moved_to[n][a];
-        }
+                                   name[a], at->wall[a]);
         p->moving |= by[0] != 0 || by[1] != 0;
-        bbm_fix_node(p->m, n, directions, 0, 0);
+        bbm_fix_node(p->m, n, directions, by[0], by[1]);
+        at->held &= ends ? ~directions : BBM_XY;
     }
     return 1;
 }
@@ -415,11 +409,10 @@ int model_load_nodes(model_reader *r)
 /* Pa; of water: weight in N/m^3, level in m. */
 typedef struct { double t[2], pressure, weight, level; } edge_load;
 
-/* Loads the boundary edges with both ends in WHERE. Water takes the place of an earlier stage's. */
+/* Loads the boundary edges with both ends in WHERE. */
 static int load_edges(model_reader *r, const edge_load *l)
 {
     bbm_model *m = r->p->m;
-    const int known = r->s->stage ? r->p->stage[r->s->stage - 1].edge_loads : 0;
     char *in = model_room(r, m->nodes, 1);
     int found = 0, wet = 0;
 
@@ -433,9 +426,7 @@ static int load_edges(model_reader *r, const edge_load *l)
         if (!in[a->node] || !in[b->node])
             continue;
         found = 1;
-        wet |= r->s->stage || fmin(a->y, b->y) + m->origin[1] < l->level;
-        for (int k = 0; k < known && l->weight > 0; k++)
-            m->beyond->edge_load[k].weight *= m->beyond->edge_load[k].a != m->edge[e].a;
+        wet |= fmin(a->y, b->y) + m->origin[1] < l->level;
         if (l->weight > 0)
             bbm_add_water(m, e, l->level, l->weight * t);
         else
@@ -481,12 +472,10 @@ int model_water(model_reader *r)
     return load_edges(r, &l);
 }
 
-/* What is left out is as in `contact`. A joint that can never count is hardly meant. Those of a
- * stage come before those that were known. */
+/* What is left out is as in `contact`. A joint that can never count is hardly meant. */
 int model_joint(model_reader *r)
 {
     const bbm_beyond *b = r->p->m->beyond;
-    const int known = r->s->stage ? r->p->stage[r->s->stage - 1].joints : 0;
     double friction = r->p->m->par.friction, cohesion = b->cohesion, tension = b->tension;
     model_option o[] = { ANGLE("friction", &friction), FROM_ZERO("cohesion", &cohesion),
                          FROM_ZERO("tension", &tension) };
@@ -501,7 +490,7 @@ int model_joint(model_reader *r)
         return 0;
     if (block[0] >= 0 && block[0] == block[1])
         return model_blame(r, "a joint of a block with itself, expected two blocks");
-    for (int k = 0; k < b->joints - known; k++) {
+    for (int k = 0; k < b->joints; k++) {
         const int *a = b->joint[k].block;
         if (((a[0] < 0 || a[0] == block[0]) && (a[1] < 0 || a[1] == block[1]))
             || ((a[0] < 0 || a[0] == block[1]) && (a[1] < 0 || a[1] == block[0])))
@@ -510,13 +499,7 @@ int model_joint(model_reader *r)
     r->p->slippery = 0;
     if (r->no_shear)
         friction = cohesion = 0;
-    if (bbm_add_joint(r->p->m, block, friction, cohesion, tension))
-        return model_out_of_memory(r);
-    const bbm_joint own = b->joint[b->joints - 1];
-    bbm_joint *to = &b->joint[b->joints - 1 - known];
-    memmove(to + 1, to, (size_t)known * sizeof own);
-    *to = own;
-    return 1;
+    return bbm_add_joint(r->p->m, block, friction, cohesion, tension) ? model_out_of_memory(r) : 1;
 }
 
 int model_velocities(model_reader *r)
@@ -629,15 +612,11 @@ static int blame_free(model_reader *r)
                       r->p->block[m->element[loose].block], near);
 }
 
-/* What the statements have noted for each block goes to its nodes and elements; statics must be
- * held. */
+/* What takes part in the steps is hooked in; statics must be held. */
 int model_finish(model_reader *r)
 {
     model *p = r->p;
 
-    for (int n = 0; n < p->m->nodes; n++)
-        if (r->block[p->node_block[n]].fixed)
-            bbm_fix_node(p->m, n, BBM_XY, 0, 0);
     const bbm_status status = !model_hook(r) || p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);

@@ -395,7 +395,7 @@ static int run_model(model *p, const arguments *a, clock_t start)
 {
     write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
                         .start = start, .reading = clock() - start };
-    progress s = { .shown = !a->quiet, .steps = p->m->par.steps, .settling = p->settle,
+    progress s = { .shown = !a->quiet, .steps = p->stage[p->stages].par.steps, .settling = p->settle,
                    .last = now() };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };

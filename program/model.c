@@ -39,18 +39,20 @@ const char *model_says(const model *p, bbm_status status, char out[400])
     return out;
 }
 
-/* A displaced support is where it belongs at the time t, to which its way is even; in a stage it
- * arrives before the end. */
-void model_move_supports(model *p, double t)
+/* The rest of the way of a displaced support is even over the time that is left of the ramp, which
+ * ends with the stage. */
+void model_move_supports(model *p)
 {
-    const double dt = p->m->par.dt, most = p->now ? dt * p->stage[p->now].steps : INFINITY,
-                 ramp = fmin(p->ramp, most),
-                 share = ramp > 0 ? fmin(1, (t - dt * p->begun) / ramp) : 1;
+    const bbm_model *m = p->m;
+    const double dt = m->par.dt, whole = p->now ? dt * (m->par.steps - p->begun) : INFINITY,
+                 left = fmin(p->ramp, whole) - dt * (m->info.step - p->begun),
+                 share = p->dynamic && left > dt ? dt / left : 1;
 
-    for (int n = 0; n < p->m->nodes && p->moving; n++) {
-        const double *from = p->moved_from[n], *way = p->moved_to[n];
-        if (p->m->node[n].held)
-            bbm_move_support(p->m, n, from[0] + share * way[0], from[1] + share * way[1]);
+    for (int n = 0; n < m->nodes && p->moving; n++) {
+        const double *at = m->node[n].wall, *to = p->stage[p->now].node[n].wall;
+        if (m->node[n].held)
+            bbm_move_support(p->m, n, at[0] + share * (to[0] - at[0]),
+                             at[1] + share * (to[1] - at[1]));
     }
 }
 
@@ -108,12 +110,9 @@ void model_free(model *p)
         free(p->monitor[k].node);
     free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
         free((void *)p->element);
-    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to),
-        free(p->note), free(p->shaking), free(p->bolt), free(p->moved_from), free(p->gone);
-    for (int k = 0; k <= p->stages && p->stage; k++) {
-        free(p->stage[k].node), free(p->stage[k].moved_to);
-        free(p->stage[k].joint), free(p->stage[k].edge_load);
-    }
-    free(p->stage);
+    for (int k = 0; k <= p->stages && p->stage; k++)
+        free(p->stage[k].node);
+    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->stage),
+        free(p->gone), free(p->note), free(p->shaking), free(p->bolt);
     *p = (model){ 0 };
 }

@@ -19,14 +19,11 @@ typedef struct { int monitor, kind; double value, within; } model_expected;     
 typedef struct { double t, a[2]; } model_shaking;     /* s, m/s^2: of the base, a row of a record */
 
 typedef struct {                /* what holds from a stage on; the first is the run before them */
-    const char *name;
-    int steps, joints, edge_loads;
-    double gravity[2], friction, cohesion, tension;
-    bbm_node *node;             /* [nodes]      their directions held, and loads */
-    double (*moved_to)[2];      /* [nodes]      m, from where they are as the stage begins */
-    bbm_joint *joint;           /* [joints] */
-    bbm_edge_load *edge_load;   /* [edge_loads] */
-} model_stage;
+    bbm_parameters par;         /* steps: the last of the stage */
+    double cohesion, tension;
+    int edge_loads;
+    bbm_node *node;             /* [nodes]      held, load; wall: how far it is moved in the stage, */
+} model_stage;                  /*              and once that has begun, to where */
 
 enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                 /* kinds of what is expected */
 
@@ -50,10 +47,8 @@ typedef struct {
     int    expectations;
     model_expected *expected;   /* [expectations] value and within: m */
     int    moving;              /* supports: whether any moves */
-    double (*moved_to)[2];      /* [m->nodes]   m, from where they were */
-    double (*moved_from)[2];    /* [m->nodes]   m, from the start, as the stage began */
     double ramp;                /* s            in which; 0: at once */
-    int    stages, now, begun;  /* after the first run; the one in hand, 0: none, and its start */
+    int    stages, now, begun;  /* behind the first run; the one in hand, 0: none, and its start */
     model_stage *stage;         /* [stages+1] */
     int   *gone;                /* [blocks]     the stage that removes it; 0: none */
     int    shakings;            /* rows of a record of the base's acceleration */
@@ -78,11 +73,11 @@ const char *model_says(const model *p, bbm_status status, char out[400]);
 /* How far the start of a boundary edge is from another edge, m. */
 double model_distance(const bbm_model *m, int corner, int edge);
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
-void model_move_supports(model *p, double t);                  /* to where they are at the time t */
+void model_move_supports(model *p);     /* to where they are after the next step */
+void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */
 void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
 /* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);
-bbm_status model_next_stage(model *p);          /* stage.c: begins it, from where the run is */
 void model_free(model *p);
 
 #endif

@@ -12,7 +12,8 @@
  *     repeat NAME FROM TO         the statements up to its `end`, for each whole number from FROM
  *       ...                       to TO, which is $NAME in them; a `let` there is that of the
  *     end                         round alone
- *     stage NAME ... end          notes in the statements between which stage they belong to
+ *
+ *     stage NAME ... end          the statements between get the number of the stage
  *
  * The `let`s outside of `repeat` are read first, so that statements above them may use them. */
 #include <ctype.h>
@@ -317,7 +318,7 @@ static int add_statement(model_reader *r, const model_statement *source)
     return 1;
 }
 
-/* ---------------------------------------------------------------------- let, repeat, stage, end */
+/* ----------------------------------------------------------------------------- let, repeat, end */
 
 static int is(const model_statement *s, const char *word) { return strcmp(s->name, word) == 0; }
 static int opens(const model_statement *s) { return is(s, "repeat") || is(s, "stage"); }
@@ -411,29 +412,21 @@ static int repeat(model_reader *r, int from, int end)
     return 1;
 }
 
-/* A stage and the statements up to its `end`. */
-static int stage(model_reader *r, int from, int end)
-{
-    if (r->stage)
-        return model_fail(r, r->cut[from].at, "a stage in a stage, expected its `end` before");
-    r->stage = ++r->p->stages;
-    const int good = add_statement(r, &r->cut[from]) && walk(r, from + 1, end)
-                     && add_statement(r, &r->cut[end]) && model_at_end(r);
-    r->stage = 0;
-    return good;
-}
-
-/* The statements from .. to-1; the `let`s of the file have been read before. */
+/* The statements from .. to-1; the `let`s of the file have been read before. An `end` is that of a
+ * stage. */
 static int walk(model_reader *r, int from, int to)
 {
     for (int k = from; k < to; k++) {
         const model_statement *s = &r->cut[k];
-        const int end = opens(s) ? find_end(r, k) : k;
+        const int end = is(s, "repeat") ? find_end(r, k) : k;
+        if (is(s, "stage") && r->stage)
+            return model_fail(r, s->at, "a stage in a stage, expected the `end` of the first");
+        r->stage = is(s, "stage") ? ++r->p->stages : r->stage;
         if (is(s, "repeat") ? !repeat(r, k, end)
-            : is(s, "stage") ? !stage(r, k, end)
             : is(s, "let") ? (r->round || r->stage) && (!add_statement(r, s) || !read_let(r))
-            : !add_statement(r, s))
+            : !add_statement(r, s) || (is(s, "end") && !model_at_end(r)))
             return 0;
+        r->stage = is(s, "end") ? 0 : r->stage;
         k = end;
     }
     return 1;

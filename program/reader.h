@@ -78,7 +78,7 @@ typedef struct {
     bbm_material *material;
     model_set *set;
     model_copy *copy;
-    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of;
+    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of, stage_of;
     long long last_node, last_element;      /* the largest ids */
     int other_material;                     /* of `use MATERIAL on *`, or -1 */
     int plane_strain, no_shear, stressed;   /* no_shear: ks is 0; stressed: by `stress *` */
@@ -179,11 +179,10 @@ int   model_expand(model_reader *r);
 int   model_read_record(model_reader *r, const char *path);     /* of the base's acceleration */
 int   model_hook(model_reader *r);
 
-/* --- stage.c: what holds from a stage on --- */
+/* --- stage.c --- */
 int   model_stage_head(model_reader *r);                /* NAME [steps N] [remove BLOCK ...] */
 int   model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
-void  model_use_stage(model *p, int k);
-void  model_gather_loads(bbm_model *m);
+void  model_gather_loads(bbm_model *m);                 /* the library's hook */
 
 /* --- build.c: the library's model, and the statements that need it --- */
 int   model_build(model_reader *r);

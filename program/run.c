@@ -24,29 +24,26 @@ static bbm_status settle(run *r)
 
 bbm_status run_step(run *r)
 {
-    model *p = r->p;
-    bbm_model *m = p->m;
+    bbm_model *m = r->p->m;
     const bbm_parameters *par = &m->par;
-    bbm_status status;
 
     if (r->settling)
         return settle(r);
     if (!r->has_begun) {
         r->has_begun = 1;
         m->info.t = m->info.step = 0;
-        return model_start(p) ? BBM_OK : BBM_NO_MEMORY;
+        return model_start(r->p) ? BBM_OK : BBM_NO_MEMORY;
     }
-    if (r->stage_is_over && (status = model_next_stage(p)))
-        return status;
+    if (r->stage_is_over)
+        model_next_stage(r->p);
     r->stage_is_over = 0;
-    const int end = p->begun + p->stage[p->now].steps;
-    if (m->info.step == end)
+    if (m->info.step == par->steps)
         return BBM_STEPS_EXHAUSTED;
-    model_move_supports(p, p->dynamic ? (m->info.step + 1) * par->dt : INFINITY);
-    status = bbm_step(m);
+    model_move_supports(r->p);
+    const bbm_status status = bbm_step(m);
     r->stage_is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
-                                                      : m->info.step == end);
-    r->is_over = r->stage_is_over && p->now == p->stages;
+                                                      : m->info.step == par->steps);
+    r->is_over = r->stage_is_over && r->p->now == r->p->stages;
     return status;
 }
 

@@ -17,7 +17,7 @@ typedef struct {
 } run;
 
 /* Settles by a step; if that is done, begins at t = 0; then takes the steps of the model, until all
- * are done or (71) is met, and those of its stages. BBM_STEPS_EXHAUSTED: all are done, and it is
+ * are done or (71) is met, and those of each stage. BBM_STEPS_EXHAUSTED: all are done, and it is
  * not met. */
 bbm_status run_step(run *r);
 void run_says(const run *r, bbm_status status, char out[500]);      /* why a run failed */

@@ -490,13 +490,13 @@ static const struct kind {
     { "use", "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
     { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
     { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
-      model_joint, MODEL, STAGED },
+      model_joint, MODEL, 0 },
     { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]; in a stage: fix WHERE free [x] [y]",
       model_fix, MODEL, STAGED },
     { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, STAGED },
     { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, STAGED },
     { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, STAGED },
-    { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, STAGED },
+    { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
     { "bolt", "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts,
       MODEL, 0 },
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
@@ -565,12 +565,9 @@ static int note_places(model_reader *r)
     for (int i = 0; i < r->statements; i++) {
         const model_statement *s = &r->statement[i];
         if (s->stage && !(kinds[s->kind].may & STAGED))
-            return model_fail(r, s->at, "%s cannot stand in a stage, which may have load, "
-                              "traction, pressure, water, fix, contact, joint and gravity",
-                              s->name);
-        if (s->stage)
-            continue;
-        if (kinds[s->kind].may & ONCE && r->seen[s->kind].line > 0)
+            return model_fail(r, s->at, "%s in a stage, expected load, traction, pressure, fix, "
+                              "contact or gravity", s->name);
+        if (!s->stage && kinds[s->kind].may & ONCE && r->seen[s->kind].line > 0)
             return model_fail(r, s->at, "%s for the second time, after line %d, expected it once",
                               s->name, r->seen[s->kind].line);
         r->seen[s->kind] = s->at;
@@ -666,7 +663,7 @@ static int check_kind(model_reader *r)
 static void free_reader(model_reader *r)
 {
     model_table *table[] = { &r->node_of, &r->element_of, &r->block_of, &r->material_of,
-                             &r->set_of,  &r->monitor_of, &r->let_of };
+                             &r->set_of,  &r->monitor_of, &r->let_of, &r->stage_of };
 
     for (int k = 0; k < LENGTH(table); k++) {
         free(table[k]->value);
@@ -679,24 +676,25 @@ static void free_reader(model_reader *r)
     free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
 }
 
-/* Each stage begins with what the one before it has, and is kept until the run comes to it. */
+/* Each stage begins with what the one before it has, and is kept until the run comes to it. What
+ * fixes a block goes to its nodes. */
 static int read_stages(model_reader *r)
 {
     model *p = r->p;
 
     p->stage = model_room(r, p->stages, sizeof *p->stage);
+    for (int n = 0; n < p->m->nodes; n++)
+        if (r->block[p->node_block[n]].fixed)
+            bbm_fix_node(p->m, n, BBM_XY, p->m->node[n].wall[0], p->m->node[n].wall[1]);
     for (int k = 0; k <= p->stages && !p->status; k++) {
-        p->stage[k].steps = k ? p->stage[0].steps : p->m->par.steps;
-        if (k)
-            memset(p->moved_to, 0, (size_t)p->m->nodes * sizeof *p->moved_to);
         for (int phase = NUMBERS + 1; phase < PHASES && k; phase++)
             read_phase(r, phase, k);
-        p->m->par.steps += k ? p->stage[k].steps : 0;
         if (!p->status)
             model_keep_stage(r, k);
     }
+    p->now = -1;
     if (!p->status)
-        model_use_stage(p, 0);
+        model_next_stage(p);
     return !p->status;
 }
 
@@ -713,7 +711,7 @@ static int read_all(model_reader *r)
     r->s = r->light;
     if (r->light && (r->p->m->par.gravity[0] != 0 || r->p->m->par.gravity[1] != 0))
         model_note(r, "warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?");
-    return model_finish(r) && read_stages(r);
+    return read_stages(r) && model_finish(r);
 }
 
 int model_read(const char *path, int lets, char *const let[], model *p)

@@ -279,7 +279,7 @@ static void put_vtk(FILE *f, const write_results *w)
         bbm_result r;
         bbm_nodal_result(m, n, -1, &r);
         const int there = !field_is_gone(m, m->adjacent[m->adjacent_first[n]]);
-        fprintf(f, "%.15g %.15g 0\n", there * r.u, r.v);
+        fprintf(f, "%.15g %.15g 0\n", there * r.u, there * r.v);
     }
 }
 
@@ -320,20 +320,20 @@ static int write_numbered(write_results *w, const char *name, const char *ending
 {
     char numbered[50], path[LONGEST];
 
-    snprintf(numbered, sizeof numbered, "%s_%06d.%s", name, w->step, ending);
+    snprintf(numbered, sizeof numbered, "%s%06d%s", name, w->step, ending);
     return write_file(w, path_of(w, numbered, path), put);
 }
 
 static void write_vtk(write_results *w)
 {
-    if (write_numbered(w, "step", "vtk", put_vtk))
-        write_numbered(w, "contacts", "vtk", put_vtk_contacts);
+    if (write_numbered(w, "step_", ".vtk", put_vtk))
+        write_numbered(w, "contacts_", ".vtk", put_vtk_contacts);
 }
 
 void write_stage(write_results *w)
 {
-    if (write_numbered(w, "nodes", "csv", put_nodes))
-        write_numbered(w, "reactions", "csv", put_reactions);
+    if (write_numbered(w, "nodes_", ".csv", put_nodes))
+        write_numbered(w, "reactions_", ".csv", put_reactions);
 }
 
 /* ------------------------------------------------------------------------------------- pictures */
@@ -496,19 +496,15 @@ static size_t is_ours(const char *name)
         "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
         "reactions.csv", "bolts.csv", "contacts.svg", "movie.svg", "model.svg", "history.svg",
     };
-    static const struct { const char *start, *ending; } numbered[] = {
-        { "step_", ".vtk" }, { "contacts_", ".vtk" }, { "nodes_", ".csv" },
-        { "reactions_", ".csv" },
-    };
+    static const char *const numbered[][2] = { { "step_", ".vtk" }, { "contacts_", ".vtk" },
+                                               { "nodes_", ".csv" }, { "reactions_", ".csv" } };
     const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
 
     for (int k = 0; k < LENGTH(numbered); k++) {
-        const size_t start = strlen(numbered[k].start);
-        if (strncmp(name, numbered[k].start, start) != 0)
-            continue;
-        const size_t digits = strspn(name + start, "0123456789");
+        const size_t start = strlen(numbered[k][0]), digits =
+            strncmp(name, numbered[k][0], start) ? 0 : strspn(name + start, "0123456789");
         if (digits > 0 && n == start + digits + 4
-            && strncmp(name + start + digits, numbered[k].ending, 4) == 0)
+            && strncmp(name + start + digits, numbered[k][1], 4) == 0)
             return n;
     }
     for (int k = 0; k < LENGTH(all); k++)
