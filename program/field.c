@@ -48,16 +48,16 @@ const field field_table[] = {
     { 0 }
 };
 
-void field_place(const bbm_model *m, int v, double at[2])
+double field_place(const bbm_model *m, int v, int axis)
 {
     const bbm_element *e = m->element;
-    const int gone = field_is_gone(m, v);
 
-    while (gone && e->block != m->element[m->vertex[v].element].block)
+    if (!field_is_gone(m, v))
+        return (axis ? m->vertex[v].y : m->vertex[v].x) + m->origin[axis];
+    while (e->block != m->element[m->vertex[v].element].block)
         e++;
     const bbm_node *a = &m->node[m->vertex[e->first].node];
-    at[0] = gone ? a->x : m->vertex[v].x + m->origin[0];
-    at[1] = gone ? a->y : m->vertex[v].y + m->origin[1];
+    return axis ? a->y : a->x;
 }
 
 const field *field_find(const char *name)

@@ -30,8 +30,9 @@ static inline int field_is_gone(const bbm_model *m, int v)
     return m->element[m->vertex[v].element].out_of_plane == FIELD_GONE;
 }
 
-/* Where vertex v is drawn, m; those of a block that is gone in one point, where it began. */
-void field_place(const bbm_model *m, int v, double at[2]);
+/* x (axis 0) or y of where vertex v is drawn, m; those of a block that is gone in one point, where
+ * it began. */
+double field_place(const bbm_model *m, int v, int axis);
 const field *field_find(const char *name);                      /* NULL: there is none          */
 double field_of_element(const field *f, const bbm_model *m, int element);
 /* What belongs to elements: the mean of those that meet there. */

@@ -13,7 +13,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "field.h"
 #include "length.h"
 #include "run.h"
 #include "warn.h"
@@ -395,8 +394,8 @@ static int run_model(model *p, const arguments *a, clock_t start)
 {
     write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
                         .start = start, .reading = clock() - start };
-    progress s = { .shown = !a->quiet, .steps = p->stage[p->stages].par.steps, .settling = p->settle,
-                   .last = now() };
+    progress s = { .shown = !a->quiet, .steps = p->stage[p->stages].par.steps,
+                   .settling = p->settle, .last = now() };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
 

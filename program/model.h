@@ -10,6 +10,7 @@
 #define MODEL_H
 
 #include "../beyond/beyond.h"
+#include "field.h"
 #include "scene.h"
 
 typedef struct { const char *name; int nodes, *node; } model_monitor;   /* of library nodes */
@@ -22,8 +23,8 @@ typedef struct {                /* what holds from a stage on; the first is the 
     bbm_parameters par;         /* steps: the last of the stage */
     double cohesion, tension;
     int edge_loads;
-    bbm_node *node;             /* [nodes]      held, load; wall: how far it is moved in the stage, */
-} model_stage;                  /*              and once that has begun, to where */
+    bbm_node *node;             /* [nodes]      held, load; wall: how far it is moved in the */
+} model_stage;                  /*              stage, and once that has begun, to where */
 
 enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                 /* kinds of what is expected */
 

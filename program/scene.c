@@ -130,8 +130,10 @@ static int copy_frame(scene_frame *f, const bbm_model *m)
         drop_frame(f);
         return 0;
     }
-    for (int v = 0; v < m->vertices; v++)
-        field_place(m, v, f->at[v]);
+    for (int v = 0; v < m->vertices; v++) {
+        f->at[v][0] = field_place(m, v, 0);
+        f->at[v][1] = field_place(m, v, 1);
+    }
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)
             f->force[f->forces++] = force_of(m, &m->contact[k]);
@@ -1057,13 +1059,11 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
                            && (!map->other || find_values(map->other, shown, n + m->nodes));
         const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
         for (int v = 0; v < 2 * m->vertices; v++) {
-            const int i = m->vertex[v % m->vertices].node;
+            const int k = v % m->vertices, i = m->vertex[k].node;
             const double times = v < m->vertices ? 0 : scale;
-            field_place(m, v % m->vertices, place[v]);
-            if (field_is_gone(m, v % m->vertices))
-                continue;
-            place[v][0] = m->node[i].x + times * n[i].u;
-            place[v][1] = m->node[i].y + times * n[i].v;
+            const int gone = field_is_gone(m, k);
+            place[v][0] = gone ? field_place(m, k, 0) : m->node[i].x + times * n[i].u;
+            place[v][1] = gone ? field_place(m, k, 1) : m->node[i].y + times * n[i].v;
         }
         snprintf(title, sizeof title, "%s%sdisplacements × %.12g", map->title ? map->title : "",
                  map->title ? ", " : "", scale);

@@ -11,7 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "field.h"
 #include "reader.h"
 
 #define FAR 1e4                 /* sizes of the model from a removed block to the next one */

@@ -18,7 +18,6 @@
 #include <string.h>
 
 #include "cell.h"
-#include "field.h"
 #include "reader.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };

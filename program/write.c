@@ -9,7 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "field.h"
 #include "length.h"
 #include "plot.h"
 #include "write.h"
