@@ -103,27 +103,13 @@ static void change_node(bbm_model *m, int n, bbm_node *to)
     a->held = to->held;
 }
 
-/* Contacts of what is gone go, with the energy of their springs. */
-static void drop_contacts(bbm_model *m)
-{
-    int kept = 0;
-
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k];
-        if (field_is_gone(m, m->edge[c->corner].a) || field_is_gone(m, m->edge[c->edge].a))
-            m->beyond->account[bbm_element_of(m, c->corner)].springs[0] -=
-                c->N * c->N / (2 * m->par.p_n) + c->T * c->T / (2 * m->par.p_s);
-        else
-            m->contact[kept++] = *c;
-    }
-    m->contacts = kept;
-}
-
-/* The gaps of fixed points may be others and begin without multipliers; K is laid out anew. */
+/* The gaps of fixed points may be others and begin without multipliers; K is laid out anew. Contacts
+ * and bolts of what is gone end; the first step loses the energy of their springs. */
 void model_next_stage(model *p)
 {
     bbm_model *m = p->m;
     const model_stage *s = &p->stage[++p->now];
+    const int contacts = m->contacts;
     double size = 0;
 
     for (int n = 0; n < m->nodes; n++)
@@ -139,7 +125,10 @@ void model_next_stage(model *p)
     for (int k = 0; k < m->gaps; k++)
         if (m->gap[k].j < 0 || field_is_gone(m, m->element[m->gap[k].i].first))
             m->gap[k].own = (bbm_weight){ 0 };
-    drop_contacts(m);
+    m->contacts = 0;
+    for (const bbm_contact *c = m->contact; c < m->contact + contacts; c++)
+        if (!field_is_gone(m, m->edge[c->corner].a) && !field_is_gone(m, m->edge[c->edge].a))
+            m->contact[m->contacts++] = *c;
     m->par = s->par;
     m->beyond->cohesion = s->cohesion;
     m->beyond->tension = s->tension;
