@@ -568,7 +568,8 @@ static int note_places(model_reader *r)
         if (!s->stage && kinds[s->kind].may & ONCE && r->seen[s->kind].line > 0)
             return model_fail(r, s->at, "%s for the second time, after line %d, expected it once",
                               s->name, r->seen[s->kind].line);
-        r->seen[s->kind] = s->at;
+        if (!s->stage)
+            r->seen[s->kind] = s->at;
     }
     return 1;
 }
