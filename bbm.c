@@ -583,14 +583,13 @@ void bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex ver
  * left side of Eq. (71) over the right side without its tolerance. */
 static bbm_status update(bbm_model *m)
 {
-    const bbm_status status = m->hook->accept ? m->hook->accept(m) : BBM_OK;
+    const bbm_status status = m->hook->move ? m->hook->move(m) : BBM_OK;
     double step2 = 0, sum2 = 0;
 
     if (status)
         return status;
-    bbm_move_elements(m, m->element, m->vertex);
-    if (m->hook->moved)
-        m->hook->moved(m);
+    if (!m->hook->move)
+        bbm_move_elements(m, m->element, m->vertex);
     for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
         step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
         sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];

@@ -216,7 +216,6 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
 
     c->time_left = 1;
     c->N_of_friction = c->N;
-    c->N_locked = c->T_locked = 0;
     c->closings = 0;
     for (int k = 0; k < 4; k++)
         lines += c->entrance[k] >= 0;
@@ -254,23 +253,19 @@ static int is_strengthless(const bbm_contact *c, double N)
     return is_strong(c) && bbm_shear_strength(&c->strength, N) == 0;
 }
 
-/* Friction of a sliding contact, Eq. (65), with N_of_friction for N. While the N are still changing
- * one may be negative. Its friction is, too: each N then depends linearly on the last. A strong
- * joint may stay in tension, so it has its strength instead. */
-static double friction_force(const bbm_contact *c)
-{
-    const double N = c->N_of_friction;
-
-    return c->sign * (is_strong(c) ? bbm_shear_strength(&c->strength, N) : N * c->strength.tan_phi);
-}
-
-/* Friction as a load with the N of the last solution, Eq. (65), (69), or what a hook adds. */
+/* Friction of a sliding contact as a load, Eq. (65), (69), with N_of_friction for N, or what a hook
+ * adds. While the N are still changing one may be negative. Its friction is, too: each N then
+ * depends linearly on the last. A strong joint may stay in tension, so it has its strength instead.
+ */
 static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
 {
-    c->friction_in_K = m->hook->friction && !is_strengthless(c, c->N_of_friction)
+    const double N = c->N_of_friction, strength = bbm_shear_strength(&c->strength, N);
+    const double friction = c->sign * (is_strong(c) ? strength : N * c->strength.tan_phi);
+
+    c->friction_in_K = m->hook->friction && !is_strengthless(c, N)
                     && m->hook->friction(m, c, t, s);
     if (!c->friction_in_K)
-        bbm_friction_submatrices(t, c->anchor, friction_force(c), s);
+        bbm_friction_submatrices(t, c->anchor, friction, s);
 }
 
 /* Adds the closed contacts to K and F. LOCK: the normal and the shear spring, Eq. (58) and (63).
@@ -294,27 +289,27 @@ void bbm_assemble_contacts(bbm_model *m)
 
 /* ------------------------------------------------------------- the open-close iteration: forces */
 
-/* d = d0 + e.D_i + g.D_j of the solution, Eq. (57), (61). */
-static double spring_length(const bbm_model *m, const bbm_contact *c, const bbm_spring *v)
-{
-    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
-    double d = v->d;
-
-    for (int a = 0; a < 6; a++)
-        d += v->e[a] * Di[a] + v->g[a] * Dj[a];
-    return d;
-}
-
-/* d_n and d_s, from an anchor, by the vectors of the step. */
-static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
+/* The vectors of the step of a contact, for d_n and for d_s from an anchor. */
+void bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2])
 {
     const bbm_touch t = bbm_touch_of(m, c);
-    bbm_spring n, s;
 
-    bbm_normal_vectors(&t, &n);
-    bbm_shear_vectors(&t, anchor, &s);
-    d[0] = spring_length(m, c, &n);
-    d[1] = spring_length(m, c, &s);
+    bbm_normal_vectors(&t, &v[0]);
+    bbm_shear_vectors(&t, anchor, &v[1]);
+}
+
+/* d_n and d_s, from an anchor, by these: d = d0 + e.D_i + g.D_j, Eq. (57), (61). */
+static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
+{
+    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
+    bbm_spring v[2];
+
+    bbm_contact_vectors(m, c, anchor, v);
+    for (int k = 0; k < 2; k++) {
+        d[k] = v[k].d;
+        for (int a = 0; a < 6; a++)
+            d[k] += v[k].e[a] * Di[a] + v[k].g[a] * Dj[a];
+    }
 }
 
 /* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
@@ -371,25 +366,19 @@ static void find_tolerances(const bbm_model *m)
     }
 }
 
-/* Whether each N is the one that its friction was taken for. */
-static int forces_agree(const bbm_model *m)
+/* Takes the N of this solution for the friction of the next one. Returns whether an N is not the
+ * one that its friction was taken for. */
+static int renew_friction(const bbm_model *m)
 {
-    int agree = 1;
+    int renewed = 0;
 
-    for (int k = 0; k < m->scratch->contacts && agree; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
-        agree = c->state != BBM_SLIDE || c->strength.tan_phi == 0
-             || fabs(c->N - c->N_of_friction) <= c->force_tolerance;
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
+        renewed |= c->state == BBM_SLIDE && c->strength.tan_phi != 0
+                && !(fabs(c->N - c->N_of_friction) <= c->force_tolerance);
+        c->N_of_friction = c->N;
     }
-    return agree;
-}
-
-/* Takes the N of this solution for the friction of the next one. */
-static void renew_friction(bbm_contact_scratch *w)
-{
-    for (int k = 0; k < w->contacts; k++)
-        w->contact[k].N_of_friction = w->contact[k].N;
-    w->friction_passes++;
+    return renewed;
 }
 
 /* ------------------------------------------------------------- the open-close iteration: states */
@@ -415,26 +404,9 @@ static void change_state(const bbm_model *m, bbm_contact *c)
         const int slides = ++c->closings > 1 || T > bbm_shear_strength(&c->strength, N);
         c->next_state = slides ? BBM_SLIDE : BBM_LOCK;
     }
-    if (c->next_state == BBM_SLIDE) {
+    if (c->next_state == BBM_SLIDE)
         c->sign = copysign(1, slip);
-        c->N_of_friction = c->N;
-        c->N_locked = closes ? 0 : c->N;
-        c->T_locked = closes ? 0 : fabs(c->T);
-    }
     c->state = c->next_state;
-}
-
-/* Whether friction would wedge in a contact that was locked, slides, and would lock again. As long
- * as no other state changes N is linear in the shear force, which was T_locked and is the strength
- * now. If N rises faster than tan(phi) lets the strength follow, the force is too large for the one
- * state and too small for the other: none of the two fits. On that line N without friction is
- * tension, so the contact opens. */
-static int is_wedge(const bbm_contact *c)
-{
-    const double more = bbm_shear_strength(&c->strength, c->N) - c->T_locked;
-
-    return c->T_locked > 0 && more > c->force_tolerance && !is_strong(c)
-        && c->N_locked * more < c->T_locked * (c->N - c->N_locked);
 }
 
 /* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
@@ -449,9 +421,6 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
         return BBM_OPEN;
     if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0)
         return BBM_SLIDE;
-    if (c->state == BBM_SLIDE && next == BBM_LOCK && is_wedge(c)
-        && m->scratch->passes < m->scratch->one_until)
-        return BBM_OPEN;
     return next;
 }
 
@@ -503,15 +472,16 @@ static int change_states(bbm_model *m)
     return changes;
 }
 
-/* Notes the states of this pass, and which way each contact slides, as one number, a hash (FNV-1a).
- * It takes no negative numbers, whose hashes collide. If an earlier pass had the same states, the
- * iteration cycles, unless that was the last pass: then only T of the step was new. */
+/* Notes the states of this pass, and which way each contact slides, also as one number, a hash
+ * (FNV-1a). It takes no negative numbers, whose hashes collide. If an earlier pass had the same
+ * states, the iteration cycles, unless that was the last pass: then only T of the step was new. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;
 
-    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         const int direction = c->state == BBM_SLIDE && c->sign < 0 ? -1 : 1;
+        c->settled[w->round] = (bbm_settled){ c->state, c->sign, c->time_left };
         hash = (hash ^ (uint64_t)(3 + direction * (int)c->state)) * 1099511628211u;
     }
     for (int p = 0; p < w->passes; p++)
@@ -531,10 +501,8 @@ bbm_pass bbm_open_close(bbm_model *m)
         measure(m, &w->contact[k]);
     bbm_note_depths(m);
     find_tolerances(m);
-    if (!forces_agree(m)) {
-        renew_friction(w);
-        return w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
-    }
+    if (renew_friction(m))
+        return ++w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
     w->friction_passes = 0;
     note_states(w);
     bbm_pass next = change_states(m) ? BBM_PASS_AGAIN : BBM_PASS_DONE;
@@ -547,11 +515,13 @@ bbm_pass bbm_open_close(bbm_model *m)
 
 /* When the model has moved: the anchor of a sliding contact follows, so that a shear spring would
  * carry the friction force. It has slid by as much as the anchor moved. A joint that has opened, or
- * slid against a shear strength, is broken. */
+ * slid against a shear strength, is broken. What has opened or closed goes on in another way. */
 static void store_contact(bbm_model *m, bbm_contact *c)
 {
     const double strength = bbm_shear_strength(&c->strength, c->N);
 
+    if (c->was_closed != (c->state != BBM_OPEN))
+        memset(c->settled, 0, sizeof c->settled);
     if (c->state == BBM_SLIDE) {
         c->T = c->sign * strength;
         c->slip += fabs(c->d_s - c->T / m->par.p_s);

@@ -273,19 +273,8 @@ static int invert(double w, double D[6][6], double B[6][6])
     return 1;
 }
 
-/* Inverts all D_i. If one is not positive definite, info->element is its row. */
-static bbm_status invert_diagonal(bbm_matrix *K, bbm_pcg_info *info)
-{
-    for (int i = 0; i < K->n; i++)
-        if (!invert(K->omega, K->D[i], K->inverse[i])) {
-            info->element = K->caller[i];
-            return BBM_NOT_POSITIVE_DEFINITE;
-        }
-    return BBM_OK;
-}
-
-/* Checks K, F and the parameters, then inverts the diagonal blocks. Further solutions with the same
- * K find this done. */
+/* Checks K, F and the parameters, then inverts the diagonal blocks. If one is not positive
+ * definite, info->element is its row. Further solutions with the same K find this done. */
 static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
                              bbm_pcg_info *info)
 {
@@ -302,11 +291,15 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
     K->omega = pcg->omega;
     if (!all_finite(36 * (size_t)(K->n + K->first[K->n]), **K->D))
         return BBM_NOT_FINITE;
-    const bbm_status status = invert_diagonal(K, info);
-    if (!status && K->method && K->method->make_ready)
+    for (int i = 0; i < K->n; i++)
+        if (!invert(K->omega, K->D[i], K->inverse[i])) {
+            info->element = K->caller[i];
+            return BBM_NOT_POSITIVE_DEFINITE;
+        }
+    if (K->method && K->method->make_ready)
         K->method->make_ready(K);
-    K->ready = !status;
-    return status;
+    K->ready = 1;
+    return BBM_OK;
 }
 
 /* The largest of the first so many entries of each six of F in the component. */
@@ -318,15 +311,6 @@ static double largest(const bbm_matrix *K, const double *F, int entries)
         for (int a = 0; a < entries; a++)
             most = fmax(most, fabs(F[6 * K->caller[i] + a]));
     return most;
-}
-
-/* The power of two at or below x: division by it rounds nothing. */
-static double magnitude(double x)
-{
-    int exponent;
-
-    (void)frexp(x, &exponent);
-    return x == 0 ? 0 : ldexp(1, exponent - 1);
 }
 
 /* Notes the largest force in each component. The tolerance is a share of these where the F of
@@ -345,11 +329,12 @@ void bbm_matrix_measure(bbm_matrix *K, const double *F)
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, double forces,
                                   bbm_pcg pcg, bbm_pcg_info *info)
 {
-    const double scale = magnitude(largest(K, F, 6)), now = largest(K, F, 2);
+    const double most = largest(K, F, 6), now = largest(K, F, 2);
     double rr = 0, ff = 0;
 
-    if (scale == 0)
+    if (most == 0)
         return BBM_OK;
+    const double scale = ldexp(1, ilogb(most));     /* a power of two: division rounds nothing */
     if (forces > 0 && forces < now)
         pcg.tolerance *= forces / now;
     for (int i = 6 * K->from; i < 6 * K->to; i++) {

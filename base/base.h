@@ -71,6 +71,11 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    contact;             /* where those of the corner a begin in model.contact           */
 };
 
+typedef struct {                /* what a contact settled on in a round of multipliers          */
+    bbm_contact_state state;
+    double sign, time_left;     /* see bbm_contact; time_left 0: on nothing yet                 */
+} bbm_settled;
+
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
     /* --- identity: two boundary edges. P1 starts `corner`; P3 starts `edge`, P2 ends it --- */
     int    corner, edge;
@@ -86,6 +91,7 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double slip;                /* m        how far it has slid in all steps since it closed    */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
+    bbm_settled settled[3];     /* in each round of the last step; later rounds share the last  */
     int    hit;                 /* a hook has given it an impulse in place of its spring's      */
     /* --- of the step --- */
     bbm_strength strength;
@@ -104,7 +110,6 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double d_n, d_s;            /* m        normal distance and slip at the end                 */
     double past[2];             /* m        how far P1 is past P3 and P2 at the end, if open    */
     double N_of_friction;       /* N        the N that friction is taken for                    */
-    double N_locked, T_locked;  /* N        N and |T| when it went from LOCK to SLIDE, or 0     */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
     bbm_contact_state next_state;               /* in the next pass                             */
@@ -133,6 +138,7 @@ struct bbm_contact_scratch {
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- contact.c: the iteration --- */
+    int round;                  /* of multipliers: its place in bbm_contact.settled             */
     int passes, friction_passes;
     int one_until;              /* before this pass one contact alone changes its state in each */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
@@ -183,8 +189,7 @@ struct bbm_hooks {
                                                             /* 1: added for the N of the solution */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
-    bbm_status (*accept)(bbm_model *m);                     /* before the model moves           */
-    void (*moved)(bbm_model *m);                            /* it has: may change velocities    */
+    bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */
     bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */
 };
 
@@ -289,6 +294,8 @@ double     bbm_shear_strength(const bbm_strength *s, double N);                 
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
+void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor,
+                               bbm_spring v[2]);
 bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 

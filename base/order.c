@@ -8,8 +8,7 @@
  *
  * Order. The rows are not in the caller's order but in the reverse Cuthill-McKee order: number the
  * elements from one end of the body to the other, breadth first, and reverse the numbers. The
- * blocks then lie in a narrow band, and what a sweep reads was written shortly before. Rows with
- * many neighbours, such as a base on which all stands, come last.
+ * blocks then lie in a narrow band, and what a sweep reads was written shortly before.
  *
  * Components. Rows that no block joins, however indirectly, belong to different components. The
  * order puts the rows of a component one after the other.
@@ -17,9 +16,6 @@
 #include <stdlib.h>
 
 #include "base.h"
-
-/* A row has many neighbours: more than so many times the mean of its component. */
-#define HUB 3.0
 
 typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */
     int n;
@@ -89,39 +85,19 @@ static int breadth_first(graph *g, int start, int *order)
     return count;
 }
 
-/* The rows of a component in the order to reverse. First come those with many neighbours, such as a
- * base on which all stands: they come last then and widen no envelope. The others follow from the
- * row on that a search finds last, for it lies at an end of the component. `rows`: scratch. Returns
- * their number. */
-static int order_component(graph *g, int start, int *order, int *rows)
-{
-    const int count = breadth_first(g, start, rows);
-    int done = 0, ends = 0;
-
-    for (int k = 0; k < count; k++)
-        ends += degree(g, rows[k]);
-    for (int k = 0; k < count; k++)
-        if (degree(g, rows[k]) > HUB * ends / count)
-            order[done++] = rows[k];
-        else
-            g->level[rows[k]] = -1;
-    for (int k = count - 1; k >= 0; k--)
-        if (g->level[rows[k]] < 0)
-            done += breadth_first(g, rows[k], order + done);
-    for (int k = 0; k < count; k++)
-        g->level[order[k]] = k > 0;
-    return count;
-}
-
-/* place[i] of row i: all components one after the other, then the whole order reversed. `order`:
- * scratch. */
+/* place[i] of row i: all components one after the other, then the whole order reversed. A component
+ * begins with the row that a search finds last, for it lies at an end. `order`: scratch. */
 static void reverse_cuthill_mckee(graph *g, int order[], int place[])
 {
     int done = 0;
 
     for (int i = 0; i < g->n; i++)
-        if (g->level[i] < 0)
-            done += order_component(g, i, order + done, place);
+        if (g->level[i] < 0) {
+            const int count = breadth_first(g, i, place);
+            for (int k = 0; k < count; k++)
+                g->level[place[k]] = -1;
+            done += breadth_first(g, place[count - 1], order + done);
+        }
     for (int i = 0; i < g->n; i++)
         place[order[i]] = g->n - 1 - i;
 }

@@ -71,7 +71,8 @@ bbm_status bbm_out_of_memory(bbm_model *m)
 }
 
 /* Puts a copy of an entry at the end of an array of *count entries, whose room is the next power of
- * two. Its index goes through the last pointer, which may be NULL. */
+ * two. Its index goes through the last pointer, which may be NULL; so may the model, which gets the
+ * message. */
 bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const void *entry,
                       int *index)
 {
@@ -81,7 +82,7 @@ bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const
     if (n == 0 || (n >= 16 && (n & (n - 1)) == 0))
         room = realloc(*array, (n == 0 ? 16 : 2 * n) * size);
     if (!room)
-        return bbm_out_of_memory(m);
+        return m ? bbm_out_of_memory(m) : BBM_NO_MEMORY;
     *array = room;
     memcpy((char *)room + n * size, entry, size);
     ++*count;

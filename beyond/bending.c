@@ -32,9 +32,10 @@ void bbm_condense(int n, int rows, double W[n][n])
  * incompatible modes: Taylor, Beresford, Wilson, Int. J. Num. Meth. Eng. 10, 1976). Its gradient
  * is xi (a gx + h gy) + eta (h gx + b gy) with gx, gy the gradients of xi and eta, its strain
  * xi Ex + eta Ey; W = t A/12 (Ex^T E Ex + Ey^T E Ey). What the two bonds that p crosses and the
- * two that q crosses feel is dd = h/2, therefore S = 4 (W condensed to h). */
+ * two that q crosses feel is dd = h/2, therefore S = 4 (W condensed to h), the first two rows and
+ * columns of what is 0 on entry. */
 static void bending_stiffness(const bbm_element *e, const double p[2], const double q[2],
-                              double S[2][2])
+                              double S[6][6])
 {
     const double det = p[0] * q[1] - p[1] * q[0], tA = e->material.thickness * e->A;
     const double gx[2] = { q[1] / det, -q[0] / det }, gy[2] = { -p[1] / det, p[0] / det };
@@ -47,18 +48,16 @@ static void bending_stiffness(const bbm_element *e, const double p[2], const dou
           { 0,     gx[1],   0,     0,       0,     gy[1] },
           { gx[1], gx[0],   0,     0,       gy[1], gy[0] } },
     };
-    double E[3][3], W[6][6] = { { 0 } };
+    double E[3][3];
 
     bbm_elastic_matrix(&e->material, E);
     for (int a = 0; a < 6; a++)
         for (int b = 0; b < 6; b++)
             for (int r = 0; r < 9; r++)
                 for (int x = 0; x < 2; x++)
-                    W[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3]
+                    S[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3]
                              * strain[x][r % 3][b];
-    bbm_condense(6, 2, W);
-    memcpy(S[0], W[0], sizeof S[0]);
-    memcpy(S[1], W[1], sizeof S[1]);
+    bbm_condense(6, 2, S);
 }
 
 /* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0
@@ -74,7 +73,7 @@ void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2]
                           (v[1].y + v[2].y - v[0].y - v[3].y) / 2 };
     const double q[2] = { (v[2].x + v[3].x - v[0].x - v[1].x) / 2,
                           (v[2].y + v[3].y - v[0].y - v[1].y) / 2 };
-    double S[2][2];
+    double S[6][6] = { { 0 } };
 
     bending_stiffness(e, p, q, S);
     const double Sp[2] = { S[0][0] * p[0] + S[0][1] * p[1], S[1][0] * p[0] + S[1][1] * p[1] };

@@ -16,8 +16,6 @@ static void free_prepared(bbm_beyond *b)
 
 static void release(bbm_model *m)
 {
-    if (!m->beyond)
-        return;
     free_prepared(m->beyond);
     free(m->beyond->edge_load);
     free(m->beyond->joint);
@@ -63,18 +61,14 @@ static bbm_status begin(bbm_model *m)
     return BBM_OK;
 }
 
-static bbm_status lay_out(bbm_model *m)
-{
-    const bbm_status status = bbm_lay_out_coarse(m);
-    return status ? status : bbm_lay_out_sliding(m);
-}
-
 /* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
  * and in statics if all bodies are held. A new K has no room for the terms of friction yet. */
 static bbm_status listed(bbm_model *m)
 {
-    bbm_status status = m->K->term ? BBM_OK : lay_out(m);
+    bbm_status status = BBM_OK;
 
+    if (!m->K->term && !(status = bbm_lay_out_coarse(m)))
+        status = bbm_lay_out_sliding(m);
     bbm_set_middle(m);
     bbm_list_gaps(m);
     bbm_start_multipliers(m);
@@ -82,23 +76,25 @@ static bbm_status listed(bbm_model *m)
     return status ? status : bbm_check_supports(m);
 }
 
-/* After a pass: if it turns a block too far, no further one will do; T of the step is renewed,
- * unless K is kept; when all has settled, multipliers take over what the springs carry. */
+/* After a pass: if it turns a block too far, no further one will do; when all has settled,
+ * multipliers take over what the springs carry; in the end, and where K is new anyway, T of the
+ * step is renewed. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
-    const int is_round = m->beyond->is_round;
-
-    m->beyond->is_round = 0;
     if (bbm_contact_turns_over(m))
         return BBM_PASS_GIVE_UP;
-    if (!is_round && bbm_renew_middle(m))
-        return BBM_PASS_AGAIN;
-    m->beyond->is_round = next == BBM_PASS_DONE && bbm_take_over(m);
-    return m->beyond->is_round ? BBM_PASS_SAME_K : next;
+    if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)
+        return next;
+    if (!bbm_middle_is_off(m))
+        return next;
+    bbm_set_middle(m);
+    bbm_list_gaps(m);
+    return BBM_PASS_AGAIN;
 }
 
-/* A step that went well: right as far as one can tell, no corner passed, no energy from nowhere. */
-static bbm_status accept(bbm_model *m)
+/* Moves the model to the end of the step, with the velocities after the jump, if the step went
+ * well: right as far as one can tell, no corner passed, no energy from nowhere. */
+static bbm_status move(bbm_model *m)
 {
     bbm_status status;
 
@@ -111,14 +107,9 @@ static bbm_status accept(bbm_model *m)
         return status;
     bbm_store_multipliers(m);
     bbm_stop_supports(m);
+    memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
+    memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);
     return BBM_OK;
-}
-
-/* The model has moved: with the velocities after the jump. */
-static void moved(bbm_model *m)
-{
-    for (int i = 0; i < m->elements; i++)
-        memcpy(m->element[i].V, m->beyond->end_element[i].V, sizeof m->element[i].V);
 }
 
 bbm_status bbm_beyond_new(bbm_model **out)
@@ -152,8 +143,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .motion = bbm_find_motion,
         .before_solution = bbm_interpolate_elements,
         .renew = renew,
-        .accept = accept,
-        .moved = moved,
+        .move = move,
         .failed = bbm_try_otherwise,
     };
     return BBM_OK;

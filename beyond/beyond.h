@@ -55,7 +55,6 @@ struct bbm_beyond {
     double reach;               /* -        statics.c: how far blocks may part in a static step */
     double restitution;         /* -        impact.c: -1: none, as the springs do               */
     int rounds_done;            /* in this step                                                 */
-    int is_round;               /* the solution in hand is one: K was kept                      */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
     int joints;
@@ -82,26 +81,26 @@ struct bbm_beyond {
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
 
 /* coarse.c: two levels, for pcg.method */
+#define BBM_PLACES (1LL << 30)  /* of a component */
 extern const bbm_method bbm_two_level;
-bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node);
+bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
+                             const long long *place);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2]);
-void       bbm_matrix_use_coarse(bbm_matrix *K, int pays);
 
-/* envelope.c */
-typedef struct {                /* a triangle                                                   */
-    int    n, *left;            /* [n]      the first column of row i that is not 0; malloc     */
-    size_t *diagonal;           /* [n]      where A_ii is; the row lies before it               */
-    double *A;
-} bbm_envelope;
-static inline double *bbm_entry(const bbm_envelope *e, int i, int j)
-{
-    return &e->A[e->diagonal[i] - (size_t)(i - j)];
-}
-bbm_status bbm_envelope_lay_out(bbm_envelope *e, size_t triangles);
-void       bbm_envelope_free(bbm_envelope *e);
-double     bbm_dot(int n, const double *x, const double *y);
-void       bbm_substitute(const bbm_envelope *L, const bbm_envelope *U, int from, int to,
-                          double *x);
+/* factor.c */
+typedef struct { int from, to; size_t at; } bbm_part;  /* columns, in pairs; its first entry in A */
+typedef struct {
+    int n, *first;              /* [n+1]    pairs of rows; i has part[first[i] .. first[i+1]-1] */
+    bbm_part *part;
+    size_t entries;
+    double *A;                  /* of a part the first row, then the second                     */
+    double *size;               /* [2 n]    what a pivot is measured by                         */
+} bbm_factor;
+bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2]);
+void       bbm_factor_free(bbm_factor *f);
+double    *bbm_entry(const bbm_factor *f, int i, int j);
+void       bbm_factor_make(const bbm_factor *f);
+void       bbm_substitute(const bbm_factor *f, int from, int to, double *x);
 
 /* interpolation.c */
 void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a,
@@ -125,7 +124,6 @@ void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
-int        bbm_renew_middle(bbm_model *m);
 
 /* bending.c */
 void       bbm_condense(int n, int rows, double W[n][n]);
@@ -137,7 +135,7 @@ void       bbm_list_edge_gaps(bbm_model *m);
 /* multipliers.c */
 void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
 void       bbm_start_multipliers(bbm_model *m);
-int        bbm_take_over(bbm_model *m);
+bbm_pass   bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */

@@ -45,8 +45,6 @@ static double kinetic_energy(const bbm_model *m, const bbm_element *e)
     bbm_element now = *e;
     double V[6];
 
-    if (factor == 0 && isinf(m->h))
-        return 0;
     bbm_element_geometry(&now, &m->vertex[e->first]);
     for (int a = 0; a < 6; a++)
         V[a] = factor > 0 ? e->V[a] / factor : 2 / m->h * e->D[a];

@@ -38,24 +38,16 @@
 #define STIFF 1e5
 #define GAIN 1e-9
 
-static void find_vectors(const bbm_model *m, const bbm_contact *c, bbm_spring *n, bbm_spring *s)
-{
-    const bbm_touch t = bbm_touch_of(m, c);
-
-    bbm_normal_vectors(&t, n);
-    bbm_shear_vectors(&t, c->anchor, s);
-}
-
 /* The normal velocity of P1, where elements move as those of `of`. */
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
 {
     const double *Vi = of[bbm_element_of(m, c->corner)].V, *Vj = of[bbm_element_of(m, c->edge)].V;
     double velocity = 0;
-    bbm_spring n, s;
+    bbm_spring v[2];
 
-    find_vectors(m, c, &n, &s);
+    bbm_contact_vectors(m, c, c->anchor, v);
     for (int a = 0; a < 6; a++)
-        velocity += n.e[a] * Vi[a] + n.g[a] * Vj[a];
+        velocity += v[0].e[a] * Vi[a] + v[0].g[a] * Vj[a];
     return velocity;
 }
 
@@ -102,11 +94,11 @@ static void take_back(bbm_model *m)
         const int i = 6 * bbm_element_of(m, c->corner), j = 6 * bbm_element_of(m, c->edge);
         const double T = c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N)
                        : c->T;
-        bbm_spring n, s;
-        find_vectors(m, c, &n, &s);
+        bbm_spring v[2];
+        bbm_contact_vectors(m, c, c->anchor, v);
         for (int a = 0; a < 6 && isfinite(m->scratch->contact[k].rest); a++) {
-            m->load[i + a] += T * s.e[a] - c->N * n.e[a];
-            m->load[j + a] += T * s.g[a] - c->N * n.g[a];
+            m->load[i + a] += T * v[1].e[a] - c->N * v[0].e[a];
+            m->load[j + a] += T * v[1].g[a] - c->N * v[0].g[a];
         }
     }
 }
@@ -165,13 +157,12 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         const int jumps_by = *jumps(m, bbm_element_of(m, c->corner));
         const double came = approach(step, c);
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        bbm_spring n, s;
-        c->anchor = 0;
-        find_vectors(m, c, &n, &s);
-        c->anchor = -s.d / hypot(P3->x - P2->x, P3->y - P2->y);
+        bbm_spring v[2];
+        bbm_contact_vectors(m, c, 0, v);
+        c->anchor = -v[1].d / hypot(P3->x - P2->x, P3->y - P2->y);
         const double asked = !has_closed(c) ? 0 : E < 0 ? m->h * normal_velocity(m, c, m->element)
                            : came < -slow ? -E * came : 0;
-        c->rest = n.d + (jumps_by > 0) * asked;
+        c->rest = v[0].d + (jumps_by > 0) * asked;
         if (c->state == BBM_OPEN || jumps_by == 0) {
             c->state = BBM_OPEN;
             c->rest = -INFINITY;

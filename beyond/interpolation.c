@@ -75,52 +75,69 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
+/* Where each vertex lies: in its component of K, and in a square round this, which is halved again
+ * and again, left and right and then below and above. From its first bit on, what place[v] is more
+ * than BBM_PLACES times the component says in which half. */
+static void find_places(const bbm_model *m, bbm_box *box, long long *place)
+{
+    for (int k = 0; k < m->elements; k++)
+        box[k] = bbm_empty_box(k);
+    for (int k = 0; k < m->vertices; k++)
+        bbm_widen_box(&box[bbm_component_of(m->K, m->vertex[k].element)], m->vertex[k].x,
+                      m->vertex[k].y, 0);
+    for (int k = 0; k < m->vertices; k++) {
+        const int component = bbm_component_of(m->K, m->vertex[k].element);
+        const bbm_box *b = &box[component];
+        const double size = fmax(b->high[1] - b->low[1], b->high[2] - b->low[2]) / 32767;
+        const int x = (int)((m->vertex[k].x - b->low[1]) / size);
+        const int y = (int)((m->vertex[k].y - b->low[2]) / size);
+        place[k] = BBM_PLACES * component;
+        for (int bit = 1; bit <= 1 << 14; bit *= 2)
+            place[k] += bit * (2 * (x & bit) + (y & bit));
+    }
+}
+
 /* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
  * them. An element without bonds is in it, too, if it lies against others with bonds: left out, it
  * is to them a stiff block that only SSOR moves. Where nothing is bonded, there would be as many
- * coarse unknowns as there are others; an element held at every corner hardly moves. SSOR is
- * faster for both. */
+ * coarse unknowns as there are others; an element held at every corner hardly moves; in short steps
+ * inertia holds every element by itself, and SSOR alone needs no more iterations than a wave, of
+ * speed sqrt(E/density), needs to cross some elements. SSOR is faster for all three. */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
     int *up = calloc(2 * v + 2 * n + 1, sizeof *up);
+    long long *place = calloc(v, sizeof *place);
+    bbm_box *box = malloc(n * sizeof *box);
 
-    if (!up)
-        return BBM_NO_MEMORY;
-    int *node = up + v, *first = node + v, *has_bonds = first + n + 1;  /* a component of K */
+    if (!up || !place || !box)
+        return free(up), free(place), free(box), BBM_NO_MEMORY;
+    int *node = up + v, *first = node + v, *worth = first + n + 1;  /* [components of K] */
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
         const bbm_bond *b = &m->bond[k];
         for (int end = 0; end < 2; end++)
             up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
-        has_bonds[bbm_component_of(m->K, b->i)] |= !bbm_is_held_all_round(m, &m->element[b->i]);
+        const bbm_element *e = &m->element[b->i];
+        const double way2 = e->material.E / e->material.density * m->par.dt * m->par.dt;
+        worth[bbm_component_of(m->K, b->i)] |= way2 > CROSSED * CROSSED * e->A
+                                            && !bbm_is_held_all_round(m, e);
     }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
-        const int in = has_bonds[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
+        const int in = worth[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
         const int count = in ? e->n : 0;
         for (int k = 0; k < count; k++)
             node[first[i] + k] = bbm_root_of(up, e->first + k);
         first[i + 1] = first[i] + count;
     }
-    const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node);
+    find_places(m, box, place);
+    const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node, place);
     free(up);
+    free(place);
+    free(box);
     return status;
-}
-
-/* Whether the step is long enough for two levels to pay: in a short one inertia holds every element
- * by itself, and SSOR alone needs no more iterations than a wave, of speed sqrt(E/density), needs
- * to cross some elements. */
-static int step_is_long(const bbm_model *m)
-{
-    for (int b = 0; b < m->bonds; b++) {
-        const bbm_element *e = &m->element[m->bond[b].i];
-        const double way2 = e->material.E / e->material.density * m->h * m->h;
-        if (way2 > CROSSED * CROSSED * e->A && !bbm_is_held_all_round(m, e))
-            return 1;
-    }
-    return 0;
 }
 
 /* The coarse space of the present geometry, unless it is that already. Elements that are not in it
@@ -131,13 +148,9 @@ void bbm_interpolate_elements(bbm_model *m)
 
     if (!m->K->extra || m->K->ready || m->par.pcg.method != &bbm_two_level)
         return;
-    const int pays = step_is_long(m);
-    bbm_matrix_use_coarse(m->K, pays);
-    for (int i = 0; i < m->elements && pays; i++) {
-        const bbm_element *e = &m->element[i];
-        for (int a = 0; a < e->n; a++) {
-            bbm_interpolation(e, &m->vertex[e->first], a, P);
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 0; a < m->element[i].n; a++) {
+            bbm_interpolation(&m->element[i], &m->vertex[m->element[i].first], a, P);
             (void)bbm_matrix_interpolate(m->K, i, a, P);
         }
-    }
 }

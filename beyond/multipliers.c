@@ -25,12 +25,40 @@ void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
     }
 }
 
+/* Begins a round of a dynamic step with the states in which contacts settled in that round of the
+ * last step; the passes judge them. Bonds are softer before multipliers take over, so that other
+ * contacts slide or are closed in each round, and in each step the same. Returns whether a state is
+ * new. */
+static int recall_states(bbm_model *m, int round)
+{
+    bbm_contact_scratch *w = m->scratch;
+    int changed = 0;
+
+    w->round = round;
+    w->passes = w->one_until = 0;
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const bbm_settled *s = &c->settled[round];
+        if ((s->state == c->state && s->sign == c->sign) || s->time_left == 0
+            || bbm_is_static(m) || c->has_left || (c->beyond_end && !c->was_closed))
+            continue;
+        if (c->state == BBM_OPEN) {
+            c->anchor = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
+            c->time_left = s->time_left;
+        }
+        c->state = s->state;
+        c->sign = s->sign;
+        changed = 1;
+    }
+    return changed;
+}
+
 void bbm_start_multipliers(bbm_model *m)
 {
     for (int k = 0; k < m->gaps; k++)
         for (int r = 0; r < 2; r++)
             m->gap[k].own.f[r] = bbm_is_static(m) ? m->gap[k].own.f_before[r] : 0;
     m->beyond->rounds_done = 0;
+    recall_states(m, 0);
 }
 
 /* Whether there is a bond, or a fixed point of an element that is not held at all its vertices. One
@@ -44,14 +72,14 @@ static int needs_multipliers(const bbm_model *m)
     return needed;
 }
 
-/* The contacts have settled: f += W d, in F, too, as often as was asked for. Returns 1 if it has
- * done so. */
-int bbm_take_over(bbm_model *m)
+/* The contacts have settled: f += W d, in F, too, as often as was asked for. Returns which solution
+ * follows. */
+bbm_pass bbm_take_over(bbm_model *m)
 {
     double d[2];
 
     if (m->beyond->rounds_done++ >= m->beyond->multiplier_rounds || !needs_multipliers(m))
-        return 0;
+        return BBM_PASS_DONE;
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         bbm_gap_length(m, g, d);
@@ -64,7 +92,7 @@ int bbm_take_over(bbm_model *m)
             }
         }
     }
-    return 1;
+    return recall_states(m, m->scratch->round == 0 ? 1 : 2) ? BBM_PASS_AGAIN : BBM_PASS_SAME_K;
 }
 
 /* At the end of a step. */

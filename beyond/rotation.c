@@ -110,9 +110,7 @@ static const bbm_motion exact_motion = { find_point, move, turn };
 /* How points move in the step in hand: by the exact rotation, or by the paper's T D. */
 const bbm_motion *bbm_find_motion(const bbm_model *m)
 {
-    const int exact = m->beyond->rotation == BBM_EXACT && !bbm_is_static(m);
-
-    return exact ? &exact_motion : NULL;
+    return m->beyond->rotation == BBM_EXACT && !bbm_is_static(m) ? &exact_motion : NULL;
 }
 
 /* Takes the vectors of the step in the middle of D; not exact: at its start. */
@@ -178,14 +176,4 @@ int bbm_middle_is_off(const bbm_model *m)
     for (int a = 0; a < 6 * m->elements && !off; a++)
         off = a % 6 >= 2 && m->load[a] != 0 && is_off(m, a / 6);
     return off || bbm_contacts_are_off(m, SHARE);
-}
-
-/* Renews the vectors of the step, and with them the gaps, if they are off; whether they were. */
-int bbm_renew_middle(bbm_model *m)
-{
-    if (!bbm_middle_is_off(m))
-        return 0;
-    bbm_set_middle(m);
-    bbm_list_gaps(m);
-    return 1;
 }

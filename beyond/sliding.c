@@ -22,33 +22,26 @@
  *         p = z + (z0.r / its last value) (a/c) (p - (c/a) d)
  *
  * d is a M^-1 K p. In each iteration z is computed from r once, for if it were only updated, by
- * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever.
+ * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever. Where
+ * z and q are nearly orthogonal c would be nothing, and the iteration would stop for ever: c is at
+ * least LEAST sqrt(r.z/v.q). In the end r is computed afresh, and what is left of it is solved for:
+ * between stiffnesses far apart rounding leaves more than the tolerance.
  *
- * It may fail. Where it does, and where that is faster, in small components, the solution is by LU,
+ * Terms are few, so that K without them is nearly K. In small components, where that is faster, M
+ * is this whole matrix, factored by factor.c.
  *
- *     K = L U,  L_ij = K_ij - sum_k<j L_ik U_kj,  U_ji = (K_ji - sum_k<j L_jk U_ki)/L_jj,  U_ii = 1
- *
- * in the envelope of K, which has the same shape below and above the diagonal: rows of L up to it,
- * columns of U above it. No rows are interchanged.
- *
- * In statics a block that all its contacts let slide is held by nothing. K is singular then, and
- * has no L U; but every x above is made of products with K, and no force asks for that motion:
- * where there is an equilibrium it is found.
+ * In statics a block that all its contacts let slide is held by nothing, and K is singular. But no
+ * force asks for that motion, and it is in no residual: where there is an equilibrium it is found.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "beyond.h"
 
-/* Of a pivot, against the diagonal of K: rounding of what cancelled. */
-#define VANISHING 1e-12
-/* Block rows up to which LU is faster, measured on walls. */
-#define SMALL 100
-
-static int is_in_hand(const bbm_matrix *K, const bbm_term *t)
-{
-    return t->row[0] >= K->from && t->row[0] < K->to;
-}
+/* Block rows up to which K without its terms is factored, which is faster; measured on walls. */
+#define SMALL 200
+/* Of c, against |z|/|q| in these norms (Sleijpen, van der Vorst, Numer. Algorithms 10, 1995). */
+#define LEAST 0.7
 
 /* y += u v^T x for the rows in hand. Returns the number of terms. */
 static int add_terms(const bbm_matrix *K, const double *x, double *y)
@@ -58,7 +51,7 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
     for (const bbm_term *t = K->term; t < K->term + K->terms; t++) {
         const int i = 6 * t->row[0], j = 6 * t->row[1];
         double vx = 0;
-        if (!is_in_hand(K, t))
+        if (t->row[0] < K->from || t->row[0] >= K->to)
             continue;
         for (int a = 0; a < 6; a++)
             vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a];
@@ -71,137 +64,85 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
     return count;
 }
 
-/* ----------------------------------------------------------------------------------- the factor */
+/* --------------------------------------------------------------------------- the preconditioner */
 
-/* Of the rows in hand, which are counted from 0 here; of U the columns, like the rows of L. */
-typedef struct { bbm_envelope L, U; } factors;
-
-static bbm_status lay_out(const bbm_matrix *K, factors *f)
-{
-    bbm_envelope *L = &f->L;
-
-    L->n = 6 * (K->to - K->from);
-    L->left = calloc((size_t)L->n, sizeof *L->left);
-    if (!L->left)
-        return BBM_NO_MEMORY;
-    for (int row = 0; row < L->n; row++) {
-        const int i = K->from + row / 6;
-        int back = 0;
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            back = K->back[k] > back ? K->back[k] : back;
-        L->left[row] = 6 * (row / 6 - back);
-    }
-    const bbm_status status = bbm_envelope_lay_out(L, 2);
-    f->U = *L;
-    if (!status)
-        f->U.A += L->diagonal[L->n - 1] + 1;
-    return status;
-}
-
-/* K_ij = B, and K_ji = B^T, for i >= j. */
-static void put_block(const factors *f, int i, int j, double B[6][6])
+/* K_ij, j <= i, of the rows in hand, which are counted from 0 in f; an element has three pairs. */
+static void put_block(const bbm_factor *f, int i, int j, double B[6][6])
 {
     for (int a = 0; a < 36; a++) {
         const int row = 6 * i + a / 6, column = 6 * j + a % 6;
         if (column <= row)
-            *bbm_entry(&f->L, row, column) = *bbm_entry(&f->U, row, column) = B[a / 6][a % 6];
+            *bbm_entry(f, row, column) = B[a / 6][a % 6];
+        if (column == row)
+            f->size[row] = B[a / 6][a % 6];
     }
 }
 
-/* The rows in hand of K and its terms. */
-static void fill(const bbm_matrix *K, const factors *f)
+/* Factors the rows in hand without their terms. */
+static bbm_status factor(const bbm_matrix *K, bbm_factor *f)
 {
-    for (int i = K->from; i < K->to; i++) {
-        put_block(f, i - K->from, i - K->from, K->D[i]);
-        for (int k = K->first[i]; k < K->first[i + 1]; k++)
-            put_block(f, i - K->from, i - K->from - K->back[k], K->L[k]);
-    }
-    for (const bbm_term *t = K->term; t < K->term + K->terms; t++)
-        for (int a = 0; a < 144 && is_in_hand(K, t); a++) {
-            const int p = a / 12, q = a % 12, i = 6 * (t->row[p / 6] - K->from) + p % 6;
-            const int j = 6 * (t->row[q / 6] - K->from) + q % 6;
-            *(i >= j ? bbm_entry(&f->L, i, j) : bbm_entry(&f->U, j, i)) +=
-                t->u[p / 6][p % 6] * t->v[q / 6][q % 6];
-        }
-}
+    const int rows = K->to - K->from, blocks = K->first[K->to] - K->first[K->from];
+    int (*entry)[2] = calloc(9 * (size_t)(rows + blocks), sizeof *entry), n = 0;
+    bbm_status status = BBM_NO_MEMORY;
 
-/* L with 1/L_ii on its diagonal and U in place of K. Returns the row of a pivot that vanishes or is
- * no number, or n. */
-static int factor(const bbm_matrix *K, const factors *f)
-{
-    const int *left = f->L.left;
-
-    for (int i = 0; i < f->L.n; i++) {
-        for (int j = left[i]; j <= i; j++) {
-            const int from = left[i] > left[j] ? left[i] : left[j];
-            double *L = bbm_entry(&f->L, i, from), *U = bbm_entry(&f->U, i, from);
-            L[j - from] -= bbm_dot(j - from, L, bbm_entry(&f->U, j, from));
-            if (j < i)
-                U[j - from] = (U[j - from] - bbm_dot(j - from, bbm_entry(&f->L, j, from), U))
-                              * *bbm_entry(&f->L, j, j);
-        }
-        double *pivot = bbm_entry(&f->L, i, i);
-        const double before = K->D[K->from + i / 6][i % 6][i % 6];
-        if (!(fabs(*pivot) > VANISHING * before) || isinf(*pivot))
-            return i;
-        *pivot = 1 / *pivot;
-        *bbm_entry(&f->U, i, i) = 1;
+    for (int i = 0; i < rows && entry; i++)
+        for (int k = K->first[K->from + i]; k <= K->first[K->from + i + 1]; k++)
+            for (int a = 0; a < 9; a++, n++) {
+                entry[n][0] = 3 * (k < K->first[K->from + i + 1] ? i - K->back[k] : i) + a % 3;
+                entry[n][1] = 3 * i + a / 3;
+            }
+    if (entry)
+        status = bbm_factor_lay_out(f, 3 * rows, n, entry);
+    for (int i = 0; i < rows && !status; i++) {
+        put_block(f, i, i, K->D[K->from + i]);
+        for (int k = K->first[K->from + i]; k < K->first[K->from + i + 1]; k++)
+            put_block(f, i, i - K->back[k], K->L[k]);
     }
-    return f->L.n;
-}
-
-/* x = K^-1 x */
-static bbm_status solve_directly(const bbm_matrix *K, double *x, bbm_pcg_info *info)
-{
-    factors f = { { 0 }, { 0 } };
-    bbm_status status = lay_out(K, &f);
-
-    if (!status) {
-        fill(K, &f);
-        const int row = factor(K, &f), n = f.L.n;
-        status = row < n ? BBM_NOT_POSITIVE_DEFINITE : BBM_OK;
-        info->element = row < n ? K->caller[K->from + row / 6] : -1;
-    }
-    if (!status) {
-        bbm_substitute(&f.L, &f.U, 0, f.L.n, x);
-        info->iterations++;
-    }
-    bbm_envelope_free(&f.L);
+    if (!status)
+        bbm_factor_make(f);
+    free(entry);
     return status;
+}
+
+/* u = M^-1 r. f->A: NULL, too large to be factored. */
+static void precondition(const bbm_matrix *K, const bbm_factor *f, const double *r, double *u)
+{
+    if (!f->A) {
+        bbm_precondition(K, r, u);
+        return;
+    }
+    bbm_combine(K, r, 0, r, u);
+    bbm_substitute(f, 0, f->n, u + 6 * K->from);
 }
 
 /* ------------------------------------------------------------------------------- the iteration */
 
-/* The iteration of the head, from x = 0 and r = F to x; a length is the square root of rz, and
- * `last` is z0.r. */
-static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+/* The iteration of the head, from x and r = F - K x; d: room for three vectors; a length is the
+ * square root of rz, and `last` is z0.r. stop: 0, or the length that was small enough before. */
+static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, double *stop,
+                          const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    const size_t n = 6 * (size_t)K->n;
-    double *r = K->r, *z = K->u, *p = K->p, *q = K->q, *d = malloc(3 * n * sizeof *d);
+    double *r = K->r, *z = K->u, *p = K->p, *q = K->q, *z0 = d + 6 * K->n, *v = z0 + 6 * K->n;
     bbm_status status = BBM_OK;
 
-    if (!d)
-        return BBM_NO_MEMORY;
-    double *z0 = d + n, *v = z0 + n;
-    bbm_precondition(K, r, z);
+    precondition(K, f, r, z);
     bbm_combine(K, z, 0, z, z0);
     bbm_combine(K, z, 0, z, p);
     double rz = bbm_dot_rows(K, r, z), last = rz;
-    const double stop = pcg->tolerance * sqrt(rz);
-    while (!(rz <= stop * stop)) {
-        status = bbm_count_iteration(rz, pcg, info);
-        if (status)
-            break;
+    *stop = *stop > 0 ? *stop : pcg->tolerance * sqrt(rz);
+    while (!(rz <= *stop * *stop) && !(status = bbm_count_iteration(rz, pcg, info))) {
         bbm_multiply(K, p, q);
         const double a = last / bbm_dot_rows(K, z0, q);
         bbm_combine(K, K->x, a, p, K->x);
         bbm_combine(K, r, -a, q, r);
         bbm_combine(K, z, 0, z, d);
-        bbm_precondition(K, r, z);
+        precondition(K, f, r, z);
         bbm_combine(K, d, -1, z, d);
         bbm_multiply(K, z, q);
-        bbm_precondition(K, q, v);
-        const double vq = bbm_dot_rows(K, v, q), c = vq > 0 ? bbm_dot_rows(K, z, q) / vq : 0;
+        precondition(K, f, q, v);
+        const double vq = bbm_dot_rows(K, v, q), zq = bbm_dot_rows(K, z, q);
+        const double least = LEAST * sqrt(bbm_dot_rows(K, r, z) / vq);
+        const double c = vq > 0 ? copysign(fmax(fabs(zq / vq), least), zq) : 0;
         bbm_combine(K, K->x, c, z, K->x);
         bbm_combine(K, r, -c, q, r);
         bbm_combine(K, z, -c, v, z);
@@ -211,32 +152,27 @@ static bbm_status iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
         bbm_combine(K, z, z0r / last * (a / c), p, p);
         last = z0r;
     }
-    free(d);
     return status;
 }
 
-/* In dynamics K is regular: LU has the last word, after no more iterations than there are
- * unknowns. */
-static bbm_status solve_regular(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+/* K x = F for the rows in hand. */
+static bbm_status solve(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
-    const int unknowns = 6 * (K->to - K->from);
-    const size_t bytes = (size_t)unknowns * sizeof(double);
-    double *F = malloc(bytes);
-    bbm_status status = BBM_NOT_CONVERGED;
-    bbm_pcg few = *pcg;
+    bbm_factor f = { 0 };
+    double *d = malloc(24 * (size_t)K->n * sizeof *d), stop = 0;
+    bbm_status status = d ? BBM_OK : BBM_NO_MEMORY;
 
-    if (!F)
-        return BBM_NO_MEMORY;
-    memcpy(F, K->r + 6 * K->from, bytes);
-    if (few.iterations > unknowns)
-        few.iterations = unknowns;
-    if (unknowns > 6 * SMALL)
-        status = iterate(K, &few, info);
-    if (status) {
-        status = solve_directly(K, F, info);
-        memcpy(K->x + 6 * K->from, F, status ? 0 : bytes);
+    if (!status && K->to - K->from <= SMALL)
+        status = factor(K, &f);
+    if (!status)
+        bbm_combine(K, K->r, 0, K->r, d + 18 * K->n);
+    for (int turn = 0; turn < 2 && !status; turn++) {
+        bbm_multiply(K, K->x, K->q);
+        bbm_combine(K, d + 18 * K->n, -1, K->q, K->r);
+        status = iterate(K, &f, d, &stop, pcg, info);
     }
-    free(F);
+    bbm_factor_free(&f);
+    free(d);
     return status;
 }
 
@@ -250,7 +186,6 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t
 
     if (p == 0)
         return 0;
-    m->K->solve_terms = bbm_is_static(m) ? iterate : solve_regular;
     bbm_normal_vectors(t, &n);
     bbm_shear_vectors(t, c->anchor, &s);
     bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
@@ -272,6 +207,6 @@ bbm_status bbm_lay_out_sliding(bbm_model *m)
 {
     m->K->term = calloc((size_t)m->links + 1, sizeof *m->K->term);
     m->K->add_terms = add_terms;
-    m->K->solve_terms = solve_regular;
+    m->K->solve_terms = solve;
     return m->K->term ? BBM_OK : BBM_NO_MEMORY;
 }

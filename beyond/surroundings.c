@@ -27,22 +27,6 @@
 
 /* ----------------------------------------------------------------------------- loads on an edge */
 
-/* Adds a load [N/m] on a boundary edge of the prepared model. */
-bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure)
-{
-    bbm_beyond *b = m->beyond;
-
-    if (m->status)
-        return m->status;
-    if (!m->K || edge < 0 || edge >= m->edges)
-        return m->status = bbm_fail(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges);
-    if (!isfinite(fx) || !isfinite(fy) || !isfinite(pressure))
-        return m->status = bbm_fail(m, BBM_NOT_FINITE, "the load of edge %d", edge);
-    const bbm_edge_load load = { .a = m->edge[edge].a, .f = { fx, fy }, .pressure = pressure };
-    return m->status = bbm_append(m, (void **)&b->edge_load, &b->edge_loads, sizeof load, &load,
-                                  NULL);
-}
-
 /* p = c[0] + c[1] s for the depths below the level (negative: above it) at both ends. Along an edge
  * displacements are linear in the way s, so that force and moment are all that an element feels: an
  * edge that the level crosses gets the p that has the same two,
@@ -69,12 +53,11 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
     const bbm_element *e = &m->element[a->element];
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
     const bbm_edge_load *now = load;
-    double T[2][6], am[2], bm[2], c[2] = { 0, 0 };
+    double T[2][6], am[2], bm[2], c[2];
 
     bbm_step_point(e, a->x, a->y, T, am);
     bbm_step_point(e, b->x, b->y, T, bm);
-    if (load->weight > 0)
-        press(load->level - am[1], load->level - bm[1], c);
+    press(load->level - am[1], load->level - bm[1], c);
     for (int g = 0; g < BBM_GAUSS; g++) {
         double s, share;
         bbm_gauss_point(g, &s, &share);
@@ -86,21 +69,35 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
     bbm_varying_load_submatrix(e, a, b, now->q, F);
 }
 
-/* Water up to the level on a boundary edge of the prepared model; its weight is that of a m^3 times
- * the thickness. */
-bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
+/* Adds a load on a boundary edge of the prepared model. */
+static bbm_status add(bbm_model *m, int edge, bbm_edge_load load)
 {
-    const bbm_status status = bbm_load_edge(m, edge, 0, 0, level * weight);
+    bbm_beyond *b = m->beyond;
     double F[6] = { 0 };
 
-    if (status)
-        return status;
-    bbm_edge_load *load = &m->beyond->edge_load[m->beyond->edge_loads - 1];
-    load->pressure = 0;
-    load->level = level - m->origin[1];
-    load->weight = weight;
-    add_load(m, load, F);
-    return BBM_OK;
+    if (m->status)
+        return m->status;
+    if (!m->K || edge < 0 || edge >= m->edges)
+        return m->status = bbm_fail(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges);
+    if (!isfinite(load.f[0]) || !isfinite(load.f[1]) || !isfinite(load.pressure)
+        || !isfinite(load.level * load.weight))
+        return m->status = bbm_fail(m, BBM_NOT_FINITE, "the load of edge %d", edge);
+    load.a = m->edge[edge].a;
+    add_load(m, &load, F);
+    return m->status = bbm_append(m, (void **)&b->edge_load, &b->edge_loads, sizeof load, &load,
+                                  NULL);
+}
+
+/* A force and a pressure, N/m. */
+bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure)
+{
+    return add(m, edge, (bbm_edge_load){ .f = { fx, fy }, .pressure = pressure });
+}
+
+/* Water up to the level; its weight is that of a m^3 times the thickness. */
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
+{
+    return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .weight = weight });
 }
 
 /* Adds them to the loads of the step. */

@@ -48,7 +48,7 @@ typedef struct { int block, material, nx, ny; double x, y, w, h; } case_box;
 int    case_add_box(bbm_model *m, const case_box *b);
 /* Its map, for a grid of another cut or with other things to do first. */
 void   case_place_in_box(double i, double j, const void *box, double xy[2]);
-/* u, v, sxx, syy, sxy or svm of the node nearest to the point. */
+/* u, v, sxx, syy, sxy or mises of the node nearest to the point. */
 double case_at(const bbm_model *m, const char *quantity, double x, double y);
 void   case_solve(bbm_model *m);                                /* prepared and run             */
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
@@ -66,6 +66,14 @@ typedef struct { const char *file; scene_map map; } case_map;
 /* A row of the summary: a value of a run, whose unit is one unit-th of SI's. */
 typedef struct { int run; const char *quantity; double x, y, unit; } case_point;
 
+typedef struct { const char *quantity; double x, y; } case_place;
+typedef struct {                    /* values at places, in one unit-th of SI's                 */
+    const char *name, *what;        /* of the table or figure of the paper, and what it shows   */
+    double unit;
+    int places;
+    const case_place *place;
+} case_table;
+
 typedef struct {                    /* Experiment I or II                                       */
     const char *name, *title;       /* of its folder, and of what it prints                     */
     /* Solves a variant on a grid of k times its cells; and of u, v, sxx, .. at a grid point the
@@ -73,20 +81,19 @@ typedef struct {                    /* Experiment I or II                       
     void (*solve)(bbm_model *m, const char *variant, int cut, int k, double alpha);
     double (*computed)(const bbm_model *m, const char *quantity, double x, double y);
     double (*theory)(const char *quantity, double x, double y);
-    int runs, maps, points;         /* runs: 4 at most; maps: of the first                      */
+    int runs, maps, points, tables; /* runs: 4 at most; maps: of the first                      */
     const case_run *run;
+    const case_table *table;        /* of each run in the paper's way                           */
     const case_map *map;
     const char *summary;            /* the head of the table of what the experiment comes to    */
     const case_point *point;        /* [points] its rows, against converged finite elements     */
-    /* Its tables and pictures, of each run, NULL where there is no beyond/, with its reference
-     * values. */
+    /* Its other tables and pictures, of each run, NULL where there is no beyond/, with its
+     * reference values. */
     void (*show)(case_results *r, const bbm_model *const m[], const case_reference ref[]);
-    /* The table of convergence, of the variant of the second run: so many triangles times k k;
-     * prints what a cell holds. */
+    /* The table of convergence, of the variant of the second run: the errors at one or two places,
+     * against converged finite elements. */
     const char *errors;
-    int triangles;
-    void (*print_errors)(const bbm_model *m);
-    const char *files;              /* what it has written                                      */
+    case_place error[2];
 } case_experiment;
 
 /* All of it, or with the argument `converge` the table of convergence alone; the exit status. */
@@ -102,9 +109,6 @@ int    case_close(case_results *r);
 double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
                 double reference, const char *kind);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
-/* column [columns][rows] as CSV */
-void   case_write_curves(case_results *r, const char *file, const char *header, int rows,
-                         int columns, const double *const column[]);
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);

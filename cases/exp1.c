@@ -9,8 +9,9 @@
  *     0               48              (70) is then exact
  *
  * `exp1` writes tables and out/exp1/; `exp1 converge` prints the errors on three meshes for four
- * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
- * say so are by as many quadrilaterals with beyond/. More of that is in exp1_beyond.c. */
+ * values of alpha, solved on two levels where there is beyond/. All else is the paper's way, by the
+ * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/.
+ * More of that is in exp1_beyond.c. */
 #include <math.h>
 
 #include "exp.h"
@@ -19,22 +20,21 @@
 static const double L = EXP1_LENGTH, H = EXP1_HEIGHT, P = 1000, E = 30e6, nu = 0.3;
 static const double I = 12.0 * 12 * 12 / 12;
 
-enum { PAPER_RUNS = 3, RUNS };
-
-static const case_run run[RUNS] = {
+static const case_run run[] = {
     { "a", "load a, concentrated", 0, ", load a" },
     { "b", "load b, parabolic shear", 0, ", load b" },
     { "c", "load c, the end of (70)", 0, ", load c" },
     { "b", "load b, with beyond/", 1, ", load b, with beyond/" },
 };
 
-/* Eq. (70), u or v. */
+/* Eq. (70): u, v, and at the faces the von Mises stress; else NaN. */
 static double theory(const char *quantity, double x, double y)
 {
     double u[2];
 
     theory_beam_displacement(&(theory_beam){ P, L, H, E, nu }, x, y, u);
-    return quantity[0] == 'u' ? u[0] : quantity[0] == 'v' ? u[1] : NAN;
+    return quantity[0] == 'u' ? u[0] : quantity[0] == 'v' ? u[1]
+         : quantity[0] == 'm' ? P * (L - x) * fabs(y) / I : NAN;
 }
 
 /* Parabolic shear that sums to P, a field for the line loads [N/m]. */
@@ -162,51 +162,17 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
     case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
         .title = "Fig. 10: deflection of the axis", .x = { "x", "m" },
         .y = { "v", "m" }, .count = LENGTH(s), .series = s }));
-    case_write_curves(r, "fig10.csv", "x,v_dda,v_bbm,v_fem,v_theory", N, 5,
-                      (const double *const[]){ x, v[0], v[1], v[2], v[3] });
 }
 
-/* Table 3: u and v at three points, for each way to load and to hold the beam. */
-static void print_table_3(const bbm_model *const m[RUNS], const case_reference ref[RUNS])
-{
-    static const struct { const char *quantity; double x, y; } at[] = {
-        { "u", 24, 6 }, { "v", 24, 6 }, { "u", 36, 0 }, { "v", 36, 0 }, { "u", 48, 6 },
-        { "v", 48, 6 },
-    };
-
-    printf("\nTable 3 - displacements [mm]: a clamped, concentrated; b clamped, parabolic shear; "
-           "c end of (70)\n\n"
-           "| | | BBM | FEM, converged | theory (70) | against FEM | against (70) |\n"
-           "|---|---|---|---|---|---|---|\n");
-    for (int k = 0; k < PAPER_RUNS; k++)
-        for (int i = 0; i < LENGTH(at); i++) {
-            const double value = case_at(m[k], at[i].quantity, at[i].x, at[i].y);
-            const double exact = theory(at[i].quantity, at[i].x, at[i].y);
-            printf("| %s | %s(%.0f,%.0f) | %.5f | ", run[k].variant, at[i].quantity, at[i].x,
-                   at[i].y, 1e3 * value);
-            if (exact == 0) {
-                printf("0, by symmetry | 0 | | |\n");
-                continue;
-            }
-            const double fem = case_find(&ref[k], at[i].quantity, at[i].x, at[i].y)->converged;
-            printf("%.5f | %.5f | %+.2f %% | %+.2f %% |\n", 1e3 * fem, 1e3 * exact,
-                   case_percent(value, fem), case_percent(value, exact));
-        }
-}
-
-/* Fig. 13 at two points of the upper face, where (70) has P (L - x) H/(2 I). */
-static void print_stress(const bbm_model *m, const case_reference *ref)
-{
-    printf("\nFig. 13 - von Mises stress [Pa], load a; FEM: six-node triangles\n\n"
-           "| | BBM | FEM | FEM, converged | theory (70) | against converged |\n"
-           "|---|---|---|---|---|---|\n");
-    for (int x = 12; x <= 24; x += 12) {
-        const struct case_value *f = case_find(ref, "svm", x, 6);
-        const double value = case_at(m, "svm", x, 6);
-        printf("| mises(%d,6) | %.1f | %.1f | %.1f | %.1f | %+.1f %% |\n", x, value, f->six_node,
-               f->converged, P * (L - x) * H / (2 * I), case_percent(value, f->converged));
-    }
-}
+/* For each way to load and to hold the beam. */
+static const case_place moved[] = {
+    { "u", 24, 6 }, { "v", 24, 6 }, { "v", 36, 0 }, { "u", 48, 6 }, { "v", 48, 6 },
+};
+static const case_place bent[] = { { "mises", 12, 6 }, { "mises", 24, 6 } };
+static const case_table table[] = {
+    { "Table 3", "displacements [mm]", 1e3, LENGTH(moved), moved },
+    { "Fig. 13", "von Mises stress [kPa]", 1e-3, LENGTH(bent), bent },
+};
 
 static const case_point point[] = {
     { 0, "v", 24, 0, 1e3 }, { 0, "v", 36, 0, 1e3 }, { 1, "v", 24, 0, 1e3 },
@@ -224,24 +190,12 @@ static const case_map map[] = {
                         .field = "mises", .scale = 0 } },
 };
 
-/* The error of v(24,0), load b, the paper's way. */
-static void print_error(const bbm_model *m)
-{
-    case_reference ref;
-
-    case_read_reference("exp1", "b", &ref);
-    const double exact = case_find(&ref, "v", 24, 0)->converged;
-    printf(" %+.3f %% |", case_percent(case_at(m, "v", 24, 0), exact));
-}
-
 static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
 {
     bbm_model *dda = solve_dda(1000);
 
     print_table_2(dda, m[0]);
     show_deflection(r, dda, m[0], &ref[0]);
-    print_table_3(m, ref);
-    print_stress(m[0], &ref[0]);
     exp1_show_beyond(&ref[1]);
     bbm_model_free(dda);
 }
@@ -250,10 +204,10 @@ int main(int argc, char **argv)
 {
     return case_main(&(case_experiment){
         .name = "exp1", .title = "Experiment I: cantilever", .solve = exp1_solve,
-        .computed = case_at, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .computed = case_at, .theory = theory, .runs = LENGTH(run), .run = run,
+        .tables = LENGTH(table), .table = table, .show = show,
         .summary = "Experiment I, deflection [mm]", .points = LENGTH(point), .point = point,
-        .maps = LENGTH(map), .map = map, .triangles = 600, .print_errors = print_error,
+        .maps = LENGTH(map), .map = map, .error = { { "v", 24, 0 } },
         .errors = "Experiment I, load b, the paper's way: error of v(24,0) against the converged "
-                  "finite element",
-        .files = "fig10.csv, fig10.svg to fig13.svg, deformed.svg" }, argc, argv);
+                  "finite element" }, argc, argv);
 }

@@ -10,8 +10,8 @@
  *         1 o  o    5       One large step, as in the paper.
  *
  * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for four
- * values of alpha. All this is the paper's way, by the core alone; the rows of the last table that
- * say so are by as many quadrilaterals with beyond/. */
+ * values of alpha, solved on two levels where there is beyond/. All else is the paper's way, by the
+ * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/. */
 #include <math.h>
 #include <string.h>
 
@@ -20,9 +20,7 @@
 
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
 
-enum { PAPER_RUNS = 2, RUNS };
-
-static const case_run run[RUNS] = {
+static const case_run run[] = {
     { "b5", "plate b5, uniform stress", 0, ", plate b5" },
     { "k5", "plate k5, exact tractions", 0, "" },
     { "k5", "plate k5, with beyond/", 1, ", with beyond/" },
@@ -109,29 +107,16 @@ static double computed(const bbm_model *m, const char *quantity, double x, doubl
 
 /* --------------------------------------------------------------------------------------- tables */
 
-typedef struct { const char *quantity; double x, y; } place_of;
-
-/* Table 4, of stresses, or Table 5, of displacements. */
-static void print_table(const char *variant, const bbm_model *m, const case_reference *ref,
-                        const place_of at[], int n)
-{
-    const int stress = at[0].quantity[0] == 's';
-    const double unit = stress ? 1e-6 : 1e6;
-
-    printf(stress ? "\nTable 4, %s - stress sxx [MPa]" : "\nTable 5, %s - displacements [1e-6 m]",
-           variant);
-    printf("; FEM: six-node triangles\n\n"
-           "| | BBM | FEM | FEM, converged | theory (72) | against FEM | against converged |\n"
-           "|---|---|---|---|---|---|---|\n");
-    for (int i = 0; i < n; i++) {
-        const struct case_value *f = case_find(ref, at[i].quantity, at[i].x, at[i].y);
-        const double value = computed(m, at[i].quantity, f->x, f->y);
-        printf("| %s(%.4g,%.4g) | %.5f | %.5f | %.5f | %.5f | %+.2f %% | %+.2f %% |\n",
-               at[i].quantity, f->x, f->y, unit * value, unit * f->six_node, unit * f->converged,
-               unit * theory(at[i].quantity, f->x, f->y), case_percent(value, f->six_node),
-               case_percent(value, f->converged));
-    }
-}
+static const case_place stress[] = {
+    { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
+};
+static const case_place moved[] = {
+    { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
+};
+static const case_table table[] = {
+    { "Table 4", "stress sxx [MPa]", 1e-6, LENGTH(stress), stress },
+    { "Table 5", "displacements [1e-6 m]", 1e6, LENGTH(moved), moved },
+};
 
 /* For plate k5 (72) is exact. */
 static const case_point point[] = {
@@ -164,19 +149,23 @@ static int on_line(const line_of *l, const struct case_value *f)
                : fabs(hypot(f->x, f->y) - 1) < 1e-6);
 }
 
-static void draw_line(case_results *r, const bbm_model *const m[RUNS], const case_reference *b5,
+/* A chart, and rows of results.csv. */
+static void draw_line(case_results *r, const bbm_model *const m[], const case_reference *b5,
                       const line_of *l)
 {
     double at[128], value[2][128], exact[128], fem_at[16], fem[16];
-    char csv[32], svg[32], header[80];
+    char name[32];
     int fems = 0;
 
     for (int i = 0; i < l->count; i++) {
         const bbm_node *n = &m[0]->node[l->first + i * l->step];
         at[i] = abscissa_of(l, n->x, n->y);
         exact[i] = theory(l->quantity, n->x, n->y);
-        for (int k = 0; k < 2; k++)
+        for (int k = 0; k < 2; k++) {
             value[k][i] = computed(m[k], l->quantity, n->x, n->y);
+            snprintf(name, sizeof name, "%s.%s", run[k].variant, l->quantity);
+            case_row(r, name, (double[]){ n->x, n->y }, value[k][i], exact[i], "theory");
+        }
     }
     for (int i = 0; i < b5->values && fems < 16; i++)
         if (on_line(l, &b5->value[i])) {
@@ -192,35 +181,30 @@ static void draw_line(case_results *r, const bbm_model *const m[RUNS], const cas
         { .name = "FEM, converged (b5)", .n = fems, .x = fem_at, .y = fem, .style = PLOT_MARKS,
           .look = 3 },
     };
-    snprintf(csv, sizeof csv, "%s.csv", l->file);
-    snprintf(svg, sizeof svg, "%s.svg", l->file);
-    snprintf(header, sizeof header, "%s,b5.%s,k5.%s,theory", l->abscissa, l->quantity, l->quantity);
-    case_draw(r, plot_write_chart(case_path(r, svg), &(plot_chart){
+    case_draw(r, plot_write_chart(case_path(r, l->file), &(plot_chart){
         .title = l->title, .count = LENGTH(s) - !fems, .series = s,
         .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m" },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
                l->quantity[0] == 's' ? "Pa" : "m" } }));
-    case_write_curves(r, csv, header, l->count, 4,
-                      (const double *const[]){ at, value[0], value[1], exact });
 }
 
 /* Fig. 15-19. */
-static void draw_lines(case_results *r, const bbm_model *const m[RUNS], const case_reference *b5)
+static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
 {
     enum { NX = 2 * 17, NY = 2 * 12, ROW = NX + 1 };
     const line_of line[] = {
-        { "fig15", "Fig. 15: displacement u on y = 0", "u", "x", 0, 1, ROW },
-        { "fig15v", "Fig. 15: displacement v on y = 0", "v", "x", 0, 1, ROW },
-        { "fig16", "Fig. 16: displacement v on x = 0", "v", "y", NY * ROW, 1, ROW },
-        { "fig16u", "Fig. 16: displacement u on x = 0", "u", "y", NY * ROW, 1, ROW },
-        { "fig17", "Fig. 17: stress sxx on y = 0", "sxx", "x", 0, 1, ROW },
-        { "fig18", "Fig. 18: stress sxx on x = 0", "sxx", "y", NY * ROW, 1, ROW },
-        { "fig19", "Fig. 19: stress sxx on the hole", "sxx", "angle", 0, ROW, NY + 1 },
-        { "fig19hoop", "Hoop stress on the hole", "stt", "angle", 0, ROW, NY + 1 },
+        { "fig15.svg", "Fig. 15: displacement u on y = 0", "u", "x", 0, 1, ROW },
+        { "fig15v.svg", "Fig. 15: displacement v on y = 0", "v", "x", 0, 1, ROW },
+        { "fig16.svg", "Fig. 16: displacement v on x = 0", "v", "y", NY * ROW, 1, ROW },
+        { "fig16u.svg", "Fig. 16: displacement u on x = 0", "u", "y", NY * ROW, 1, ROW },
+        { "fig17.svg", "Fig. 17: stress sxx on y = 0", "sxx", "x", 0, 1, ROW },
+        { "fig18.svg", "Fig. 18: stress sxx on x = 0", "sxx", "y", NY * ROW, 1, ROW },
+        { "fig19.svg", "Fig. 19: stress sxx on the hole", "sxx", "angle", 0, ROW, NY + 1 },
+        { "fig19hoop.svg", "Hoop stress on the hole", "stt", "angle", 0, ROW, NY + 1 },
     };
 
     for (int i = 0; i < LENGTH(line); i++)
-        draw_line(r, m, b5, &line[i]);
+        draw_line(r, m, &ref[0], &line[i]);
 }
 
 /* Fig. 20-23. */
@@ -234,38 +218,15 @@ static const case_map map[] = {
                         .field = "mises", .scale = 0 } },
 };
 
-/* The errors of u(1,0) and of sxx(0,1), plate k5, the paper's way. */
-static void print_errors(const bbm_model *m)
-{
-    printf(" %+.3f %%, %+.2f %% |", case_percent(computed(m, "u", 1, 0), theory("u", 1, 0)),
-           case_percent(computed(m, "sxx", 0, 1), theory("sxx", 0, 1)));
-}
-
-static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
-{
-    static const place_of stress[5] = {
-        { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
-    };
-    static const place_of moved[6] = {
-        { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
-    };
-
-    for (int k = 0; k < PAPER_RUNS; k++) {
-        print_table(run[k].variant, m[k], &ref[k], stress, 5);
-        print_table(run[k].variant, m[k], &ref[k], moved, 6);
-    }
-    draw_lines(r, m, &ref[0]);
-}
-
 int main(int argc, char **argv)
 {
     return case_main(&(case_experiment){
         .name = "exp2", .title = "Experiment II: plate with a hole", .solve = solve_plate,
-        .computed = computed, .theory = theory, .runs = RUNS, .run = run, .show = show,
+        .computed = computed, .theory = theory, .runs = LENGTH(run), .run = run,
+        .tables = LENGTH(table), .table = table, .show = show,
         .summary = "Experiment II, plate k5 [1e-6 m, MPa]", .points = LENGTH(point),
-        .point = point, .maps = LENGTH(map), .map = map, .triangles = 816, .print_errors = print_errors,
-        .errors = "Experiment II, plate k5, the paper's way: error of u(1,0) | of sxx(0,1) "
-                  "against theory (72)",
-        .files = "fig15 to fig19 as csv and svg, fig20.svg to fig23.svg, deformed.svg" },
-        argc, argv);
+        .point = point, .maps = LENGTH(map), .map = map,
+        .error = { { "u", 1, 0 }, { "sxx", 0, 1 } },
+        .errors = "Experiment II, plate k5, the paper's way: error of u(1,0), of sxx(0,1) "
+                  "against theory (72)" }, argc, argv);
 }

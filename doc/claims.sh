@@ -56,9 +56,12 @@ held()
 # Stresses on the hole, plate k5, against (72).
 arc()
 {
-    for f in fig19 fig19hoop; do
-        awk -F, -v f=$f 'NR > 1 && ($3 - $4)^2 > d * d { d = $3 - $4; at = $1; s = $4 }
-        END { printf "%s: %+.2f MPa at %.0f degrees, theory %.2f\n", f, d / 1e6, at, s / 1e6 }' out/exp2/$f.csv
+    for f in fig19:sxx fig19hoop:stt; do
+        awk -F, -v f=${f%:*} -v q=k5.${f#*:} '
+        $1 == q && $6 == "theory" && ($2^2 + $3^2 - 1)^2 < 1e-12 && ($4 - $5)^2 > d * d {
+            d = $4 - $5; at = atan2($3, $2) * 180 / atan2(0, -1); s = $5
+        }
+        END { printf "%s: %+.2f MPa at %.0f degrees, theory %.2f\n", f, d / 1e6, at, s / 1e6 }' out/exp2/results.csv
     done
 }
 

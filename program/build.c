@@ -93,16 +93,28 @@ static int add_nodes(model_reader *r)
     return !p->status;
 }
 
+/* Whether the copy is that of the block, -1: of any, and no stage has removed it. */
+static int is_of(const model_reader *r, int block, int c)
+{
+    return (block < 0 || r->copy[c].block == block) && !r->p->gone[r->copy[c].block];
+}
+
+/* The copy of a node for a block, -1: any block; or -1, there is none. */
+static int find_copy(const model_reader *r, int block, int node)
+{
+    int c = r->node[node].first;
+
+    while (c >= 0 && !is_of(r, block, c))
+        c = r->copy[c].next;
+    return c;
+}
+
 static int add_element(model_reader *r, const model_element *e)
 {
     int *corner = &r->corner[e->first], index;
 
-    for (int k = 0; k < e->n; k++) {
-        int c = r->node[corner[k]].first;
-        while (r->copy[c].block != e->block)
-            c = r->copy[c].next;
-        corner[k] = r->copy[c].node;
-    }
+    for (int k = 0; k < e->n; k++)
+        corner[k] = r->copy[find_copy(r, e->block, corner[k])].node;
     const bbm_status status = bbm_add_element(r->p->m, e->block, e->material, e->n, corner, &index);
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
@@ -137,7 +149,8 @@ int model_build(model_reader *r)
         return model_fail(r, (model_place){ .file = r->path },
                           "the model has no element, expected: block ..., grid ..., mesh FILE or "
                           "element ...");
-    if (!give_materials(r) || !copy_nodes(r) || !add_nodes(r))
+    p->gone = model_room(r, r->blocks, sizeof *p->gone);
+    if (!p->gone || !give_materials(r) || !copy_nodes(r) || !add_nodes(r))
         return 0;
     set_defaults(r);
     for (int k = 0; k < r->materials; k++)
@@ -161,7 +174,6 @@ int model_build(model_reader *r)
         if (model_find(&r->set_of, r->block[b].name) < 0)
             model_enter(r, &r->set_of, r->block[b].name, -2 - b);
     p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
-    p->gone = model_room(r, r->blocks, sizeof *p->gone);
     r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
     return !p->status;
 }
@@ -173,28 +185,12 @@ enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 /* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
 typedef struct { int kind, found, block, whole; double x[4]; } selection;
 
-/* Whether the copy is that of the block, -1: of any, and no stage has removed it. */
-static int is_of(const model_reader *r, int block, int c)
-{
-    return (block < 0 || r->copy[c].block == block) && !r->p->gone[r->copy[c].block];
-}
-
-/* Whether the block has the node; -1: some block. */
-static int has_node(const model_reader *r, int block, int node)
-{
-    int c = r->node[node].first;
-
-    while (c >= 0 && !is_of(r, block, c))
-        c = r->copy[c].next;
-    return c >= 0;
-}
-
 /* Takes the library nodes of a node, each once for a WHERE. */
 static void choose(model_reader *r, const selection *w, int node)
 {
     model_node *n = &r->node[node];
 
-    if (n->mark == r->wheres || !has_node(r, w->block, node))
+    if (n->mark == r->wheres || find_copy(r, w->block, node) < 0)
         return;
     n->mark = r->wheres;
     r->file_nodes++;
@@ -211,7 +207,7 @@ static int find_nearest(const model_reader *r, const selection *w, int *others)
 
     *others = 0;
     for (int n = 0; n < r->nodes; n++) {
-        const double d = has_node(r, w->block, n)
+        const double d = find_copy(r, w->block, n) >= 0
                              ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1])
                              : INFINITY;
         if (d < best - r->margin)
@@ -331,7 +327,7 @@ static int where(model_reader *r, int nearest)
         choose_nearest(r, &w);
     else
         for (int n = 0; n < r->nodes; n++)
-            if (w.kind == BY_SET ? has_node(r, w.whole, n) : is_there(r, &w, &r->node[n]))
+            if (w.kind == BY_SET ? find_copy(r, w.whole, n) >= 0 : is_there(r, &w, &r->node[n]))
                 choose(r, &w, n);
     return r->chosen > 0 ? 1 : blame_nowhere(r, &w);
 }

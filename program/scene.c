@@ -587,8 +587,6 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
         put_force_entry(f, &l, kind);
-    if (f->s->mark_name)
-        put_entry(f, &l, "<circle cx=\"40\" r=\"4.5\"/>", f->s->mark_name);
     if (f->seconds > 0) {
         const double time = f->s->frame[last].time - f->s->frame[0].time;
         snprintf(text, sizeof text, "%.2g × real speed",
@@ -759,35 +757,10 @@ static void put_time(film *f, plot_box b, int frame)
 /* What stands over the blocks of a panel. */
 static void draw_state(film *f, plot_box b, int frame)
 {
-    const point a = at(f, frame, f->s->mark);
-
     draw_bolts(f, frame);
     draw_forces(f, frame);
-    if (f->s->mark_name)
-        plot_put(&f->p, "<circle r=\"4.5\" cx=\"%.2f\" cy=\"%.2f\"/>\n", a.x, a.y);
     if (is_timed(f))
         put_time(f, b, frame);
-}
-
-int scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n,
-                       const double time[])
-{
-    film f = { .s = s, .m = m };
-    int done = n > 0 && begin_film(&f) && open_page(&f, path, n, 0);
-
-    for (int k = 0; done && k < n; k++) {
-        const plot_box b = begin_panel(&f, k);
-        int i = 0;
-        for (int j = 1; j < s->frames; j++)
-            if (fabs(s->frame[j].time - time[k]) < fabs(s->frame[i].time - time[k]))
-                i = j;
-        draw_blocks(&f, i);
-        end_panel(&f, b);
-        draw_state(&f, b, i);
-    }
-    done = done && plot_close(&f.p);
-    end_film(&f);
-    return done;
 }
 
 /* A group that is visible from half an interval before its frame to half an interval behind it, the
@@ -797,11 +770,10 @@ static void begin_turn(film *f, int frame)
     const int last = f->s->frames - 1, intervals = value_count(f) - 1;
 
     plot_put(&f->p, "<g%s>", frame ? " visibility=\"hidden\"" : "");
-    if (last > 0)
-        plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
-                 "repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
-                 "keyTimes=\"0;%.5f;%.5f\"/>\n", f->seconds, fmax(0, (frame - 0.5) / intervals),
-                 frame == last ? 1 : (frame + 0.5) / intervals);
+    plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
+             "repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
+             "keyTimes=\"0;%.5f;%.5f\"/>\n", f->seconds, fmax(0, (frame - 0.5) / intervals),
+             frame == last ? 1 : (frame + 0.5) / intervals);
 }
 
 /* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
@@ -833,13 +805,15 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
         const plot_box b = begin_panel(&f, 0);
         draw_blocks(&f, 0);
         end_panel(&f, b);
-        for (int k = 0; k < s->frames; k++) {
+        for (int k = 0; k < s->frames && f.seconds > 0; k++) {
             begin_turn(&f, k);
             draw_state(&f, b, k);
             plot_put(&f.p, "</g>\n");
         }
         if (f.seconds > 0)
             put_script(&f);
+        else
+            draw_state(&f, b, 0);
         done = plot_close(&f.p);
     }
     end_film(&f);

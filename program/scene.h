@@ -1,4 +1,4 @@
-/* scene.h - pictures of blocks: one state, several states as panels, a film; contours of a field.
+/* scene.h - pictures of blocks: one state, a film; contours of a field.
  *
  * A scene is a recording. The choices are set first, one call per step records, one call writes;
  * the first frame is the start, the last one the end of the run. However long the run is, at most
@@ -11,7 +11,6 @@
  *         scene_record(&s, m);
  *     }
  *     if (!scene_write_movie(&s, m, "out/incline/slide.svg")) ...
- *     if (!scene_write_panels(&s, m, "out/incline/states.svg", 2, (double[]){ 0, 1 })) ...
  *     scene_free(&s);
  *
  * The film is one SVG that a browser plays over and over, a click stops it, the arrow keys step; a
@@ -46,8 +45,6 @@ typedef struct {
     const char *title;
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
-    int    mark;                /*          a vertex to mark                                      */
-    const char *mark_name;      /*          in the legend; NULL: none                             */
     /* --- the recording --- */
     int    frames, vertices, calls, every, failed;
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */
@@ -62,10 +59,8 @@ int  scene_record(scene *s, const bbm_model *m);
 void scene_free(scene *s);      /* the recording; the choices stay                                */
 
 /* They return 1 when the complete file stands under its name, else 0 and errno. Nothing recorded is
- * nothing to write. Panels: the recorded frames nearest to the n times. */
+ * nothing to write. Of one frame the film is a picture that stands still. */
 int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
-int  scene_write_panels(const scene *s, const bbm_model *m, const char *path, int n,
-                        const double time[]);
 
 typedef struct {                /* contours of a field over the present state                     */
     const char *title;

@@ -347,12 +347,11 @@ static void note_picture(write_results *w, const char *path, int done)
 /* The present state. */
 static void draw_now(write_results *w, const char *name)
 {
-    const bbm_model *m = w->p->m;
     scene now = { .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt };
     char path[LONGEST];
 
-    scene_record(&now, m);
-    note_picture(w, path, scene_write_panels(&now, m, path_of(w, name, path), 1, &m->info.t));
+    scene_record(&now, w->p->m);
+    note_picture(w, path, scene_write_movie(&now, w->p->m, path_of(w, name, path)));
     scene_free(&now);
 }
 

@@ -1,25 +1,27 @@
 /* bench.c - `make bench`: how long the linear solver takes, what contact costs, and finding the
- * contacts. First an iteration of the paper's SSOR-PCG, then whole solutions of it and on two
- * levels, then quadrilaterals and triangles up to sizes that take seconds; then steps of walls, of
- * jointed rock and of blocks that slide, with friction in K and as a load; then how the time to
- * find the contacts grows with the model. What is compared is timed in turn in one run; printed are
- * medians and their ratio, since these survive a busy machine. Solutions and iterations are as many
- * on every machine.
+ * contacts. First solutions by the paper's SSOR-PCG and on two levels, then triangles and
+ * quadrilaterals up to sizes that take seconds, beside CHOLMOD if it is there; then steps of walls,
+ * of jointed rock, of a tunnel in it and of blocks that slide, with friction in K and as a load;
+ * then how the time to find the contacts grows with the model. What is compared is timed in turn in
+ * one run; printed are medians and their ratio, since these survive a busy machine. Solutions and
+ * iterations are as many on every machine.
  *
- *     out/build/bench matrix FILE N       writes K of the beam of N rows of 4 N cells in Matrix
- *                                         Market form, so that any other solver can be timed with
- *                                         the same equations
+ * With BENCH_LARGE in the environment CHOLMOD solves the largest model, too.
  */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+#ifdef CHOLMOD
+#include <suitesparse/cholmod.h>
+#endif
+
 #include "../beyond/beyond.h"
 #include "../cases/case.h"
 #include "rock.h"
 
-enum { TURNS = 9, ITERATIONS = 100 };
+enum { TURNS = 9 };
 
 static void place(double i, double j, const void *unused, double xy[2])
 {
@@ -54,37 +56,6 @@ static void touch(bbm_matrix *K)
     case_must(NULL, bbm_matrix_add(K, 0, 0, zero));
 }
 
-/* Seconds of a solve that is cut short after some iterations. */
-static double solve_time(bbm_model *m, int iterations)
-{
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-300, .iterations = iterations };
-    bbm_pcg_info info;
-
-    touch(m->K);
-    const clock_t start = clock();
-    (void)bbm_solve(m->K, m->F, m->D, &pcg, &info);
-    return (double)(clock() - start) / CLOCKS_PER_SEC;
-}
-
-/* Seconds of one iteration: what further iterations add to a solve of one, so that setting up does
- * not count. */
-static double iteration_time(bbm_model *m)
-{
-    const double one = solve_time(m, 1);
-
-    return (solve_time(m, 1 + ITERATIONS) - one) / ITERATIONS;
-}
-
-/* Iterations of a whole solve. */
-static int iterations(bbm_model *m)
-{
-    bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 };
-    bbm_pcg_info info;
-
-    case_must(NULL, bbm_solve(m->K, m->F, m->D, &pcg, &info));
-    return info.iterations;
-}
-
 static int ascending(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -92,25 +63,10 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double median(double v[TURNS])
+static double median(double v[], int turns)
 {
-    qsort(v, TURNS, sizeof *v, ascending);
-    return v[TURNS / 2];
-}
-
-static void print_iteration(void)
-{
-    printf("SSOR-PCG, omega = 1, alpha = 100: microseconds an iteration, medians of %d turns\n\n"
-           "| unknowns | microseconds | iterations to 1e-10 |\n|---|---|---|\n", TURNS);
-    for (int n = 1; n <= 4; n *= 2) {
-        bbm_model *m = beam(24 * n, 6 * n, CELL_CROSSED, 100);
-        double t[TURNS];
-        for (int i = 0; i < TURNS; i++)
-            t[i] = 1e6 * iteration_time(m);
-        printf("| %d | %.1f | %d |\n", 6 * m->elements, median(t), iterations(m));
-        fflush(stdout);
-        bbm_model_free(m);
-    }
+    qsort(v, (size_t)turns, sizeof *v, ascending);
+    return v[turns / 2];
 }
 
 /* A wall of n x n bricks in running bond. */
@@ -178,7 +134,7 @@ static void bench_detection(const char *name, void add(bbm_model *, int), const 
         }
     for (int i = 0; i < 3; i++) {
         printf("| %s | %d | %d | %.1f | %.0f | %.2f |\n", name, m[i]->edges, m[i]->scratch->contacts,
-               (double)m[i]->info.candidates / m[i]->edges, median(time[i]), median(ratio[i]));
+               (double)m[i]->info.candidates / m[i]->edges, median(time[i], TURNS), median(ratio[i], TURNS));
         bbm_model_free(m[i]);
     }
 }
@@ -197,8 +153,7 @@ static double whole_time(bbm_model *m, const bbm_method *method, int turns, int 
         t[i] = 1e3 * (double)(clock() - start) / CLOCKS_PER_SEC;
     }
     *count = info.iterations;
-    qsort(t, (size_t)turns, sizeof *t, ascending);
-    return t[turns / 2];
+    return median(t, turns);
 }
 
 /* The paper's SSOR-PCG against two levels, and how both grow with the number of unknowns. */
@@ -208,18 +163,18 @@ static void print_levels(void)
 
     printf("\nSolutions to 1e-10, SSOR-PCG against two levels; growth is the power of the number of unknowns by which a\n"
            "time grows from the line above\n\n"
-           "| unknowns | alpha | SSOR: iterations | ms | growth | two levels: iterations | ms | growth | ratio |\n"
-           "|---|---|---|---|---|---|---|---|---|\n");
+           "| unknowns | alpha | SSOR: iterations | us each | ms | growth | two levels: iterations | ms | growth | ratio |\n"
+           "|---|---|---|---|---|---|---|---|---|---|\n");
     for (double alpha = 10; alpha <= 1000; alpha *= 10) {
         double last[3] = { 0 };
         for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
             bbm_model *m = beam(4 * rows[k], rows[k], CELL_ALTERNATING, alpha);
-            const int turns = k < 2 ? TURNS : 3, n = 6 * m->elements;
+            const int turns = k < 1 ? TURNS : 3, n = 6 * m->elements;
             int one, two;
             const double t1 = whole_time(m, NULL, turns, &one), t2 = whole_time(m, &bbm_two_level, TURNS, &two);
             const double by = log(n / last[0]);
-            printf(k ? "| %d | %g | %d | %.1f | %.2f |" : "| %d | %g | %d | %.1f | |", n, alpha, one, t1,
-                   log(t1 / last[1]) / by);
+            printf(k ? "| %d | %g | %d | %.1f | %.1f | %.2f |" : "| %d | %g | %d | %.1f | %.1f | |", n, alpha, one,
+                   1e3 * t1 / one, t1, log(t1 / last[1]) / by);
             printf(k ? " %d | %.1f | %.2f |" : " %d | %.1f | |", two, t2, log(t2 / last[2]) / by);
             printf(" %.1f |\n", t1 / t2);
             fflush(stdout);
@@ -245,33 +200,140 @@ static double resident(void)
     return kB;
 }
 
-/* Large models on two levels. The memory is all that the program has since the first of them: what
- * was released is used again, as the models become larger. */
+/* Milliseconds to lay out K and the coarse space anew, to prepare both, and to solve. */
+static double anew_time(bbm_model *m, int *iterations)
+{
+    const bbm_pcg pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000,
+                          .method = &bbm_two_level };
+    bbm_matrix *old = m->K;
+    bbm_pcg_info info;
+
+    m->K = NULL;
+    clock_t start = clock();
+    case_must(m, bbm_lay_out_matrix(m));
+    const clock_t pattern = clock() - start;
+    memcpy(m->K->D, old->D, (size_t)old->n * sizeof *old->D);
+    memcpy(m->K->L, old->L, (size_t)old->first[old->n] * sizeof *old->L);
+    bbm_matrix_free(old);
+    start = clock();
+    case_must(m, bbm_lay_out_coarse(m));
+    bbm_interpolate_elements(m);
+    case_must(m, bbm_solve(m->K, m->F, m->D, &pcg, &info));
+    *iterations = info.iterations;
+    return 1e3 * (double)(clock() - start + pattern) / CLOCKS_PER_SEC;
+}
+
+#ifdef CHOLMOD
+
+/* Column 6 i + a of the upper triangle of K, in the order of its rows, is row a of L_i and of D_i
+ * up to the diagonal. */
+static cholmod_sparse *upper_triangle(const bbm_matrix *K, cholmod_common *c)
+{
+    const size_t n = 6 * (size_t)K->n, most = 36 * (size_t)(K->first[K->n] + K->n);
+    cholmod_sparse *A = cholmod_allocate_sparse(n, n, most, 0, 1, 1, CHOLMOD_REAL, c);
+    int *start = A->p, *row = A->i, count = 0;
+    double *value = A->x;
+
+    for (int j = 0; j < 6 * K->n; j++) {
+        const int i = j / 6, a = j % 6;
+        start[j] = count;
+        for (int k = K->first[i]; k < K->first[i + 1]; k++)
+            for (int b = 0; b < 6; b++, count++) {
+                row[count] = 6 * (i - K->back[k]) + b;
+                value[count] = K->L[k][a][b];
+            }
+        for (int b = 0; b <= a; b++, count++) {
+            row[count] = 6 * i + b;
+            value[count] = K->D[i][a][b];
+        }
+    }
+    start[6 * K->n] = count;
+    return A;
+}
+
+/* Milliseconds of CHOLMOD to analyse, factorize and solve, the order as it chooses; the largest
+ * difference between its solution and that of two levels, against the largest of all. */
+static double direct_time(const bbm_model *m, double *difference)
+{
+    const bbm_matrix *K = m->K;
+    cholmod_common c;
+    double most = 0;
+
+    cholmod_start(&c);
+    c.supernodal = CHOLMOD_SUPERNODAL;
+    cholmod_sparse *A = upper_triangle(K, &c);
+    cholmod_dense *b = cholmod_zeros(A->nrow, 1, CHOLMOD_REAL, &c);
+    for (int k = 0; k < 6 * K->n; k++)
+        ((double *)b->x)[k] = m->F[6 * K->caller[k / 6] + k % 6];
+    const clock_t start = clock();
+    cholmod_factor *L = cholmod_analyze(A, &c);
+    cholmod_factorize(A, L, &c);
+    cholmod_dense *x = cholmod_solve(CHOLMOD_A, L, b, &c);
+    const double ms = 1e3 * (double)(clock() - start) / CLOCKS_PER_SEC;
+    *difference = 0;
+    for (int k = 0; x && k < 6 * K->n; k++) {
+        const double D = m->D[6 * K->caller[k / 6] + k % 6];
+        most = fmax(most, fabs(D));
+        *difference = fmax(*difference, fabs(((double *)x->x)[k] - D));
+    }
+    *difference = x ? *difference / most : NAN;
+    cholmod_free_dense(&x, &c);
+    cholmod_free_dense(&b, &c);
+    cholmod_free_factor(&L, &c);
+    cholmod_free_sparse(&A, &c);
+    cholmod_finish(&c);
+    return ms;
+}
+
+#else
+
+static double direct_time(const bbm_model *m, double *difference)
+{
+    (void)m;
+    return *difference = NAN;
+}
+
+#endif
+
+/* Large models on two levels, and by the direct solver. The memory is all that the program has since
+ * the first of them; it is not known where an earlier model had more. */
 static void print_sizes(void)
 {
     static const struct { int cut, rows, turns; } size[] = {
-        { CELL_QUADS, 34, 5 }, { CELL_QUADS, 68, 3 }, { CELL_QUADS, 136, 1 },
         { CELL_ALTERNATING, 17, TURNS }, { CELL_ALTERNATING, 34, 5 }, { CELL_ALTERNATING, 68, 3 },
+        { CELL_QUADS, 34, 5 }, { CELL_QUADS, 68, 3 }, { CELL_QUADS, 136, 1 },
         { CELL_ALTERNATING, 158, 1 },
     };
     const double start = resident();
-    double last[2] = { 0 };
+    double last[2][2] = { { 0 } }, most = start;
 
-    printf("\nSolutions to 1e-10 on two levels, alpha = 100; growth as above\n\n"
-           "| elements | unknowns | iterations | ms | growth | kB an element |\n"
-           "|---|---|---|---|---|---|\n");
+    printf("\nSolutions to 1e-10 on two levels, alpha = 100, with the layout of K and all that is made of it; growth as\n"
+           "above; in turn with CHOLMOD, supernodal, which analyses, factorizes and solves\n\n"
+           "| elements | unknowns | iterations | ms | growth | kB an element | CHOLMOD: ms | ratio | difference |\n"
+           "|---|---|---|---|---|---|---|---|---|\n");
     for (size_t k = 0; k < sizeof size / sizeof *size; k++) {
         bbm_model *m = beam(4 * size[k].rows, size[k].rows, size[k].cut, 100);
-        int count;
-        const double t = whole_time(m, &bbm_two_level, size[k].turns, &count), n = 6.0 * m->elements;
-        printf("| %s | %.0f | %d | %.1f | ", size[k].cut == CELL_QUADS ? "quadrilaterals" : "triangles",
-               n, count, t);
-        printf(k == 0 || n < last[0] ? "" : "%.2f", log(t / last[1]) / log(n / last[0]));
-        printf(" | %.1f |\n", (resident() - start) / m->elements);
+        const int turns = size[k].turns, direct = 6 * m->elements < 1000000 || getenv("BENCH_LARGE");
+        double ours[TURNS], theirs[TURNS], now = 0, difference = NAN;
+        int count = 0, quads = size[k].cut == CELL_QUADS;
+        for (int i = 0; i < turns; i++) {
+            ours[i] = anew_time(m, &count);
+            now = i == 0 ? resident() : now;
+            theirs[i] = direct ? direct_time(m, &difference) : NAN;
+        }
+        const double t = median(ours, turns), other = median(theirs, turns), n = 6.0 * m->elements;
+        printf("| %s | %.0f | %d | %.1f | ", quads ? "quadrilaterals" : "triangles", n, count, t);
+        printf(last[quads][0] > 0 ? "%.2f |" : "|", log(t / last[quads][1]) / log(n / last[quads][0]));
+        printf(now > most ? " %.1f |" : " |", (now - start) / m->elements);
+        printf(isnan(other) ? " | | |\n" : " %.1f | %.2f | %.0e |\n", other, other / t, difference);
+        most = fmax(most, now);
         fflush(stdout);
-        last[0] = n, last[1] = t;
+        last[quads][0] = n, last[quads][1] = t;
         bbm_model_free(m);
     }
+#ifndef CHOLMOD
+    printf("\nThe columns of CHOLMOD need SuiteSparse where bench is built: apt-get install libsuitesparse-dev\n");
+#endif
 }
 
 /* Courses of n bricks each on a fixed base, half as many as bricks. */
@@ -299,10 +361,36 @@ static void add_jointed_rock(bbm_model *m, double kn)
                                      .x = k % 4, .y = k / 4, .w = 1, .h = 1 });
 }
 
-/* Experiment III beyond the paper, under its weight alone. */
+/* A tunnel of 5 m x 4 m in rock of 20 m x 20 m with two joint sets, blocks of 2.5 m x 2 m with nx x
+ * nx elements each, under 1 MPa: when it is dug blocks of the roof slide. */
+static void add_tunnel(bbm_model *m, double nx)
+{
+    m->par.dt = 0.002;
+    m->par.velocity_factor = 1;
+    m->par.friction = 35;
+    m->par.p_n = 5e11, m->par.p_s = 2e11;
+    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -10, .y = -11, .w = 20, .h = 1 });
+    for (int row = 0, b = 1; row < 10; row++)
+        for (double x = -10, w; x < 10; x += w, b++) {
+            const int i = m->nodes, dug = row / 2 == 2 && fabs(x + 1.25 * (1 + row % 2)) < 2;
+            w = row % 2 && (x == -10 || x == 8.75) ? 1.25 : 2.5;
+            if (dug)
+                continue;
+            case_add_box(m, &(case_box){ .block = b, .nx = (int)nx, .ny = (int)nx, .x = x,
+                                         .y = 2 * row - 10, .w = w, .h = 2 });
+            for (int n = i; n < m->nodes; n++)
+                if (fabs(m->node[n].x) == 10)
+                    bbm_fix_node(m, n, BBM_X, 0, 0);
+            for (int n = m->nodes - (int)nx; row == 9 && n < m->nodes; n++)
+                bbm_add_line_load(m, n - 1, n, 0, -1e6);
+        }
+}
+
+/* cases/models/exp3.model: Experiment III beyond the paper. */
 static void add_slider(bbm_model *m, double stiffness)
 {
-    m->par.p_n = m->par.p_s = stiffness;
+    m->par.p_n = stiffness, m->par.p_s = stiffness / 2.5;
+    m->par.pcg.tolerance = 1e-12;
     m->beyond->multiplier_rounds = 2;
     case_add_box(m, &(case_box){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
     for (int n = 0; n < m->nodes; n++)
@@ -311,6 +399,8 @@ static void add_slider(bbm_model *m, double stiffness)
                                                    .w = 4, .h = 1 });
     for (int e = first; e < m->elements; e++)
         m->element[e].V[0] = 1;
+    for (int j = 0; j < 2; j++)
+        bbm_add_line_load(m, m->nodes - 15 + 5 * j, m->nodes - 10 + 5 * j, 1e4, 0);
     m->par.velocity_factor = 1;
 }
 
@@ -322,7 +412,7 @@ static void print_steps(void)
         { "wall", add_wall_at_rest, 45 }, { "wall", add_wall_at_rest, 100 },
         { "jointed rock, kn = 0.5 E", add_jointed_rock, 0.5 }, { "5 E", add_jointed_rock, 5 },
         { "50 E", add_jointed_rock, 50 }, { "500 E", add_jointed_rock, 500 },
-        { "sliding block", add_slider, 5e11 },
+        { "tunnel", add_tunnel, 2 }, { "tunnel", add_tunnel, 3 }, { "exp3.model", add_slider, 5e11 },
     };
     double last[2] = { 0 };
 
@@ -346,7 +436,7 @@ static void print_steps(void)
             solutions += i < 0 ? 0 : m->info.passes;
             iterations += i < 0 ? 0 : m->info.iterations;
         }
-        const double ms = median(t);
+        const double ms = median(t, TURNS);
         printf("| %s | %d | %.1f | %.1f | %.2f |", run[k].name, m->elements, solutions / TURNS,
                iterations / solutions, ms);
         printf(k > 0 && k < 4 ? " %.2f |\n" : " |\n", log(ms / last[1]) / log(m->elements / last[0]));
@@ -392,44 +482,8 @@ static void print_contact(void)
     }
 }
 
-/* ---------------------------------------------------------------------------- for other solvers */
-
-static void write_block(FILE *f, const bbm_matrix *K, int i, int j)
+int main(void)
 {
-    double B[6][6];
-
-    get_block(K, i, j, B);
-    for (int a = 0; a < 6; a++)
-        for (int b = 0; b < (i == j ? a + 1 : 6); b++)
-            fprintf(f, "%d %d %.17g\n", 6 * i + a + 1, 6 * j + b + 1, B[a][b]);
-}
-
-/* The lower triangle of K. */
-static int write_matrix(const char *file, int rows)
-{
-    bbm_model *m = beam(4 * rows, rows, CELL_ALTERNATING, 100);
-    FILE *f = fopen(file, "w");
-
-    if (!f) {
-        fprintf(stderr, "%s: cannot be written\n", file);
-        return 1;
-    }
-    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %d\n", 6 * m->elements,
-            6 * m->elements, 21 * m->elements + 36 * m->bonds);
-    for (int i = 0; i < m->elements; i++)
-        write_block(f, m->K, i, i);
-    for (int b = 0; b < m->bonds; b++)
-        write_block(f, m->K, m->bond[b].i > m->bond[b].j ? m->bond[b].i : m->bond[b].j,
-                    m->bond[b].i > m->bond[b].j ? m->bond[b].j : m->bond[b].i);
-    bbm_model_free(m);
-    return fclose(f) != 0;
-}
-
-int main(int count, char **argument)
-{
-    if (count == 4 && strcmp(argument[1], "matrix") == 0 && atoi(argument[3]) > 0)
-        return write_matrix(argument[2], atoi(argument[3]));
-    print_iteration();
     print_levels();
     print_sizes();
     print_steps();

@@ -59,7 +59,7 @@ typedef Suite *make_suite(void);
 make_suite formulas_suite, elastic_suite, steps_suite, mesh_suite, input_suite, detection_suite,
     corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite, blocks_suite,
     repeat_suite, solver_suite, coarse_suite, beyond_suite, motion_suite, bars_suite,
-    statics_suite, refused_suite, theory_suite, equations_suite, run_suite, impact_suite,
+    statics_suite, refused_suite, theory_suite, run_suite, impact_suite,
     cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
     pictures_suite, page_suite;
 

@@ -86,8 +86,7 @@ START_TEST(the_multiplier_of_a_bond_is_the_force_that_it_carries)
     bbm_fix_node(m, 6, BBM_X, 0, 0);
     bbm_add_load(m, right(&g, 0), 500, 0);
     bbm_add_load(m, right(&g, 1), 500, 0);
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     for (int b = 0; b < 2 * m->bonds; b++) {
         /* i pulls j with what pulls the bar; which of the two is i says the sign. 1e-9: twenty
          * solutions. */
@@ -116,8 +115,7 @@ START_TEST(in_dynamics_rounds_of_multipliers_are_a_stiffer_spring)
     m->par.velocity_factor = 0;
     const double kn = (c + k) / pow(a, rounds) - c;
     m->par.steps = (int)(30 * (c + kn) / kn);  /* each leaves the share c/(c + kn): e^-30 in all */
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     ck_relative(m->vertex[2].v, -weight / kn, 1e-4);
 }
 END_TEST
@@ -143,8 +141,7 @@ static double tip_error(int n, double shake, int way)
         bbm_fix_node(m, j * (g.nx + 1), BBM_XY, 0, 0);
     for (int j = 0; j < g.ny; j++)
         bbm_add_varying_line_load(m, right(&g, j), right(&g, j + 1), end_shear, NULL);
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     const double v = result_at(m, right(&g, g.ny / 2)).v;
     release(m);
     return v / -8.906623439e-3 - 1;
@@ -213,8 +210,7 @@ START_TEST(distorted_quadrilaterals_pass_the_patch_test_however_they_are_bonded)
         bbm_add_line_load(m, i, i + 1, -1e3, 0);
         bbm_add_line_load(m, 24 + i, 25 + i, 1e3, 0);
     }
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     for (int e = 0; e < m->elements; e++) {  /* 1e-8: what the solver leaves */
         ck_near(m->element[e].stress[0], 2e3, 2e3, 1e-8);
         ck_near(m->element[e].stress[1], 0, 2e3, 1e-8);
@@ -362,8 +358,7 @@ START_TEST(the_work_of_the_loads_is_twice_the_energy_of_elements_and_springs)
     bbm_fix_node(m, 13, BBM_Y, 0, 0);
     bbm_add_load(m, 4, 0.3, -0.7);
     bbm_add_load(m, 12, -0.2, 0.5);
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     bbm_energies(m, &energy);
     ck_assert_double_gt(energy.elastic, 0);
     ck_assert_double_gt(energy.springs, 0);
@@ -402,8 +397,7 @@ START_TEST(a_body_that_follows_its_walls_holds_no_energy)
     for (int n = 0; n < m->nodes; n++)
         if (n % 4 == 0 || n / 4 == 2)  /* all of the left side and of the upper one */
             bbm_fix_node(m, n, BBM_XY, -turn * m->node[n].y, turn * m->node[n].x);
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     bbm_energies(m, &energy);
     /* a spring that is open by its turning */
     const double opened = 20 * E / (2 * (1 + NU)) * turn * turn;
@@ -452,8 +446,7 @@ START_TEST(closed_contacts_hold_the_energy_of_their_springs)
     m->material[ROCK].E = 1e12;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_run(m), m);
+    run(m);
     bbm_energies(m, &energy);
     /* The weight on two springs: 2 (W/2)^2/(2 p_n); the base and the block, E = 1e12, have less than
      * 1e-4 of it. */

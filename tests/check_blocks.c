@@ -18,7 +18,6 @@ START_TEST(blocks_of_a_column_carry_the_weight_above_and_do_not_drift)
     for (int b = 1; b <= N; b++)
         add_rectangle(m, b, ROCK, (rectangle){ .x = 0, .y = b - 1, .w = 1, .h = 1 });
     m->par.friction = 30;
-    ck_ok(bbm_prepare(m), m);
     settle(m, 100);
     for (int b = 1; b <= N; b++)
         memcpy(at[b - 1], m->element[b].sum, sizeof at[b - 1]);
@@ -58,7 +57,6 @@ START_TEST(statics_balances_a_block_on_its_contacts)
     ck_ok(bbm_add_load(m, vertex_of(m, e, 0)->node, push, 0), m);
     if (_i)
         ck_ok(bbm_fix_node(m, vertex_of(m, e, 0)->node, BBM_X, 0, 0), m);
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 5);
     ck_relative(normal_force(m, 0, 1), W, 1e-8);
     /* shortened by W h/(2 E) = 1e-6 */
@@ -85,7 +83,6 @@ START_TEST(a_block_in_a_notch_leans_on_its_floor_and_its_wall)
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 0.25, .h = 0.25 });
     for (int k = 0; k < 4; k++)
         ck_ok(bbm_add_load(m, vertex_of(m, e, k)->node, -W / 8, 0), m);
-    ck_ok(bbm_prepare(m), m);
     settle(m, 100);
     double floor = 0, side = 0;
     for (int k = 0; k < m->contacts; k++) {
@@ -117,7 +114,6 @@ START_TEST(squares_of_a_block_that_meet_in_a_node_have_corners_of_their_own)
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 0.2, .y = 1, .w = 0.8, .h = 0.8 });
     for (int k = 0; k < 4; k++)
         ck_ok(bbm_add_load(m, vertex_of(m, e, k)->node, W / 8, 0), m);
-    ck_ok(bbm_prepare(m), m);
     settle(m, 60);
     double floor = 0, side = 0;
     for (int k = 0; k < m->contacts; k++) {
@@ -141,12 +137,10 @@ START_TEST(a_bonded_block_at_rest_has_the_stress_of_its_own_weight)
     ck_ok(bbm_add_material(m, &soft, &material), m);
     m->par.faces = _i;
     m->par.friction = 30;
-    m->par.p_n = 1e10;
-    m->par.p_s = 4e9;
+    set_springs(m, 1e10, 4e9);
     add_table(m, 0);
     const int e = add_rectangle(m, 1, material, (rectangle){ .x = 0, .y = 0, .w = 2, .h = 2,
                                                              .nx = 4, .ny = 4 });
-    ck_ok(bbm_prepare(m), m);
     settle(m, 150);
     ck_assert_int_eq(m->info.contacts, _i ? 5 : 2);
     ck_relative(normal_force(m, 0, 1), 4 * DENSITY * GRAVITY, 1e-6);
@@ -204,7 +198,6 @@ static bbm_model *impact(int which, double dt)
     add_rectangle(m, 0, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1, .nx = n, .ny = n });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 1.02, .y = IMPACTS[which].offset, .w = 1, .h = 1,
                                            .nx = n, .ny = n });
-    ck_ok(bbm_prepare(m), m);
     for (int e = 0; e < m->elements; e++)
         set_velocity(m, e, e < n * n ? 1 : IMPACTS[which].v, 0);
     return m;
@@ -300,12 +293,10 @@ START_TEST(stiff_blocks_that_hit_keep_both_momenta)
     ck_ok(bbm_add_material(m, &(bbm_material){ 1e12, 0.25, DENSITY, 1 }, &stiff), m);
     m->par.dt = _i % 4 == 3 ? 1e-4 : 2e-5;
     m->par.friction = _i / 4 * 30;
-    m->par.p_n = p_n;
-    m->par.p_s = 0.4 * p_n;
+    set_springs(m, p_n, 0.4 * p_n);
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, stiff, (rectangle){ .x = 1.05 * k - 0.5, .y = 0.3 * k - 0.5, .w = 1,
                                                 .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 0, 1, 0);
     momenta(m, P, &L0);
     run_steps(m, (int)(0.2 / m->par.dt + 0.5));
@@ -337,7 +328,6 @@ static meeting let_bars_meet(int steps)
     m->par.alpha = 1e4;
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, ROCK, (rectangle){ .x = (k - 1) * L, .w = L, .h = h, .nx = PIECES });
-    ck_ok(bbm_prepare(m), m);
     for (int i = 0; i < PIECES; i++)
         set_velocity(m, i, 1, 0);
     for (int i = 0; i < steps * 3 / 2; i++) {
@@ -384,7 +374,6 @@ START_TEST(a_bonded_block_that_turns_keeps_its_angular_momentum)
     ck_ok(bbm_add_material(m, &(bbm_material){ 1e9, 0.25, DENSITY, 1 }, &soft), m);
     m->par.dt = 0.01 / (1 << _i);
     add_rectangle(m, 0, soft, (rectangle){ .x = -0.5, .y = -0.5, .w = 1, .h = 1, .nx = 3, .ny = 3 });
-    ck_ok(bbm_prepare(m), m);
     for (int e = 0; e < m->elements; e++) {
         set_velocity(m, e, -m->element[e].y, m->element[e].x);
         m->element[e].V[2] = 1;
@@ -411,7 +400,6 @@ START_TEST(a_stone_gives_a_heavy_wall_its_momentum_through_a_very_stiff_spring)
     m->par.p_n = 5e13;
     add_rectangle(m, 0, stiff, (rectangle){ .x = -0.03, .y = -0.01, .w = 0.03, .h = 0.02 });
     add_rectangle(m, 1, stiff, (rectangle){ .x = 0.025, .y = -8, .w = 0.05, .h = 16 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 0, 0.1, 0);
     momenta(m, P, &L);
     const double all = P[0][0];
@@ -432,7 +420,6 @@ static int wall_on_mesh_iterations(double stiffness)
     add_rectangle(m, 1, ROCK, (rectangle){ .w = 4, .h = 2, .nx = 8, .ny = 4 });
     for (int k = 0; k < 16; k++)
         add_rectangle(m, 2 + k, ROCK, (rectangle){ .x = k % 4, .y = 2 + k / 4, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     settle(m, 3);
     const int iterations = m->info.iterations / m->info.passes;
     release(m);

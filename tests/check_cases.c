@@ -3,60 +3,45 @@
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "check.h"
-
-#ifndef BUILD
-#define BUILD "out/build"
-#endif
-
-/* The whole file as a string, to be freed; the test fails when it cannot be read. */
-static char *slurp(const char *path)
-{
-    FILE *f = fopen(path, "rb");
-    char *text = NULL;
-    size_t size = 0, got;
-
-    ck_assert_msg(f != NULL, "%s cannot be read", path);
-    do {
-        text = realloc(text, size + 65537);
-        ck_assert_ptr_nonnull(text);
-        got = fread(text + size, 1, 65536, f);
-        size += got;
-    } while (got > 0);
-    text[size] = '\0';
-    fclose(f);
-    return text;
-}
+#include "programs.h"
 
 typedef struct { double computed, reference, error; } row;
 
-/* The row of out/NAME/results.csv for a quantity at a point against a kind of reference. */
+/* The row of out/NAME/results.csv for a quantity at a point against a kind of reference; with kind
+ * NULL that of a result without a place, by the start of its name, which is in quotes if it has a
+ * comma. */
 static row find_row(const char *name, const char *quantity, double x, double y, const char *kind)
 {
-    char path[100], *text, *line, *rest = NULL;
+    const size_t n = strlen(quantity);
+    char path[100], *rest = NULL;
 
     snprintf(path, sizeof path, "out/%s/results.csv", name);
-    text = slurp(path);
-    for (line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
-        char q[40], k[40];
-        double px, py;
+    char *text = read_all(path);
+    for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        const char *p = line + (*line == '"'), *numbers = strstr(line, ",,,");
+        double px = x, py = y;
+        char k[40];
         row r;
-        if (sscanf(line, "%39[^,],%lf,%lf,%lf,%lf,%39[^,],%lf", q, &px, &py, &r.computed,
-                   &r.reference, k, &r.error) == 7
-            && strcmp(q, quantity) == 0 && hypot(px - x, py - y) < 1e-6 && strcmp(k, kind) == 0) {
+        if (strncmp(p, quantity, n) != 0)
+            continue;
+        const int found = kind
+            ? sscanf(p + n, ",%lf,%lf,%lf,%lf,%39[^,],%lf", &px, &py, &r.computed, &r.reference, k,
+                     &r.error) == 6 && strcmp(k, kind) == 0
+            : numbers && sscanf(numbers, ",,,%lf,%lf,%*[a-z],%lf", &r.computed, &r.reference,
+                                &r.error) == 3;
+        if (found && hypot(px - x, py - y) < 1e-6) {
             free(text);
             return r;
         }
     }
-    ck_abort_msg("%s: no row %s(%g,%g) against %s", path, quantity, x, y, kind);
+    ck_abort_msg("%s: no row %s(%g,%g) against %s", path, quantity, x, y, kind ? kind : "theory");
     return (row){ 0, 0, 0 };
 }
 
-/* One target of the experiments: the largest relative error that a quantity may have, and why that
- * much. */
+/* One target of the experiments: the largest relative error that a quantity may have, against 0 the
+ * absolute one, and why that much. */
 typedef struct { const char *name, *quantity; double x, y; const char *kind; double most; } target;
 
 static const target targets[] = {
@@ -71,7 +56,7 @@ static const target targets[] = {
     { "exp1", "a.v", 48, 0, "fem_coarse", 0.01 },
     /* Nodal stress at a face is the mean over elements on one side of it, half an element inside:
      * 5 %. */
-    { "exp1", "b.sxx", 24, 6, "fem", 0.05 },    { "exp1", "c.svm", 12, 6, "fem", 0.05 },
+    { "exp1", "b.sxx", 24, 6, "fem", 0.05 },    { "exp1", "c.mises", 12, 6, "fem", 0.05 },
     /* The infinite plate: the promise is 0.5 % in the displacements, 4 % in the peak stress. */
     { "exp2", "k5.u", 1, 0, "theory", 0.005 },  { "exp2", "k5.v", 0, 1, "theory", 0.005 },
     { "exp2", "k5.u", 5, 0, "theory", 0.005 },  { "exp2", "k5.sxx", 0, 1, "theory", 0.04 },
@@ -92,69 +77,30 @@ static const target targets[] = {
     { "exp2", "beyond.k5.u", 5, 0, "theory", 0.001 },
     { "exp2", "beyond.k5.sxx", 0, 1, "theory", 0.04 },
     { "exp2", "beyond.k5.sxx", 0, 2, "theory", 0.01 },
+    /* Experiment III: rigid motion is exact but for the solver's 1e-10; 1e-8 is the promise, 1e-3
+     * for the marked point. */
+    { "exp3", "without.centre.u", 0, 0, NULL, 1e-8 },
+    { "exp3", "rigid.centre.u", 0, 0, NULL, 1e-8 }, { "exp3", "beyond.centre.u", 0, 0, NULL, 1e-8 },
+    { "exp3", "beyond.mark.u", 0, 0, NULL, 1e-3 }, { "exp3", "beyond.mark.v", 0, 0, NULL, 9.81e-8 },
+    { "exp3", "without.mark.u", 0, 0, NULL, 1e-3 }, { "exp3", "rigid.mark.u", 0, 0, NULL, 1e-3 },
+    { "exp3", "gravity.mark.u", 0, 0, NULL, 1e-3 },
+    /* v within the static penetration of one corner, W/(2 p_n) = 9.8e-8 m. */
+    { "exp3", "without.mark.v", 0, 0, NULL, 9.81e-8 },
+    { "exp3", "rigid.mark.v", 0, 0, NULL, 9.81e-8 },
+    /* On the plate of 10 GPa five grid points press with N = W/8, W/4, W/4, W/4, W/8. In the
+     * middle of an edge springs of k = alpha G t = 4e12 N/m give at most N/(4 k) less than at its
+     * ends; the block rises by the mean of that, weighted with N: 7 W/(128 k) = 1.34e-9 m. */
+    { "exp3", "gravity.mark.v", 0, 0, NULL, 1.34e-9 },
 };
 
 START_TEST(an_experiment_meets_its_target)
 {
     const target *t = &targets[_i];
     const row r = find_row(t->name, t->quantity, t->x, t->y, t->kind);
-
-    ck_assert_msg(fabs(r.error) <= t->most, "%s(%g,%g): %g, %s %g, error %.2g of %.2g",
-                  t->quantity, t->x, t->y, r.computed, t->kind, r.reference, r.error, t->most);
-    /* The column is printed with four digits. */
-    ck_assert_double_eq_tol(r.error, (r.computed - r.reference) / r.reference,
-                            1e-3 * fabs(r.error) + 1e-12);
-}
-END_TEST
-
-/* The row of a result without a place, by the start of its name; names with a comma are in
- * quotes. */
-static row find_result(const char *name, const char *quantity)
-{
-    char path[100], *text, *line, *rest = NULL;
-
-    snprintf(path, sizeof path, "out/%s/results.csv", name);
-    text = slurp(path);
-    for (line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
-        const char *p = line + (line[0] == '"'), *numbers = strstr(line, ",,,");
-        row r;
-        if (strncmp(p, quantity, strlen(quantity)) == 0 && numbers
-            && sscanf(numbers, ",,,%lf,%lf,%*[a-z],%lf", &r.computed, &r.reference,
-                      &r.error) == 3) {
-            free(text);
-            return r;
-        }
-    }
-    ck_abort_msg("%s: no row %s", path, quantity);
-    return (row){ 0, 0, 0 };
-}
-
-/* Targets of the discontinuous cases; against 0 the error is absolute. */
-static const struct { const char *name, *quantity; double most; } moving[] = {
-    /* Experiment III: rigid motion is exact but for the solver's 1e-10; 1e-8 is the promise, 1e-3
-     * for the marked point. */
-    { "exp3", "without.centre.u", 1e-8 },       { "exp3", "rigid.centre.u", 1e-8 },
-    { "exp3", "beyond.centre.u", 1e-8 },
-    { "exp3", "beyond.mark.u", 1e-3 },
-    { "exp3", "beyond.mark.v", 9.81e-8 },
-    { "exp3", "without.mark.u", 1e-3 },         { "exp3", "rigid.mark.u", 1e-3 },
-    { "exp3", "gravity.mark.u", 1e-3 },
-    /* v within the static penetration of one corner, W/(2 p_n) = 9.8e-8 m. */
-    { "exp3", "without.mark.v", 9.81e-8 },      { "exp3", "rigid.mark.v", 9.81e-8 },
-    /* On the plate of 10 GPa five grid points press with N = W/8, W/4, W/4, W/4, W/8. In the
-     * middle of an edge springs of k = alpha G t = 4e12 N/m give at most N/(4 k) less than at its
-     * ends; the block rises by the mean of that, weighted with N: 7 W/(128 k) = 1.34e-9 m. */
-    { "exp3", "gravity.mark.v", 1.34e-9 },
-};
-
-START_TEST(a_moving_case_meets_its_target)
-{
-    const row r = find_result(moving[_i].name, moving[_i].quantity);
-
-    ck_assert_msg(fabs(r.error) <= moving[_i].most, "%s, %s: %g, theory %g, error %.2g of %.2g",
-                  moving[_i].name, moving[_i].quantity, r.computed, r.reference, r.error,
-                  moving[_i].most);
     const double difference = r.computed - r.reference;
+    ck_assert_msg(fabs(r.error) <= t->most, "%s(%g,%g): %g, %s %g, error %.2g of %.2g", t->quantity,
+                  t->x, t->y, r.computed, t->kind ? t->kind : "theory", r.reference, r.error, t->most);
+    /* The column is printed with four digits. */
     ck_assert_double_eq_tol(r.error, r.reference != 0 ? difference / r.reference : difference,
                             1e-3 * fabs(r.error) + 1e-12);
 }
@@ -166,9 +112,10 @@ END_TEST
  * a part of its 2 m. */
 START_TEST(on_a_plate_that_gives_way_the_block_loses_what_it_climbs)
 {
-    const double h = find_result("exp3", "gravity.mark.v").computed;
+    const double h = find_row("exp3", "gravity.mark.v", 0, 0, NULL).computed;
 
-    ck_assert_double_le(fabs(find_result("exp3", "gravity.centre.u").error), 3.3 * 9.81 * h);
+    ck_assert_double_le(fabs(find_row("exp3", "gravity.centre.u", 0, 0, NULL).error),
+                        3.3 * 9.81 * h);
 }
 END_TEST
 
@@ -198,14 +145,13 @@ START_TEST(every_file_of_an_experiment_is_complete)
         "exp1/fig10", "exp1/fig11", "exp1/fig12", "exp1/fig13", "exp1/deformed", "exp1/fem_fig13",
         "exp2/fig15", "exp2/fig15v", "exp2/fig16", "exp2/fig16u", "exp2/fig17", "exp2/fig18",
         "exp2/fig19", "exp2/fig19hoop", "exp2/fem_fig20", "exp2/fig20", "exp2/fig21a",
-        "exp2/fig21b", "exp2/fig22", "exp2/fig23", "exp2/deformed", "exp3/fig25", "exp3/slide",
-        "exp3/states",
+        "exp2/fig21b", "exp2/fig22", "exp2/fig23", "exp2/deformed", "exp3/fig25",
     };
 
     for (size_t i = 0; i < sizeof svg / sizeof *svg; i++) {
         char path[100], *text;
         snprintf(path, sizeof path, "out/%s.svg", svg[i]);
-        text = slurp(path);
+        text = read_all(path);
         ck_assert_msg(strstr(text, "<svg") && strstr(text, "</svg>"), "%s is cut short", path);
         ck_assert_msg(!strstr(text, "nan") && !strstr(text, "inf\""), "%s has NaN or infinity",
                       path);
@@ -216,7 +162,7 @@ END_TEST
 
 static void compare_files(const char *one, const char *other)
 {
-    char *first = slurp(one), *second = slurp(other);
+    char *first = read_all(one), *second = read_all(other);
 
     ck_assert_msg(strcmp(first, second) == 0, "%s and %s differ", one, other);
     free(first);
@@ -225,8 +171,8 @@ static void compare_files(const char *one, const char *other)
 
 START_TEST(two_runs_write_the_same_digits)
 {
-    compare_files("out/exp1/results.csv", "out/again/out/exp1/results.csv");
-    compare_files("out/exp1/fig13.svg", "out/again/out/exp1/fig13.svg");
+    compare_files("out/exp2/results.csv", "out/again/out/exp2/results.csv");
+    compare_files("out/exp2/fig15.svg", "out/again/out/exp2/fig15.svg");
 }
 END_TEST
 
@@ -235,11 +181,11 @@ START_TEST(the_pictures_of_the_readme_are_what_the_programs_draw)
     static const char *const picture[][2] = {
         { "doc/arch.svg", "out/folds/movie.svg" }, { "doc/beam.svg", "out/exp1/deformed.svg" },
     };
-    char *readme = slurp("README.md");
+    char *readme = read_all("README.md");
 
     ck_assert(system(BUILD "/bbm -q cases/models/arch.model -d t=1 -d steps=220 -o out/folds > out/folds.log") != 0);
     for (int k = 0; k < 2; k++) {
-        char *shown = slurp(picture[k][0]), *drawn = slurp(picture[k][1]);
+        char *shown = read_all(picture[k][0]), *drawn = read_all(picture[k][1]);
         ck_assert_msg(strcmp(shown, drawn) == 0, "copy %s to %s", picture[k][1], picture[k][0]);
         ck_assert_msg(strstr(readme, picture[k][0]), "README.md does not show %s", picture[k][0]);
         ck_assert_msg(strlen(shown) < (k ? 400000 : 200000), "%s is large", picture[k][0]);
@@ -269,7 +215,7 @@ END_TEST
 START_TEST(without_beyond_the_same_files_are_written)
 {
     static const char command[] =
-        "cd out/paper/out && [ $(ls exp?/* | wc -l) = 35 ] && for f in exp?/*; do"
+        "cd out/paper/out && [ $(ls exp?/* | wc -l) = 23 ] && for f in exp?/*; do"
         " { [ ${f#*/} = results.csv ] && grep -v '^beyond[.]' ../../$f || cat ../../$f; } |"
         " cmp $f - || exit 1; done >&2";
 
@@ -279,7 +225,7 @@ END_TEST
 
 START_TEST(without_beyond_the_formulas_are_tested)
 {
-    char *said = slurp("out/paper/paper.log");
+    char *said = read_all("out/paper/paper.log");
 
     ck_assert_msg(strstr(said, "suite(s): formulas\n100%: Checks: ") != NULL, "%s", said);
     free(said);
@@ -321,7 +267,6 @@ Suite *cases_suite(void)
     tcase_set_tags(t, "experiments");
     tcase_add_unchecked_fixture(t, run_experiments, NULL);
     tcase_add_loop_test(t, an_experiment_meets_its_target, 0, COUNT(targets));
-    tcase_add_loop_test(t, a_moving_case_meets_its_target, 0, COUNT(moving));
     tcase_add_test(t, on_a_plate_that_gives_way_the_block_loses_what_it_climbs);
     tcase_add_test(t, theory_in_the_results_is_the_textbook_formula);
     tcase_add_test(t, every_file_of_an_experiment_is_complete);

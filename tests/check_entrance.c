@@ -74,7 +74,6 @@ START_TEST(a_block_that_falls_past_the_end_of_a_table_does_not_notice_it)
     add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .y = -1, .w = 2, .h = 1, .fixed = 1 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? 1.005 : -1.505, .y = 0.52,
                                                          .w = 0.5, .h = 0.5 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -v0);
     for (int i = 0; i < 30; i++) {
         run_steps(m, 1);
@@ -97,7 +96,6 @@ START_TEST(a_corner_that_turns_towards_an_edge_in_the_step_is_stopped_by_it)
 
     add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, angle, .fixed = 1 });
     const int e = add_polygon(m, 1, 4, o.x);
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, s, -c);
     m->element[e].V[2] = -10 * side;
     run_steps(m, 1);
@@ -122,7 +120,6 @@ START_TEST(a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_
     const int far = add_rectangle(m, 2, ROCK, (rectangle){ .x = 20, .y = 20, .w = 1, .h = 1 });
     for (int k = 0; k < 4; k++)
         ck_ok(bbm_add_load(m, vertex_of(m, e, k)->node, k < 2 ? couple / 2 : -couple / 2, 0), m);
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, _i ? -1 : 0);
     set_velocity(m, far, 10, 0);
     run_steps(m, 1);
@@ -142,7 +139,6 @@ START_TEST(a_corner_is_stopped_though_a_far_one_under_the_same_side_is_not_reach
 
     add_table(m, 0);
     const int e = add_polygon(m, 1, 4, beam.x);
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -2);
     run_steps(m, 1);
     ck_assert_int_eq(m->contacts, 2);
@@ -163,7 +159,6 @@ START_TEST(a_block_that_moves_further_than_foreseen_does_not_pass_through_a_wall
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 0.1, .h = 0.1 });
     for (int c = 0; c < 4; c++)
         ck_ok(bbm_add_load(m, vertex_of(m, e, c)->node, push / 4, 0), m);
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_near(m->element[e].D[0], 0.3, 0.3, 1e-2);
@@ -201,7 +196,6 @@ START_TEST(the_end_of_an_edge_belongs_to_it)
     add_table(m, 0);
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = side * 5.25 - 1, .y = 0.125, .w = 2,
                                                          .h = 1, .nx = 2 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -25);
     set_velocity(m, e + 1, 0, -25);
     start_step(m, &n);
@@ -237,7 +231,6 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
         wedge[1 + k][1] = tip[1] + sin(slope + radians(k ? 110 : 70));
     }
     const int e = add_polygon(m, 1, 3, (const double (*)[2])wedge);
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 0, -10);
     start_step(m, &n);
     m->D[6 * e + 2] = turned;
@@ -268,7 +261,6 @@ static bbm_model *slab_at(const double depth[2], double y, int rotation)
     m->beyond->rotation = (bbm_rotation)rotation;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 1e-3, .w = 2, .h = 1, .nx = 2 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, 0, -0.3);
     set_velocity(m, 2, 0, -0.3);
     start_step(m, &n);
@@ -320,7 +312,6 @@ START_TEST(a_point_may_start_as_deep_as_the_contacts_of_both_blocks)
     for (int k = 0; k < 4; k++)
         add_rectangle(m, k, ROCK, (rectangle){ .x = 9 * (k / 2), .y = k % 2 - 1,
                                                .w = 1 - k % 2 * 0.5, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     start_step(m, &n);
     for (int k = 0; k < 2; k++) {
         bbm_contact *c = find_listed(m, 2 * k + 1, 1, 2 * k, 2);
@@ -346,7 +337,6 @@ START_TEST(a_millionth_of_an_edge_is_allowed_for_to_the_last_bit)
 
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -1, .w = 1, .h = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.25, .y = 0, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, 0, -0.01);
     start_step(m, &n);
     bbm_contact *c = find_listed(m, 1, 0, 0, 2);
@@ -413,7 +403,6 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
     const double up = radians(mirrored ? 60 : 100), from = radians(mirrored ? 120 : 0);
     const int e = add_wedge(m, 1, beside, up, up + radians(20));
     const int f = add_wedge(m, blocks == 1 ? 2 : 1, flat, from, from + radians(60));
-    ck_ok(bbm_prepare(m), m);
     start_step(m, &n);
     bbm_contact *c = find_listed(m, e, 0, other, 2);
     c->state = BBM_LOCK;
@@ -441,7 +430,6 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_of_the_solution)
     add_table(m, 0);
     add_wedge(m, 1, at[0], radians(60), radians(120));
     add_wedge(m, 1, at[1], 0, radians(60));
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 2, 0, -1);
     start_step(m, &n);
     ck_assert_int_eq(look_at(m, 1, 0, -0.02), 1);
@@ -471,7 +459,6 @@ START_TEST(the_depth_of_a_contact_is_told_against_the_smaller_block)
     m->beyond->rotation = BBM_LINEAR;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -l / 2, .y = -1, .w = l, .h = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -w / 2, .y = 0.01, .w = w, .h = h });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, 0, -10);
     start_step(m, &n);
     m->D[6 + 1] = -0.01 - 1.5 * deep;
@@ -495,7 +482,6 @@ START_TEST(a_contact_deeper_than_a_tenth_of_its_block_is_refused)
     m->par.p_n = m->par.p_s = p_n;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, 0, -v);
     ck_assert_int_eq(bbm_step(m), _i % 2 ? BBM_TOO_SOFT : BBM_OK);
     if (_i % 2) {
@@ -629,7 +615,6 @@ START_TEST(a_corner_that_passed_into_a_block_is_refused)
 
     add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 1.5, .y = 0.5, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);
     ck_assert(deepest_passed(m) == 0);
     shift_element(m, e, -0.5 - in, 0);
@@ -655,7 +640,6 @@ START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
     for (int k = 0; k < 4; k++)
         bbm_add_element(m, 7, ROCK, 4, (int[]){ k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k }, NULL);
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 0.89, .w = 0.1, .h = 0.1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, 3, 0);
     detect(m);
     ck_assert_int_lt(m->beyond->passed[0], 0);

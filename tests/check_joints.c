@@ -14,7 +14,6 @@ START_TEST(a_joint_is_where_a_corner_lies_on_an_edge)
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? 0 : 5.125, .y = _i ? 0.125 : 0,
                                            .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, _i ? 0 : -15, _i ? -15 : 0);
     detect(m);
     ck_assert_int_ge(m->contacts, 1);
@@ -35,7 +34,6 @@ START_TEST(a_joint_may_gape_by_a_millionth_of_an_edge)
         add_rectangle(m, 0, ROCK, (rectangle){ .x = _i ? -1 : 0, .y = -1, .w = 1, .h = 1 });
         add_rectangle(m, 1, ROCK, (rectangle){ .x = _i ? small : 0, .y = _i ? 0 : small,
                                                .w = 1, .h = 1 });
-        ck_ok(bbm_prepare(m), m);
         set_velocity(m, 1, 1, 0);
         detect(m);
         ck_assert_int_ge(m->contacts, 1);
@@ -162,7 +160,6 @@ static double joint_area(double size, double x, double w, const int pieces[2])
     add_rectangle(m, 0, material, (rectangle){ .x = 0, .y = -size, .w = size, .h = size,
                                                .nx = pieces[0] });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = x, .y = 0, .w = w, .h = size, .nx = pieces[1] });
-    ck_ok(bbm_prepare(m), m);
     detect(m);
     for (int k = 0; k < m->contacts; k++) {
         ck_assert(m->contact[k].area == 0 || m->contact[k].state == BBM_LOCK);
@@ -200,7 +197,6 @@ START_TEST(blocks_that_come_to_touch_have_no_tensile_strength)
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 1e-3, .w = 2, .h = 1 });
     ck_ok(bbm_add_load(m, vertex_of(m, 1, 2)->node, 0, -3000), m);
     ck_ok(bbm_add_load(m, vertex_of(m, 1, 3)->node, 0, -3000), m);
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 60);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_ok(bbm_add_load(m, vertex_of(m, 1, 2)->node, 0, 3005), m);
@@ -252,7 +248,6 @@ static double sag(int joints)
     m->par.friction = 45;
     m->beyond->cohesion = m->beyond->tension = 1e9;
     m->par.alpha = 1000;
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);
     const double v = m->vertex[m->adjacent[m->adjacent_first[NX]]].v;
     release(m);

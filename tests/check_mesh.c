@@ -139,8 +139,7 @@ START_TEST(a_load_on_an_edge_of_clockwise_elements_finds_it)
     ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
     ck_ok(bbm_fix_node(m, 3, BBM_X, 0, 0), m);
     ck_ok(bbm_add_line_load(m, 1, 2, 4, 2), m);
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_step(m), m);
+    run_steps(m, 1);
     total_load(m, 0, total);
     ck_near(total[0], 4, 1, ROUNDING);
     ck_near(total[1], 2, 1, ROUNDING);

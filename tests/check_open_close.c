@@ -16,7 +16,6 @@ static bbm_model *block_on_table(double friction)
     m->par.friction = friction;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     start_step(m, &(int){ 0 });
     return m;
 }
@@ -265,7 +264,6 @@ START_TEST(friction_in_the_matrix_takes_no_passes)
                                                          .nx = pieces ? 6 : 1 });
     if (loads)
         m->hook->friction = NULL;
-    ck_ok(bbm_prepare(m), m);
     for (int i = 0; i < 30; i++) {
         run_steps(m, 1);
         turned += m->element[e].D[2];
@@ -279,18 +277,22 @@ END_TEST
 
 /* A block on a base that is held at all its vertices: multipliers have nothing to do in dynamics,
  * and a settled step is one solution. In statics they hold the base; so they do in dynamics where
- * one vertex of it is free. */
+ * one vertex of it is free. Under nine jointed blocks in pieces, which come to rest, other contacts
+ * slide in each round. They begin it so: with the states of the step's end it takes five solutions.
+ */
 START_TEST(a_base_needs_no_multipliers_in_dynamics)
 {
     bbm_model *m = new_blocks();
 
-    m->par.friction = 30;
+    m->par.friction = 35;
     add_rectangle(m, 0, BASE, (rectangle){ -2, -1, 5, 1, 0, .fixed = 1 });
-    add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, 1, 0, .fixed = 0 });
+    for (int k = 0; k < (_i == 3 ? 9 : 1); k++)
+        add_rectangle(m, 1 + k, ROCK, (rectangle){ k % 3 + k / 3 * 0.3, k / 3, 1, 1, 0,
+                                                   .nx = 1 + _i / 3, .ny = 1 + _i / 3 });
     m->node[0].held = _i == 2 ? BBM_X : BBM_XY;
+    m->par.velocity_factor = _i == 3 ? 0 : m->par.velocity_factor;
     m->par.dt = _i == 1 ? INFINITY : m->par.dt;
     m->beyond->multiplier_rounds = 2;
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 20);
     ck_assert_int_eq(m->info.passes, _i ? 3 : 1);
 }
@@ -308,9 +310,8 @@ START_TEST(blocks_that_slide_take_few_solutions_a_step)
     bbm_model *m = s->make();
     int solutions = 0;
 
-    ck_ok(bbm_prepare(m), m);
     for (int i = 0; i < s->steps; i++) {
-        ck_ok(bbm_step(m), m);
+        run_steps(m, 1);
         solutions += m->info.passes;
     }
     ck_assert_msg(solutions <= FEW[_i].most * s->steps, "%s: %d solutions in %d steps", s->name,
@@ -328,7 +329,6 @@ START_TEST(blocks_without_any_force_settle_at_once)
     m->beyond->cohesion = m->beyond->tension = 1e5;
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, ROCK, (rectangle){ .x = 0, .y = k, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);
     ck_assert_int_eq(m->info.contacts, 2);
     ck_assert_int_eq(m->info.passes, 1);
@@ -390,7 +390,6 @@ START_TEST(a_solution_may_move_as_far_as_foreseen_to_the_last_bit)
     int n;
 
     add_rectangle(m, 0, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     start_step(m, &n);
     m->D[0] = 1e-6 / 2;
     ck_assert(!bbm_moved_too_far(m));
@@ -414,7 +413,6 @@ START_TEST(a_step_foresees_no_less_than_it_did_before)
 
     for (int k = 0; k < 2; k++)
         add_rectangle(m, k, ROCK, (rectangle){ .x = 5 * k, .y = 0, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 0, 1, 0);
     start_step(m, &n);
     m->D[6] = 0.01;
@@ -431,29 +429,29 @@ END_TEST
  * the step r^2/4 = 6e-10 m beside where the vectors of its start see them, which is much for the
  * shear springs of 1e12 N/m, and nothing for the normal springs of 1e6. Locked contacts have to be
  * solved again; sliding ones have no shear spring. At 3e-4 the turn itself is too much for the work
- * of a load, (3e-4)^2 2 > 1e-8, but not in a round of multipliers, which keeps K. */
+ * of a load, (3e-4)^2 2 > 1e-8, which counts after the rounds of multipliers. */
 START_TEST(vectors_of_the_step_are_off_by_the_force_that_they_make)
 {
     bbm_model *m = block_on_table(_i ? 0 : 30);
     const double turn = _i < 2 ? 5e-5 : 3e-4;
     bbm_pass pass;
 
-    m->par.p_n = 1e6;
-    m->par.p_s = 1e12;
+    set_springs(m, 1e6, 1e12);
+    m->node[0].held = 0;
     if (_i >= 2)
         ck_ok(bbm_add_load(m, m->vertex[m->element[1].first].node, 1, 0), m);
     for (int k = 0; k < 3; k++) {
-        m->beyond->is_round = k == 2 && _i == 3;
+        m->beyond->multiplier_rounds = k == 2 && _i == 3 ? 9 : 0;
         m->D[6] = k < 2 ? 0 : -turn / 2;
         m->D[7] = -0.01;
         m->D[8] = k < 2 ? 0 : turn;
         pass = bbm_open_close(m);
     }
-    ck_assert_int_eq(pass, _i % 2 ? BBM_PASS_DONE : BBM_PASS_AGAIN);
-    m->beyond->is_round = _i == 3;
+    ck_assert_int_eq(pass, _i == 3 ? BBM_PASS_SAME_K : _i == 1 ? BBM_PASS_DONE : BBM_PASS_AGAIN);
+    m->beyond->multiplier_rounds = 0;
     pass = bbm_open_close(m);
-    ck_assert_int_eq(pass, BBM_PASS_DONE);
-    ck_assert_int_eq(bbm_middle_is_off(m), _i == 3);
+    ck_assert_int_eq(pass, _i == 3 ? BBM_PASS_AGAIN : BBM_PASS_DONE);
+    ck_assert(!bbm_middle_is_off(m));
 }
 END_TEST
 
@@ -497,7 +495,6 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
     add_wedge(m, 1, tip, radians(60), radians(120));
     add_wedge(m, 2, beside, radians(60), radians(120));
     add_rectangle(m, 3, ROCK, (rectangle){ .x = 50, .y = 0, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, 0, -1);
     set_velocity(m, 2, 0, -1);
     m->h = m->par.dt;
@@ -540,7 +537,6 @@ START_TEST(the_direction_of_a_contacts_force_may_be_wrong_by_1e_4)
 
     add_table(m, 0);
     add_wedge(m, 1, tip, radians(60), radians(120));
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, 0, -1);
     bbm_contact *c = start_step(m, &n);
     m->F[0] = m->F[6] = 1e30;
@@ -568,7 +564,7 @@ Suite *open_close_suite(void)
         { states_are_the_same_number_whatever_was_before, 2 },
         { what_closes_on_an_edge_that_stretches_has_not_slipped, 2 },
         { a_pass_that_renews_the_vectors_is_no_cycle, 1 },
-        { a_base_needs_no_multipliers_in_dynamics, 3 },
+        { a_base_needs_no_multipliers_in_dynamics, 4 },
         { a_cycle_is_broken_one_by_one_for_as_many_passes_again, 2 },
         { the_contact_that_fits_worst_changes_first, 2 },
         { a_contact_that_closes_outside_the_cone_of_friction_slides, 4 },

@@ -120,7 +120,6 @@ START_TEST(friction_may_drop_with_the_slip)
     m->par.dt = _i ? 5e-4 : 1e-3;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .y = 0, .w = 1, .h = 0.5 });
-    ck_ok(bbm_prepare(m), m);
     settle(m, 5);
     set_velocity(m, 1, v0, 0);
     const double start = m->element[1].sum[0];
@@ -147,7 +146,6 @@ START_TEST(blocks_that_slide_on_floors_apart_slide_alike)
         add_rectangle(m, 2 * k, BASE, (rectangle){ .x = 32 * k, .y = -1, .w = 8, .h = 1, .fixed = 1 });
         add_rectangle(m, 2 * k + 1, ROCK, (rectangle){ .x = 32 * k + 1, .w = 1, .h = 0.5 });
     }
-    ck_ok(bbm_prepare(m), m);
     for (int k = 0; k < 3; k++)
         set_velocity(m, 2 * k + 1, 2, 0);
     run_steps(m, 20);
@@ -179,7 +177,6 @@ START_TEST(a_block_on_a_slope_slides_or_topples_as_the_chart_says)
     m->par.friction = CHART[_i].phi;
     add_rectangle(m, 0, BASE, (rectangle){ -12, -1, 16, 1, slope, .fixed = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, CHART[_i].h, slope, .fixed = 0 });
-    ck_ok(bbm_prepare(m), m);
     for (int i = 0; i < 50; i++) {
         run_steps(m, 1);
         turned += m->element[1].D[2];
@@ -200,18 +197,17 @@ START_TEST(a_block_comes_to_rest_against_a_stop_in_statics)
     m->par.dt = INFINITY;
     m->par.velocity_factor = 0;
     m->par.friction = 29;
-    m->par.p_n = 5e11;
-    m->par.p_s = 2e11;
+    set_springs(m, 5e11, 2e11);
     add_rectangle(m, 0, BASE, (rectangle){ -8, -1, 16, 1, 30, .fixed = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ -2, 0, 1, 0.5, 30, .fixed = 1 });
     add_rectangle(m, 2, ROCK, (rectangle){ -1, 0, 1, 1 + _i, 30, .nx = 1 });
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_step(m), m);
+    run_steps(m, 1);
 }
 END_TEST
 
 /* A free block whose K a term u v^T changes: at 0 the first unknown's column is half as long again;
- * then it vanishes, is no number, or is infinite. The dense oracle: K D = F row by row. */
+ * then it vanishes, but no load asks for that unknown; then it is no number, or infinite. The dense
+ * oracle: K D = F row by row. */
 START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
 {
     bbm_model *m = new_blocks();
@@ -219,7 +215,6 @@ START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
     double B[6][6], D[6], KD[6];
 
     add_rectangle(m, 0, ROCK, (rectangle){ .x = 0, .y = 0, .w = 1, .h = 2 });
-    ck_ok(bbm_prepare(m), m);
     run_steps(m, 1);
     get_block(m->K, 0, 0, B);
     bbm_term *t = &m->K->term[0];
@@ -230,25 +225,23 @@ START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
     }
     m->K->terms = 1;
     const bbm_status status = bbm_solve(m->K, m->F, D, &m->par.pcg, &info);
-    ck_assert_int_eq(status, _i == 0 ? BBM_OK : BBM_NOT_POSITIVE_DEFINITE);
-    ck_assert_int_eq(info.element, _i == 0 ? -1 : 0);
-    for (int a = 0; a < 6 && _i == 0; a++) {
-        KD[a] = 0.5 * B[a][0] * D[0];
+    ck_assert_int_eq(status, _i < 2 ? BBM_OK : BBM_NOT_POSITIVE_DEFINITE);
+    for (int a = 0; a < 6 && _i < 2; a++) {
+        KD[a] = (_i == 0 ? 0.5 : -1) * B[a][0] * D[0];
         for (int b = 0; b < 6; b++)
             KD[a] += B[a][b] * D[b];
         ck_near(KD[a], m->F[a], DENSITY * GRAVITY, SOLVED);
     }
-    ck_assert(_i > 0 || info.residual < SOLVED);
+    ck_assert(_i > 1 || info.residual < SOLVED);
 }
 END_TEST
 
-/* eps |K| |D|/|F| is some 1e-9 for bonded elements, which LU leaves, and 600 iterations ten times
- * that. */
+/* eps |K| |D|/|F| is some 1e-9 for bonded elements, and 600 iterations leave ten times that. */
 #define RESIDUAL 1e-7
 
-/* A long block of bonded quadrilaterals slides, too many for LU at once: each method with its own
- * corrections and omega is the preconditioner of the same equations, whose residual is small when
- * computed afresh. Where the iteration does not end, LU solves them. */
+/* A long block of bonded quadrilaterals slides: each method with its own corrections and omega is the
+ * preconditioner of the same equations, whose residual is small when computed afresh. Five iterations
+ * are too few, and that is said. */
 START_TEST(friction_in_the_matrix_is_solved_with_every_method)
 {
     static const bbm_method *const method[] = { &bbm_two_level, NULL };
@@ -273,10 +266,8 @@ START_TEST(friction_in_the_matrix_is_solved_with_every_method)
         ck_near(m[1]->element[i].sum[0], m[0]->element[i].sum[0], 0.1, RESIDUAL);
     ck_assert_int_gt(m[1]->info.pcg.iterations, 5);
     m[1]->par.pcg.iterations = 5;
-    ck_assert_int_eq(bbm_solve(m[1]->K, m[1]->F, m[0]->D, &m[1]->par.pcg, &info), BBM_OK);
-    ck_assert_int_eq(info.iterations, 6);               /* and LU */
-    for (int i = 0; i < 6 * m[0]->elements; i++)
-        ck_near(m[0]->D[i], m[1]->D[i], 0.1, RESIDUAL);
+    ck_assert_int_eq(bbm_solve(m[1]->K, m[1]->F, m[0]->D, &m[1]->par.pcg, &info),
+                     BBM_NOT_CONVERGED);
 }
 END_TEST
 
@@ -343,7 +334,6 @@ START_TEST(a_contact_is_anchored_where_it_hit)
     m->par.p_s = 1e3;
     add_table(m, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.5, .y = gap, .w = 1, .h = 1 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 1, vx, -1);
     run_steps(m, 2);
     for (int k = 0; k < m->contacts; k++) {
@@ -372,7 +362,6 @@ START_TEST(a_locked_contact_passes_from_edge_to_edge_with_its_shear_force)
     add_rectangle(m, 0, BASE, (rectangle){ -2, -1, 4, 1, .nx = 4, .fixed = 1 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.5 - sign * 0.5007, .w = 1,
                                                          .h = 0.1 });
-    ck_ok(bbm_prepare(m), m);
     settle(m, 5);
     for (int i = 1; i <= 10; i++) {
         ck_ok(bbm_add_load(m, vertex_of(m, e, 0)->node, sign * 300, 0), m);
@@ -407,7 +396,6 @@ START_TEST(a_block_that_slides_over_an_end_keeps_its_forces)
     add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .y = -1, .w = 2, .h = 1, .fixed = 1 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.5 + sign * 0.45, .y = 0, .w = 1,
                                                          .h = 0.1 });
-    ck_ok(bbm_prepare(m), m);
     settle(m, 20);
     const double start = m->element[e].sum[0];
     set_velocity(m, e, sign * v0, 0);
@@ -441,7 +429,6 @@ START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
     add_rectangle(m, 0, BASE, (rectangle){ .x = -5, .y = -1, .w = 10, .h = 1, .nx = 2 });
     for (int k = 0; k < 2; k++)
         add_wedge(m, 1, at[k], radians(60), radians(120));
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, 2, 1, 0);
     start_step(m, &n);
     bbm_contact *c = find_listed(m, 2 + !was_closed_here, 0, 0, 2);
@@ -483,7 +470,6 @@ START_TEST(a_block_that_slides_off_a_table_is_let_go)
     add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .y = -1, .w = 2, .h = 1, .fixed = 1 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.4 + 0.5 * sign, .y = 0, .w = 0.8,
                                                          .h = 0.4 });
-    ck_ok(bbm_prepare(m), m);
     set_velocity(m, e, sign * v0, 0);
     for (int i = 0; i < 60; i++) {
         for (int v = 0; v < 8; v++) {
@@ -548,7 +534,6 @@ static double slide_over(const pavement *p, int one)
                       : p->length, 0.2, p->turn, mesh * (one ? p->slabs : 1), 1, 1 });
     const int e = add_rectangle(m, slabs, ROCK, (rectangle){ p->start, 0, 0.35, 0.2, p->turn,
                                                              p->mesh ? 2 * mesh : 1, 1, 0 });
-    ck_ok(bbm_prepare(m), m);
     for (int k = e; k < m->elements; k++)
         set_velocity(m, k, p->v * cos(a), p->v * sin(a));
     run_steps(m, (int)(p->time / p->dt + 0.5));

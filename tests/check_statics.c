@@ -12,10 +12,9 @@ static bbm_model *new_scene(double friction)
     bbm_model *m = new_blocks();
 
     m->par.dt = INFINITY;
-    m->par.p_n = 1e10;
-    m->par.p_s = 4e9;
+    set_springs(m, 1e10, 4e9);
     m->par.friction = friction;
-    m->par.pcg.iterations = 10000;
+    m->par.pcg.iterations = 100000;
     add_table(m, 0);
     return m;
 }
@@ -124,8 +123,6 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
     bbm_model *m = portal(0.6), *n = portal(0.6);
     double *load = m->node[m->nodes - 2].load;
 
-    ck_ok(bbm_prepare(m), m);
-    ck_ok(bbm_prepare(n), n);
     run_steps(m, 1);
     run_steps(n, 1);
     for (int i = 0; i < m->elements; i++)           /* what a step computes from positions */
@@ -154,7 +151,7 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
 }
 END_TEST
 
-/* Three by four bricks at seventeen tilts, 31 to 55 degrees. Sooner or later friction would wedge
+/* Three by four bricks at six tilts, 31 to 54 degrees. Sooner or later friction would wedge
  * one in. */
 START_TEST(a_contact_that_no_friction_holds_opens)
 {
@@ -169,10 +166,8 @@ START_TEST(a_contact_that_no_friction_holds_opens)
             add_rectangle(m, b, ROCK, brick);
         }
     m->par.dt = 0.01;
-    m->par.p_n = 5e12;
-    m->par.p_s = 2e12;
-    m->par.gravity[0] = -6 - 0.5 * _i;
-    ck_ok(bbm_prepare(m), m);
+    set_springs(m, 5e12, 2e12);
+    m->par.gravity[0] = -6 - 1.5 * _i;
     run_steps(m, 2);
 }
 END_TEST
@@ -183,7 +178,7 @@ Suite *statics_suite(void)
     const loop_test e[] = {
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
-        { a_contact_that_no_friction_holds_opens, 17 },
+        { a_contact_that_no_friction_holds_opens, 6 },
     };
 
     add_case(s, "statics", e, COUNT(e));

@@ -346,8 +346,27 @@ void list_middles(bbm_model *m)
             memset(m->gap[g].own.W, 0, sizeof m->gap[g].own.W);
 }
 
+void set_springs(bbm_model *m, double p_n, double p_s)
+{
+    m->par.p_n = p_n;
+    m->par.p_s = p_s;
+}
+
+void prepare(bbm_model *m)
+{
+    if (!m->is_prepared)
+        ck_ok(bbm_prepare(m), m);
+}
+
+void run(bbm_model *m)
+{
+    prepare(m);
+    ck_ok(bbm_run(m), m);
+}
+
 void run_steps(bbm_model *m, int steps)
 {
+    prepare(m);
     for (int i = 0; i < steps; i++)
         ck_ok(bbm_step(m), m);
 }
@@ -363,6 +382,7 @@ void settle(bbm_model *m, int steps)
 
 void set_velocity(bbm_model *m, int element, double vx, double vy)
 {
+    prepare(m);
     m->element[element].V[0] = vx;
     m->element[element].V[1] = vy;
 }
@@ -507,6 +527,7 @@ void add_outline(bbm_model *m, int block, const outline *o, int strip)
 
 void detect(bbm_model *m)
 {
+    prepare(m);
     m->h = m->par.dt;
     bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);
@@ -558,8 +579,7 @@ bbm_model *incline(double phi, double p_n, int pieces)
     bbm_model *m = new_blocks();
 
     m->par.friction = phi;
-    m->par.p_n = p_n;
-    m->par.p_s = 0.4 * p_n;
+    set_springs(m, p_n, 0.4 * p_n);
     add_rectangle(m, 0, BASE, (rectangle){ -8, -1, 10, 1, 30, .nx = pieces, .fixed = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ 0.013, 0, 1, 0.5, 30, .fixed = 0 });
     ck_ok(bbm_prepare(m), m);
@@ -607,6 +627,7 @@ bbm_contact *list_contacts(const bbm_model *m, int *n)
 
 bbm_contact *start_step(bbm_model *m, int *n)
 {
+    prepare(m);
     m->h = m->par.dt;
     bbm_foresee_step(m);
     ck_ok(bbm_detect_contacts(m, &(int){ 0 }), m);

@@ -114,6 +114,14 @@ void prepare_apart(bbm_model *m);
  * alone. */
 void list_middles(bbm_model *m);
 
+void set_springs(bbm_model *m, double p_n, double p_s);        /* of contacts */
+
+/* Unless it is prepared already. With it begin run, run_steps, settle, set_velocity, detect and
+ * start_step. */
+void prepare(bbm_model *m);
+
+/* As par.steps says. */
+void run(bbm_model *m);
 void run_steps(bbm_model *m, int steps);
 
 /* Steps without memory of velocity, which end at rest. */
