@@ -68,8 +68,8 @@ static bbm_status find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
     return BBM_OK;
 }
 
-/* Room for C of n pairs of rows: beside the diagonal K is not zero at the entries, two different
- * pairs of rows each, of which some may come twice. */
+/* Room for C of n pairs of rows: K is not zero at the entries, two pairs of rows each, in any
+ * order; some may come twice, and the diagonal need not be among them. */
 bbm_status bbm_factor_lay_out(bbm_factor *f, int n, int entries, int (*entry)[2])
 {
     const size_t rows = (size_t)n;
@@ -118,7 +118,8 @@ double *bbm_entry(const bbm_factor *f, int i, int j)
 /* ----------------------------------------------------------------------------------- the factor */
 
 /* s += the products of two rows at a with two at b over n columns, an even number; the second row
- * lies m or l behind the first. Each has two partial sums: one alone would wait for each addition. */
+ * lies m or l behind the first. Each has two partial sums: one alone would wait for each addition.
+ */
 static void add_products(size_t n, const double *a, size_t m, const double *b, size_t l,
                          double s[4])
 {

@@ -344,8 +344,8 @@ static void print_table(const case_experiment *e, const case_table *t, const cha
     }
 }
 
-/* For alpha = 1e5 SSOR-PCG takes seconds on the finest mesh. Two levels solve the same equations and
- * print the same digits, so where there is beyond/ they do it. */
+/* For alpha = 1e5 SSOR-PCG takes seconds on the finest mesh. Two levels solve the same equations
+ * and print the same digits, so where there is beyond/ they do it. */
 static void print_convergence(const case_experiment *e)
 {
     static const double alpha[4] = { 10, 100, 1000, 1e5 };

@@ -63,14 +63,15 @@ typedef struct {                        /* what the functions below draw with   
     layout       l;
     const scene *s;
     const bbm_model *m;
-    int          bodies, held;          /* held: whether any is                                   */
+    int          bodies, held, thrust;  /* whether any is held; whether there is a line of thrust */
     body        *body;
     int         *vertex;                /*          [vertices], block by block                    */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
-    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its pixels   */
-    int          seen[KINDS], supports[4];  /* of each kind of arrow; held in each way: whether       */
+    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its  */
+                                        /* pixels                                                 */
+    int          seen[KINDS], supports[4];      /* of each kind of arrow; held in each way        */
     double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
@@ -118,8 +119,9 @@ static scene_force force_of(const bbm_model *m, const bbm_contact *c)
     double f[2];
 
     scene_contact_force(m, c, c->N, c->T, f);
-    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1],
-                          c->N < 0 ? PULLED : (int)c->state };
+    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1], c->N,
+                          c->N < 0 ? PULLED : (int)c->state,
+                          { m->edge[c->corner].block, m->edge[c->edge].block } };
 }
 
 static int copy_frame(scene_frame *f, const bbm_model *m)
@@ -526,6 +528,55 @@ static void draw_forces(film *f, int frame)
     }
 }
 
+#define THRUST "fill=\"none\" stroke=\"#ee7733\" stroke-width=\"2.5\" stroke-linecap=\"round\""
+
+/* What a block feels of two others: how many touch it, 3 for more, which, and the forces on it,
+ * with the sums of N and of N times the place. */
+typedef struct { int n, other[2]; point at[2], force[2]; double N[2]; } neighbours;
+
+static void add_force(neighbours *b, const scene_force *c, int side)
+{
+    const int other = c->block[!side], sign = side ? -1 : 1;
+    int k = 0;
+
+    while (k < b->n && k < 2 && b->other[k] != other)
+        k++;
+    b->n = k < b->n ? b->n : k + 1;
+    if (k == 2)
+        return;
+    b->other[k] = other;
+    b->at[k] = (point){ b->at[k].x + c->N * c->x, b->at[k].y + c->N * c->y };
+    b->force[k] = (point){ b->force[k].x + sign * c->fx, b->force[k].y + sign * c->fy };
+    b->N[k] += c->N;
+}
+
+/* The line of thrust goes through each block that two others press from both sides, from the point
+ * where the force of the one acts to that of the other. A film has none: it would be half as large
+ * again. Returns whether there is any. */
+static int draw_thrust(film *f, int frame, int draws)
+{
+    const scene_frame *g = &f->s->frame[frame];
+    neighbours *b = calloc((size_t)f->bodies, sizeof *b);
+    int any = 0;
+
+    for (int i = 0; i < 2 * g->forces && b; i++)
+        add_force(&b[g->force[i / 2].block[i % 2]], &g->force[i / 2], i % 2);
+    for (int k = 0; k < f->bodies && b; k++) {
+        const point *x = b[k].at, *F = b[k].force;
+        const double *N = b[k].N;
+        if (b[k].n != 2 || !(N[0] > 0 && N[1] > 0 && F[0].x * F[1].x + F[0].y * F[1].y < 0))
+            continue;
+        const point from = pixel(f, (point){ x[0].x / N[0], x[0].y / N[0] });
+        const point to = pixel(f, (point){ x[1].x / N[1], x[1].y / N[1] });
+        if (draws)
+            plot_put(&f->p, "<path " THRUST " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
+                     to.y);
+        any = 1;
+    }
+    free(b);
+    return any;
+}
+
 #define BOLT "fill=\"none\" stroke=\"#000000\" stroke-width=\"3\""
 
 /* Those that hold at the time of the frame. */
@@ -583,6 +634,8 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path fill=\"none\" stroke=\"#333333\" d=\"M31 5h14\"/>"
                   "<circle cx=\"38\" r=\"5\" fill=\"none\" stroke=\"#333333\"/>",
                   "fixed in one direction");
+    if (f->thrust)
+        put_entry(f, &l, "<path " THRUST " d=\"M0 0H48\"/>", "line of thrust");
     if (f->s->bolts)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
@@ -671,6 +724,7 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
+    f->thrust = f->s->frames == 1 && draw_thrust(f, 0, 0);
     const double most = fmax(f->most[LOCKED], fmax(f->most[SLIDING], f->most[PULLED]));
     find_window(f);
     arrange(f, n);
@@ -759,6 +813,8 @@ static void draw_state(film *f, plot_box b, int frame)
 {
     draw_bolts(f, frame);
     draw_forces(f, frame);
+    if (f->thrust)
+        draw_thrust(f, frame, 1);
     if (is_timed(f))
         put_time(f, b, frame);
 }
@@ -826,8 +882,8 @@ typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } sample;     /* pixels */
 
 /* By so much displacements may be magnified that no edge changes, in length or direction, by more
- * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which is
- * its least height. Before it turns over an edge changes by all of it. */
+ * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which
+ * is its least height. Before it turns over an edge changes by all of it. */
 static double fair_scale(const bbm_model *m, const nodal *n)
 {
     double scale = INFINITY;

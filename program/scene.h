@@ -23,8 +23,8 @@
 
 typedef struct {                /* of a closed contact                                            */
     double x, y;                /* m                                                              */
-    double fx, fy;              /* N        on the corner's block                                 */
-    int    kind;                /* of its arrow                                                   */
+    double fx, fy, N;           /* N        on the corner's block; normal                         */
+    int    kind, block[2];      /* of its arrow; the corner's and the edge's                      */
 } scene_force;
 
 typedef struct {                /* what was recorded at one time                                  */

@@ -442,6 +442,31 @@ START_TEST(an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner
 }
 END_TEST
 
+/* A block of the weight W = 10 kN on another one is pushed by 5 kN at their joint: there the force goes
+ * through the middle, and at the foot of the lower one, 1 m below, 5 kN 1 m/(2 W) = 0.25 m beside it.
+ * The line leans by that much in 1 m, to what an element of E = 1e11 Pa and 0.01 pixels leave. The
+ * upper one, which one block touches, has no line, and nor has the film. */
+START_TEST(the_line_of_thrust_goes_through_the_points_where_forces_act)
+{
+    point a, b;
+
+    ck_assert_int_eq(run_text("thrust", "material m E 1e11 nu 0 density 1000\nblock base m -1 -1 2 -1 2 0 -1 0\n"
+                              "block low m 0 0 1 0 1 1 0 1\nblock high m 0 1 1 1 1 2 0 2\nfixblock base\n"
+                              "contact friction 60\ngravity 0 -10\nload box -1 1 2 1 of high 5000 0\n"
+                              "dynamic dt 0.01 steps 2 settle 50\noutput svg\n"), 0);
+    char *text = read_all("out/model/thrust/contacts.svg");
+    const char *line = strstr(strstr(text, "<clipPath"), "\"#ee7733\"");
+    ck_assert_int_eq(find_ends(line, &a, &b), 2);
+    ck_near((a.x - b.x) / (a.y - b.y), 0.25, 0.25, 1e-3);
+    ck_assert_ptr_null(strstr(line + 1, "\"#ee7733\""));
+    free(text);
+    check_text("out/model/thrust/contacts.svg", ">line of thrust<");
+    text = read_all("out/model/thrust/movie.svg");
+    ck_assert_ptr_null(strstr(text, "line of thrust"));
+    free(text);
+}
+END_TEST
+
 /* u = t: the curve ends in the middle of its band, whose height is a fifth of the way. Every fourth
  * step of 3001 has a point, and the last one. */
 START_TEST(the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end)
@@ -601,6 +626,7 @@ Suite *pictures_suite(void)
     tcase_add_loop_test(t, no_element_is_turned_over_by_magnified_displacements, 0, 2);
     tcase_add_loop_test(t, a_picture_says_its_title_and_the_time_that_it_shows, 0, 8);
     tcase_add_loop_test(t, an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner, 0, 2);
+    tcase_add_test(t, the_line_of_thrust_goes_through_the_points_where_forces_act);
     tcase_add_test(t, the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end);
     tcase_add_test(t, a_field_that_is_one_level_has_one_colour_and_large_forces_are_short);
     tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit_and_range, 0, 15);
