@@ -229,24 +229,24 @@ static void add_vertex(film *f, body *b, int v)
     plot_widen(b->box[1], x.y);
 }
 
-/* Block by block, which are numbered from 0, in the order of their elements; without those that are
- * gone in the first frame. */
+/* Block by block, which are numbered from 0, in the order of their elements; those that are gone in
+ * the first frame are held and have no vertices. */
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
 
-    for (int block = 0, n = 0; n < m->vertices; block++) {
+    for (int n = 0; n < m->vertices; f->bodies++) {
         body *b = &f->body[f->bodies];
         *b = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
         for (int v = 0; v < m->vertices; v++)
-            if (m->element[m->vertex[v].element].block == block) {
+            if (m->element[m->vertex[v].element].block == f->bodies) {
                 f->vertex[n++] = v;
                 add_vertex(f, b, v);
             }
-        if (b->box[0][0] == b->box[0][1] && b->box[1][0] == b->box[1][1])
-            continue;
-        f->bodies += b->n > 0;
-        f->held |= b->n > 0 && b->held;
+        const int gone = b->box[0][0] == b->box[0][1] && b->box[1][0] == b->box[1][1];
+        f->held |= b->held && !gone;
+        if (gone)
+            b->held = 1, b->n = 0;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -367,10 +367,12 @@ static void draw_block(film *f, int frame, const body *b)
     }
 }
 
-static void draw_blocks(film *f, int frame)
+/* All of them, or those that are held. */
+static void draw_blocks(film *f, int frame, int all)
 {
-    for (int b = 0; b < f->bodies; b++)
-        draw_block(f, frame, &f->body[b]);
+    for (const body *b = f->body; b < f->body + f->bodies; b++)
+        if (b->n > 0 && (all || b->held))
+            draw_block(f, frame, b);
 }
 
 /* ------------------------------------------------------------------- forces, loads and supports */
@@ -859,7 +861,7 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
     int done = begin_film(&f) && open_page(&f, path, 1, 0);
     if (done) {
         const plot_box b = begin_panel(&f, 0);
-        draw_blocks(&f, 0);
+        draw_blocks(&f, 0, 1);
         end_panel(&f, b);
         for (int k = 0; k < s->frames && f.seconds > 0; k++) {
             begin_turn(&f, k);
@@ -1010,9 +1012,7 @@ static void draw_lines(film *f, int frame, const char *stroke,
 static void draw_field(film *f, const nodal *n, const plot_axis *bar)
 {
     draw_bands(f, n, bar);
-    for (int b = 0; b < f->bodies; b++)
-        if (f->body[b].held)
-            draw_block(f, 1, &f->body[b]);
+    draw_blocks(f, 1, 0);
     draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
                put_elements);
     draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
