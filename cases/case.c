@@ -128,15 +128,13 @@ double case_at(const bbm_model *m, const char *quantity, double x, double y)
 {
     double least = INFINITY;
     int nearest = 0;
-    bbm_result r;
 
     for (int n = 0; n < m->nodes; n++) {
         const double distance = hypot(m->node[n].x - x, m->node[n].y - y);
         if (distance < least)
             least = distance, nearest = n;
     }
-    case_must(NULL, bbm_nodal_result(m, nearest, -1, &r));
-    return field_find(quantity)->of_result(&r);
+    return field_of_node(field_find(quantity), m, nearest);
 }
 
 double case_percent(double computed, double reference)

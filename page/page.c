@@ -161,7 +161,7 @@ static void put_contacts(page *g, const bbm_model *m)
 {
     for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
         double f[2];
-        scene_contact_force(m, c, c->N, c->T, f);
+        field_contact_force(m, c, c->N, c->T, f);
         PUT(&g->out, c->corner, c->edge, c->state, f[0], f[1], c->N, c->T, c->d_n,
             bbm_shear_strength(&c->strength, c->N), c->slip);
     }

@@ -118,7 +118,7 @@ static scene_force force_of(const bbm_model *m, const bbm_contact *c)
     const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
     double f[2];
 
-    scene_contact_force(m, c, c->N, c->T, f);
+    field_contact_force(m, c, c->N, c->T, f);
     return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1], c->N,
                           c->N < 0 ? PULLED : (int)c->state,
                           { m->edge[c->corner].block, m->edge[c->edge].block } };

@@ -307,7 +307,7 @@ static void put_vtk_contacts(FILE *f, const write_results *w)
             double force[2];
             if (c->state == BBM_OPEN)
                 continue;
-            scene_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
+            field_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
             fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
         }
     }
