@@ -8,7 +8,6 @@
 #include "output.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -115,16 +114,12 @@ int output_make_folder(const char *path)
     return made || (errno == EEXIST && stat(path, &there) == 0 && S_ISDIR(there.st_mode));
 }
 
-size_t output_is_temporary(const char *name)
+int output_is_temporary(const char *ending)
 {
-    const size_t n = strlen(name), ending = strlen(ENDING);
-    size_t k = n < ending ? 0 : n - ending;
+    int n = 0;
 
-    if (k == 0 || strcmp(name + k, ENDING) != 0)
-        return 0;
-    while (k > 0 && name[k - 1] >= '0' && name[k - 1] <= '9')
-        k--;
-    return k > 1 && name[k - 1] == '.' && k < n - ending ? k - 1 : 0;
+    sscanf(ending, ".%*[0-9]" ENDING "%n", &n);
+    return n > 0 && !ending[n];
 }
 
 FILE *output_lock(const char *path)

@@ -555,7 +555,7 @@ static void add_force(neighbours *b, const scene_force *c, int side)
 /* The line of thrust goes through each block that two others press from both sides, from the point
  * where the force of the one acts to that of the other. A film has none: it would be half as large
  * again. Returns whether there is any. */
-static int draw_thrust(film *f, int frame, int draws)
+static int draw_thrust(film *f, int frame)
 {
     const scene_frame *g = &f->s->frame[frame];
     neighbours *b = calloc((size_t)f->bodies, sizeof *b);
@@ -570,9 +570,8 @@ static int draw_thrust(film *f, int frame, int draws)
             continue;
         const point from = pixel(f, (point){ x[0].x / N[0], x[0].y / N[0] });
         const point to = pixel(f, (point){ x[1].x / N[1], x[1].y / N[1] });
-        if (draws)
-            plot_put(&f->p, "<path " THRUST " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
-                     to.y);
+        plot_put(&f->p, "<path " THRUST " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
+                 to.y);
         any = 1;
     }
     free(b);
@@ -666,24 +665,17 @@ static void widen_window(film *f, int kind, point from, point size, double share
     plot_widen(f->window[1], from.y + size.y / f->scale);
 }
 
-/* The number of columns that makes n panels largest, on a page of about 1100 x 760 pixels (one
- * panel: 860 x 660), and the scale that they have then. */
+/* A panel, on a page of about 860 x 660 pixels, or two, on 1100 x 760: side by side, where they are
+ * high, or one below the other, and their scale. */
 static void arrange(film *f, int n)
 {
     layout *l = &f->l;
     const double w = f->window[0][1] - f->window[0][0], h = f->window[1][1] - f->window[1][0];
     const double around = LEFT + RIGHT, over = l->over + UNDER;
 
-    f->scale = 0;
-    for (int c = 1; c <= n; c++) {
-        const int rows = (n + c - 1) / c;
-        const double scale = fmin(((n > 1 ? 1100 : 860) / c - around) / w,
-                                  ((n > 1 ? 760.0 : 660.0) / rows - over) / h);
-        if (scale <= f->scale)
-            continue;
-        f->scale = scale;
-        l->columns = c;
-    }
+    l->columns = w < 1.5 * h ? n : 1;
+    f->scale = fmin(((n > 1 ? 1100 : 860) / l->columns - around) / w,
+                    ((n > 1 ? 760.0 : 660.0) * l->columns / n - over) / h);
     l->w = f->scale * w + around;
     l->h = f->scale * h + over;
 }
@@ -726,7 +718,7 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
-    f->thrust = f->s->frames == 1 && draw_thrust(f, 0, 0);
+    f->thrust = f->s->frames == 1 && draw_thrust(f, 0);
     const double most = fmax(f->most[LOCKED], fmax(f->most[SLIDING], f->most[PULLED]));
     find_window(f);
     arrange(f, n);
@@ -801,24 +793,17 @@ static void end_panel(film *f, plot_box b)
     plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
 }
 
-/* It begins at the same place in each frame of a film. */
-static void put_time(film *f, plot_box b, int frame)
-{
-    char text[60];
-
-    snprintf(text, sizeof text, "t = %.6g s", f->s->frame[frame].time);
-    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", text);
-}
-
-/* What stands over the blocks of a panel. */
+/* What stands over the blocks of a panel; the time begins at the same place in each frame. */
 static void draw_state(film *f, plot_box b, int frame)
 {
+    char time[60];
+
     draw_bolts(f, frame);
     draw_forces(f, frame);
     if (f->thrust)
-        draw_thrust(f, frame, 1);
-    if (is_timed(f))
-        put_time(f, b, frame);
+        draw_thrust(f, frame);
+    snprintf(time, sizeof time, "t = %.6g s", f->s->frame[frame].time);
+    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", is_timed(f) ? time : NULL);
 }
 
 /* A group that is visible from half an interval before its frame to half an interval behind it, the
@@ -961,15 +946,14 @@ static sample sample_of(const film *f, const nodal *n, int v)
 
 static void put_element_share(film *f, const nodal *n, const bbm_element *e, const double level[2])
 {
+    const int parts = e->n == 3 ? 1 : e->n, end = e->first + e->n;
     sample t[3] = { { 0, 0, 0 } };
 
-    for (int v = e->first; v < e->first + e->n && e->n > 3; v++) {
+    for (int v = end - parts; v < end; v++) {           /* the mean point, or the third */
         const sample a = sample_of(f, n, v);
-        t[2] = (sample){ t[2].x + a.x / e->n, t[2].y + a.y / e->n, t[2].value + a.value / e->n };
+        t[2] = (sample){ t[2].x + a.x / parts, t[2].y + a.y / parts, t[2].value + a.value / parts };
     }
-    if (e->n == 3)
-        t[2] = sample_of(f, n, e->first + 2);
-    for (int v = e->first; v < e->first + (e->n == 3 ? 1 : e->n); v++) {
+    for (int v = e->first; v < e->first + parts; v++) {
         t[0] = sample_of(f, n, v);
         t[1] = sample_of(f, n, next_vertex(f->m, v));
         put_share(f, t, level);
@@ -987,13 +971,9 @@ static void draw_bands(film *f, const nodal *n, const plot_axis *bar)
             k < bands - 1 ? (bar->lo + (k + 1) * bar->step) / bar->scale : INFINITY };
         plot_put(&f->p, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.6\" d=\"",
                  fill.text, fill.text);
-        for (int b = 0; b < f->bodies; b++)
-            for (int i = 0; i < f->body[b].n && !f->body[b].held; i++) {
-                const int v = f->vertex[f->body[b].first + i];
-                const bbm_element *e = &f->m->element[f->m->vertex[v].element];
-                if (v == e->first)
-                    put_element_share(f, n, e, level);
-            }
+        for (const bbm_element *e = f->m->element; e < f->m->element + f->m->elements; e++)
+            if (!f->body[e->block].held)
+                put_element_share(f, n, e, level);
         plot_put(&f->p, "\"/>\n");
     }
 }

@@ -446,8 +446,10 @@ static void put_block(FILE *f, int i, int j, double B[6][6])
                     6 * (i > j ? j : i) + (i < j ? a : b) + 1, B[a][b]);
 }
 
-static void put_matrix(FILE *f, const bbm_matrix *K)
+static void put_matrix(FILE *f, const write_results *w)
 {
+    const bbm_matrix *K = w->p->m->K;
+
     fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * K->n,
             6 * K->n, 36LL * K->first[K->n] + 21LL * K->n);
     for (int i = 0; i < K->n; i++) {
@@ -470,49 +472,44 @@ void write_matrix(write_results *w)
 {
     const clock_t start = clock();
     char name[LONGEST];
-    output f;
 
     if (w->matrix_done++)
         return;
-    if (open_file(w, &f, w->matrix)) {
-        put_matrix(f.file, w->p->m->K);
-        close_file(w, &f);
-    }
     snprintf(name, sizeof name, "%s.rhs", w->matrix);
-    if (!w->status)
+    if (write_file(w, w->matrix, put_matrix))
         write_file(w, name, put_right_side);
     w->writing += clock() - start;
 }
 
 /* -------------------------------------------------------------------------------------- the run */
 
-/* The length of a name that a run writes, without the ending of a temporary file; 0: it is
- * another one. */
-static size_t is_ours(const char *name)
+static int has_form(const char *name, const char *form)
 {
-    static const char *const all[] = {
-        "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
-        "reactions.csv", "bolts.csv", "contacts.svg", "movie.svg", "model.svg", "history.svg",
-    };
-    static const char *const numbered[][2] = { { "step_", ".vtk" }, { "contacts_", ".vtk" },
-                                               { "nodes_", ".csv" }, { "reactions_", ".csv" } };
-    const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
+    int n = 0;
 
-    for (int k = 0; k < LENGTH(numbered); k++) {
-        const size_t start = strlen(numbered[k][0]), digits =
-            strncmp(name, numbered[k][0], start) ? 0 : strspn(name + start, "0123456789");
-        if (digits > 0 && n == start + digits + 4
-            && strncmp(name + start + digits, numbered[k][1], 4) == 0)
-            return n;
+    sscanf(name, form, &n);
+    return n > 0 && (!name[n] || output_is_temporary(name + n));
+}
+
+/* Whether a run writes a file of that name, or begins it. */
+static int is_ours(const char *name)
+{
+    static const char *const form[] = {
+        "nodes.csv%n", "elements.csv%n", "history.csv%n", "summary.csv%n", "timing.csv%n",
+        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "contacts.svg%n", "movie.svg%n",
+        "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n", "contacts_%*[0-9].vtk%n",
+        "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
+    };
+    char picture[LONGEST];
+    int ours = 0;
+
+    for (int k = 0; k < LENGTH(form); k++)
+        ours |= has_form(name, form[k]);
+    for (const field *q = field_table; q->name; q++) {
+        snprintf(picture, sizeof picture, "%s.svg%%n", q->name);
+        ours |= has_form(name, picture);
     }
-    for (int k = 0; k < LENGTH(all); k++)
-        if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
-            return n;
-    for (const field *q = field_table; q->name; q++)
-        if (n == strlen(q->name) + 4 && strncmp(name, q->name, n - 4) == 0
-            && strncmp(name + n - 4, ".svg", 4) == 0)
-            return n;
-    return 0;
+    return ours;
 }
 
 /* Removes what an earlier run left in the folder, so that all that stands there is of one run. */
