@@ -451,8 +451,7 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
     chart_axes(p, box, c);
     const double left = 40 + widest_tick(&p->y), top = c->title ? 40 : 16;
     plot_box b = { box.x + left, box.y + top, box.w - left - 24, 0 };
-    plot nowhere = { .failed = 0 };
-    b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&nowhere, (plot_legend){ .room = b.w }, c);
+    b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&(plot){ 0 }, (plot_legend){ .room = b.w }, c);
     place_axes(p, b);
     draw_axes(p, b, 1);
     plot_title(p, b.x + b.w / 2, b.y - 14, c->title);

@@ -48,6 +48,9 @@ static const struct { const char *colour; double width; const char *name, *unit;
 
 static int is_contact(int kind) { return kind >= LOCKED && kind <= PULLED; }
 
+/* All contacts have the scale of one kind. */
+static int scale_of(int kind) { return is_contact(kind) ? LOCKED : kind; }
+
 typedef struct { double x, y; } point;
 
 typedef struct {                        /* a block                                                */
@@ -69,19 +72,18 @@ typedef struct {                        /* what the functions below draw with   
     point       *normal;                /*          [nodes] outward, of the boundary there        */
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
-    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its  */
-                                        /* pixels                                                 */
+    double       most[KINDS];           /* the largest force of each kind, by scale_of            */
+    double       contact;               /* pixels of a contact's arrow                            */
     int          seen[KINDS], supports[4];      /* of each kind of arrow; held in each way        */
     double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
 /* ----------------------------------------------------------------------------------- recording */
 
-static void drop_frame(scene_frame *f)
+static void drop_frame(const scene_frame *f)
 {
     free(f->at);
     free(f->force);
-    *f = (scene_frame){ 0 };
 }
 
 void scene_free(scene *s)
@@ -89,8 +91,7 @@ void scene_free(scene *s)
     for (int k = 0; k < s->frames; k++)
         drop_frame(&s->frame[k]);
     free(s->frame);
-    s->frame = NULL;
-    s->frames = s->vertices = s->calls = s->every = s->failed = 0;
+    *s = (scene){ .title = s->title, .bolts = s->bolts, .bolt = s->bolt };
 }
 
 /* Makes room for one more: the last frame only stays if its turn has come, and half of them go if
@@ -128,10 +129,8 @@ static int copy_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
     f->force = malloc(((size_t)m->contacts + 1) * sizeof *f->force);
-    if (!f->at || !f->force) {
-        drop_frame(f);
+    if (!f->at || !f->force)
         return 0;
-    }
     for (int v = 0; v < m->vertices; v++) {
         f->at[v][0] = field_place(m, v, 0);
         f->at[v][1] = field_place(m, v, 1);
@@ -386,16 +385,17 @@ typedef void visitor(film *f, int kind, point from, point size, double share);
  * less than 2 pixels; those of contacts are as wide, and left out below a twentieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
-    const double size = hypot(force.x, force.y), share = size / f->most[kind];
-    const double pixels = f->length[kind] / (is_contact(kind) ? size : f->most[kind]);
+    double *most = &f->most[scale_of(kind)];
+    const double size = hypot(force.x, force.y), share = size / *most;
+    const double pixels = is_contact(kind) ? f->contact / size : ARROW / *most;
     const double before = is_contact(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
     const point d = { pixels * force.x, pixels * force.y };
 
     if (!isfinite(size + from.x + from.y) || size == 0)
         return;
     if (!visit)                         /* the largest is looked for */
-        f->most[kind] = fmax(f->most[kind], size);
-    if (!visit || share < (is_contact(kind) ? 0.05 : 2 / f->length[kind]))
+        *most = fmax(*most, size);
+    if (!visit || share < (is_contact(kind) ? 0.05 : 2.0 / ARROW))
         return;
     f->seen[kind] = 1;
     from = (point){ from.x - before * d.x / f->scale, from.y - before * d.y / f->scale };
@@ -604,7 +604,7 @@ static void put_entry(film *f, plot_legend *l, const char *symbol, const char *t
 static void put_force_entry(film *f, plot_legend *l, int kind)
 {
     static const char *const prefix[] = { "", "k", "M", "G" };
-    const double size = f->most[kind];
+    const double size = f->most[scale_of(kind)];
     const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
     char text[80];
 
@@ -614,7 +614,7 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
              prefix[power], arrow[kind].unit);
     plot_begin_entry(&f->p, l, text);
     begin_arrows(f, kind);
-    put_shaft(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
+    put_shaft(f, kind, (point){ 0, 0 }, (point){ is_contact(kind) ? f->contact : ARROW, 0 }, 1);
     plot_put(&f->p, "</g></g>\n");
 }
 
@@ -710,7 +710,7 @@ static double block_size(const film *f)
     return n ? sum / n : INFINITY;
 }
 
-/* Window and scales. How long an arrow is in metres depends on the scale of the panel, and that on
+/* Window and scale. How long an arrow is in metres depends on the scale of the panel, and that on
  * the window, which holds all arrows: by repetition. Those of contacts are not longer than
  * blocks. */
 static void measure(film *f, int n)
@@ -719,18 +719,10 @@ static void measure(film *f, int n)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
     f->thrust = f->s->frames == 1 && draw_thrust(f, 0);
-    const double most = fmax(f->most[LOCKED], fmax(f->most[SLIDING], f->most[PULLED]));
-    find_window(f);
-    arrange(f, n);
-    for (int round = 0; round < 4; round++) {
-        f->length[LOAD] = ARROW;
-        f->length[LINE_LOAD] = ARROW;
-        for (int kind = LOCKED; kind <= PULLED; kind++) {
-            f->most[kind] = most;
-            f->length[kind] = fmax(12, fmin(ARROW, block_size(f) * f->scale));
-        }
+    for (int round = 0; round < 5; round++) {           /* the first one without arrows */
+        f->contact = fmax(12, fmin(ARROW, block_size(f) * f->scale));
         find_window(f);
-        for (int i = 0; i < f->s->frames; i++) {
+        for (int i = 0; i < f->s->frames && round > 0; i++) {
             visit_supports(f, i, widen_window);
             for (int kind = 0; kind < KINDS; kind++)
                 visit_forces(f, i, kind, widen_window);
