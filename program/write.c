@@ -32,10 +32,14 @@ static int fail(write_results *w, const char *path, const char *why)
     return 0;
 }
 
-static const char *path_of(const write_results *w, const char *name, char path[LONGEST])
+/* In the folder, until the next one; form: a name, with %06d where the number of the step is. */
+static const char *path_of(write_results *w, const char *form)
 {
-    snprintf(path, LONGEST, "%s/%s", w->folder, name);
-    return path;
+    char name[300];
+
+    snprintf(name, sizeof name, form, w->step);
+    snprintf(w->path, sizeof w->path, "%s/%s", w->folder, name);
+    return w->path;
 }
 
 static int open_file(write_results *w, output *f, const char *path)
@@ -313,45 +317,34 @@ static void put_vtk_contacts(FILE *f, const write_results *w)
     }
 }
 
-/* A file with the number of the step in its name. */
-static int write_numbered(write_results *w, const char *name, const char *ending,
-                          void (*put)(FILE *f, const write_results *w))
-{
-    char numbered[50], path[LONGEST];
-
-    snprintf(numbered, sizeof numbered, "%s%06d%s", name, w->step, ending);
-    return write_file(w, path_of(w, numbered, path), put);
-}
-
 static void write_vtk(write_results *w)
 {
-    if (write_numbered(w, "step_", ".vtk", put_vtk))
-        write_numbered(w, "contacts_", ".vtk", put_vtk_contacts);
+    if (write_file(w, path_of(w, "step_%06d.vtk"), put_vtk))
+        write_file(w, path_of(w, "contacts_%06d.vtk"), put_vtk_contacts);
 }
 
 void write_stage(write_results *w)
 {
-    if (write_numbered(w, "nodes_", ".csv", put_nodes))
-        write_numbered(w, "reactions_", ".csv", put_reactions);
+    if (write_file(w, path_of(w, "nodes_%06d.csv"), put_nodes))
+        write_file(w, path_of(w, "reactions_%06d.csv"), put_reactions);
 }
 
 /* ------------------------------------------------------------------------------------- pictures */
 
-/* A picture that cannot be made costs no results. */
-static void note_picture(write_results *w, const char *path, int done)
+/* The picture at the last path; one that cannot be made costs no results. */
+static void note_picture(write_results *w, int done)
 {
     if (!done)
-        fail(w, path, strerror(errno));
+        fail(w, w->path, strerror(errno));
 }
 
 /* The present state. */
 static void draw_now(write_results *w, const char *name)
 {
     scene now = { .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt };
-    char path[LONGEST];
 
     scene_record(&now, w->p->m);
-    note_picture(w, path, scene_write_movie(&now, w->p->m, path_of(w, name, path)));
+    note_picture(w, scene_write_movie(&now, w->p->m, path_of(w, name)));
     scene_free(&now);
 }
 
@@ -398,13 +391,12 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
 static void draw_history(write_results *w)
 {
     const model *m = w->p;
-    char path[LONGEST];
+    const char *path = path_of(w, "history.svg");
     plot_series s[5];
     plot p;
 
     errno = ENOMEM;
-    int done = w->kept && plot_open(&p, path_of(w, "history.svg", path), 860,
-                                    40 + PANEL * (m->monitors + 2));
+    int done = w->kept && plot_open(&p, path, 860, 40 + PANEL * (m->monitors + 2));
     if (done) {
         plot_title(&p, 430, 28, m->title);
         for (int k = 0; k < m->monitors; k++)
@@ -415,7 +407,7 @@ static void draw_history(write_results *w)
                    s, PASSES, (const char *[]){ "passes of a step, at most", NULL });
         done = plot_close(&p);
     }
-    note_picture(w, path_of(w, "history.svg", path), done);
+    note_picture(w, done);
 }
 
 static void draw_pictures(write_results *w)
@@ -424,13 +416,13 @@ static void draw_pictures(write_results *w)
     scene_map map = { .title = w->p->title, .field = w->p->field,  /* a static one is magnified */
                       .scale = w->p->scale > 0 ? w->p->scale : w->p->dynamic,
                       .limits = { w->p->colours[0], w->p->colours[1] } };
-    char path[LONGEST], name[100];
+    char name[100];
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
-        note_picture(w, path, scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)));
+        note_picture(w, scene_write_movie(&w->film, m, path_of(w, "movie.svg")));
     snprintf(name, sizeof name, "%.90s.svg", map.field);
-    note_picture(w, path, scene_write_map(m, path_of(w, name, path), &map));
+    note_picture(w, scene_write_map(m, path_of(w, name), &map));
     if (w->row > 0 && (w->p->dynamic || m->par.steps > 1))
         draw_history(w);
 }
@@ -515,16 +507,15 @@ static int is_ours(const char *name)
 /* Removes what an earlier run left in the folder, so that all that stands there is of one run. */
 static int empty_folder(write_results *w)
 {
-    char path[LONGEST];
     struct stat what;
     DIR *folder = opendir(w->folder);
 
     if (!folder)
         return fail(w, w->folder, strerror(errno));
     for (struct dirent *entry; !w->status && (entry = readdir(folder)) != NULL; )
-        if (is_ours(entry->d_name) && stat(path_of(w, entry->d_name, path), &what) == 0
-            && S_ISREG(what.st_mode) && remove(path))
-            fail(w, path, strerror(errno));
+        if (is_ours(entry->d_name) && stat(path_of(w, entry->d_name), &what) == 0
+            && S_ISREG(what.st_mode) && remove(w->path))
+            fail(w, w->path, strerror(errno));
     closedir(folder);
     return !w->status;
 }
@@ -532,25 +523,21 @@ static int empty_folder(write_results *w)
 /* The end of a run; whether all went well. */
 static int leave_folder(write_results *w)
 {
-    char path[LONGEST];
-
     if (w->lock)
-        output_unlock(w->lock, path_of(w, LOCK, path));
+        output_unlock(w->lock, path_of(w, LOCK));
     return !w->status;
 }
 
 /* Makes the folder, if need be, and locks it. */
 static int open_folder(write_results *w)
 {
-    char path[LONGEST];
-
-    if ((size_t)snprintf(path, sizeof path, "%s/contacts_2147483647.vtk", w->folder) >= sizeof path)
+    if (strlen(w->folder) + strlen("/contacts_2147483647.vtk") >= sizeof w->path)
         return fail(w, w->folder, strerror(ENAMETOOLONG));
     if (!output_make_folder(w->folder))
         return fail(w, w->folder,
                     errno == EEXIST ? "it is there and no folder; another one may be given with -o"
                                     : strerror(errno));
-    w->lock = output_lock(path_of(w, LOCK, path));
+    w->lock = output_lock(path_of(w, LOCK));
     return w->lock ? 1 : fail(w, w->folder, errno == EBUSY
                                   ? "another run is at work there; another folder may be given "
                                     "with -o" : strerror(errno));
@@ -566,11 +553,9 @@ int write_check(write_results *w)
 
 int write_open(write_results *w)
 {
-    char path[LONGEST];
-
     if (!open_folder(w) || !empty_folder(w)
-        || !open_file(w, &w->history, path_of(w, "history.csv", path))
-        || !open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
+        || !open_file(w, &w->history, path_of(w, "history.csv"))
+        || !open_file(w, &w->summary, path_of(w, "summary.csv"))) {
         output_drop(&w->history);
         return leave_folder(w);
     }
@@ -618,12 +603,11 @@ int write_close(write_results *w)
         { "reactions.csv", put_reactions },
         { "bolts.csv", put_bolts },
     };
-    char path[LONGEST];
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
     for (int k = 0; k < LENGTH(table) - !p->bolts; k++)
-        write_file(w, path_of(w, table[k].name, path), table[k].put);
+        write_file(w, path_of(w, table[k].name), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);
     if (p->svg)
@@ -631,6 +615,6 @@ int write_close(write_results *w)
     scene_free(&w->film);
     free(w->kept);
     w->writing += clock() - start;
-    write_file(w, path_of(w, "timing.csv", path), put_timing);
+    write_file(w, path_of(w, "timing.csv"), put_timing);
     return leave_folder(w);
 }

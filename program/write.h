@@ -23,6 +23,7 @@
 typedef struct {
     model *p;
     const char *source, *folder, *matrix; /* the model file, for messages; matrix: of -m, or NULL */
+    char path[LONGEST];                 /* in the folder, the last one */
     output history, summary;
     FILE *lock;                         /* of the folder */
     scene film;
