@@ -32,11 +32,8 @@ int output_open(output *o, const char *path)
         return 0;
     }
     o->direct = stat(path, &old) == 0 && !S_ISREG(old.st_mode);
-    if (o->direct)
-        memcpy(o->temporary, o->path, sizeof o->path);
-    else
-        snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
-    o->file = fopen(o->temporary, "wb");
+    snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
+    o->file = fopen(o->direct ? path : o->temporary, "wb");
     errno = o->file ? 0 : errno;
     return o->file != NULL;
 }

@@ -59,11 +59,10 @@ typedef struct {                        /* a block                              
     double box[2][2];                   /* m        x from, to; y from, to, in the first frame    */
 } body;
 
-typedef struct { int columns; double left, top, over, w, h; } layout;   /* of w x h pixels */
-
 typedef struct {                        /* what the functions below draw with                     */
     plot         p;
-    layout       l;
+    int          columns;               /* of panels of w x h pixels                              */
+    double       left, top, over, w, h; /* over: above the frame of a panel                       */
     const scene *s;
     const bbm_model *m;
     int          bodies, held, thrust;  /* whether any is held; whether there is a line of thrust */
@@ -116,13 +115,13 @@ static void thin_out(scene *s)
 
 static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
+    const bbm_edge *corner = &m->edge[c->corner];
     double f[2];
 
     field_contact_force(m, c, c->N, c->T, f);
-    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1], c->N,
-                          c->N < 0 ? PULLED : (int)c->state,
-                          { m->edge[c->corner].block, m->edge[c->edge].block } };
+    return (scene_force){ field_place(m, corner->a, 0), field_place(m, corner->a, 1), f[0], f[1],
+                          c->N, c->N < 0 ? PULLED : (int)c->state,
+                          { corner->block, m->edge[c->edge].block } };
 }
 
 static int copy_frame(scene_frame *f, const bbm_model *m)
@@ -669,15 +668,14 @@ static void widen_window(film *f, int kind, point from, point size, double share
  * high, or one below the other, and their scale. */
 static void arrange(film *f, int n)
 {
-    layout *l = &f->l;
     const double w = f->window[0][1] - f->window[0][0], h = f->window[1][1] - f->window[1][0];
-    const double around = LEFT + RIGHT, over = l->over + UNDER;
+    const double around = LEFT + RIGHT, over = f->over + UNDER;
 
-    l->columns = w < 1.5 * h ? n : 1;
-    f->scale = fmin(((n > 1 ? 1100 : 860) / l->columns - around) / w,
-                    ((n > 1 ? 760.0 : 660.0) * l->columns / n - over) / h);
-    l->w = f->scale * w + around;
-    l->h = f->scale * h + over;
+    f->columns = w < 1.5 * h ? n : 1;
+    f->scale = fmin(((n > 1 ? 1100 : 860) / f->columns - around) / w,
+                    ((n > 1 ? 760.0 : 660.0) * f->columns / n - over) / h);
+    f->w = f->scale * w + around;
+    f->h = f->scale * h + over;
 }
 
 /* The window that holds all vertices. */
@@ -737,15 +735,13 @@ static int is_timed(const film *f) { return f->s->frame[f->s->frames - 1].time >
 /* Opens a page for n panels and, `below` them, something else; draws title and legend. */
 static int open_page(film *f, const char *path, int n, double below)
 {
-    layout *l = &f->l;
-
-    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0,
-                   .over = n > 1 || is_timed(f) ? OVER : 14 };
+    f->top = f->s->title ? 36 : 0;
+    f->over = n > 1 || is_timed(f) ? OVER : 14;
     measure(f, n);
-    const double width = fmax(l->columns * l->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
-    const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;
+    const double width = fmax(f->columns * f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
+    const double bottom = f->top + f->h * (n / f->columns) + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
-    l->left = (width - l->columns * l->w) / 2;
+    f->left = (width - f->columns * f->w) / 2;
     if (!plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8))
         return 0;
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
@@ -766,10 +762,9 @@ static int open_page(film *f, const char *path, int n, double below)
 /* The frame of a panel with its axes; what follows until end_panel is cut off at it. */
 static plot_box begin_panel(film *f, int k)
 {
-    const layout *l = &f->l;
-    const plot_box b = { l->left + k % l->columns * l->w + LEFT,
-                         l->top + k / l->columns * l->h + l->over, l->w - LEFT - RIGHT,
-                         l->h - l->over - UNDER };
+    const plot_box b = { f->left + k % f->columns * f->w + LEFT,
+                         f->top + k / f->columns * f->h + f->over, f->w - LEFT - RIGHT,
+                         f->h - f->over - UNDER };
 
     plot_draw_frame(&f->p, b, f->window[0], f->window[1]);
     plot_put(&f->p, "<clipPath id=\"panel%d\">", k);
@@ -995,6 +990,7 @@ static void draw_field(film *f, const nodal *n, const plot_axis *bar)
 static int write_field(film *f, const char *path, const nodal *n, const scene_map *map,
                        const field *shown)
 {
+    const bbm_model *m = f->m;
     const plot_quantity q = { .name = shown->label, .unit = shown->unit };
     const int panels = map->other ? 2 : 1;
     double range[2] = { INFINITY, -INFINITY };
@@ -1002,11 +998,9 @@ static int write_field(film *f, const char *path, const nodal *n, const scene_ma
 
     if (!begin_film(f))
         return 0;
-    for (int k = 0; k < f->bodies; k++)
-        for (int i = 0; i < f->body[k].n * panels && !f->body[k].held; i++) {
-            const int v = f->vertex[f->body[k].first + i / panels];
-            plot_widen(range, n[f->m->vertex[v].node + i % panels * f->m->nodes].value);
-        }
+    for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
+        for (int k = 0; k < panels && !f->body[m->element[v->element].block].held; k++)
+            plot_widen(range, n[k * m->nodes + v->node].value);
     if (range[0] > range[1])
         range[0] = range[1] = 0;
     if (!open_page(f, path, panels, BAR))
@@ -1014,13 +1008,13 @@ static int write_field(film *f, const char *path, const nodal *n, const scene_ma
     const plot_axis bar = plot_bar_axis(&q, map->limits[0] < map->limits[1] ? map->limits : range);
     for (int k = 0; k < panels; k++) {
         b = begin_panel(f, k);
-        draw_field(f, n + k * f->m->nodes, &bar);
+        draw_field(f, n + k * m->nodes, &bar);
         end_panel(f, b);
         draw_state(f, b, 1);
         if (map->other)
             plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", map->name[k]);
     }
-    const double left = f->l.left + LEFT;
+    const double left = f->left + LEFT;
     plot_draw_bar(&f->p, (plot_box){ left, b.y + b.h + UNDER + 4, b.x + b.w - left, 16 }, &bar,
                   range);
     return plot_close(&f->p);
@@ -1034,9 +1028,8 @@ static int find_values(const bbm_model *m, const field *shown, nodal *n)
     for (int i = 0; i < m->nodes; i++) {
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
-        n[i] = (nodal){ r.u, r.v, field_of_node(shown, m, i) };
-        if (field_is_gone(m, m->adjacent[m->adjacent_first[i]]))
-            n[i] = (nodal){ 0 };
+        const int there = !field_is_gone(m, m->adjacent[m->adjacent_first[i]]);
+        n[i] = (nodal){ there * r.u, there * r.v, field_of_node(shown, m, i) };
         finite &= isfinite(r.u + r.v + n[i].value);
     }
     return finite;

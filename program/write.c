@@ -290,29 +290,28 @@ static void put_vtk(FILE *f, const write_results *w)
 static void put_vtk_contacts(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
+    const bbm_contact *end = m->contact + m->contacts;
     const int n = m->info.contacts;
+    double force[2];
 
     put_head(f, w, "POLYDATA", n);
-    for (int k = 0; k < m->contacts; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            fprintf(f, "%.15g %.15g 0\n", m->vertex[m->edge[m->contact[k].corner].a].x,
-                    m->vertex[m->edge[m->contact[k].corner].a].y);
+    for (const bbm_contact *c = m->contact; c < end; c++)
+        if (c->state != BBM_OPEN)
+            fprintf(f, "%.15g %.15g 0\n", field_place(m, m->edge[c->corner].a, 0),
+                    field_place(m, m->edge[c->corner].a, 1));
     fprintf(f, "VERTICES %d %d\n", n, 2 * n);
     for (int k = 0; k < n; k++)
         fprintf(f, "1 %d\n", k);
     fprintf(f, "POINT_DATA %d\nSCALARS state int 1\nLOOKUP_TABLE default\n", n);
-    for (int k = 0; k < m->contacts; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            fprintf(f, "%d\n", (int)m->contact[k].state);
+    for (const bbm_contact *c = m->contact; c < end; c++)
+        if (c->state != BBM_OPEN)
+            fprintf(f, "%d\n", (int)c->state);
     for (int shear = 0; shear < 2; shear++) {
         fprintf(f, "VECTORS %s double\n", shear ? "shear" : "normal");
-        for (int k = 0; k < m->contacts; k++) {
-            const bbm_contact *c = &m->contact[k];
-            double force[2];
-            if (c->state == BBM_OPEN)
-                continue;
+        for (const bbm_contact *c = m->contact; c < end; c++) {
             field_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
-            fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
+            if (c->state != BBM_OPEN)
+                fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
         }
     }
 }
@@ -465,11 +464,10 @@ void write_matrix(write_results *w)
     const clock_t start = clock();
     char name[LONGEST];
 
-    if (w->matrix_done++)
-        return;
     snprintf(name, sizeof name, "%s.rhs", w->matrix);
     if (write_file(w, w->matrix, put_matrix))
         write_file(w, name, put_right_side);
+    w->matrix = NULL;
     w->writing += clock() - start;
 }
 
@@ -572,7 +570,7 @@ int write_open(write_results *w)
     return 1;
 }
 
-int write_step(write_results *w, int step)
+void write_step(write_results *w, int step)
 {
     const clock_t start = clock();
     const model *p = w->p;
@@ -589,10 +587,9 @@ int write_step(write_results *w, int step)
         write_vtk(w);
     w->status |= !output_keep(&w->history) || !output_keep(&w->summary);
     w->writing += clock() - start;
-    return !w->status;
 }
 
-int write_close(write_results *w)
+void write_close(write_results *w)
 {
     const clock_t start = clock();
     const model *p = w->p;
@@ -616,5 +613,5 @@ int write_close(write_results *w)
     free(w->kept);
     w->writing += clock() - start;
     write_file(w, path_of(w, "timing.csv"), put_timing);
-    return leave_folder(w);
+    leave_folder(w);
 }

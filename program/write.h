@@ -29,16 +29,16 @@ typedef struct {
     scene film;
     double *kept;                       /* [columns][ROWS] for history.svg, or NULL: no memory */
     int row, halved;                    /* of it: the present one; how often half of them went */
-    int matrix_done, step;              /* step: the last one that has its rows */
+    int step;                           /* the last one that has its rows */
     clock_t reading, start, writing;    /* CPU time: of reading, at the start, of writing        */
     int status;                         /* 0, or 1 after a message */
 } write_results;
 
-int  write_check(write_results *w);                         /* model.svg alone */
-int  write_open(write_results *w);
-int  write_step(write_results *w, int step);                /* 1, or 0 after an error */
+int  write_check(write_results *w);                         /* model.svg alone; 1, or 0 */
+int  write_open(write_results *w);                          /* 1, or 0 after an error */
+void write_step(write_results *w, int step);
 void write_stage(write_results *w);     /* nodes_N.csv, reactions_N.csv of the last step N */
-int  write_close(write_results *w);
-void write_matrix(write_results *w);                /* K and F of -m, once: of the first solution */
+void write_close(write_results *w);
+void write_matrix(write_results *w);            /* K and F of -m, which is NULL then: it is done */
 
 #endif
