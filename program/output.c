@@ -38,8 +38,7 @@ int output_open(output *o, const char *path)
     return o->file != NULL;
 }
 
-/* The first error of the file stays. */
-static int note(output *o, int good)
+int output_note(output *o, int good)
 {
     if (!good && !o->why)
         o->why = errno ? errno : EIO;
@@ -48,7 +47,7 @@ static int note(output *o, int good)
 
 int output_keep(output *o)
 {
-    if (note(o, !fflush(o->file) && !ferror(o->file)))
+    if (output_note(o, !fflush(o->file) && !ferror(o->file)))
         o->kept = ftell(o->file);
     return !o->why;
 }
@@ -88,10 +87,10 @@ int output_close(output *o)
     o->file = NULL;
     if (!file)
         return 0;
-    note(o, !fflush(file) && !ferror(file));
-    note(o, !fclose(file));
+    output_note(o, !fflush(file) && !ferror(file));
+    output_note(o, !fclose(file));
     const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
-    if (!keep || !(o->direct || give_name(o->temporary, o->path) || note(o, 0)))
+    if (!keep || !(o->direct || give_name(o->temporary, o->path) || output_note(o, 0)))
         give_up(o);
     errno = o->why;
     return !o->why;

@@ -25,6 +25,7 @@ typedef struct {
 } output;
 
 int    output_open(output *o, const char *path);    /* 1, or 0 */
+int    output_note(output *o, int good);    /* whether all was good so far; the first error stays */
 int    output_keep(output *o);                      /* 1, or 0 */
 int    output_close(output *o);             /* 1: the complete file stands under its name; 0 */
 void   output_drop(output *o);

@@ -10,7 +10,6 @@
  */
 #include "plot.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -30,8 +29,7 @@ void plot_put(plot *p, const char *format, ...)
     if (!p->out.file)
         return;
     va_start(list, format);
-    if (vfprintf(p->out.file, format, list) < 0 && !p->failed)
-        p->failed = errno;
+    output_note(&p->out, vfprintf(p->out.file, format, list) >= 0);
     va_end(list);
 }
 
@@ -136,11 +134,7 @@ int plot_open(plot *p, const char *path, double width, double height)
 int plot_close(plot *p)
 {
     plot_put(p, "</svg>\n");
-    if (!p->failed)
-        return output_close(&p->out);
-    errno = p->failed;
-    output_drop(&p->out);
-    return 0;
+    return output_close(&p->out);
 }
 
 /* ------------------------------------------------------------------------------------- numbers */

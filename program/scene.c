@@ -140,27 +140,24 @@ static int copy_frame(scene_frame *f, const bbm_model *m)
     return 1;
 }
 
-int scene_record(scene *s, const bbm_model *m)
+void scene_record(scene *s, const bbm_model *m)
 {
     scene_frame f = { .time = m->info.t, .call = s->calls++ };
 
     for (int v = 0; v < m->vertices; v++)
         if (!isfinite(m->vertex[v].x + m->vertex[v].y))
-            return 0;
+            return;
     if (!s->frame) {
         s->frame = calloc(FRAMES, sizeof *s->frame);
-        s->vertices = m->vertices;
         s->every = 1;
     }
-    if (!s->frame || m->vertices != s->vertices || !copy_frame(&f, m))
-        s->failed = 1;
+    s->failed |= !s->frame || !copy_frame(&f, m);
     if (s->failed) {
         drop_frame(&f);
-        return 0;
+        return;
     }
     thin_out(s);
     s->frame[s->frames++] = f;
-    return 1;
 }
 
 /* -------------------------------------------------------------------------------------- blocks */
@@ -279,7 +276,7 @@ static int begin_film(film *f)
     const bbm_model *m = f->m;
 
     errno = f->s->failed ? ENOMEM : EINVAL;
-    if (f->s->failed || f->s->frames < 1 || m->vertices != f->s->vertices)
+    if (f->s->failed || f->s->frames < 1)
         return 0;
     f->body = malloc((size_t)m->elements * sizeof *f->body);
     f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
@@ -1043,7 +1040,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
     nodal *n = malloc(2 * (size_t)m->nodes * sizeof *n);
     scene_frame state[2] = { { m->info.t, .at = place },
                              { m->info.t, .at = place ? place + all : NULL } };
-    scene s = { .frames = 2, .vertices = m->vertices, .frame = state };
+    scene s = { .frames = 2, .frame = state };
     film f = { .s = &s, .m = m };
     char title[300];
     int done = 0;
