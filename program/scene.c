@@ -528,9 +528,9 @@ static void draw_forces(film *f, int frame)
 
 #define THRUST "fill=\"none\" stroke=\"#ee7733\" stroke-width=\"2.5\" stroke-linecap=\"round\""
 
-/* What a block feels of two others: how many touch it, 3 for more, which, and the forces on it,
- * with the sums of N and of N times the place. */
-typedef struct { int n, other[2]; point at[2], force[2]; double N[2]; } neighbours;
+/* What a block feels of two others, and the third time of all the rest: how many touch it, 3 for
+ * more, which, and the forces on it, with the sums of N and of N times the place. */
+typedef struct { int n, other[3]; point at[3], force[3]; double N[3]; } neighbours;
 
 static void add_force(neighbours *b, const scene_force *c, int side)
 {
@@ -540,8 +540,6 @@ static void add_force(neighbours *b, const scene_force *c, int side)
     while (k < b->n && k < 2 && b->other[k] != other)
         k++;
     b->n = k < b->n ? b->n : k + 1;
-    if (k == 2)
-        return;
     b->other[k] = other;
     b->at[k] = (point){ b->at[k].x + c->N * c->x, b->at[k].y + c->N * c->y };
     b->force[k] = (point){ b->force[k].x + sign * c->fx, b->force[k].y + sign * c->fy };

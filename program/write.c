@@ -109,8 +109,6 @@ static void put_elements(FILE *f, const write_results *w)
     put_results(f, w->p, w->p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS);
 }
 
-static const char *const state_name[] = { "OPEN", "LOCK", "SLIDE" };
-
 /* The closed ones: where the corner is, what presses and shears, how far it is outside. */
 static void put_contacts(FILE *f, const write_results *w)
 {
@@ -118,16 +116,14 @@ static void put_contacts(FILE *f, const write_results *w)
     const bbm_model *m = p->m;
 
     fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k];
-        const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
-        if (c->state == BBM_OPEN)
-            continue;
-        fprintf(f, "%s,%s", p->block[m->edge[c->corner].block], p->block[m->edge[c->edge].block]);
-        put_numbers(f, 2, (double[]){ m->node[P1->node].x + P1->u, m->node[P1->node].y + P1->v });
-        fprintf(f, ",%s", state_name[c->state]);
-        put_numbers(f, 3, (double[]){ c->N, c->T, c->d_n });
-        fputc('\n', f);
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+        const bbm_edge *corner = &m->edge[c->corner];
+        const bbm_vertex *P1 = &m->vertex[corner->a];
+        const bbm_node *start = &m->node[P1->node];
+        if (c->state != BBM_OPEN)
+            fprintf(f, "%s,%s,%.15g,%.15g,%s,%.15g,%.15g,%.15g\n", p->block[corner->block],
+                    p->block[m->edge[c->edge].block], start->x + P1->u, start->y + P1->v,
+                    c->state == BBM_LOCK ? "LOCK" : "SLIDE", c->N, c->T, c->d_n);
     }
 }
 
@@ -139,12 +135,9 @@ static void put_reactions(FILE *f, const write_results *w)
     fprintf(f, "node,x,y,fx,fy\n");
     for (int n = 0; n < p->m->nodes; n++) {
         const bbm_node *a = &p->m->node[n];
-        if (!a->held || field_is_gone(p->m, p->m->adjacent[p->m->adjacent_first[n]]))
-            continue;
-        fprintf(f, "%s", p->node[n]);
-        put_numbers(f, 2, (double[]){ a->x, a->y });
-        put_numbers(f, 2, p->m->beyond->support[n].force);
-        fputc('\n', f);
+        const double *F = p->m->beyond->support[n].force;
+        if (a->held && !field_is_gone(p->m, p->m->adjacent[p->m->adjacent_first[n]]))
+            fprintf(f, "%s,%.15g,%.15g,%.15g,%.15g\n", p->node[n], a->x, a->y, F[0], F[1]);
     }
 }
 
