@@ -52,7 +52,7 @@ static const char *value_of_name(const model_reader *r, const char *name)
         if (strcmp(r->local[k].name, name) == 0)
             return r->local[k].value;
     const int at = model_find(&r->let_of, name);
-    return at >= 0 ? r->word[at] : NULL;
+    return at >= 0 ? r->word[at].text : NULL;
 }
 
 /* The value of the longest name that the text begins with and that ends where its letters end, and
@@ -308,11 +308,9 @@ static int add_statement(model_reader *r, const model_statement *source)
         return model_blame(r, "repetitions make more than %d statements, expected fewer",
                            MOST_REPEATED);
     for (int k = 0; k < s.n; k++) {
-        model_given w = { r->cut_word[source->first + k], 0 };
-        char *word = expand(r, w.text, &w.glued);
-        int words = r->words;
-        if (!word || !model_add(r, &r->given, &words, sizeof w, &w)
-            || !model_add(r, &r->word, &r->words, sizeof word, &word))
+        model_given w = { .source = r->cut_word[source->first + k] };
+        w.text = expand(r, w.source, &w.glued);
+        if (!w.text || !model_add(r, &r->word, &r->words, sizeof w, &w))
             return 0;
     }
     return 1;
@@ -344,11 +342,11 @@ static int read_let(model_reader *r)
     if (!word || !is_new(r, word) || !model_numbers(r, 1, &x))
         return 0;
     if (r->round) {
-        const model_local l = { word, r->word[at] };
+        const model_local l = { word, r->word[at].text };
         return model_add(r, &r->local, &r->locals, sizeof l, &l);
     }
     if (other) {
-        r->word[at] = r->given[at].text = other;
+        r->word[at] = (model_given){ other, other, 0 };
         r->next--;
         if (!model_number(r, &x))
             return 0;

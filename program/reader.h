@@ -19,10 +19,8 @@
 
 /* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */
 typedef struct { const char *file; int line; const char *round; } model_place;
-typedef struct {                /* from a word to a number */
-    int room, count, *value;
-    const char **key;
-} model_table;
+typedef struct { const char *key; int value; } model_slot;     /* key: NULL, empty */
+typedef struct { int room, count; model_slot *slot; } model_table;  /* from a word to a number */
 
 typedef struct {                /* words first .. first+n-1 */
     model_place at;
@@ -30,7 +28,9 @@ typedef struct {                /* words first .. first+n-1 */
     const char *name, *form;    /* its first word; what it looks like, for messages */
 } model_statement;
 
-typedef struct { char *text; int glued; } model_given;  /* glued: of several pieces, no number */
+/* A word with the values of its numbers, and as the file has it; glued: of several pieces, no
+ * number. */
+typedef struct { char *text, *source; int glued; } model_given;
 typedef struct { const char *name, *value; } model_local;   /* a number of a round */
 
 typedef struct {
@@ -68,8 +68,7 @@ typedef struct {
     model_local *local;                     /* [locals]     of the round in hand */
     const char *round;
     double grown;                           /* bytes of the values of numbers */
-    char **word;                            /* [words]      with their values */
-    model_given *given;                     /* [words]      as the file gives them */
+    model_given *word;                      /* [words] */
     model_statement *statement;             /* [statements] */
     model_node *node;
     model_element *element;

@@ -170,7 +170,7 @@ static int read_bond(model_reader *r)
                          CHOICE("at", &kind, "vertices|moment|auto") };
 
     for (int k = 1; k < r->s->n; k++)
-        if (strcmp(r->word[r->s->first + k], "midpoints") == 0)
+        if (strcmp(r->word[r->s->first + k].text, "midpoints") == 0)
             return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in "
                                   "the middles of their sides alone elements can turn against "
                                   "each other");
@@ -434,9 +434,9 @@ static int read_expect(model_reader *r)
     const size_t n = last ? strlen(last) : 0;
     const int percent = value && n > 1 && last[n - 1] == '%';
     if (percent) {                              /* the word may stand in other rounds, too */
-        if (!(r->word[r->s->first + r->next] = model_text(r, n)))
+        if (!(r->word[r->s->first + r->next].text = model_text(r, n)))
             return 0;
-        memcpy(r->word[r->s->first + r->next], last, n - 1);
+        memcpy(model_look(r), last, n - 1);
     }
     if (!model_number(r, &e.within))
         return 0;
@@ -664,13 +664,11 @@ static void free_reader(model_reader *r)
     model_table *table[] = { &r->node_of, &r->element_of, &r->block_of, &r->material_of,
                              &r->set_of,  &r->monitor_of, &r->let_of, &r->stage_of };
 
-    for (int k = 0; k < LENGTH(table); k++) {
-        free(table[k]->value);
-        free((void *)table[k]->key);
-    }
+    for (int k = 0; k < LENGTH(table); k++)
+        free(table[k]->slot);
     for (int k = 0; k < r->sets; k++)
         free(r->set[k].node);
-    free(r->cut), free(r->cut_word), free(r->local), free(r->word), free(r->given);
+    free(r->cut), free(r->cut_word), free(r->local), free(r->word);
     free(r->statement), free(r->node), free(r->element), free(r->corner), free(r->block);
     free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
 }
