@@ -32,8 +32,6 @@ static void set_defaults(model_reader *r)
         p->p_n = 50 * softest[isinf(softest[0]) ? 1 : 0];
     if (p->p_s < 0)
         p->p_s = 0.4 * p->p_n;
-    if (p->p_s == 0)                          /* a shear spring that carries nothing: no friction */
-        p->friction = r->p->m->beyond->cohesion = 0;
     if (p->p_n == 0)                            /* no contact: springs that cannot be felt */
         p->p_n = 1e-200;
     if (p->p_s == 0)
@@ -283,9 +281,8 @@ static int read_selection(model_reader *r, selection *w)
         return !model_look(r) ? model_word(r) != NULL
              : model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME or box "
                               "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
-    for (int k = 0; k < kind[w->kind].numbers; k++)
-        if (!model_number(r, &w->x[k]))
-            return 0;
+    if (!model_numbers(r, kind[w->kind].numbers, w->x))
+        return 0;
     if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of, "node", model_id(r))) < 0)
         return 0;
     if (w->kind == BY_SET && (!(word = model_word(r)) || !choose_set(r, w, word)))
@@ -460,7 +457,7 @@ int model_water(model_reader *r)
     edge_load l = { .weight = 0 };
     model_option o[] = { ABOVE_ZERO("density", &density) };
 
-    if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, LENGTH(o), o))
+    if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, 0, LENGTH(o), o))
         return 0;
     l.weight = density * hypot(g[0], g[1]);
     if (!(l.weight > 0))
@@ -482,7 +479,7 @@ int model_joint(model_reader *r)
         if (!model_skip(r, "*") && (block[k] = model_next_block(r)) < 0)
             return 0;
     }
-    if (!model_options(r, LENGTH(o), o) || !model_note_friction(r, friction))
+    if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, friction))
         return 0;
     if (block[0] >= 0 && block[0] == block[1])
         return model_blame(r, "a joint of a block with itself, expected two blocks");
@@ -503,8 +500,7 @@ int model_velocities(model_reader *r)
     const int block = model_next_block(r);
     model_velocity v = { { 0, 0, 0 }, 1 };
 
-    if (block < 0 || !model_number(r, &v.V[0]) || !model_number(r, &v.V[1])
-        || (model_look(r) && !model_number(r, &v.V[2])) || !model_at_end(r))
+    if (block < 0 || !model_numbers(r, 2, v.V) || (model_look(r) && !model_number(r, &v.V[2])))
         return 0;
     if (r->p->velocity[block].given)
         return model_blame(r, "a velocity of '%.60s' for the second time, expected one",
@@ -525,16 +521,16 @@ int model_stress(model_reader *r)
     if (*given)
         return model_blame(r, "a stress of '%.60s' for the second time, expected one",
                            star ? "*" : r->block[block].name);
-    for (int k = 0; k < 6 && (k != 3 || model_look(r)); k++)
-        if ((k == 3 && !model_keyword(r, "gradient")) || !model_number(r, &s[k]))
-            return 0;
+    if (!model_numbers(r, 3, s)
+        || (model_look(r) && !(model_keyword(r, "gradient") && model_numbers(r, 3, s + 3))))
+        return 0;
     *given = 1;
     for (int e = 0; e < r->elements; e++) {
         bbm_element *i = &r->p->m->element[e];
         for (int k = 0; k < 3 && (star ? !r->block[i->block].stressed : i->block == block); k++)
             i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
     }
-    return model_at_end(r);
+    return 1;
 }
 
 int model_monitors(model_reader *r)
@@ -544,7 +540,7 @@ int model_monitors(model_reader *r)
     model_monitor m = { word, 0, NULL };
 
     if (!word || !model_is_new(r, &r->monitor_of, "monitor", word) || !where(r, 1)
-        || !model_at_end(r) || !model_enter(r, &r->monitor_of, word, p->monitors))
+        || !model_enter(r, &r->monitor_of, word, p->monitors))
         return 0;
     m.node = model_room(r, r->chosen, sizeof *m.node);
     for (; m.node && m.nodes < r->chosen; m.nodes++)
@@ -574,8 +570,7 @@ int model_bolts(model_reader *r)
         b.block[end] = r->p->node_block[r->chosen_node[0]];
         b.vertex[end] = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
     }
-    o[0].needed = 1;
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 1, LENGTH(o), o))
         return 0;
     model_bolt_force(m, &b, &along);
     if (!(along.length > r->margin)

@@ -339,19 +339,14 @@ static int read_let(model_reader *r)
     const int at = r->s->first + r->next;
     double x;
 
-    if (!word || !is_new(r, word) || !model_numbers(r, 1, &x))
-        return 0;
-    if (r->round) {
-        const model_local l = { word, r->word[at].text };
-        return model_add(r, &r->local, &r->locals, sizeof l, &l);
-    }
-    if (other) {
+    if (other && model_look(r))
         r->word[at] = (model_given){ other, other, 0 };
-        r->next--;
-        if (!model_number(r, &x))
-            return 0;
-    }
-    return model_enter(r, &r->let_of, word, at);
+    if (!word || !is_new(r, word) || !model_number(r, &x) || !model_at_end(r))
+        return 0;
+    if (!r->round)
+        return model_enter(r, &r->let_of, word, at);
+    const model_local l = { word, r->word[at].text };
+    return model_add(r, &r->local, &r->locals, sizeof l, &l);
 }
 
 /* The `end` of the `repeat` or `stage` at k; -1: there is none. */

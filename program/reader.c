@@ -348,13 +348,12 @@ int model_number(model_reader *r, double *x)
     return 1;
 }
 
-/* The last words of a statement. */
 int model_numbers(model_reader *r, int n, double x[])
 {
     for (int k = 0; k < n; k++)
         if (!model_number(r, &x[k]))
             return 0;
-    return model_at_end(r);
+    return 1;
 }
 
 int model_whole(model_reader *r, const char *what, int least, int *n)
@@ -468,7 +467,7 @@ static int option_value(model_reader *r, model_option *o)
     return model_number(r, o->x) && in_range(r, o);
 }
 
-int model_options(model_reader *r, int n, model_option o[])
+int model_options(model_reader *r, int needed, int n, model_option o[])
 {
     while (model_look(r)) {
         int k = 0;
@@ -479,8 +478,8 @@ int model_options(model_reader *r, int n, model_option o[])
         if (!option_value(r, &o[k]))
             return 0;
     }
-    for (int k = 0; k < n; k++)
-        if (o[k].needed && !o[k].seen)
+    for (int k = 0; k < needed; k++)
+        if (!o[k].seen)
             return model_blame(r, "%s is missing, expected: %s", o[k].name, r->s->form);
     return 1;
 }

@@ -7,6 +7,7 @@
  * sets in the same reader.
  *
  * Every function of a statement takes its words one by one and returns 1, or 0 after model_fail.
+ * What is left of them is surplus.
  * Words are never copied: names and ids point into texts that are kept until model_free.
  */
 #ifndef READER_H
@@ -122,7 +123,7 @@ int   model_skip(model_reader *r, const char *word);     /* takes the next word 
 int   model_keyword(model_reader *r, const char *word);        /* this one must come next */
 int   model_at_end(model_reader *r);
 int   model_number(model_reader *r, double *x);
-int   model_numbers(model_reader *r, int n, double x[]);        /* and nothing behind them */
+int   model_numbers(model_reader *r, int n, double x[]);
 int   model_whole(model_reader *r, const char *what, int least, int *n);
 const char *model_name(model_reader *r);
 const char *model_id(model_reader *r);
@@ -141,10 +142,11 @@ typedef struct {
     int    *n, least;
     const char *choices;            /* "a|b|c" */
     int    *flag;
-    int    needed, seen;
+    int    seen;
 } model_option;
 
-int   model_options(model_reader *r, int n, model_option o[]);
+/* The first ones are needed. */
+int   model_options(model_reader *r, int needed, int n, model_option o[]);
 
 #define RANGE(text, where, from, to, rims, words) \
     { .name = text, .x = where, .low = from, .high = to, .rim = rims, .expected = words }
@@ -180,7 +182,7 @@ int   model_hook(model_reader *r);
 
 /* --- stage.c --- */
 int   model_stage_head(model_reader *r);                /* NAME [steps N] [remove BLOCK ...] */
-int   model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
+void  model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
 void  model_gather_loads(bbm_model *m);                 /* the library's hook */
 
 /* --- build.c: the library's model, and the statements that need it --- */

@@ -28,7 +28,7 @@ int model_stage_head(model_reader *r)
         return 0;
     p->m->par.steps += steps;
     if (!model_skip(r, "remove"))
-        return model_at_end(r);
+        return 1;
     do {
         const int block = model_next_block(r);
         if (block < 0)
@@ -46,19 +46,23 @@ int model_stage_head(model_reader *r)
     return 1;
 }
 
-/* Supports begin the next stage where they are. */
-int model_keep_stage(model_reader *r, int k)
+/* What fixes a block goes to its nodes; without shear springs there is no friction. Supports begin
+ * the next stage where they are. */
+void model_keep_stage(model_reader *r, int k)
 {
     bbm_model *m = r->p->m;
     bbm_node *node = model_room(r, m->nodes, sizeof *node);
 
+    if (r->no_shear)
+        m->par.friction = m->beyond->cohesion = 0;
     r->p->stage[k] = (model_stage){ m->par, m->beyond->cohesion, m->beyond->tension,
                                     m->beyond->edge_loads, node };
     for (int n = 0; n < m->nodes && node; n++) {
+        if (k == 0 && r->block[r->p->node_block[n]].fixed)
+            m->node[n].held = BBM_XY;
         node[n] = m->node[n];
         m->node[n].wall[0] = m->node[n].wall[1] = 0;
     }
-    return node != NULL;
 }
 
 /* No load on what is gone. */

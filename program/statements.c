@@ -42,8 +42,7 @@ static int read_node(model_reader *r)
 {
     model_node n = { .id = model_id(r), .at = r->s->at, .by_hand = 1, .first = -1 };
 
-    return n.id && model_number(r, &n.x) && model_number(r, &n.y) && model_at_end(r)
-           && model_add_node(r, &n);
+    return n.id && model_number(r, &n.x) && model_number(r, &n.y) && model_add_node(r, &n);
 }
 
 /* The path of a file that the next word names, beside the model file; or NULL. */
@@ -71,16 +70,14 @@ static int read_material(model_reader *r)
 {
     const char *word = model_name(r);
     bbm_material m = { .thickness = 1 };
-    enum { E, DENSITY, NU, THICKNESS };
     model_option o[] = {
-        [E] = NORMAL("E", &m.E), [DENSITY] = NORMAL("density", &m.density),
-        [NU] = RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
-        [THICKNESS] = NORMAL("thickness", &m.thickness),
+        NORMAL("E", &m.E), NORMAL("density", &m.density),
+        RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
+        NORMAL("thickness", &m.thickness),
     };
 
-    o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
     if (!word || !model_is_new(r, &r->material_of, "material", word)
-        || !model_options(r, LENGTH(o), o))
+        || !model_options(r, 3, LENGTH(o), o))
         return 0;
     r->light = m.density < 10 ? r->s : r->light;
     return model_enter(r, &r->material_of, word, r->materials)
@@ -98,14 +95,13 @@ static int read_shake(model_reader *r)
 
     r->p->shake = 1;
     if (model_look(r) && (strtod(model_look(r), &end), *end))           /* no number: a file */
-        return (path = next_path(r)) && model_options(r, 1, &scale) && model_read_record(r, path);
-    return model_number(r, &b->shake[0]) && model_number(r, &b->shake[1])
-           && model_numbers(r, 1, &b->shake_omega);
+        return (path = next_path(r)) && model_options(r, 0, 1, &scale) && model_read_record(r, path);
+    return model_numbers(r, 2, b->shake) && model_number(r, &b->shake_omega);
 }
 
 static int read_plane(model_reader *r)
 {
-    return model_choice(r, "stress|strain", &r->plane_strain) && model_at_end(r);
+    return model_choice(r, "stress|strain", &r->plane_strain);
 }
 
 static int read_contact(model_reader *r)
@@ -119,13 +115,11 @@ static int read_contact(model_reader *r)
         ANGLE("friction", &p->friction),
     };
 
-    if (!model_options(r, LENGTH(o), o) || !model_note_friction(r, p->friction))
+    if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, p->friction))
         return 0;
     if (r->s->stage && (o[0].seen || o[1].seen || o[2].seen))
         return model_blame(r, "kn, ks or restitution in a stage, expected friction, cohesion or "
                               "tension");
-    if (r->no_shear)
-        p->friction = b->cohesion = 0;
     return 1;
 }
 
@@ -135,27 +129,25 @@ static int read_static(model_reader *r)
     model_option o[] = { COUNT("steps", &p->steps, 1), ABOVE_ZERO("tolerance", &p->tolerance) };
 
     p->steps = 1;
-    return model_options(r, LENGTH(o), o);
+    return model_options(r, 0, LENGTH(o), o);
 }
 
 static int read_dynamic(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
-    enum { DT, STEPS, FACTOR, DAMPING, SETTLE, RAMP };
     model_option o[] = {
-        [DT] = ABOVE_ZERO("dt", &p->dt), [STEPS] = COUNT("steps", &p->steps, 1),
-        [FACTOR] = RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
-        [DAMPING] = RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),    /* the same */
-        [SETTLE] = COUNT("settle", &r->p->settle, 0), [RAMP] = FROM_ZERO("ramp", &r->p->ramp),
+        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
+        RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),        /* the same */
+        COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
     };
 
-    o[DT].needed = o[STEPS].needed = 1;
     p->velocity_factor = 1;
     r->p->dynamic = 1;
     r->p->ramp = -1;
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 2, LENGTH(o), o))
         return 0;
-    if (o[FACTOR].seen && o[DAMPING].seen)
+    if (o[2].seen && o[3].seen)
         return model_blame(r, "velocity_factor and damping, which are the same, expected one");
     r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
     return 1;
@@ -174,7 +166,7 @@ static int read_bond(model_reader *r)
             return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in "
                                   "the middles of their sides alone elements can turn against "
                                   "each other");
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 0, LENGTH(o), o))
         return 0;
     b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
     return 1;
@@ -190,7 +182,7 @@ static int read_pcg(model_reader *r)
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 0, LENGTH(o), o))
         return 0;
     p->method = coarse == 0 ? &bbm_two_level : NULL;
     return 1;
@@ -200,7 +192,7 @@ static int read_rotation(model_reader *r)
 {
     int kind;
 
-    if (!model_choice(r, "exact|linear", &kind) || !model_at_end(r))
+    if (!model_choice(r, "exact|linear", &kind))
         return 0;
     r->p->m->beyond->rotation = kind == 0 ? BBM_EXACT : BBM_LINEAR;
     return 1;
@@ -218,7 +210,7 @@ static int read_output(model_reader *r)
     for (const field *f = field_table; f->name; f++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
                  f->name);
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 0, LENGTH(o), o))
         return 0;
     r->p->field = field_table[chosen].name;
     return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
@@ -320,15 +312,13 @@ static int add_rim(model_reader *r, const char *block, const char *side, int fir
 static int read_grid(model_reader *r)
 {
     double p[4];
-    int material, n[2], kind = CELL_QUADS, good = 1, element[4][4], corners;
+    int material, n[2], kind = CELL_QUADS, element[4][4], corners;
     const char *word;
     const int block = new_block(r, &word, &material), first = r->nodes;
 
-    for (int k = 0; k < 4 && good; k++)
-        good = block >= 0 && model_number(r, &p[k]);
-    if (!good || !model_whole(r, "NX", 1, &n[0]) || !model_whole(r, "NY", 1, &n[1])
-        || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind))
-        || !model_at_end(r))
+    if (block < 0 || !model_numbers(r, 4, p) || !model_whole(r, "NX", 1, &n[0])
+        || !model_whole(r, "NY", 1, &n[1])
+        || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind)))
         return 0;
     if (!(p[0] < p[2] && p[1] < p[3]))
         return model_blame(r, "a grid from %g %g to %g %g, expected X0 < X1 and Y0 < Y1", p[0],
@@ -342,24 +332,24 @@ static int read_grid(model_reader *r)
     if (!room)
         return model_blame(r, "out of memory: a grid of %d x %d cells takes %.2g GB and more", n[0],
                            n[1], 1e-9 * ELEMENT_BYTES * elements), r->p->status = 1, 0;
-    for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && good; k++) {
+    for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && !r->p->status; k++) {
         const double s = (double)(k % (n[0] + 1)) / n[0], t = (double)(k / (n[0] + 1)) / n[1];
-        good = add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
+        add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
     }
-    for (int k = 0; k < n[0] * n[1] && good; k++) {
+    for (int k = 0; k < n[0] * n[1] && !r->p->status; k++) {
         const int a = first + k / n[0] * (n[0] + 1) + k % n[0], d = a + n[0] + 1;
         const int corner[5] = { a, a + 1, d + 1, d, r->nodes };
         if (kind == CELL_CROSSED)
-            good = add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
-                                (r->node[a].y + r->node[d + 1].y) / 2);
+            add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
+                         (r->node[a].y + r->node[d + 1].y) / 2);
         const int cells = cell_cut(kind, (k / n[0] + k % n[0]) % 2, corner, element, &corners);
-        for (int c = 0; c < cells && good; c++) {
-            for (int i = 0; i < corners && good; i++)
-                good = model_add_corner(r, element[c][i]);
-            good = good && add_own_element(r, block, material, corners);
+        for (int c = 0; c < cells; c++) {
+            for (int i = 0; i < corners; i++)
+                model_add_corner(r, element[c][i]);
+            add_own_element(r, block, material, corners);
         }
     }
-    return good && add_rim(r, word, "left", first, n[0] + 1, n[1] + 1)
+    return add_rim(r, word, "left", first, n[0] + 1, n[1] + 1)
         && add_rim(r, word, "right", first + n[0], n[0] + 1, n[1] + 1)
         && add_rim(r, word, "bottom", first, 1, n[0] + 1)
         && add_rim(r, word, "top", first + n[1] * (n[0] + 1), 1, n[0] + 1);
@@ -392,7 +382,7 @@ static int read_use(model_reader *r)
     const char *word = model_word(r);
     const int star = word && strcmp(word, "*") == 0;
     const int block = star ? 0 : model_known(r, &r->block_of, "block", word);
-    if (block < 0 || !model_at_end(r))
+    if (block < 0)
         return 0;
     if (!star && !r->block[block].meshed)
         return model_blame(r, "block '%.60s' has its material in its own statement, expected a "
@@ -408,7 +398,7 @@ static int read_fixblock(model_reader *r)
 {
     const int block = model_next_block(r);
 
-    if (block < 0 || !model_at_end(r))
+    if (block < 0)
         return 0;
     if (r->block[block].fixed)
         return model_blame(r, "block '%.60s' is fixed for the second time, expected once",
@@ -444,7 +434,7 @@ static int read_expect(model_reader *r)
         return model_blame(r, "a tolerance of %g, expected more than 0", e.within);
     if (value && (percent || model_skip(r, "%")) && (e.within *= fabs(e.value) / 100) <= 0)
         return model_blame(r, "a tolerance in %% of 0, expected one in metre");
-    return model_at_end(r) && model_add(r, &p->expected, &p->expectations, sizeof e, &e);
+    return model_add(r, &p->expected, &p->expectations, sizeof e, &e);
 }
 
 /* ------------------------------------------------------------------------------------ the table */
@@ -634,8 +624,9 @@ static int read_phase(model_reader *r, int phase, int stage)
     for (int k = 0; k < r->statements && !r->p->status; k++) {
         r->s = &r->statement[k];
         r->next = 0;
-        if (kinds[r->s->kind].phase == phase && r->s->stage == stage)
-            kinds[r->s->kind].read(r);
+        const struct kind *kind = &kinds[r->s->kind];
+        if (kind->phase == phase && r->s->stage == stage && kind->read(r))
+            model_at_end(r);
     }
     return !r->p->status;
 }
@@ -673,42 +664,29 @@ static void free_reader(model_reader *r)
     free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
 }
 
-/* Each stage begins with what the one before it has, and is kept until the run comes to it. What
- * fixes a block goes to its nodes. */
-static int read_stages(model_reader *r)
-{
-    model *p = r->p;
-
-    p->stage = model_room(r, p->stages, sizeof *p->stage);
-    for (int n = 0; n < p->m->nodes; n++)
-        if (r->block[p->node_block[n]].fixed)
-            bbm_fix_node(p->m, n, BBM_XY, p->m->node[n].wall[0], p->m->node[n].wall[1]);
-    for (int k = 0; k <= p->stages && !p->status; k++) {
-        for (int phase = NUMBERS + 1; phase < PHASES && k; phase++)
-            read_phase(r, phase, k);
-        if (!p->status)
-            model_keep_stage(r, k);
-    }
-    p->now = -1;
-    if (!p->status)
-        model_next_stage(p);
-    return !p->status;
-}
-
+/* Each stage begins with what the one before it has, and is kept until the run comes to it. */
 static int read_all(model_reader *r)
 {
+    model *p = r->p;
     size_t size;
     char *text = model_load(r, r->path, (model_place){ .file = r->path }, &size);
 
     if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;
-    for (int phase = NUMBERS + 1; phase < PHASES; phase++)
-        if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase, 0))
-            return 0;
+    p->stage = model_room(r, p->stages, sizeof *p->stage);
+    for (int stage = 0; stage <= p->stages && !p->status; stage++) {
+        for (int phase = NUMBERS + 1; phase < PHASES; phase++)
+            if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage))
+                return 0;
+        model_keep_stage(r, stage);
+    }
+    if (p->status)
+        return 0;
+    model_next_stage(p);
     r->s = r->light;
-    if (r->light && (r->p->m->par.gravity[0] != 0 || r->p->m->par.gravity[1] != 0))
+    if (r->light && (p->m->par.gravity[0] != 0 || p->m->par.gravity[1] != 0))
         model_note(r, "warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?");
-    return read_stages(r) && model_finish(r);
+    return model_finish(r);
 }
 
 int model_read(const char *path, int lets, char *const let[], model *p)
@@ -717,7 +695,7 @@ int model_read(const char *path, int lets, char *const let[], model *p)
     model_reader r = { .p = p, .path = path, .lets = lets, .let = let, .other_material = -1,
                        .seen = seen };
 
-    *p = (model){ .field = "mises" };
+    *p = (model){ .field = "mises", .now = -1 };
     if (bbm_beyond_new(&p->m)) {
         model_out_of_memory(&r);
     } else {
