@@ -44,7 +44,7 @@ static int give_materials(model_reader *r)
         model_element *el = &r->element[e];
         const model_block *b = &r->block[el->block];
         if (el->material < 0)
-            el->material = b->material >= 0 ? b->material : r->other_material;
+            el->material = b->material >= 0 ? b->material : r->any.material;
         if (el->material < 0)
             return model_fail(r, b->at, "block '%.60s' has no material, expected: use MATERIAL on "
                               "%.60s", b->name, b->name);
@@ -168,9 +168,9 @@ int model_build(model_reader *r)
         return model_refused(r, status);
     if (r->plane_strain)
         bbm_set_plane_strain(p->m);
-    for (int b = 0; b < r->blocks; b++)         /* a block is a set, too: -2 - b */
+    for (int b = 0; b < r->blocks; b++)         /* a block is a set, too, behind the others */
         if (model_find(&r->set_of, r->block[b].name) < 0)
-            model_enter(r, &r->set_of, r->block[b].name, -2 - b);
+            model_enter(r, &r->set_of, r->block[b].name, r->sets + b);
     p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
     r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
     return !p->status;
@@ -180,8 +180,8 @@ int model_build(model_reader *r)
 
 enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 
-/* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
-typedef struct { int kind, found, block, whole; double x[4]; } selection;
+/* What stands behind WHERE; found: the node or set; block: -1, any. */
+typedef struct { int kind, found, block; double x[4]; } selection;
 
 /* Takes the library nodes of a node, each once for a WHERE. */
 static void choose(model_reader *r, const selection *w, int node)
@@ -252,17 +252,15 @@ static int is_there(const model_reader *r, const selection *w, const model_node 
 }
 
 /* A set, or all nodes of a block. */
-static int choose_set(model_reader *r, selection *w, const char *word)
+static int choose_set(model_reader *r, selection *w)
 {
-    w->found = model_find(&r->set_of, word);
-    if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
+    w->found = model_known(r, &r->set_of);
+    if (w->found >= r->sets)
+        w->block = w->found - r->sets;
+    else if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
         return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
                               "of curves or points, expected one");
-    if (w->found == -1)
-        return model_unknown(r, &r->set_of, "set", word);
-    if (w->found < 0)
-        w->block = w->whole = -2 - w->found;
-    return 1;
+    return w->found >= 0;
 }
 
 /* The words of WHERE. */
@@ -272,7 +270,6 @@ static int read_selection(model_reader *r, selection *w)
         [BY_NODE] = { "node", 0 }, [BY_AT] = { "at", 2 }, [BY_SET] = { "set", 0 },
         [BY_BOX] = { "box", 4 },
     };
-    const char *word = NULL;
 
     *w = (selection){ .block = -1 };
     while (w->kind < LENGTH(kind) && !model_skip(r, kind[w->kind].word))
@@ -283,14 +280,14 @@ static int read_selection(model_reader *r, selection *w)
                               "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
     if (!model_numbers(r, kind[w->kind].numbers, w->x))
         return 0;
-    if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of, "node", model_id(r))) < 0)
+    if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of)) < 0)
         return 0;
-    if (w->kind == BY_SET && (!(word = model_word(r)) || !choose_set(r, w, word)))
+    if (w->kind == BY_SET && !choose_set(r, w))
         return 0;
     if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
         return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
                            w->x[0], w->x[1], w->x[2], w->x[3]);
-    return !model_skip(r, "of") || (w->block = model_next_block(r)) >= 0;
+    return !model_skip(r, "of") || (w->block = model_known(r, &r->block_of)) >= 0;
 }
 
 static int blame_nowhere(model_reader *r, const selection *w)
@@ -317,14 +314,15 @@ static int where(model_reader *r, int nearest)
         return 0;
     if (w.kind == BY_NODE)
         choose(r, &w, w.found);
-    else if (w.kind == BY_SET && w.found >= 0)
+    else if (w.kind == BY_SET && w.found < r->sets)
         for (int k = 0; k < r->set[w.found].n; k++)
             choose(r, &w, r->set[w.found].node[k]);
     else if (w.kind == BY_AT && nearest)
         choose_nearest(r, &w);
     else
         for (int n = 0; n < r->nodes; n++)
-            if (w.kind == BY_SET ? find_copy(r, w.whole, n) >= 0 : is_there(r, &w, &r->node[n]))
+            if (w.kind == BY_SET ? find_copy(r, w.found - r->sets, n) >= 0
+                                 : is_there(r, &w, &r->node[n]))
                 choose(r, &w, n);
     return r->chosen > 0 ? 1 : blame_nowhere(r, &w);
 }
@@ -476,7 +474,7 @@ int model_joint(model_reader *r)
 
     for (int k = 0; k < 2; k++) {
         block[k] = -1;
-        if (!model_skip(r, "*") && (block[k] = model_next_block(r)) < 0)
+        if (!model_skip(r, "*") && (block[k] = model_known(r, &r->block_of)) < 0)
             return 0;
     }
     if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, friction))
@@ -497,7 +495,7 @@ int model_joint(model_reader *r)
 
 int model_velocities(model_reader *r)
 {
-    const int block = model_next_block(r);
+    const int block = model_known(r, &r->block_of);
     model_velocity v = { { 0, 0, 0 }, 1 };
 
     if (block < 0 || !model_numbers(r, 2, v.V) || (model_look(r) && !model_number(r, &v.V[2])))
@@ -512,19 +510,18 @@ int model_velocities(model_reader *r)
 /* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
 int model_stress(model_reader *r)
 {
-    const int star = model_skip(r, "*"), block = star ? -1 : model_next_block(r);
-    int *given = block >= 0 ? &r->block[block].stressed : &r->stressed;
+    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
     double s[6] = { 0 };
 
-    if (!star && block < 0)
+    if (block < 0)
         return 0;
-    if (*given)
-        return model_blame(r, "a stress of '%.60s' for the second time, expected one",
-                           star ? "*" : r->block[block].name);
+    model_block *b = star ? &r->any : &r->block[block];
+    if (b->stressed)
+        return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
     if (!model_numbers(r, 3, s)
         || (model_look(r) && !(model_keyword(r, "gradient") && model_numbers(r, 3, s + 3))))
         return 0;
-    *given = 1;
+    b->stressed = 1;
     for (int e = 0; e < r->elements; e++) {
         bbm_element *i = &r->p->m->element[e];
         for (int k = 0; k < 3 && (star ? !r->block[i->block].stressed : i->block == block); k++)
@@ -535,12 +532,10 @@ int model_stress(model_reader *r)
 
 int model_monitors(model_reader *r)
 {
-    const char *word = model_name(r);
     model *p = r->p;
-    model_monitor m = { word, 0, NULL };
+    model_monitor m = { .name = model_new_name(r, &r->monitor_of) };
 
-    if (!word || !model_is_new(r, &r->monitor_of, "monitor", word) || !where(r, 1)
-        || !model_enter(r, &r->monitor_of, word, p->monitors))
+    if (!m.name || !where(r, 1) || !model_enter(r, &r->monitor_of, m.name, p->monitors))
         return 0;
     m.node = model_room(r, r->chosen, sizeof *m.node);
     for (; m.node && m.nodes < r->chosen; m.nodes++)

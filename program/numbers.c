@@ -321,27 +321,29 @@ static int add_statement(model_reader *r, const model_statement *source)
 static int is(const model_statement *s, const char *word) { return strcmp(s->name, word) == 0; }
 static int opens(const model_statement *s) { return is(s, "repeat") || is(s, "stage"); }
 
-static int is_new(model_reader *r, const char *word)
+static const char *new_number(model_reader *r)
 {
-    for (int k = 0; k < r->locals; k++)
+    const char *word = model_new_name(r, &r->let_of);
+
+    for (int k = 0; k < r->locals && word; k++)
         if (strcmp(r->local[k].name, word) == 0)
             return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
-                               word);
-    return model_is_new(r, &r->let_of, "let", word);
+                               word), NULL;
+    return word;
 }
 
 /* The number is the word behind the name, or that of the command line in its place. In a round it
  * is the round's. */
 static int read_let(model_reader *r)
 {
-    const char *word = model_name(r);
+    const char *word = new_number(r);
     char *other = word && !r->round ? given(r, word) : NULL;
     const int at = r->s->first + r->next;
     double x;
 
     if (other && model_look(r))
         r->word[at] = (model_given){ other, other, 0 };
-    if (!word || !is_new(r, word) || !model_number(r, &x) || !model_at_end(r))
+    if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
     if (!r->round)
         return model_enter(r, &r->let_of, word, at);
@@ -382,8 +384,8 @@ static int repeat(model_reader *r, int from, int end)
 
     if (!add_statement(r, &r->cut[from]))
         return 0;
-    const char *word = model_name(r);
-    if (!word || !is_new(r, word) || !model_whole(r, "FROM", -INT_MAX / 2, &low)
+    const char *word = new_number(r);
+    if (!word || !model_whole(r, "FROM", -INT_MAX / 2, &low)
         || !model_whole(r, "TO", -INT_MAX / 2, &high) || !model_at_end(r))
         return 0;
     if (++r->depth > DEEPEST_REPEAT)

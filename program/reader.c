@@ -144,7 +144,7 @@ int model_find(const model_table *t, const char *key)
 int model_enter(model_reader *r, model_table *t, const char *key, int value)
 {
     if (2 * t->count >= t->room) {
-        model_table larger = { .room = t->room ? 2 * t->room : 64 };
+        model_table larger = { .what = t->what, .room = t->room ? 2 * t->room : 64 };
         if (!(larger.slot = model_room(r, larger.room, sizeof *larger.slot)))
             return 0;
         for (int k = 0; k < t->room; k++)
@@ -232,16 +232,6 @@ const char *model_nearest(const char *word, const void *names, int n, size_t str
 const char *model_nearest_of(const model_table *t, const char *word, char text[200])
 {
     return model_nearest(word, t->slot, t->room, sizeof *t->slot, text);
-}
-
-int model_unknown(model_reader *r, const model_table *t, const char *what, const char *word)
-{
-    char text[200];
-
-    if (t->count == 0)
-        return model_blame(r, "unknown %s '%.60s': the model has none", what, word);
-    return model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", what,
-                       word, model_nearest_of(t, word, text));
 }
 
 int model_is_name(const char *word)
@@ -395,19 +385,33 @@ const char *model_id(model_reader *r)
     return word;
 }
 
-/* The number that a word stands for in a table; -1 after an error. */
-int model_known(model_reader *r, const model_table *t, const char *what, const char *word)
+/* The number that the next word stands for; -1 after an error. */
+int model_known(model_reader *r, const model_table *t)
 {
+    const char *word = t == &r->node_of ? model_id(r) : model_word(r);
     const int found = word ? model_find(t, word) : -1;
+    char text[200];
 
-    if (word && found < 0)
-        model_unknown(r, t, what, word);
+    if (word && t->count == 0)
+        model_blame(r, "unknown %s '%.60s': the model has none", t->what, word);
+    else if (word && found < 0)
+        model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", t->what,
+                    word, model_nearest_of(t, word, text));
     return found;
 }
 
-int model_next_block(model_reader *r)
+int model_is_new(model_reader *r, model_place at, const model_table *t, const char *word)
 {
-    return model_known(r, &r->block_of, "block", model_word(r));
+    return model_find(t, word) < 0
+           || model_fail(r, at, "%s '%.60s' for the second time, expected a new one", t->what,
+                         word);
+}
+
+const char *model_new_name(model_reader *r, const model_table *t)
+{
+    const char *word = model_name(r);
+
+    return word && model_is_new(r, r->s->at, t, word) ? word : NULL;
 }
 
 /* Angles are in degrees; tan(phi) is given elsewhere. */
@@ -416,13 +420,6 @@ int model_note_friction(model_reader *r, double friction)
     return !(friction > 0 && friction < 1)
            || model_note(r, "warning: a friction of %g degrees; if it is meant as tan(phi), phi is "
                          "%.3g degrees", friction, atan(friction) * 180 / acos(-1));
-}
-
-int model_is_new(model_reader *r, const model_table *t, const char *what, const char *word)
-{
-    if (model_find(t, word) >= 0)
-        return model_blame(r, "%s '%.60s' for the second time, expected a new one", what, word);
-    return 1;
 }
 
 /* -------------------------------------------------------------------------------------- options */
@@ -496,10 +493,9 @@ static void note_id(long long *last, const char *id)
 
 int model_add_node(model_reader *r, const model_node *n)
 {
-    if (model_find(&r->node_of, n->id) >= 0)
-        return model_fail(r, n->at, "node '%.60s' for the second time, expected a new one", n->id);
     note_id(&r->last_node, n->id);
-    return model_enter(r, &r->node_of, n->id, r->nodes)
+    return model_is_new(r, n->at, &r->node_of, n->id)
+           && model_enter(r, &r->node_of, n->id, r->nodes)
            && model_add(r, &r->node, &r->nodes, sizeof *n, n);
 }
 
@@ -525,10 +521,8 @@ int model_add_element(model_reader *r, const model_element *e)
 
     own.first = r->corners - e->n;
     note_id(&r->last_element, e->id);
-    if (model_find(&r->element_of, e->id) >= 0)
-        return model_fail(r, e->at, "element '%.60s' for the second time, expected a new one",
-                          e->id);
-    return model_enter(r, &r->element_of, e->id, r->elements)
+    return model_is_new(r, e->at, &r->element_of, e->id)
+           && model_enter(r, &r->element_of, e->id, r->elements)
            && model_add(r, &r->element, &r->elements, sizeof own, &own);
 }
 

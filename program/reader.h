@@ -21,7 +21,8 @@
 /* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */
 typedef struct { const char *file; int line; const char *round; } model_place;
 typedef struct { const char *key; int value; } model_slot;     /* key: NULL, empty */
-typedef struct { int room, count; model_slot *slot; } model_table;  /* from a word to a number */
+/* From a word to a number; what: a word stands for. */
+typedef struct { const char *what; int room, count; model_slot *slot; } model_table;
 
 typedef struct {                /* words first .. first+n-1 */
     model_place at;
@@ -80,8 +81,8 @@ typedef struct {
     model_copy *copy;
     model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of, stage_of;
     long long last_node, last_element;      /* the largest ids */
-    int other_material;                     /* of `use MATERIAL on *`, or -1 */
-    int plane_strain, no_shear, stressed;   /* no_shear: ks is 0; stressed: by `stress *` */
+    model_block any;                        /* `*`: the blocks without their own */
+    int plane_strain, no_shear;             /* no_shear: ks is 0 */
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
     int wheres;                             /* many nodes of the file; and how many there were */
     double margin;                          /* m            lengths below it are none */
@@ -113,7 +114,6 @@ int   model_is_name(const char *word);
 const char *model_nearest(const char *word, const void *names, int n, size_t stride,
                           char text[200]);
 const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
-int   model_unknown(model_reader *r, const model_table *t, const char *what, const char *word);
 
 /* --- words of the statement in hand --- */
 int   model_wrong(model_reader *r, const char *what, const char *word);
@@ -127,9 +127,9 @@ int   model_numbers(model_reader *r, int n, double x[]);
 int   model_whole(model_reader *r, const char *what, int least, int *n);
 const char *model_name(model_reader *r);
 const char *model_id(model_reader *r);
-int   model_known(model_reader *r, const model_table *t, const char *what, const char *word);
-int   model_is_new(model_reader *r, const model_table *t, const char *what, const char *word);
-int   model_next_block(model_reader *r);
+int   model_known(model_reader *r, const model_table *t);   /* the next word's number, or -1 */
+int   model_is_new(model_reader *r, model_place at, const model_table *t, const char *word);
+const char *model_new_name(model_reader *r, const model_table *t);
 int   model_note_friction(model_reader *r, double friction);    /* of less than a degree */
 int   model_choice(model_reader *r, const char *choices, int *n);
 

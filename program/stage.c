@@ -19,18 +19,17 @@
 int model_stage_head(model_reader *r)
 {
     model *p = r->p;
-    const char *word = model_name(r);
+    const char *word = model_new_name(r, &r->stage_of);
     int steps = p->stage[0].par.steps;
 
-    if (!word || !model_is_new(r, &r->stage_of, "stage", word)
-        || !model_enter(r, &r->stage_of, word, r->s->stage)
+    if (!word || !model_enter(r, &r->stage_of, word, r->s->stage)
         || (model_skip(r, "steps") && !model_whole(r, "steps", 1, &steps)))
         return 0;
     p->m->par.steps += steps;
     if (!model_skip(r, "remove"))
         return 1;
     do {
-        const int block = model_next_block(r);
+        const int block = model_known(r, &r->block_of);
         if (block < 0)
             return 0;
         for (int k = 0; k < p->monitors; k++)
@@ -107,8 +106,8 @@ static void change_node(bbm_model *m, int n, bbm_node *to)
     a->held = to->held;
 }
 
-/* The gaps of fixed points may be others and begin without multipliers; K is laid out anew. Contacts
- * and bolts of what is gone end; the first step loses the energy of their springs. */
+/* The gaps of fixed points may be others and begin without multipliers; K is laid out anew.
+ * Contacts and bolts of what is gone end; the first step loses the energy of their springs. */
 void model_next_stage(model *p)
 {
     bbm_model *m = p->m;

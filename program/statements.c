@@ -68,7 +68,7 @@ static int read_mesh(model_reader *r)
 
 static int read_material(model_reader *r)
 {
-    const char *word = model_name(r);
+    const char *word = model_new_name(r, &r->material_of);
     bbm_material m = { .thickness = 1 };
     model_option o[] = {
         NORMAL("E", &m.E), NORMAL("density", &m.density),
@@ -76,8 +76,7 @@ static int read_material(model_reader *r)
         NORMAL("thickness", &m.thickness),
     };
 
-    if (!word || !model_is_new(r, &r->material_of, "material", word)
-        || !model_options(r, 3, LENGTH(o), o))
+    if (!word || !model_options(r, 3, LENGTH(o), o))
         return 0;
     r->light = m.density < 10 ? r->s : r->light;
     return model_enter(r, &r->material_of, word, r->materials)
@@ -95,7 +94,8 @@ static int read_shake(model_reader *r)
 
     r->p->shake = 1;
     if (model_look(r) && (strtod(model_look(r), &end), *end))           /* no number: a file */
-        return (path = next_path(r)) && model_options(r, 0, 1, &scale) && model_read_record(r, path);
+        return (path = next_path(r)) && model_options(r, 0, 1, &scale)
+               && model_read_record(r, path);
     return model_numbers(r, 2, b->shake) && model_number(r, &b->shake_omega);
 }
 
@@ -224,14 +224,14 @@ static int read_element(model_reader *r)
     model_element e = { .id = model_id(r), .at = r->s->at };
     const char *block = e.id ? model_name(r) : NULL;
 
-    if (!block || (e.material = model_known(r, &r->material_of, "material", model_word(r))) < 0)
+    if (!block || (e.material = model_known(r, &r->material_of)) < 0)
         return 0;
     e.n = r->s->n - r->next;
     if (e.n < 3)
         return model_fail(r, e.at, "element %.60s has %d nodes, expected 3 or more", e.id, e.n);
     e.block = model_find_block(r, block, e.at);
     for (int k = 0; k < e.n; k++)
-        if (!model_add_corner(r, model_known(r, &r->node_of, "node", model_id(r))))
+        if (!model_add_corner(r, model_known(r, &r->node_of)))
             return 0;
     return e.block >= 0 && model_add_element(r, &e);
 }
@@ -270,9 +270,8 @@ static int add_own_element(model_reader *r, int block, int material, int n)
 /* NAME MATERIAL of a new block; its number, or -1. */
 static int new_block(model_reader *r, const char **word, int *material)
 {
-    *word = model_name(r);
-    if (!*word || !model_is_new(r, &r->block_of, "block", *word)
-        || (*material = model_known(r, &r->material_of, "material", model_word(r))) < 0)
+    *word = model_new_name(r, &r->block_of);
+    if (!*word || (*material = model_known(r, &r->material_of)) < 0)
         return -1;
     return model_find_block(r, *word, r->s->at);
 }
@@ -302,7 +301,7 @@ static int add_rim(model_reader *r, const char *block, const char *side, int fir
     if (!word)
         return 0;
     sprintf(word, "%s.%s", block, side);
-    int set = model_is_new(r, &r->set_of, "set", word) ? model_find_set(r, word) : -1;
+    int set = model_is_new(r, r->s->at, &r->set_of, word) ? model_find_set(r, word) : -1;
     for (int k = 0; k < n && set >= 0; k++)
         if (!model_add_to_set(r, set, first + k * step))
             set = -1;
@@ -359,13 +358,13 @@ static int read_grid(model_reader *r)
 
 static int read_set(model_reader *r)
 {
-    const char *word = model_name(r);
+    const char *word = model_new_name(r, &r->set_of);
 
-    if (!word || !model_is_new(r, &r->set_of, "set", word) || !model_keyword(r, "nodes"))
+    if (!word || !model_keyword(r, "nodes"))
         return 0;
     const int set = model_find_set(r, word);
     for (int good = set >= 0, first = 1; first || model_look(r); first = 0) {
-        const int node = good ? model_known(r, &r->node_of, "node", model_id(r)) : -1;
+        const int node = good ? model_known(r, &r->node_of) : -1;
         if (node < 0 || !model_add_to_set(r, set, node))
             return 0;
     }
@@ -375,28 +374,26 @@ static int read_set(model_reader *r)
 /* A block of the mesh gets the material; `*`: every one that has none of its own. */
 static int read_use(model_reader *r)
 {
-    const int material = model_known(r, &r->material_of, "material", model_word(r));
+    const int material = model_known(r, &r->material_of);
 
     if (material < 0 || !model_keyword(r, "on"))
         return 0;
-    const char *word = model_word(r);
-    const int star = word && strcmp(word, "*") == 0;
-    const int block = star ? 0 : model_known(r, &r->block_of, "block", word);
+    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
     if (block < 0)
         return 0;
-    if (!star && !r->block[block].meshed)
+    model_block *b = star ? &r->any : &r->block[block];
+    if (!b->meshed)
         return model_blame(r, "block '%.60s' has its material in its own statement, expected a "
-                           "block of a mesh", word);
-    int *m = star ? &r->other_material : &r->block[block].material;
-    if (*m >= 0)
-        return model_blame(r, "a material for '%.60s' for the second time, expected one", word);
-    *m = material;
+                           "block of a mesh", b->name);
+    if (b->material >= 0)
+        return model_blame(r, "a material for '%.60s' for the second time, expected one", b->name);
+    b->material = material;
     return 1;
 }
 
 static int read_fixblock(model_reader *r)
 {
-    const int block = model_next_block(r);
+    const int block = model_known(r, &r->block_of);
 
     if (block < 0)
         return 0;
@@ -411,12 +408,10 @@ static int read_fixblock(model_reader *r)
 static int read_expect(model_reader *r)
 {
     model *p = r->p;
-    model_expected e = { 0 };
-    const int monitor = model_known(r, &r->monitor_of, "monitor", model_word(r));
+    model_expected e = { .monitor = model_known(r, &r->monitor_of) };
 
-    if (monitor < 0 || !model_choice(r, "u|v|moves|stays", &e.kind))
+    if (e.monitor < 0 || !model_choice(r, "u|v|moves|stays", &e.kind))
         return 0;
-    e.monitor = monitor;
     const int value = e.kind == MODEL_U || e.kind == MODEL_V;
     if ((value && !model_number(r, &e.value)) || !model_keyword(r, value ? "within" : "by"))
         return 0;
@@ -692,8 +687,13 @@ static int read_all(model_reader *r)
 int model_read(const char *path, int lets, char *const let[], model *p)
 {
     model_place seen[LENGTH(kinds)] = { { 0 } };
-    model_reader r = { .p = p, .path = path, .lets = lets, .let = let, .other_material = -1,
-                       .seen = seen };
+    model_reader r = {
+        .p = p, .path = path, .lets = lets, .let = let, .seen = seen,
+        .any = { .name = "*", .material = -1, .meshed = 1 }, .node_of.what = "node",
+        .element_of.what = "element", .block_of.what = "block", .material_of.what = "material",
+        .set_of.what = "set", .monitor_of.what = "monitor", .let_of.what = "let",
+        .stage_of.what = "stage",
+    };
 
     *p = (model){ .field = "mises", .now = -1 };
     if (bbm_beyond_new(&p->m)) {
