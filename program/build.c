@@ -155,9 +155,6 @@ int model_build(model_reader *r)
         bbm_add_material(p->m, &r->material[k], NULL);
     p->element = model_room(r, r->elements, sizeof *p->element);
     p->centre = model_room(r, r->elements, sizeof *p->centre);
-    p->block = model_room(r, r->blocks, sizeof *p->block);
-    for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
-        p->block[p->blocks] = r->block[p->blocks].name;
     for (int e = 0; e < r->elements && !p->status; e++)
         add_element(r, &r->element[e]);
     if (p->status)

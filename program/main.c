@@ -24,8 +24,8 @@ static volatile sig_atomic_t stopped;
 enum { SHOWN = 30 };                 /* blocks of --check */
 
 typedef struct {
-    const char *model, *matrix;
-    char folder[1024], **let;                   /* let: [lets] NAME=VALUE */
+    const char *model;
+    char *matrix, folder[1024], **let;          /* let: [lets] NAME=VALUE */
     int lets, quiet, check, exit;               /* exit: -1, go on */
     find find;                                  /* name: NULL, none */
 } arguments;
@@ -83,7 +83,7 @@ static int read_find(find *f, char *word[])
 /* The options may stand before and after the model; behind `--` a name may begin with a dash. */
 static int read_arguments(arguments *a, int argc, char *argv[])
 {
-    const char *folder = NULL;
+    char *folder = NULL;
     int options = 1;
 
     *a = (arguments){ .exit = -1, .let = argv };
@@ -92,7 +92,7 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         for (char *c = argv[k]; *c; c++)
             *c = *c == '\\' ? '/' : *c;        /* both part folders there */
 #endif
-        const char *word = argv[k], *let, **value = &let;
+        char *word = argv[k];
         if (!options || word[0] != '-' || word[1] == '\0') {
             if (a->model)
                 return complain(a, "expected one model file");
@@ -111,14 +111,12 @@ static int read_arguments(arguments *a, int argc, char *argv[])
             if (!read_find(&a->find, argv + k + 1))
                 return complain(a, "--find needs a name and two different numbers");
             k += 3;
-        } else if (word[1] == 'o' || word[1] == 'm' || word[1] == 'd') {
-            if (word[1] != 'd')
-                value = word[1] == 'o' ? &folder : &a->matrix;
+        } else if (strchr("omd", word[1])) {
+            char **value = word[1] == 'o' ? &folder : word[1] == 'm' ? &a->matrix
+                         : &a->let[a->lets++];          /* they gather at the front of argv */
             *value = word[2] ? word + 2 : argv[++k];
             if (k == argc || **value == '\0')
                 return complain(a, "-o and -m need a name, -d NAME=VALUE");
-            if (value == &let)                  /* they gather at the front of argv */
-                a->let[a->lets++] = word[2] ? argv[k] + 2 : argv[k];
         } else {
             fprintf(stderr, "bbm: unknown option %.60s\n%s", word, usage);
             return a->exit = 2;
@@ -284,10 +282,7 @@ static bbm_status run_all(run *r, write_results *w, progress *s)
     const bbm_info *i = &r->p->m->info;
     bbm_status status = BBM_OK;
 
-    while (!status && !r->is_over && !stopped && (!r->has_begun || !w->status)) {
-        status = run_step(r);
-        if (status)
-            break;
+    while (!r->is_over && !stopped && !w->status && !(status = run_step(r))) {
         if (r->has_begun)
             write_step(w, i->step);
         if (r->stage_is_over && !r->is_over)

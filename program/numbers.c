@@ -364,7 +364,7 @@ static int find_end(const model_reader *r, int k)
 
 static int walk(model_reader *r, int from, int to);
 
-/* "i = 7, j = 2" of the round, for messages. */
+/* "i = 7, j = 2" of the round, for messages; its last word is the value. */
 static const char *describe_round(model_reader *r, const char *outer, const char *name, int i)
 {
     const size_t room = strlen(name) + NUMBER_ROOM + (outer ? strlen(outer) : 0);
@@ -392,13 +392,11 @@ static int repeat(model_reader *r, int from, int end)
         return model_blame(r, "more than %d times repeat in repeat, expected fewer",
                            DEEPEST_REPEAT);
     for (int i = low; i <= high; i++) {
-        char *value = model_text(r, NUMBER_ROOM);
-        const model_local l = { word, value };
-        if (!value || !(r->round = describe_round(r, outer, word, i))
-            || !model_add(r, &r->local, &r->locals, sizeof l, &l))
+        if (!(r->round = describe_round(r, outer, word, i)))
             return 0;
-        snprintf(value, NUMBER_ROOM, "%d", i);
-        if (!walk(r, from + 1, end) || !add_statement(r, &r->cut[end]) || !model_at_end(r))
+        const model_local l = { word, strrchr(r->round, ' ') + 1 };
+        if (!model_add(r, &r->local, &r->locals, sizeof l, &l) || !walk(r, from + 1, end)
+            || !add_statement(r, &r->cut[end]) || !model_at_end(r))
             return 0;
         r->locals = locals;
     }

@@ -208,20 +208,18 @@ static int distance(const char *a, const char *b)
 
 const char *model_nearest(const char *word, const void *names, int n, size_t stride, char text[200])
 {
-    const char *found[3] = { NULL, NULL, NULL };
-    int d[3] = { INT_MAX, INT_MAX, INT_MAX };
+    const char *found[4] = { NULL };            /* the fourth one is not wanted */
+    int d[4] = { INT_MAX, INT_MAX, INT_MAX };
 
     for (int k = 0; k < n; k++) {
         const char *const name = *(const char *const *)((const char *)names + (size_t)k * stride);
-        int at = 3;
         const int far = name ? distance(word, name) : INT_MAX;
+        int at = 3;
         for (; at > 0 && name
                && (far < d[at - 1] || (far == d[at - 1] && strcmp(name, found[at - 1]) < 0));
              at--)
-            if (at < 3)
-                found[at] = found[at - 1], d[at] = d[at - 1];
-        if (at < 3)
-            found[at] = name, d[at] = far;
+            found[at] = found[at - 1], d[at] = d[at - 1];
+        found[at] = name, d[at] = far;
     }
     text[0] = '\0';
     for (int k = 0; k < 3 && found[k]; k++)
@@ -507,6 +505,7 @@ int model_find_block(model_reader *r, const char *word, model_place at)
     if (found >= 0)
         return found;
     return model_enter(r, &r->block_of, word, r->blocks)
+           && model_add(r, &r->p->block, &r->p->blocks, sizeof word, &word)
            && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
 }
 

@@ -283,14 +283,16 @@ static int read_block(model_reader *r)
     int material;
     const int block = new_block(r, &word, &material), words = r->s->n - r->next;
 
-    for (int k = 0; k < words && block >= 0; k++)
+    if (block < 0)
+        return 0;
+    for (int k = 0; k < words; k++)
         if (!model_number(r, &xy[k % 2])
             || (k % 2 && !(add_own_node(r, xy[0], xy[1]) && model_add_corner(r, r->nodes - 1))))
             return 0;
-    if (block >= 0 && (words < 6 || words % 2))
+    if (words < 6 || words % 2)
         return model_blame(r, "block '%.60s' has %d coordinates, expected X Y of 3 corners or "
                            "more", word, words);
-    return block >= 0 && add_own_element(r, block, material, words / 2);
+    return add_own_element(r, block, material, words / 2);
 }
 
 /* The nodes from `first` on, `step` apart, as the set NAME.side. */
@@ -363,11 +365,11 @@ static int read_set(model_reader *r)
     if (!word || !model_keyword(r, "nodes"))
         return 0;
     const int set = model_find_set(r, word);
-    for (int good = set >= 0, first = 1; first || model_look(r); first = 0) {
-        const int node = good ? model_known(r, &r->node_of) : -1;
+    do {
+        const int node = set < 0 ? -1 : model_known(r, &r->node_of);
         if (node < 0 || !model_add_to_set(r, set, node))
             return 0;
-    }
+    } while (model_look(r));
     return 1;
 }
 
