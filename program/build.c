@@ -194,23 +194,16 @@ static void choose(model_reader *r, const selection *w, int node)
             r->chosen_node[r->chosen++] = r->copy[c].node;
 }
 
-/* The first of the nearest nodes, and how many others lie there as well; -1: there is none. */
-static int find_nearest(const model_reader *r, const selection *w, int *others)
+/* The first of the nearest nodes; -1: there is none. */
+static int find_nearest(const model_reader *r, const selection *w)
 {
     double best = INFINITY;
     int found = -1;
 
-    *others = 0;
     for (int n = 0; n < r->nodes; n++) {
-        const double d = find_copy(r, w->block, n) >= 0
-                             ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1])
-                             : INFINITY;
-        if (d < best - r->margin)
-            best = d, found = n, *others = 0;
-        else if (isfinite(d) && d <= best + r->margin
-                 && hypot(r->node[n].x - r->node[found].x, r->node[n].y - r->node[found].y)
-                        <= r->margin)
-            ++*others;
+        const double d = hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1]);
+        if (d < best - r->margin && find_copy(r, w->block, n) >= 0)
+            best = d, found = n;
     }
     return found;
 }
@@ -219,24 +212,26 @@ static int find_nearest(const model_reader *r, const selection *w, int *others)
  * model. */
 static void choose_nearest(model_reader *r, const selection *w)
 {
-    int others;
-    const int found = find_nearest(r, w, &others);
+    const int found = find_nearest(r, w);
     double far = 0;
+    int there = 0;
 
     if (found < 0)
         return;
     choose(r, w, found);
     const model_node *at = &r->node[found];
+    for (int n = 0; n < r->nodes; n++) {
+        const double d = hypot(r->node[n].x - at->x, r->node[n].y - at->y);
+        far = fmax(far, d);
+        there += d <= r->margin && find_copy(r, w->block, n) >= 0;
+    }
     const double d = hypot(at->x - w->x[0], at->y - w->x[1]);
-    for (int n = 0; n < r->nodes; n++)
-        far = fmax(far, hypot(r->node[n].x - at->x, r->node[n].y - at->y));
     if (d > far / 10)
         model_note(r, "warning: the nearest node, %.60s at %g %g, is %.3g m away from %g %g",
                    at->id, at->x, at->y, d, w->x[0], w->x[1]);
-    if (others > 0)
+    if (there > 1)
         model_note(r, "note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
-                   "takes another", others + 1, r->node[found].id,
-                   r->block[r->copy[r->node[found].first].block].name);
+                   "takes another", there, at->id, r->block[r->copy[at->first].block].name);
 }
 
 static int is_there(const model_reader *r, const selection *w, const model_node *n)
@@ -289,7 +284,7 @@ static int read_selection(model_reader *r, selection *w)
 
 static int blame_nowhere(model_reader *r, const selection *w)
 {
-    const int n = w->kind == BY_AT ? find_nearest(r, w, &(int){ 0 }) : -1;
+    const int n = w->kind == BY_AT ? find_nearest(r, w) : -1;
     const char *of = w->block >= 0 ? " of block " : "",
                *name = w->block >= 0 ? r->block[w->block].name : "";
 
