@@ -21,7 +21,7 @@ static void set_defaults(model_reader *r)
     double softest[2] = { INFINITY, INFINITY };         /* of the blocks that are free, of all */
 
     for (int e = 0; e < r->elements; e++) {
-        const bbm_material *m = &r->material[r->element[e].material];
+        const bbm_material *m = &r->p->m->element[e].material;
         for (int k = r->block[r->element[e].block].fixed; k < 2; k++)
             softest[k] = fmin(softest[k], m->E * m->thickness);
     }
@@ -36,20 +36,6 @@ static void set_defaults(model_reader *r)
         p->p_n = 1e-200;
     if (p->p_s == 0)
         p->p_s = 0.4 * p->p_n;
-}
-
-static int give_materials(model_reader *r)
-{
-    for (int e = 0; e < r->elements; e++) {
-        model_element *el = &r->element[e];
-        const model_block *b = &r->block[el->block];
-        if (el->material < 0)
-            el->material = b->material >= 0 ? b->material : r->any.material;
-        if (el->material < 0)
-            return model_fail(r, b->at, "block '%.60s' has no material, expected: use MATERIAL on "
-                              "%.60s", b->name, b->name);
-    }
-    return 1;
 }
 
 /* Lists the blocks that meet at each node, in their order: each gets a node of its own. */
@@ -107,36 +93,35 @@ static int find_copy(const model_reader *r, int block, int node)
     return c;
 }
 
+/* What is shorter than a part of the smallest element is no length: what lies far away does not
+ * matter. */
 static int add_element(model_reader *r, const model_element *e)
 {
+    const model_block *of = &r->block[e->block];
+    const int material = e->material >= 0 ? e->material
+                       : of->material >= 0 ? of->material : r->any.material;
     int *corner = &r->corner[e->first], index;
 
+    if (material < 0)
+        return model_fail(r, of->at, "block '%.60s' has no material, expected: use MATERIAL on "
+                          "%.60s", of->name, of->name);
     for (int k = 0; k < e->n; k++)
         corner[k] = r->copy[find_copy(r, e->block, corner[k])].node;
-    const bbm_status status = bbm_add_element(r->p->m, e->block, e->material, e->n, corner, &index);
+    const bbm_status status = bbm_add_element(r->p->m, e->block, material, e->n, corner, &index);
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     if (status == BBM_SELF_CROSSING)
         return model_fail(r, e->at, "the boundary of element %.60s of block '%.60s' meets itself, "
-                          "expected a simple polygon", e->id, r->block[e->block].name);
+                          "expected a simple polygon", e->id, of->name);
     const bbm_element *b = status ? NULL : &r->p->m->element[index];
     if (!b || !(b->A > 0) || !isfinite(b->x * b->Sxx) || !isfinite(b->y * b->Syy))
         return model_fail(r, e->at, "element %.60s of block '%.60s' has no area, or one too large, "
-                          "expected a polygon", e->id, r->block[e->block].name);
+                          "expected a polygon", e->id, of->name);
     r->p->element[index] = e->id;
     r->p->centre[index][0] = b->x + r->p->m->origin[0];
     r->p->centre[index][1] = b->y + r->p->m->origin[1];
+    r->margin = fmin(r->margin, NEAR * sqrt(b->A0));
     return 1;
-}
-
-/* By the smallest element: what lies far away does not matter. */
-static void set_margin(model_reader *r)
-{
-    double least = INFINITY;
-
-    for (int e = 0; e < r->p->m->elements; e++)
-        least = fmin(least, r->p->m->element[e].A0);
-    r->margin = NEAR * sqrt(least);
 }
 
 int model_build(model_reader *r)
@@ -148,18 +133,18 @@ int model_build(model_reader *r)
                           "the model has no element, expected: block ..., grid ..., mesh FILE or "
                           "element ...");
     p->gone = model_room(r, r->blocks, sizeof *p->gone);
-    if (!p->gone || !give_materials(r) || !copy_nodes(r) || !add_nodes(r))
+    if (!p->gone || !copy_nodes(r) || !add_nodes(r))
         return 0;
-    set_defaults(r);
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
     p->element = model_room(r, r->elements, sizeof *p->element);
     p->centre = model_room(r, r->elements, sizeof *p->centre);
+    r->margin = INFINITY;
     for (int e = 0; e < r->elements && !p->status; e++)
         add_element(r, &r->element[e]);
     if (p->status)
         return 0;
-    set_margin(r);
+    set_defaults(r);
     const bbm_status status = bbm_prepare(p->m);
     if (status)
         return model_refused(r, status);

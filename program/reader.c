@@ -500,13 +500,11 @@ int model_add_node(model_reader *r, const model_node *n)
 int model_find_block(model_reader *r, const char *word, model_place at)
 {
     const model_block block = { .name = word, .at = at, .material = -1 };
-    const int found = model_find(&r->block_of, word);
 
-    if (found >= 0)
-        return found;
-    return model_enter(r, &r->block_of, word, r->blocks)
-           && model_add(r, &r->p->block, &r->p->blocks, sizeof word, &word)
-           && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
+    if (model_find(&r->block_of, word) < 0 && model_enter(r, &r->block_of, word, r->blocks)
+        && model_add(r, &r->p->block, &r->p->blocks, sizeof word, &word))
+        model_add(r, &r->block, &r->blocks, sizeof block, &block);
+    return r->p->status ? -1 : model_find(&r->block_of, word);
 }
 
 int model_add_corner(model_reader *r, int node)
@@ -528,12 +526,10 @@ int model_add_element(model_reader *r, const model_element *e)
 int model_find_set(model_reader *r, const char *word)
 {
     const model_set set = { 0, NULL, 0 };
-    const int found = model_find(&r->set_of, word);
 
-    if (found >= 0)
-        return found;
-    return model_enter(r, &r->set_of, word, r->sets)
-           && model_add(r, &r->set, &r->sets, sizeof set, &set) ? r->sets - 1 : -1;
+    if (model_find(&r->set_of, word) < 0 && model_enter(r, &r->set_of, word, r->sets))
+        model_add(r, &r->set, &r->sets, sizeof set, &set);
+    return r->p->status ? -1 : model_find(&r->set_of, word);
 }
 
 int model_add_to_set(model_reader *r, int set, int node)
