@@ -60,8 +60,8 @@ static int add_nodes(model_reader *r)
 {
     model *p = r->p;
 
-    p->node = model_room(r, r->copies, sizeof *p->node);
-    p->node_block = model_room(r, r->copies, sizeof *p->node_block);
+    p->node = model_keep(r, r->copies, sizeof *p->node);
+    p->node_block = model_keep(r, r->copies, sizeof *p->node_block);
     for (int n = 0, now = 0; n < r->nodes && !p->status; n++) {
         model_node *a = &r->node[n];
         if (a->first < 0 && a->by_hand)
@@ -132,13 +132,13 @@ int model_build(model_reader *r)
         return model_fail(r, (model_place){ .file = r->path },
                           "the model has no element, expected: block ..., grid ..., mesh FILE or "
                           "element ...");
-    p->gone = model_room(r, r->blocks, sizeof *p->gone);
+    p->gone = model_keep(r, r->blocks, sizeof *p->gone);
     if (!p->gone || !copy_nodes(r) || !add_nodes(r))
         return 0;
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
-    p->element = model_room(r, r->elements, sizeof *p->element);
-    p->centre = model_room(r, r->elements, sizeof *p->centre);
+    p->element = model_keep(r, r->elements, sizeof *p->element);
+    p->centre = model_keep(r, r->elements, sizeof *p->centre);
     r->margin = INFINITY;
     for (int e = 0; e < r->elements && !p->status; e++)
         add_element(r, &r->element[e]);
@@ -153,8 +153,8 @@ int model_build(model_reader *r)
     for (int b = 0; b < r->blocks; b++)         /* a block is a set, too, behind the others */
         if (model_find(&r->set_of, r->block[b].name) < 0)
             model_enter(r, &r->set_of, r->block[b].name, r->sets + b);
-    p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
-    r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
+    p->velocity = model_keep(r, r->blocks, sizeof *p->velocity);
+    r->chosen_node = model_keep(r, p->m->nodes, sizeof *r->chosen_node);
     return !p->status;
 }
 
@@ -512,15 +512,12 @@ int model_monitors(model_reader *r)
     model *p = r->p;
     model_monitor m = { .name = model_new_name(r, &r->monitor_of) };
 
-    if (!m.name || !where(r, 1) || !model_enter(r, &r->monitor_of, m.name, p->monitors))
+    if (!m.name || !where(r, 1) || !model_enter(r, &r->monitor_of, m.name, p->monitors)
+        || !(m.node = model_keep(r, r->chosen, sizeof *m.node)))
         return 0;
-    m.node = model_room(r, r->chosen, sizeof *m.node);
-    for (; m.node && m.nodes < r->chosen; m.nodes++)
+    for (; m.nodes < r->chosen; m.nodes++)
         m.node[m.nodes] = r->chosen_node[m.nodes];
-    if (m.node && model_add(r, &p->monitor, &p->monitors, sizeof m, &m))
-        return 1;
-    free(m.node);
-    return 0;
+    return model_add(r, &p->monitor, &p->monitors, sizeof m, &m);
 }
 
 /* Between a vertex of the one node that each WHERE names and another one. */

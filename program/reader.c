@@ -110,16 +110,17 @@ void *model_room(model_reader *r, int count, size_t size)
     return p;
 }
 
-/* Keeps a text until model_free; NULL: no memory. */
-static char *keep_text(model_reader *r, char *text)
+/* Keeps what is given until model_free; NULL: no memory. */
+static void *keep(model_reader *r, void *p)
 {
-    if (text && model_add(r, &r->p->text, &r->p->texts, sizeof text, &text))
-        return text;
-    free(text);
+    if (p && model_add(r, &r->p->kept, &r->p->keeps, sizeof p, &p))
+        return p;
+    free(p);
     return NULL;
 }
 
-char *model_text(model_reader *r, size_t size) { return keep_text(r, model_room(r, (int)size, 1)); }
+void *model_keep(model_reader *r, int n, size_t size) { return keep(r, model_room(r, n, size)); }
+char *model_text(model_reader *r, size_t size) { return model_keep(r, (int)size, 1); }
 
 /* The slot of a key in the table, or the empty one where it belongs; FNV-1a. */
 static model_slot *slot_of(const model_table *t, const char *key)
@@ -179,7 +180,7 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
         fclose(f);
     *size = (size_t)n - 1;
     if (!r->p->status)
-        return keep_text(r, text);
+        return keep(r, text);
     free(text);
     return NULL;
 }

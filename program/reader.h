@@ -104,7 +104,8 @@ const char *model_hint(const char *word);               /* what it may mean; or 
 /* One more item at the end of an array of `count`; 0: no memory. */
 int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
 void *model_room(model_reader *r, int count, size_t size);      /* zeros, and one more; or NULL */
-char *model_text(model_reader *r, size_t size);                 /* kept until model_free */
+void *model_keep(model_reader *r, int n, size_t size);          /* the same, until model_free */
+char *model_text(model_reader *r, size_t size);                 /* of so many letters, as well */
 /* With a 0 behind it; or NULL. */
 char *model_load(model_reader *r, const char *path, model_place at, size_t *size);
 int   model_find(const model_table *t, const char *key);        /* -1: not there */

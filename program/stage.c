@@ -50,7 +50,7 @@ int model_stage_head(model_reader *r)
 void model_keep_stage(model_reader *r, int k)
 {
     bbm_model *m = r->p->m;
-    bbm_node *node = model_room(r, m->nodes, sizeof *node);
+    bbm_node *node = model_keep(r, m->nodes, sizeof *node);
 
     if (r->no_shear)
         m->par.friction = m->beyond->cohesion = 0;

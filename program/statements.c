@@ -658,7 +658,7 @@ static void free_reader(model_reader *r)
         free(r->set[k].node);
     free(r->cut), free(r->cut_word), free(r->local), free(r->word);
     free(r->statement), free(r->node), free(r->element), free(r->corner), free(r->block);
-    free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
+    free(r->material), free(r->set), free(r->copy);
 }
 
 /* Each stage begins with what the one before it has, and is kept until the run comes to it. */
@@ -670,7 +670,7 @@ static int read_all(model_reader *r)
 
     if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;
-    p->stage = model_room(r, p->stages, sizeof *p->stage);
+    p->stage = model_keep(r, p->stages, sizeof *p->stage);
     for (int stage = 0; stage <= p->stages && !p->status; stage++) {
         for (int phase = NUMBERS + 1; phase < PHASES; phase++)
             if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage))
