@@ -21,7 +21,7 @@
 /* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */
 typedef struct { const char *file; int line; const char *round; } model_place;
 typedef struct { const char *key; int value; } model_slot;     /* key: NULL, empty */
-/* From a word to a number; what: a word stands for. */
+/* From a word to a number; what such a word names, for messages. */
 typedef struct { const char *what; int room, count; model_slot *slot; } model_table;
 
 typedef struct {                /* words first .. first+n-1 */
@@ -146,7 +146,7 @@ typedef struct {
     int    seen;
 } model_option;
 
-/* The first ones are needed. */
+/* So many of the first ones are needed. */
 int   model_options(model_reader *r, int needed, int n, model_option o[]);
 
 #define RANGE(text, where, from, to, rims, words) \
