@@ -104,15 +104,9 @@ int model_start(model *p)
 void model_free(model *p)
 {
     bbm_model_free(p->m);
-    for (int k = 0; k < p->texts; k++)
-        free(p->text[k]);
-    for (int k = 0; k < p->monitors; k++)
-        free(p->monitor[k].node);
-    free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
-        free((void *)p->element);
-    for (int k = 0; k <= p->stages && p->stage; k++)
-        free(p->stage[k].node);
-    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->stage),
-        free(p->gone), free(p->note), free(p->shaking), free(p->bolt);
+    for (int k = 0; k < p->keeps; k++)
+        free(p->kept[k]);
+    free(p->kept), free((void *)p->block), free(p->monitor), free(p->expected);
+    free(p->note), free(p->shaking), free(p->bolt);
     *p = (model){ 0 };
 }

@@ -57,8 +57,9 @@ typedef struct {
     double shake;               /* its scale */
     int    bolts;
     scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
-    int    texts;
-    char **text;                /* [texts]      the files read: names and ids are words of them */
+    int    keeps;
+    void **kept;                /* [keeps]      until model_free: the files read, of which names and
+                                                ids are words, and the arrays of known length */
     int    notes;
     char **note;                /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
     int    status;              /* 0, 1: failed, 2: the input is wrong */

@@ -19,18 +19,17 @@
 int model_stage_head(model_reader *r)
 {
     model *p = r->p;
-    const char *word = model_name(r);
+    const char *word = model_new_name(r, &r->stage_of);
     int steps = p->stage[0].par.steps;
 
-    if (!word || !model_is_new(r, &r->stage_of, "stage", word)
-        || !model_enter(r, &r->stage_of, word, r->s->stage)
+    if (!word || !model_enter(r, &r->stage_of, word, r->s->stage)
         || (model_skip(r, "steps") && !model_whole(r, "steps", 1, &steps)))
         return 0;
     p->m->par.steps += steps;
     if (!model_skip(r, "remove"))
-        return model_at_end(r);
+        return 1;
     do {
-        const int block = model_next_block(r);
+        const int block = model_known(r, &r->block_of);
         if (block < 0)
             return 0;
         for (int k = 0; k < p->monitors; k++)
@@ -46,19 +45,23 @@ int model_stage_head(model_reader *r)
     return 1;
 }
 
-/* Supports begin the next stage where they are. */
-int model_keep_stage(model_reader *r, int k)
+/* What fixes a block goes to its nodes; without shear springs there is no friction. Supports begin
+ * the next stage where they are. */
+void model_keep_stage(model_reader *r, int k)
 {
     bbm_model *m = r->p->m;
-    bbm_node *node = model_room(r, m->nodes, sizeof *node);
+    bbm_node *node = model_keep(r, m->nodes, sizeof *node);
 
+    if (r->no_shear)
+        m->par.friction = m->beyond->cohesion = 0;
     r->p->stage[k] = (model_stage){ m->par, m->beyond->cohesion, m->beyond->tension,
                                     m->beyond->edge_loads, node };
     for (int n = 0; n < m->nodes && node; n++) {
+        if (k == 0 && r->block[r->p->node_block[n]].fixed)
+            m->node[n].held = BBM_XY;
         node[n] = m->node[n];
         m->node[n].wall[0] = m->node[n].wall[1] = 0;
     }
-    return node != NULL;
 }
 
 /* No load on what is gone. */
@@ -103,8 +106,8 @@ static void change_node(bbm_model *m, int n, bbm_node *to)
     a->held = to->held;
 }
 
-/* The gaps of fixed points may be others and begin without multipliers; K is laid out anew. Contacts
- * and bolts of what is gone end; the first step loses the energy of their springs. */
+/* The gaps of fixed points may be others and begin without multipliers; K is laid out anew.
+ * Contacts and bolts of what is gone end; the first step loses the energy of their springs. */
 void model_next_stage(model *p)
 {
     bbm_model *m = p->m;
