@@ -31,12 +31,12 @@ CASES    = $(RUN)
 # Beyond their limits models do not do what is expected of them (status 3).
 BEYOND_LIMITS = arch:t=1 topple:phi=19 slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 shaken:phi=34 wall:A=8 \
                 conveyor:phi=9.9 keyblock:part=0.99 portal:part=1.01 retaining:part=1.01 water:part=1.01
-COMMON   = cases/case cases/theory $(addprefix program/,cell field force output plot scene)
+COMMON   = cases/case cases/theory $(addprefix program/,cell field output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
-READER   = $(addprefix program/,statements numbers build hooked msh reader model cell field)
-PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene force edge_load)
+READER   = $(addprefix program/,statements numbers build hooked stage msh reader model cell field)
+PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene edge_load)
 TORTURE  = scenes ledger trial
-PAGE     = page/page $(READER) $(addprefix program/,run warn force edge_load)
+PAGE     = page/page $(READER) $(addprefix program/,run warn edge_load)
 PROGRAMS = check_cases check_model check_statements check_moving check_files check_pictures \
            check_scenes check_page $(TORTURE)
 SUITES   = check_formulas check_elastic check_steps check_mesh check_input check_detection check_corners \

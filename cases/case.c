@@ -75,9 +75,10 @@ void case_print_augmented(const bbm_model *m)
 
 static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j, int *index)
 {
-    double xy[2];
+    double xy[2] = { g->x + g->w * i / g->nx, g->y + g->h * j / g->ny };
 
-    g->map(i, j, g->context, xy);
+    if (g->map)
+        g->map(i, j, g->context, xy);
     bbm_add_node(m, xy[0], xy[1], index);
 }
 
@@ -94,8 +95,10 @@ static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
         bbm_add_element(m, g->block, g->material, corners, element[k], NULL);
 }
 
-void case_add_grid(bbm_model *m, case_grid *g)
+int case_add_grid(bbm_model *m, case_grid *g)
 {
+    const int first = m->elements;
+
     g->first = m->nodes;
     for (int j = 0; j <= g->ny; j++)
         for (int i = 0; i <= g->nx; i++)
@@ -104,23 +107,6 @@ void case_add_grid(bbm_model *m, case_grid *g)
         for (int i = 0; i < g->nx; i++)
             add_cell(m, g, i, j);
     case_must(m, m->status);
-}
-
-void case_place_in_box(double i, double j, const void *box, double xy[2])
-{
-    const case_box *b = box;
-
-    xy[0] = b->x + b->w * i / b->nx;
-    xy[1] = b->y + b->h * j / b->ny;
-}
-
-int case_add_box(bbm_model *m, const case_box *b)
-{
-    const int first = m->elements;
-    case_grid g = { .nx = b->nx, .ny = b->ny, .cut = CELL_QUADS, .block = b->block,
-                    .material = b->material, .map = case_place_in_box, .context = b };
-
-    case_add_grid(m, &g);
     return first;
 }
 
@@ -128,15 +114,13 @@ double case_at(const bbm_model *m, const char *quantity, double x, double y)
 {
     double least = INFINITY;
     int nearest = 0;
-    bbm_result r;
 
     for (int n = 0; n < m->nodes; n++) {
         const double distance = hypot(m->node[n].x - x, m->node[n].y - y);
         if (distance < least)
             least = distance, nearest = n;
     }
-    case_must(NULL, bbm_nodal_result(m, nearest, -1, &r));
-    return field_find(quantity)->of_result(&r);
+    return field_of_node(field_find(quantity), m, nearest);
 }
 
 double case_percent(double computed, double reference)
@@ -209,8 +193,8 @@ int case_close(case_results *r)
     return r ? r->failed : 0;
 }
 
-double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
-                double reference, const char *kind)
+void case_row(case_results *r, const char *quantity, const double xy[2], double computed,
+              double reference, const char *kind)
 {
     const double error = reference != 0 ? (computed - reference) / reference : computed;
 
@@ -220,7 +204,6 @@ double case_row(case_results *r, const char *quantity, const double xy[2], doubl
     else
         fprintf(r->csv, "%.9g,%.9g,", xy[0], xy[1]);
     fprintf(r->csv, "%.15g,%.15g,%s,%.3e\n", computed, reference, kind, error);
-    return error;
 }
 
 static void compare_all(case_results *r, const case_experiment *p, const bbm_model *m,

@@ -10,8 +10,9 @@
 #include "../program/plot.h"
 #include "../program/scene.h"
 
-typedef struct {                    /* a grid of nx x ny cells, mapped by a function            */
+typedef struct {                    /* a grid of nx x ny cells                                  */
     int nx, ny, cut, block, material;
+    double x, y, w, h;              /* over a rectangle, from its lower left corner, or mapped: */
     void (*map)(double i, double j, const void *context, double xy[2]); /* grid line -> point */
     const void *context;
     int first;                      /* its first node, set by case_add_grid: node (i, j) is     */
@@ -40,14 +41,9 @@ bbm_model *case_paper_model(void);
  * which `make paper` has in its place. */
 bbm_model *case_beyond_model(int rounds);
 
-/* What is added is there, or the program has ended. */
-void   case_add_grid(bbm_model *m, case_grid *g);
-/* A rectangle of nx x ny quadrilaterals: lower left corner (x, y), w x h. Returns its first
- * element; element (i, j) is j nx + i further. */
-typedef struct { int block, material, nx, ny; double x, y, w, h; } case_box;
-int    case_add_box(bbm_model *m, const case_box *b);
-/* Its map, for a grid of another cut or with other things to do first. */
-void   case_place_in_box(double i, double j, const void *box, double xy[2]);
+/* Returns its first element; of quadrilaterals, (i, j) is j nx + i further. What is added is there,
+ * or the program has ended. */
+int    case_add_grid(bbm_model *m, case_grid *g);
 /* u, v, sxx, syy, sxy or mises of the node nearest to the point. */
 double case_at(const bbm_model *m, const char *quantity, double x, double y);
 void   case_solve(bbm_model *m);                                /* prepared and run             */
@@ -104,9 +100,8 @@ void   case_open(case_results *r, const char *name);
 /* Closes it and returns the exit status of the program: 1 if a picture could not be made. NULL:
  * there is none. */
 int    case_close(case_results *r);
-/* One row of results.csv; kind is theory, fem (converged) or fem_coarse (six-node triangles).
- * Returns the error. */
-double case_row(case_results *r, const char *quantity, const double xy[2], double computed,
+/* One row of results.csv; kind is theory, fem (converged) or fem_coarse (six-node triangles). */
+void   case_row(case_results *r, const char *quantity, const double xy[2], double computed,
                 double reference, const char *kind);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,

@@ -97,13 +97,12 @@ static bbm_model *solve_dda(double alpha)
     static const double corner[6][2] = {
         { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 }, { 0, 0 },
     };
-    const int node[6] = { 0, 1, 2, 3, 4, 5 };
     bbm_model *m = case_paper_model();
 
     bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
     for (int n = 0; n < 6; n++)
         bbm_add_node(m, corner[n][0], corner[n][1], NULL);
-    bbm_add_element(m, 0, 0, 6, node, NULL);
+    bbm_add_element(m, 0, 0, 6, (int[]){ 0, 1, 2, 3, 4, 5 }, NULL);
     bbm_fix_node(m, 0, BBM_XY, 0, 0);
     bbm_fix_node(m, 4, BBM_XY, 0, 0);
     bbm_fix_node(m, 5, BBM_XY, 0, 0);

@@ -31,9 +31,8 @@ static void print_augmented(const case_reference *b)
 static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
 {
     bbm_model *m = case_beyond_model(2);
-    const case_box box = { .nx = nx, .ny = ny, .y = -EXP1_HEIGHT / 2, .w = EXP1_LENGTH,
-                           .h = EXP1_HEIGHT };
-    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = case_place_in_box, .context = &box };
+    case_grid g = { .nx = nx, .ny = ny, .cut = cut, .y = -EXP1_HEIGHT / 2, .w = EXP1_LENGTH,
+                    .h = EXP1_HEIGHT };
 
     exp1_add_beam(m, "b", &g);
     m->beyond->bonding = bonding;

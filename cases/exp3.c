@@ -65,11 +65,11 @@ static void build(bbm_model *m, const variant *v, int *first)
 {
     bbm_add_material(m, &(bbm_material){ v->plate, 0.25, 2500, 1 }, NULL);
     bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
-    case_add_box(m, &(case_box){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
+    case_add_grid(m, &(case_grid){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
     for (int n = 0; n < m->nodes; n++)
         bbm_fix_node(m, n, BBM_XY, 0, 0);
-    *first = case_add_box(m, &(case_box){ .block = 1, .material = 1, .nx = 4, .ny = 2,
-                                          .x = -8, .y = 1, .w = 4, .h = 1 });
+    *first = case_add_grid(m, &(case_grid){ .block = 1, .material = 1, .nx = 4, .ny = 2,
+                                            .x = -8, .y = 1, .w = 4, .h = 1 });
     pull(m, *first, v->line);
     m->par.dt = DT;
     m->par.gravity[1] = -v->gravity;

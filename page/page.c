@@ -134,8 +134,8 @@ int page_step(page *g)
 static void put_vertices(page *g, const bbm_model *m)
 {
     for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        PUT(&g->out, v->x + m->origin[0], v->y + m->origin[1], v->u, v->v, m->node[v->node].held,
-            m->element[v->element].block);
+        PUT(&g->out, field_place(m, (int)(v - m->vertex), 0), field_place(m, (int)(v - m->vertex), 1),
+            v->u, v->v, m->node[v->node].held, m->element[v->element].block);
 }
 
 static void put_elements(page *g, const bbm_model *m)
@@ -161,7 +161,7 @@ static void put_contacts(page *g, const bbm_model *m)
 {
     for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
         double f[2];
-        scene_contact_force(m, c, c->N, c->T, f);
+        field_contact_force(m, c, c->N, c->T, f);
         PUT(&g->out, c->corner, c->edge, c->state, f[0], f[1], c->N, c->T, c->d_n,
             bbm_shear_strength(&c->strength, c->N), c->slip);
     }

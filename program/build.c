@@ -21,7 +21,7 @@ static void set_defaults(model_reader *r)
     double softest[2] = { INFINITY, INFINITY };         /* of the blocks that are free, of all */
 
     for (int e = 0; e < r->elements; e++) {
-        const bbm_material *m = &r->material[r->element[e].material];
+        const bbm_material *m = &r->p->m->element[e].material;
         for (int k = r->block[r->element[e].block].fixed; k < 2; k++)
             softest[k] = fmin(softest[k], m->E * m->thickness);
     }
@@ -32,26 +32,10 @@ static void set_defaults(model_reader *r)
         p->p_n = 50 * softest[isinf(softest[0]) ? 1 : 0];
     if (p->p_s < 0)
         p->p_s = 0.4 * p->p_n;
-    if (p->p_s == 0)                          /* a shear spring that carries nothing: no friction */
-        p->friction = r->p->m->beyond->cohesion = 0;
     if (p->p_n == 0)                            /* no contact: springs that cannot be felt */
         p->p_n = 1e-200;
     if (p->p_s == 0)
         p->p_s = 0.4 * p->p_n;
-}
-
-static int give_materials(model_reader *r)
-{
-    for (int e = 0; e < r->elements; e++) {
-        model_element *el = &r->element[e];
-        const model_block *b = &r->block[el->block];
-        if (el->material < 0)
-            el->material = b->material >= 0 ? b->material : r->other_material;
-        if (el->material < 0)
-            return model_fail(r, b->at, "block '%.60s' has no material, expected: use MATERIAL on "
-                              "%.60s", b->name, b->name);
-    }
-    return 1;
 }
 
 /* Lists the blocks that meet at each node, in their order: each gets a node of its own. */
@@ -76,8 +60,8 @@ static int add_nodes(model_reader *r)
 {
     model *p = r->p;
 
-    p->node = model_room(r, r->copies, sizeof *p->node);
-    p->node_block = model_room(r, r->copies, sizeof *p->node_block);
+    p->node = model_keep(r, r->copies, sizeof *p->node);
+    p->node_block = model_keep(r, r->copies, sizeof *p->node_block);
     for (int n = 0, now = 0; n < r->nodes && !p->status; n++) {
         model_node *a = &r->node[n];
         if (a->first < 0 && a->by_hand)
@@ -93,46 +77,51 @@ static int add_nodes(model_reader *r)
     return !p->status;
 }
 
+/* Whether the copy is that of the block, -1: of any, and no stage has removed it. */
+static int is_of(const model_reader *r, int block, int c)
+{
+    return (block < 0 || r->copy[c].block == block) && !r->p->gone[r->copy[c].block];
+}
+
 /* The copy of a node for a block, -1: any block; or -1, there is none. */
 static int find_copy(const model_reader *r, int block, int node)
 {
     int c = r->node[node].first;
 
-    while (c >= 0 && block >= 0 && r->copy[c].block != block)
+    while (c >= 0 && !is_of(r, block, c))
         c = r->copy[c].next;
     return c;
 }
 
+/* What is shorter than a part of the smallest element is no length: what lies far away does not
+ * matter. */
 static int add_element(model_reader *r, const model_element *e)
 {
+    const model_block *of = &r->block[e->block];
+    const int material = e->material >= 0 ? e->material
+                       : of->material >= 0 ? of->material : r->any.material;
     int *corner = &r->corner[e->first], index;
 
+    if (material < 0)
+        return model_fail(r, of->at, "block '%.60s' has no material, expected: use MATERIAL on "
+                          "%.60s", of->name, of->name);
     for (int k = 0; k < e->n; k++)
         corner[k] = r->copy[find_copy(r, e->block, corner[k])].node;
-    const bbm_status status = bbm_add_element(r->p->m, e->block, e->material, e->n, corner, &index);
+    const bbm_status status = bbm_add_element(r->p->m, e->block, material, e->n, corner, &index);
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     if (status == BBM_SELF_CROSSING)
         return model_fail(r, e->at, "the boundary of element %.60s of block '%.60s' meets itself, "
-                          "expected a simple polygon", e->id, r->block[e->block].name);
+                          "expected a simple polygon", e->id, of->name);
     const bbm_element *b = status ? NULL : &r->p->m->element[index];
     if (!b || !(b->A > 0) || !isfinite(b->x * b->Sxx) || !isfinite(b->y * b->Syy))
         return model_fail(r, e->at, "element %.60s of block '%.60s' has no area, or one too large, "
-                          "expected a polygon", e->id, r->block[e->block].name);
+                          "expected a polygon", e->id, of->name);
     r->p->element[index] = e->id;
     r->p->centre[index][0] = b->x + r->p->m->origin[0];
     r->p->centre[index][1] = b->y + r->p->m->origin[1];
+    r->margin = fmin(r->margin, NEAR * sqrt(b->A0));
     return 1;
-}
-
-/* By the smallest element: what lies far away does not matter. */
-static void set_margin(model_reader *r)
-{
-    double least = INFINITY;
-
-    for (int e = 0; e < r->p->m->elements; e++)
-        least = fmin(least, r->p->m->element[e].A0);
-    r->margin = NEAR * sqrt(least);
 }
 
 int model_build(model_reader *r)
@@ -143,32 +132,29 @@ int model_build(model_reader *r)
         return model_fail(r, (model_place){ .file = r->path },
                           "the model has no element, expected: block ..., grid ..., mesh FILE or "
                           "element ...");
-    if (!give_materials(r) || !copy_nodes(r) || !add_nodes(r))
+    p->gone = model_keep(r, r->blocks, sizeof *p->gone);
+    if (!p->gone || !copy_nodes(r) || !add_nodes(r))
         return 0;
-    set_defaults(r);
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
-    p->element = model_room(r, r->elements, sizeof *p->element);
-    p->centre = model_room(r, r->elements, sizeof *p->centre);
-    p->block = model_room(r, r->blocks, sizeof *p->block);
-    for (p->blocks = 0; p->block && p->blocks < r->blocks; p->blocks++)
-        p->block[p->blocks] = r->block[p->blocks].name;
+    p->element = model_keep(r, r->elements, sizeof *p->element);
+    p->centre = model_keep(r, r->elements, sizeof *p->centre);
+    r->margin = INFINITY;
     for (int e = 0; e < r->elements && !p->status; e++)
         add_element(r, &r->element[e]);
     if (p->status)
         return 0;
-    set_margin(r);
+    set_defaults(r);
     const bbm_status status = bbm_prepare(p->m);
     if (status)
         return model_refused(r, status);
     if (r->plane_strain)
         bbm_set_plane_strain(p->m);
-    for (int b = 0; b < r->blocks; b++)         /* a block is a set, too: -2 - b */
+    for (int b = 0; b < r->blocks; b++)         /* a block is a set, too, behind the others */
         if (model_find(&r->set_of, r->block[b].name) < 0)
-            model_enter(r, &r->set_of, r->block[b].name, -2 - b);
-    p->velocity = model_room(r, r->blocks, sizeof *p->velocity);
-    p->moved_to = model_room(r, p->m->nodes, sizeof *p->moved_to);
-    r->chosen_node = model_room(r, p->m->nodes, sizeof *r->chosen_node);
+            model_enter(r, &r->set_of, r->block[b].name, r->sets + b);
+    p->velocity = model_keep(r, r->blocks, sizeof *p->velocity);
+    r->chosen_node = model_keep(r, p->m->nodes, sizeof *r->chosen_node);
     return !p->status;
 }
 
@@ -176,8 +162,8 @@ int model_build(model_reader *r)
 
 enum { BY_NODE, BY_AT, BY_SET, BY_BOX };
 
-/* What stands behind WHERE; block: -1, any; whole: the block that a set is. */
-typedef struct { int kind, found, block, whole; double x[4]; } selection;
+/* What stands behind WHERE; found: the node or set; block: -1, any. */
+typedef struct { int kind, found, block; double x[4]; } selection;
 
 /* Takes the library nodes of a node, each once for a WHERE. */
 static void choose(model_reader *r, const selection *w, int node)
@@ -189,27 +175,20 @@ static void choose(model_reader *r, const selection *w, int node)
     n->mark = r->wheres;
     r->file_nodes++;
     for (int c = n->first; c >= 0; c = r->copy[c].next)
-        if (w->block < 0 || r->copy[c].block == w->block)
+        if (is_of(r, w->block, c))
             r->chosen_node[r->chosen++] = r->copy[c].node;
 }
 
-/* The first of the nearest nodes, and how many others lie there as well; -1: there is none. */
-static int find_nearest(const model_reader *r, const selection *w, int *others)
+/* The first of the nearest nodes; -1: there is none. */
+static int find_nearest(const model_reader *r, const selection *w)
 {
     double best = INFINITY;
     int found = -1;
 
-    *others = 0;
     for (int n = 0; n < r->nodes; n++) {
-        const double d = find_copy(r, w->block, n) >= 0
-                             ? hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1])
-                             : INFINITY;
-        if (d < best - r->margin)
-            best = d, found = n, *others = 0;
-        else if (isfinite(d) && d <= best + r->margin
-                 && hypot(r->node[n].x - r->node[found].x, r->node[n].y - r->node[found].y)
-                        <= r->margin)
-            ++*others;
+        const double d = hypot(r->node[n].x - w->x[0], r->node[n].y - w->x[1]);
+        if (d < best - r->margin && find_copy(r, w->block, n) >= 0)
+            best = d, found = n;
     }
     return found;
 }
@@ -218,24 +197,26 @@ static int find_nearest(const model_reader *r, const selection *w, int *others)
  * model. */
 static void choose_nearest(model_reader *r, const selection *w)
 {
-    int others;
-    const int found = find_nearest(r, w, &others);
+    const int found = find_nearest(r, w);
     double far = 0;
+    int there = 0;
 
     if (found < 0)
         return;
     choose(r, w, found);
     const model_node *at = &r->node[found];
+    for (int n = 0; n < r->nodes; n++) {
+        const double d = hypot(r->node[n].x - at->x, r->node[n].y - at->y);
+        far = fmax(far, d);
+        there += d <= r->margin && find_copy(r, w->block, n) >= 0;
+    }
     const double d = hypot(at->x - w->x[0], at->y - w->x[1]);
-    for (int n = 0; n < r->nodes; n++)
-        far = fmax(far, hypot(r->node[n].x - at->x, r->node[n].y - at->y));
     if (d > far / 10)
         model_note(r, "warning: the nearest node, %.60s at %g %g, is %.3g m away from %g %g",
                    at->id, at->x, at->y, d, w->x[0], w->x[1]);
-    if (others > 0)
+    if (there > 1)
         model_note(r, "note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
-                   "takes another", others + 1, r->node[found].id,
-                   r->block[r->copy[r->node[found].first].block].name);
+                   "takes another", there, at->id, r->block[r->copy[at->first].block].name);
 }
 
 static int is_there(const model_reader *r, const selection *w, const model_node *n)
@@ -248,17 +229,15 @@ static int is_there(const model_reader *r, const selection *w, const model_node 
 }
 
 /* A set, or all nodes of a block. */
-static int choose_set(model_reader *r, selection *w, const char *word)
+static int choose_set(model_reader *r, selection *w)
 {
-    w->found = model_find(&r->set_of, word);
-    if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
+    w->found = model_known(r, &r->set_of);
+    if (w->found >= r->sets)
+        w->block = w->found - r->sets;
+    else if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
         return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
                               "of curves or points, expected one");
-    if (w->found == -1)
-        return model_unknown(r, &r->set_of, "set", word);
-    if (w->found < 0)
-        w->block = w->whole = -2 - w->found;
-    return 1;
+    return w->found >= 0;
 }
 
 /* The words of WHERE. */
@@ -268,7 +247,6 @@ static int read_selection(model_reader *r, selection *w)
         [BY_NODE] = { "node", 0 }, [BY_AT] = { "at", 2 }, [BY_SET] = { "set", 0 },
         [BY_BOX] = { "box", 4 },
     };
-    const char *word = NULL;
 
     *w = (selection){ .block = -1 };
     while (w->kind < LENGTH(kind) && !model_skip(r, kind[w->kind].word))
@@ -277,22 +255,21 @@ static int read_selection(model_reader *r, selection *w)
         return !model_look(r) ? model_word(r) != NULL
              : model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME or box "
                               "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
-    for (int k = 0; k < kind[w->kind].numbers; k++)
-        if (!model_number(r, &w->x[k]))
-            return 0;
-    if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of, "node", model_id(r))) < 0)
+    if (!model_numbers(r, kind[w->kind].numbers, w->x))
         return 0;
-    if (w->kind == BY_SET && (!(word = model_word(r)) || !choose_set(r, w, word)))
+    if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of)) < 0)
+        return 0;
+    if (w->kind == BY_SET && !choose_set(r, w))
         return 0;
     if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
         return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
                            w->x[0], w->x[1], w->x[2], w->x[3]);
-    return !model_skip(r, "of") || (w->block = model_next_block(r)) >= 0;
+    return !model_skip(r, "of") || (w->block = model_known(r, &r->block_of)) >= 0;
 }
 
 static int blame_nowhere(model_reader *r, const selection *w)
 {
-    const int n = w->kind == BY_AT ? find_nearest(r, w, &(int){ 0 }) : -1;
+    const int n = w->kind == BY_AT ? find_nearest(r, w) : -1;
     const char *of = w->block >= 0 ? " of block " : "",
                *name = w->block >= 0 ? r->block[w->block].name : "";
 
@@ -314,21 +291,23 @@ static int where(model_reader *r, int nearest)
         return 0;
     if (w.kind == BY_NODE)
         choose(r, &w, w.found);
-    else if (w.kind == BY_SET && w.found >= 0)
+    else if (w.kind == BY_SET && w.found < r->sets)
         for (int k = 0; k < r->set[w.found].n; k++)
             choose(r, &w, r->set[w.found].node[k]);
     else if (w.kind == BY_AT && nearest)
         choose_nearest(r, &w);
     else
         for (int n = 0; n < r->nodes; n++)
-            if (w.kind == BY_SET ? find_copy(r, w.whole, n) >= 0 : is_there(r, &w, &r->node[n]))
+            if (w.kind == BY_SET ? find_copy(r, w.found - r->sets, n) >= 0
+                                 : is_there(r, &w, &r->node[n]))
                 choose(r, &w, n);
     return r->chosen > 0 ? 1 : blame_nowhere(r, &w);
 }
 
 /* --------------------------------------------------------------- statements that need the model */
 
-/* x and y, each with `by`; none: both. */
+/* x and y, each with `by`; none: both. In a stage `by` counts from where the node is then, and
+ * `free` ends what holds it. */
 int model_fix(model_reader *r)
 {
     static const char *const name[] = { "x", "y" };
@@ -338,6 +317,7 @@ int model_fix(model_reader *r)
 
     if (!where(r, 0))
         return 0;
+    const int ends = r->s->stage && model_skip(r, "free");
     while (model_look(r)) {
         const int a = model_skip(r, "x") ? 0 : model_skip(r, "y") ? 1 : -1;
         if (a < 0)
@@ -346,21 +326,22 @@ int model_fix(model_reader *r)
             return model_blame(r, "%s for the second time, expected: %s", name[a],
                                r->s->form);
         directions |= 1 << a;
-        if (model_skip(r, "by") && !model_number(r, &by[a]))
+        if (!ends && model_skip(r, "by") && !model_number(r, &by[a]))
             return 0;
     }
     directions = directions ? directions : BBM_XY;
     for (int k = 0; k < r->chosen; k++) {
         const int n = r->chosen_node[k];
-        for (int a = 0; a < 2; a++) {
-            if (directions & p->m->node[n].held & 1 << a && p->moved_to[n][a] != by[a])
+        bbm_node *at = &p->m->node[n];
+        for (int a = 0; a < 2; a++)
+            if (directions & at->held & 1 << a && at->wall[a] != by[a]
+                && !(r->s->stage && at->wall[a] == 0))
                 return model_blame(r, "node %.60s is displaced by %g in %s here, by %g in another "
                                       "statement, expected one of them", p->node[n], by[a],
-                                   name[a], p->moved_to[n][a]);
-            p->moved_to[n][a] = directions & 1 << a ? by[a] : p->moved_to[n][a];
-        }
+                                   name[a], at->wall[a]);
         p->moving |= by[0] != 0 || by[1] != 0;
-        bbm_fix_node(p->m, n, directions, 0, 0);
+        bbm_fix_node(p->m, n, directions, by[0], by[1]);
+        at->held &= ends ? ~directions : BBM_XY;
     }
     return 1;
 }
@@ -451,7 +432,7 @@ int model_water(model_reader *r)
     edge_load l = { .weight = 0 };
     model_option o[] = { ABOVE_ZERO("density", &density) };
 
-    if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, LENGTH(o), o))
+    if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, 0, LENGTH(o), o))
         return 0;
     l.weight = density * hypot(g[0], g[1]);
     if (!(l.weight > 0))
@@ -470,10 +451,10 @@ int model_joint(model_reader *r)
 
     for (int k = 0; k < 2; k++) {
         block[k] = -1;
-        if (!model_skip(r, "*") && (block[k] = model_next_block(r)) < 0)
+        if (!model_skip(r, "*") && (block[k] = model_known(r, &r->block_of)) < 0)
             return 0;
     }
-    if (!model_options(r, LENGTH(o), o) || !model_note_friction(r, friction))
+    if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, friction))
         return 0;
     if (block[0] >= 0 && block[0] == block[1])
         return model_blame(r, "a joint of a block with itself, expected two blocks");
@@ -491,11 +472,10 @@ int model_joint(model_reader *r)
 
 int model_velocities(model_reader *r)
 {
-    const int block = model_next_block(r);
+    const int block = model_known(r, &r->block_of);
     model_velocity v = { { 0, 0, 0 }, 1 };
 
-    if (block < 0 || !model_number(r, &v.V[0]) || !model_number(r, &v.V[1])
-        || (model_look(r) && !model_number(r, &v.V[2])) || !model_at_end(r))
+    if (block < 0 || !model_numbers(r, 2, v.V) || (model_look(r) && !model_number(r, &v.V[2])))
         return 0;
     if (r->p->velocity[block].given)
         return model_blame(r, "a velocity of '%.60s' for the second time, expected one",
@@ -507,43 +487,37 @@ int model_velocities(model_reader *r)
 /* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
 int model_stress(model_reader *r)
 {
-    const int star = model_skip(r, "*"), block = star ? -1 : model_next_block(r);
-    int *given = block >= 0 ? &r->block[block].stressed : &r->stressed;
+    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
     double s[6] = { 0 };
 
-    if (!star && block < 0)
+    if (block < 0)
         return 0;
-    if (*given)
-        return model_blame(r, "a stress of '%.60s' for the second time, expected one",
-                           star ? "*" : r->block[block].name);
-    for (int k = 0; k < 6 && (k != 3 || model_look(r)); k++)
-        if ((k == 3 && !model_keyword(r, "gradient")) || !model_number(r, &s[k]))
-            return 0;
-    *given = 1;
+    model_block *b = star ? &r->any : &r->block[block];
+    if (b->stressed)
+        return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
+    if (!model_numbers(r, 3, s)
+        || (model_look(r) && !(model_keyword(r, "gradient") && model_numbers(r, 3, s + 3))))
+        return 0;
+    b->stressed = 1;
     for (int e = 0; e < r->elements; e++) {
         bbm_element *i = &r->p->m->element[e];
         for (int k = 0; k < 3 && (star ? !r->block[i->block].stressed : i->block == block); k++)
             i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
     }
-    return model_at_end(r);
+    return 1;
 }
 
 int model_monitors(model_reader *r)
 {
-    const char *word = model_name(r);
     model *p = r->p;
-    model_monitor m = { word, 0, NULL };
+    model_monitor m = { .name = model_new_name(r, &r->monitor_of) };
 
-    if (!word || !model_is_new(r, &r->monitor_of, "monitor", word) || !where(r, 1)
-        || !model_at_end(r) || !model_enter(r, &r->monitor_of, word, p->monitors))
+    if (!m.name || !where(r, 1) || !model_enter(r, &r->monitor_of, m.name, p->monitors)
+        || !(m.node = model_keep(r, r->chosen, sizeof *m.node)))
         return 0;
-    m.node = model_room(r, r->chosen, sizeof *m.node);
-    for (; m.node && m.nodes < r->chosen; m.nodes++)
+    for (; m.nodes < r->chosen; m.nodes++)
         m.node[m.nodes] = r->chosen_node[m.nodes];
-    if (m.node && model_add(r, &p->monitor, &p->monitors, sizeof m, &m))
-        return 1;
-    free(m.node);
-    return 0;
+    return model_add(r, &p->monitor, &p->monitors, sizeof m, &m);
 }
 
 /* Between a vertex of the one node that each WHERE names and another one. */
@@ -565,8 +539,7 @@ int model_bolts(model_reader *r)
         b.block[end] = r->p->node_block[r->chosen_node[0]];
         b.vertex[end] = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
     }
-    o[0].needed = 1;
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 1, LENGTH(o), o))
         return 0;
     model_bolt_force(m, &b, &along);
     if (!(along.length > r->margin)
@@ -599,15 +572,11 @@ static int blame_free(model_reader *r)
                       r->p->block[m->element[loose].block], near);
 }
 
-/* What the statements have noted for each block goes to its nodes and elements; statics must be
- * held. */
+/* What takes part in the steps is hooked in; statics must be held. */
 int model_finish(model_reader *r)
 {
     model *p = r->p;
 
-    for (int n = 0; n < p->m->nodes; n++)
-        if (r->block[p->node_block[n]].fixed)
-            bbm_fix_node(p->m, n, BBM_XY, 0, 0);
     const bbm_status status = !model_hook(r) || p->dynamic ? BBM_OK : bbm_check_held(p->m);
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);

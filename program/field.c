@@ -4,49 +4,45 @@
 
 #include "field.h"
 
-/* --- from displacement and stress --- */
-
-static double u(const bbm_result *r) { return r->u; }
-static double v(const bbm_result *r) { return r->v; }
-static double sxx(const bbm_result *r) { return r->stress[0]; }
-static double syy(const bbm_result *r) { return r->stress[1]; }
-static double sxy(const bbm_result *r) { return r->stress[2]; }
-static double mises(const bbm_result *r) { return r->mises; }
-
-/* Mohr's circle. */
-static double middle(const bbm_result *r) { return (r->stress[0] + r->stress[1]) / 2; }
-
-static double radius(const bbm_result *r)
-{
-    return hypot((r->stress[0] - r->stress[1]) / 2, r->stress[2]);
-}
-
-static double s1(const bbm_result *r) { return middle(r) + radius(r); }
-static double s2(const bbm_result *r) { return middle(r) - radius(r); }
-
-/* --- of an element: its rotation so far; the velocity that the last step hands on --- */
-
-static double rotation(const bbm_model *m, int e) { return m->element[e].sum[2]; }
-static double vx(const bbm_model *m, int e) { return m->element[e].V[0]; }
-static double vy(const bbm_model *m, int e) { return m->element[e].V[1]; }
-static double spin(const bbm_model *m, int e) { return m->element[e].V[2]; }
-
-/* In the order of the columns. */
 const field field_table[] = {
-    { "u", "u", "m", u, NULL, FIELD_NODES | FIELD_ELEMENTS },
-    { "v", "v", "m", v, NULL, FIELD_NODES | FIELD_ELEMENTS },
-    { "rotation", "rotation", "rad", NULL, rotation, FIELD_ELEMENTS },
-    { "sxx", "sxx", "Pa", sxx, NULL, FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
-    { "syy", "syy", "Pa", syy, NULL, FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
-    { "sxy", "sxy", "Pa", sxy, NULL, FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
-    { "mises", "von Mises stress", "Pa", mises, NULL, FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
-    { "s1", "s1", "Pa", s1, NULL, FIELD_CELLS },
-    { "s2", "s2", "Pa", s2, NULL, FIELD_CELLS },
-    { "vx", "vx", "m/s", NULL, vx, FIELD_MOVING },
-    { "vy", "vy", "m/s", NULL, vy, FIELD_MOVING },
-    { "spin", "spin", "rad/s", NULL, spin, FIELD_MOVING },
+    { "u", "u", "m", FIELD_NODES | FIELD_ELEMENTS },
+    { "v", "v", "m", FIELD_NODES | FIELD_ELEMENTS },
+    { "rotation", "rotation", "rad", FIELD_ELEMENTS },
+    { "sxx", "sxx", "Pa", FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
+    { "syy", "syy", "Pa", FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
+    { "sxy", "sxy", "Pa", FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
+    { "mises", "von Mises stress", "Pa", FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
+    { "s1", "s1", "Pa", FIELD_CELLS },
+    { "s2", "s2", "Pa", FIELD_CELLS },
+    { "vx", "vx", "m/s", FIELD_MOVING },
+    { "vy", "vy", "m/s", FIELD_MOVING },
+    { "spin", "spin", "rad/s", FIELD_MOVING },
     { 0 }
 };
+
+/* All of them in the order of the table, by Mohr's circle; motion: the rotation so far, and the
+ * velocity that the last step hands on. */
+static double value(const field *f, const bbm_result *r, const double motion[4])
+{
+    const double *s = r->stress, middle = (s[0] + s[1]) / 2;
+    const double radius = hypot((s[0] - s[1]) / 2, s[2]);
+    const double all[] = { r->u, r->v, motion[0], s[0], s[1], s[2], r->mises, middle + radius,
+                           middle - radius, motion[1], motion[2], motion[3] };
+
+    return all[f - field_table];
+}
+
+double field_place(const bbm_model *m, int v, int axis)
+{
+    const bbm_element *e = m->element;
+
+    if (!field_is_gone(m, v))
+        return (axis ? m->vertex[v].y : m->vertex[v].x) + m->origin[axis];
+    while (e->block != m->element[m->vertex[v].element].block)
+        e++;
+    const bbm_node *a = &m->node[m->vertex[e->first].node];
+    return axis ? a->y : a->x;
+}
 
 const field *field_find(const char *name)
 {
@@ -60,23 +56,36 @@ const field *field_find(const char *name)
 double field_of_element(const field *f, const bbm_model *m, int element)
 {
     const bbm_element *e = &m->element[element];
-    bbm_result r = { .u = e->sum[0], .v = e->sum[1], .szz = bbm_stress_out_of_plane(e) };
+    const double *s = e->stress;
+    const bbm_result r = { .u = e->sum[0], .v = e->sum[1], .stress = { s[0], s[1], s[2] },
+                           .mises = bbm_mises(s, bbm_stress_out_of_plane(e)) };
 
-    if (!f->of_result)
-        return f->of_element(m, element);
-    memcpy(r.stress, e->stress, sizeof r.stress);
-    r.mises = bbm_mises(r.stress, r.szz);
-    return f->of_result(&r);
+    return value(f, &r, (double[]){ e->sum[2], e->V[0], e->V[1], e->V[2] });
 }
 
 double field_of_node(const field *f, const bbm_model *m, int node)
 {
     const int first = m->adjacent_first[node], end = m->adjacent_first[node + 1];
+    double motion[4] = { 0 };
     bbm_result r;
-    double sum = 0;
 
     bbm_nodal_result(m, node, -1, &r);
-    for (int a = first; a < end && !f->of_result; a++)
-        sum += f->of_element(m, m->vertex[m->adjacent[a]].element);
-    return f->of_result ? f->of_result(&r) : sum / (end - first);
+    for (int a = first; a < end; a++) {
+        const bbm_element *e = &m->element[m->vertex[m->adjacent[a]].element];
+        motion[0] += e->sum[2] / (end - first);
+        for (int k = 0; k < 3; k++)
+            motion[1 + k] += e->V[k] / (end - first);
+    }
+    return value(f, &r, motion);
+}
+
+/* N n - T m, m from P2 to P3 and n out of the edge's block. */
+void field_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2])
+{
+    const bbm_vertex *P2 = &m->vertex[m->edge[c->edge].b], *P3 = &m->vertex[m->edge[c->edge].a];
+    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
+    const double x = (P3->x - P2->x) / l, y = (P3->y - P2->y) / l;
+
+    f[0] = -N * y - T * x;
+    f[1] = N * x - T * y;
 }

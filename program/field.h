@@ -1,9 +1,10 @@
 /* field.h - the quantities that tables and pictures show, by name: a row each in the table of
- * field.c. A new row is a column of the files that it names, and what `output field NAME` draws. */
+ * field.c. A new row, and its value there, is a column of the files that it names, and what
+ * `output field NAME` draws. */
 #ifndef FIELD_H
 #define FIELD_H
 
-#include "../bbm.h"
+#include "../base/base.h"
 
 enum {                          /* where a field is written, as bits                            */
     FIELD_NODES = 1,            /* nodes.csv                                                    */
@@ -12,19 +13,30 @@ enum {                          /* where a field is written, as bits            
     FIELD_CELLS = 8             /* the cells of step_*.vtk                                      */
 };
 
-/* A field follows from displacement and stress, or it belongs to an element. */
 typedef struct {
     const char *name, *label, *unit;    /* label: in a picture                                  */
-    double (*of_result)(const bbm_result *r);
-    double (*of_element)(const bbm_model *m, int element);      /* where of_result is NULL      */
     int files;
 } field;
 
 extern const field field_table[];       /* the last row has no name                             */
 
+/* Whether a stage has removed the block of vertex v, by the mark that stage.c gives its elements.
+ * No other one has it: szz is at most half of sx + sy. */
+#define FIELD_GONE 1
+static inline int field_is_gone(const bbm_model *m, int v)
+{
+    return m->element[m->vertex[v].element].out_of_plane == FIELD_GONE;
+}
+
+/* x (axis 0) or y of where vertex v is drawn, m; those of a block that is gone in one point, where
+ * it began. */
+double field_place(const bbm_model *m, int v, int axis);
 const field *field_find(const char *name);                      /* NULL: there is none          */
 double field_of_element(const field *f, const bbm_model *m, int element);
-/* What belongs to elements: the mean of those that meet there. */
+/* That of the mean displacement, stress and motion of the elements that meet there. */
 double field_of_node(const field *f, const bbm_model *m, int node);
+
+/* The force of a contact that carries N and T on the corner's block, as a vector. */
+void field_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2]);
 
 #endif

@@ -12,15 +12,15 @@ enum { NOT_MET, MET, WRONG, STOPPED };
 enum { HALVINGS = 10 };         /* 2^-10 of the interval is a thousandth */
 
 /* Whether all is as expected; text: of what is not, or of the last. */
-static int run_model(const find *f, model *p, char text[520])
+static int run_model(const arguments *a, model *p, char text[520])
 {
     run r = { .p = p, .settling = p->settle };
     bbm_status status = BBM_OK;
 
-    p->m->monitor = f->stop;
-    while (!status && !r.is_over && !f->stop(p->m, NULL))
+    p->m->monitor = a->stop;
+    while (!status && !r.is_over && !a->stop(p->m, NULL))
         status = run_step(&r);
-    if (f->stop(p->m, NULL))
+    if (a->stop(p->m, NULL))
         return STOPPED;
     if (status) {
         run_says(&r, status, text);
@@ -34,49 +34,49 @@ static int run_model(const find *f, model *p, char text[520])
 }
 
 /* One run; what it says, unless it is to be quiet. */
-static int try_number(const find *f, double x, int first)
+static int try_number(const arguments *a, double x, int first)
 {
     char text[520] = "", number[200];
     model p;
     int answer = WRONG;
 
-    f->let[f->lets] = number;
-    snprintf(number, sizeof number, "%.100s=%.15g", f->name, x);
-    const int status = model_read(f->model, f->lets + 1, f->let, &p);
+    a->let[a->lets] = number;
+    snprintf(number, sizeof number, "%.100s=%.15g", a->find, x);
+    const int status = model_read(a->model, a->lets + 1, a->let, &p);
     for (int k = 0; k < p.notes && first && !status; k++)
         fprintf(stderr, "%s\n", p.note[k]);
     if (status)
-        fprintf(stderr, "%s = %.9g: %s\n", f->name, x, p.message);
+        fprintf(stderr, "%s = %.9g: %s\n", a->find, x, p.message);
     else if (p.expectations == 0)
-        fprintf(stderr, "%s: --find needs an `expect`, as: expect NAME stays by 0.01\n", f->model);
+        fprintf(stderr, "%s: --find needs an `expect`, as: expect NAME stays by 0.01\n", a->model);
     else
-        answer = run_model(f, &p, text);
-    if (answer <= MET && !f->quiet)
-        printf("%s = %-12.9g %s\n", f->name, x, text);
+        answer = run_model(a, &p, text);
+    if (answer <= MET && !a->quiet)
+        printf("%s = %-12.9g %s\n", a->find, x, text);
     fflush(stdout);
     model_free(&p);
     return answer;
 }
 
-int find_limit(const find *f)
+int find_limit(const arguments *a)
 {
-    double x[2] = { f->low, f->high };
-    const int low = try_number(f, x[0], 1), high = low > MET ? low : try_number(f, x[1], 0);
+    double x[2] = { a->low, a->high };
+    const int low = try_number(a, x[0], 1), high = low > MET ? low : try_number(a, x[1], 0);
     int answer = high, runs = 2;
 
     if (high <= MET && low == high)
         return printf("the expectations are %s at %s = %g and %g, 2 runs; expected a number "
                       "between one that meets them and one that does not\n",
-                      answer == MET ? "met" : "not met", f->name, x[0], x[1]), 3;
+                      answer == MET ? "met" : "not met", a->find, x[0], x[1]), 3;
     for (; answer <= MET && runs < HALVINGS + 2; runs++) {
         const double middle = x[0] + (x[1] - x[0]) / 2;
-        answer = try_number(f, middle, 0);
+        answer = try_number(a, middle, 0);
         x[answer != low] = middle;
     }
     if (answer > MET)
         return answer == STOPPED ? 1 : 2;
     printf("the limit is %s = %.6g +- %.2g: the expectations are met at %.9g, not at %.9g; %d "
-           "runs\n", f->name, (x[0] + x[1]) / 2, fabs(x[1] - x[0]) / 2, x[low != MET],
+           "runs\n", a->find, (x[0] + x[1]) / 2, fabs(x[1] - x[0]) / 2, x[low != MET],
            x[low == MET], runs);
     return 0;
 }

@@ -116,6 +116,8 @@ int model_hook(model_reader *r)
     bbm_model *m = p->m;
     const size_t gaps = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices, bolts = (size_t)p->bolts;
 
+    if (p->stages)
+        m->hook->load = model_gather_loads;
     if (!p->shakings && !p->bolts)
         return 1;
     hooked *b = realloc(m->beyond, sizeof *b);

@@ -13,7 +13,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "field.h"
 #include "length.h"
 #include "run.h"
 #include "warn.h"
@@ -23,13 +22,6 @@
  * has file scope. */
 static volatile sig_atomic_t stopped;
 enum { SHOWN = 30 };                 /* blocks of --check */
-
-typedef struct {
-    const char *model, *matrix;
-    char folder[1024], **let;                   /* let: [lets] NAME=VALUE */
-    int lets, quiet, check, exit;               /* exit: -1, go on */
-    find find;                                  /* name: NULL, none */
-} arguments;
 
 static const char usage[] =
     "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
@@ -68,23 +60,23 @@ static int name_folder(arguments *a, const char *given)
 }
 
 /* NAME LOW HIGH; 0: they are not. */
-static int read_find(find *f, char *word[])
+static int read_find(arguments *a, char *word[])
 {
     char *end[2] = { "?", "?" };
 
     if (!word[0] || !word[1] || !word[2])
         return 0;
-    f->name = word[0];
-    f->low = strtod(word[1], &end[0]);
-    f->high = strtod(word[2], &end[1]);
-    return *word[1] && *word[2] && !*end[0] && !*end[1] && isfinite(f->low) && isfinite(f->high)
-           && f->low != f->high;
+    a->find = word[0];
+    a->low = strtod(word[1], &end[0]);
+    a->high = strtod(word[2], &end[1]);
+    return *word[1] && *word[2] && !*end[0] && !*end[1] && isfinite(a->low) && isfinite(a->high)
+           && a->low != a->high;
 }
 
 /* The options may stand before and after the model; behind `--` a name may begin with a dash. */
 static int read_arguments(arguments *a, int argc, char *argv[])
 {
-    const char *folder = NULL;
+    char *folder = NULL;
     int options = 1;
 
     *a = (arguments){ .exit = -1, .let = argv };
@@ -93,7 +85,7 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         for (char *c = argv[k]; *c; c++)
             *c = *c == '\\' ? '/' : *c;        /* both part folders there */
 #endif
-        const char *word = argv[k], *let, **value = &let;
+        char *word = argv[k];
         if (!options || word[0] != '-' || word[1] == '\0') {
             if (a->model)
                 return complain(a, "expected one model file");
@@ -109,17 +101,15 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         } else if (strcmp(word, "--check") == 0) {
             a->check = 1;
         } else if (strcmp(word, "--find") == 0) {
-            if (!read_find(&a->find, argv + k + 1))
+            if (!read_find(a, argv + k + 1))
                 return complain(a, "--find needs a name and two different numbers");
             k += 3;
-        } else if (word[1] == 'o' || word[1] == 'm' || word[1] == 'd') {
-            if (word[1] != 'd')
-                value = word[1] == 'o' ? &folder : &a->matrix;
+        } else if (strchr("omd", word[1])) {
+            char **value = word[1] == 'o' ? &folder : word[1] == 'm' ? &a->matrix
+                         : &a->let[a->lets++];          /* they gather at the front of argv */
             *value = word[2] ? word + 2 : argv[++k];
             if (k == argc || **value == '\0')
                 return complain(a, "-o and -m need a name, -d NAME=VALUE");
-            if (value == &let)                  /* they gather at the front of argv */
-                a->let[a->lets++] = word[2] ? argv[k] + 2 : argv[k];
         } else {
             fprintf(stderr, "bbm: unknown option %.60s\n%s", word, usage);
             return a->exit = 2;
@@ -128,8 +118,8 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     const size_t n = a->matrix ? strlen(a->matrix) : 0;
     if (a->matrix && (n < 5 || strcmp(a->matrix + n - 4, ".mtx") != 0))
         return complain(a, "-m needs a name that ends in .mtx");
-    if (a->find.name
-        && (folder || a->matrix || a->check || (a->model && strcmp(a->model, "-") == 0)))
+    const int from_stdin = a->model && strcmp(a->model, "-") == 0;
+    if (a->find && (folder || a->matrix || a->check || from_stdin))
         return complain(a, "--find reads a file several times and writes none: without -o, -m, "
                            "--check and -");
     return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
@@ -215,7 +205,7 @@ static void summarise(const model *p, const char *folder)
     bbm_energy e;
 
     for (int v = 0; v < m->vertices; v++)
-        if (hypot(m->vertex[v].u, m->vertex[v].v) > far)
+        if (hypot(m->vertex[v].u, m->vertex[v].v) > far && !field_is_gone(m, v))
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int k = 0; k < m->elements; k++)
         if (field_of_element(mises, m, k) > most)
@@ -285,12 +275,11 @@ static bbm_status run_all(run *r, write_results *w, progress *s)
     const bbm_info *i = &r->p->m->info;
     bbm_status status = BBM_OK;
 
-    while (!status && !r->is_over && !stopped && (!r->has_begun || !w->status)) {
-        status = run_step(r);
-        if (status)
-            break;
+    while (!r->is_over && !stopped && !w->status && !(status = run_step(r))) {
         if (r->has_begun)
             write_step(w, i->step);
+        if (r->stage_is_over && !r->is_over)
+            write_stage(w);
         warn_in_step(r->p, w->source, i->step, &s->warned);
         show_progress(s, r->p->m, r->settling, !r->has_begun ? 0 : r->is_over ? s->steps : i->step);
     }
@@ -393,8 +382,8 @@ static int run_model(model *p, const arguments *a, clock_t start)
 {
     write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
                         .start = start, .reading = clock() - start };
-    progress s = { .shown = !a->quiet, .steps = p->m->par.steps, .settling = p->settle,
-                   .last = now() };
+    progress s = { .shown = !a->quiet, .steps = p->stage[p->stages].par.steps,
+                   .settling = p->settle, .last = now() };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
 
@@ -421,13 +410,10 @@ static int run_model(model *p, const arguments *a, clock_t start)
 static int read_and_run(const arguments *a, clock_t start)
 {
     model p;
-    find f = a->find;
 
-    if (f.name) {
-        f.model = a->model, f.quiet = a->quiet, f.lets = a->lets, f.let = a->let;
-        f.stop = before_solution;
+    if (a->find) {
         catch_signals();
-        const int status = find_limit(&f);
+        const int status = find_limit(a);
         return stopped ? 128 + (int)stopped : status;
     }
     int status = model_read(a->model, a->lets, a->let, &p);
@@ -466,6 +452,7 @@ int main(int argc, char *argv[])
     signal(SIGXFSZ, SIG_IGN);
 #endif
     read_arguments(&a, argc, argv);
+    a.stop = before_solution;
     const int status = a.exit >= 0 ? a.exit : read_and_run(&a, start);
     if (fflush(stdout) || ferror(stdout)) {
         fprintf(stderr, "bbm: stdout cannot be written\n");

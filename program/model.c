@@ -39,14 +39,21 @@ const char *model_says(const model *p, bbm_status status, char out[400])
     return out;
 }
 
-/* A displaced support is where it belongs at the time t, to which its way is even. */
-void model_move_supports(model *p, double t)
+/* The rest of the way of a displaced support is even over the time that is left of the ramp, which
+ * ends with the stage. */
+void model_move_supports(model *p)
 {
-    const double share = p->ramp > 0 ? fmin(1, t / p->ramp) : 1;
+    const bbm_model *m = p->m;
+    const double dt = m->par.dt, whole = p->now ? dt * (m->par.steps - p->begun) : INFINITY,
+                 left = fmin(p->ramp, whole) - dt * (m->info.step - p->begun),
+                 share = p->dynamic && left > dt ? dt / left : 1;
 
-    for (int n = 0; n < p->m->nodes && p->moving; n++)
-        if (p->m->node[n].held)
-            bbm_move_support(p->m, n, share * p->moved_to[n][0], share * p->moved_to[n][1]);
+    for (int n = 0; n < m->nodes && p->moving; n++) {
+        const double *at = m->node[n].wall, *to = p->stage[p->now].node[n].wall;
+        if (m->node[n].held)
+            bbm_move_support(p->m, n, at[0] + share * (to[0] - at[0]),
+                             at[1] + share * (to[1] - at[1]));
+    }
 }
 
 void model_displacement(const model *p, const model_monitor *m, double u[2])
@@ -97,13 +104,9 @@ int model_start(model *p)
 void model_free(model *p)
 {
     bbm_model_free(p->m);
-    for (int k = 0; k < p->texts; k++)
-        free(p->text[k]);
-    for (int k = 0; k < p->monitors; k++)
-        free(p->monitor[k].node);
-    free(p->text), free((void *)p->block), free((void *)p->node), free(p->node_block),
-        free((void *)p->element);
-    free(p->centre), free(p->velocity), free(p->monitor), free(p->expected), free(p->moved_to),
-        free(p->note), free(p->shaking), free(p->bolt);
+    for (int k = 0; k < p->keeps; k++)
+        free(p->kept[k]);
+    free(p->kept), free((void *)p->block), free(p->monitor), free(p->expected);
+    free(p->note), free(p->shaking), free(p->bolt);
     *p = (model){ 0 };
 }

@@ -10,6 +10,7 @@
 #define MODEL_H
 
 #include "../beyond/beyond.h"
+#include "field.h"
 #include "scene.h"
 
 typedef struct { const char *name; int nodes, *node; } model_monitor;   /* of library nodes */
@@ -17,6 +18,13 @@ typedef struct { double V[3]; int given; } model_velocity;                  /* m
 typedef struct { int monitor, kind; double value, within; } model_expected;     /* at the end */
 
 typedef struct { double t, a[2]; } model_shaking;     /* s, m/s^2: of the base, a row of a record */
+
+typedef struct {                /* what holds from a stage on; the first is the run before them */
+    bbm_parameters par;         /* steps: the last of the stage */
+    double cohesion, tension;
+    int edge_loads;
+    bbm_node *node;             /* [nodes]      held, load; wall: how far it is moved in the */
+} model_stage;                  /*              stage, and once that has begun, to where */
 
 enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                 /* kinds of what is expected */
 
@@ -40,15 +48,18 @@ typedef struct {
     int    expectations;
     model_expected *expected;   /* [expectations] value and within: m */
     int    moving;              /* supports: whether any moves */
-    double (*moved_to)[2];      /* [m->nodes]   m, from the start */
     double ramp;                /* s            in which; 0: at once */
+    int    stages, now, begun;  /* behind the first run; the one in hand, 0: none, and its start */
+    model_stage *stage;         /* [stages+1] */
+    int   *gone;                /* [blocks]     the stage that removes it; 0: none */
     int    shakings;            /* rows of a record of the base's acceleration */
     model_shaking *shaking;     /* [shakings]   between them it is linear, outside it is 0 */
     double shake;               /* its scale */
     int    bolts;
     scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
-    int    texts;
-    char **text;                /* [texts]      the files read: names and ids are words of them */
+    int    keeps;
+    void **kept;                /* [keeps]      until model_free: the files read, of which names and
+                                                ids are words, and the arrays of known length */
     int    notes;
     char **note;                /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
     int    status;              /* 0, 1: failed, 2: the input is wrong */
@@ -64,7 +75,8 @@ const char *model_says(const model *p, bbm_status status, char out[400]);
 /* How far the start of a boundary edge is from another edge, m. */
 double model_distance(const bbm_model *m, int corner, int edge);
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
-void model_move_supports(model *p, double t);                  /* to where they are at the time t */
+void model_move_supports(model *p);     /* to where they are after the next step */
+void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */
 void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
 /* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);

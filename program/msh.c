@@ -176,47 +176,42 @@ static void read_entities(mesh *m)
 
 /* ------------------------------------------------------------------------------ nodes, elements */
 
-static int begin_node(mesh *m)
+/* 4.1: the number of entities, of entries, the least and the largest number; for each entity its
+ * dimension, tag, type of elements or whether its nodes have parameters, n; and n entries.
+ * 2.2: the number of entries, which are read one by one. */
+static void read_entries(mesh *m, void (*read)(mesh *m, const int of[4]))
 {
-    model_node node = { .id = id(m), .first = -1 };
+    int head[4], of[4] = { 0, 0, 0, 1 };
 
-    node.at = m->at;
-    return model_add_node(m->r, &node);
-}
-
-static void read_position(mesh *m, model_node *n)
-{
-    n->x = number(m);
-    n->y = number(m);
-    number(m);
-}
-
-/* 2.2: number x y z, for each. */
-static void read_nodes_22(mesh *m)
-{
-    for (int n = whole(m, 0); more(m, &n) && begin_node(m); )
-        read_position(m, &m->r->node[m->r->nodes - 1]);
-}
-
-/* 4.1: for each entity its dimension, tag, whether there are parameters, n; n numbers; n times x
- * y z and parameters. */
-static void read_nodes_41(mesh *m)
-{
-    model_reader *r = m->r;
-    int head[4], of[4];
-
-    read_head(m, head);                         /* entities, nodes, least and largest number */
+    if (m->version == 41)
+        read_head(m, head);
+    else
+        head[0] = head[1] = whole(m, 0);
     for (m->announced = head[1]; more(m, &head[0]); m->entries += of[3]) {
-        read_head(m, of);
-        for (int n = of[3]; more(m, &n); )
-            begin_node(m);
-        for (int n = of[3]; more(m, &n); ) {
-            read_position(m, &r->node[r->nodes - 1 - n]);
-            for (int p = of[2] ? of[0] : 0; more(m, &p); )
-                number(m);
-        }
+        if (m->version == 41)
+            read_head(m, of);
+        read(m, of);
     }
 }
+
+/* n numbers; n times x y z and parameters. */
+static void read_some_nodes(mesh *m, const int of[4])
+{
+    for (int n = of[3]; more(m, &n); ) {
+        model_node node = { .id = id(m), .first = -1 };
+        node.at = m->at;
+        model_add_node(m->r, &node);
+    }
+    for (int n = of[3]; more(m, &n); ) {
+        model_node *node = &m->r->node[m->r->nodes - 1 - n];
+        node->x = number(m);
+        node->y = number(m);
+        for (int rest = of[2] ? 1 + of[0] : 1; more(m, &rest); )
+            number(m);
+    }
+}
+
+static void read_nodes(mesh *m) { read_entries(m, read_some_nodes); }
 
 static const char *name_of(const mesh *m, int dimension, const char *tag)
 {
@@ -226,13 +221,13 @@ static const char *name_of(const mesh *m, int dimension, const char *tag)
 }
 
 /* Adds the nodes to the set of each group, and the element to the block of the first one. */
-static int add_element(mesh *m, model_element *e, const char **tag, int tags)
+static int add_element(mesh *m, model_element *e, const entry *in)
 {
     const int dimension = e->n < 3 ? e->n - 1 : 2;
     model_reader *r = m->r;
 
-    for (int t = 0; t < tags; t++) {
-        const int set = model_find_set(r, name_of(m, dimension, tag[t]));
+    for (int t = 0; t < in->n; t++) {
+        const int set = model_find_set(r, name_of(m, dimension, m->tag[in->first + t]));
         if (set < 0)
             return 0;
         r->set[set].dimensions |= 1 << dimension;
@@ -242,10 +237,10 @@ static int add_element(mesh *m, model_element *e, const char **tag, int tags)
     }
     if (dimension < 2)
         return 1;
-    if (tags == 0)
+    if (in->n == 0)
         return model_fail(r, e->at, "element %.60s lies in no physical surface, expected one, "
                           "which is its block", e->id);
-    e->block = model_find_block(r, name_of(m, 2, tag[0]), m->statement);
+    e->block = model_find_block(r, name_of(m, 2, m->tag[in->first]), m->statement);
     if (e->block < 0)
         return 0;
     r->block[e->block].meshed = 1;
@@ -253,7 +248,7 @@ static int add_element(mesh *m, model_element *e, const char **tag, int tags)
 }
 
 /* The nodes of an element, of a type that is known by its number. */
-static int read_element(mesh *m, const char *number_of, int type, const char **tag, int tags)
+static int read_element(mesh *m, const char *number_of, int type, const entry *in)
 {
     model_element e = { .id = number_of, .at = m->at, .material = -1 };
 
@@ -267,36 +262,29 @@ static int read_element(mesh *m, const char *number_of, int type, const char **t
         if (!model_add_corner(m->r, model_find(&m->r->node_of, word)))
             return wrong(m, word, "a node of the mesh");
     }
-    return add_element(m, &e, tag, tags);
+    return add_element(m, &e, in);
 }
 
-/* 2.2: number, type, number of tags, the physical group (0: none), other tags, nodes. */
-static void read_elements_22(mesh *m)
+/* Number and nodes; in 2.2 between them the type, the number of tags, the physical group (0: none)
+ * and other tags. */
+static void read_some_elements(mesh *m, const int of[4])
 {
-    for (int n = whole(m, 0); more(m, &n); ) {
+    const entry *found = find(&m->entity, of[0], of[1]);
+    entry in = found ? *found : (entry){ 0 };
+
+    for (int n = of[3], type = of[2]; more(m, &n); ) {
         const char *number_of = id(m);
-        const int type = whole(m, 1);
-        m->tags = 0;
-        read_tags(m, whole(m, 0));
-        read_element(m, number_of, type, m->tag, m->tags > 0 && strcmp(m->tag[0], "0") != 0);
-    }
-}
-
-/* 4.1: for each entity its dimension, tag, the type, n; n times number and nodes. */
-static void read_elements_41(mesh *m)
-{
-    int head[4], of[4];
-
-    read_head(m, head);
-    for (m->announced = head[1]; more(m, &head[0]); m->entries += of[3]) {
-        read_head(m, of);
-        const entry *e = find(&m->entity, of[0], of[1]);
-        for (int n = of[3]; more(m, &n); ) {
-            const char *number_of = id(m);
-            read_element(m, number_of, of[2], e ? m->tag + e->first : NULL, e ? e->n : 0);
+        if (m->version == 22) {
+            type = whole(m, 1);
+            m->tags = 0;
+            read_tags(m, whole(m, 0));
+            in.n = m->tags > 0 && strcmp(m->tag[0], "0") != 0;
         }
+        read_element(m, number_of, type, &in);
     }
 }
+
+static void read_elements(mesh *m) { read_entries(m, read_some_elements); }
 
 /* ------------------------------------------------------------------------------------- the file */
 
@@ -322,13 +310,12 @@ static int is_end(const mesh *m, const char *word)
 /* One that is not known is passed over. */
 static void read_section(mesh *m)
 {
-    const int old = m->version == 22;
     const struct { const char *name; void (*read)(mesh *m); int done; } section[] = {
         { "MeshFormat", read_format, 0 },
         { "PhysicalNames", read_names, 0 },
-        { "Entities", old ? NULL : read_entities, 0 },
-        { "Nodes", old ? read_nodes_22 : read_nodes_41, 1 },
-        { "Elements", old ? read_elements_22 : read_elements_41, 2 },
+        { "Entities", m->version == 22 ? NULL : read_entities, 0 },
+        { "Nodes", read_nodes, 1 },
+        { "Elements", read_elements, 2 },
         { m->section, NULL, 0 },
     };
     int k = 0;

@@ -13,6 +13,8 @@
  *       ...                       to TO, which is $NAME in them; a `let` there is that of the
  *     end                         round alone
  *
+ *     stage NAME ... end          the statements between get the number of the stage
+ *
  * The `let`s outside of `repeat` are read first, so that statements above them may use them. */
 #include <ctype.h>
 #include <limits.h>
@@ -50,7 +52,7 @@ static const char *value_of_name(const model_reader *r, const char *name)
         if (strcmp(r->local[k].name, name) == 0)
             return r->local[k].value;
     const int at = model_find(&r->let_of, name);
-    return at >= 0 ? r->word[at] : NULL;
+    return at >= 0 ? r->word[at].text : NULL;
 }
 
 /* The value of the longest name that the text begins with and that ends where its letters end, and
@@ -296,6 +298,7 @@ static int add_statement(model_reader *r, const model_statement *source)
     model_statement s = *source;
 
     s.at.round = r->round;
+    s.stage = r->stage;
     s.first = r->words;
     if (!model_add(r, &r->statement, &r->statements, sizeof s, &s))
         return 0;
@@ -305,11 +308,9 @@ static int add_statement(model_reader *r, const model_statement *source)
         return model_blame(r, "repetitions make more than %d statements, expected fewer",
                            MOST_REPEATED);
     for (int k = 0; k < s.n; k++) {
-        model_given w = { r->cut_word[source->first + k], 0 };
-        char *word = expand(r, w.text, &w.glued);
-        int words = r->words;
-        if (!word || !model_add(r, &r->given, &words, sizeof w, &w)
-            || !model_add(r, &r->word, &r->words, sizeof word, &word))
+        model_given w = { .source = r->cut_word[source->first + k] };
+        w.text = expand(r, w.source, &w.glued);
+        if (!w.text || !model_add(r, &r->word, &r->words, sizeof w, &w))
             return 0;
     }
     return 1;
@@ -318,45 +319,43 @@ static int add_statement(model_reader *r, const model_statement *source)
 /* ----------------------------------------------------------------------------- let, repeat, end */
 
 static int is(const model_statement *s, const char *word) { return strcmp(s->name, word) == 0; }
+static int opens(const model_statement *s) { return is(s, "repeat") || is(s, "stage"); }
 
-static int is_new(model_reader *r, const char *word)
+static const char *new_number(model_reader *r)
 {
-    for (int k = 0; k < r->locals; k++)
+    const char *word = model_new_name(r, &r->let_of);
+
+    for (int k = 0; k < r->locals && word; k++)
         if (strcmp(r->local[k].name, word) == 0)
             return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
-                               word);
-    return model_is_new(r, &r->let_of, "let", word);
+                               word), NULL;
+    return word;
 }
 
 /* The number is the word behind the name, or that of the command line in its place. In a round it
  * is the round's. */
 static int read_let(model_reader *r)
 {
-    const char *word = model_name(r);
+    const char *word = new_number(r);
     char *other = word && !r->round ? given(r, word) : NULL;
     const int at = r->s->first + r->next;
     double x;
 
-    if (!word || !is_new(r, word) || !model_numbers(r, 1, &x))
+    if (other && model_look(r))
+        r->word[at] = (model_given){ other, other, 0 };
+    if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
-    if (r->round) {
-        const model_local l = { word, r->word[at] };
-        return model_add(r, &r->local, &r->locals, sizeof l, &l);
-    }
-    if (other) {
-        r->word[at] = r->given[at].text = other;
-        r->next--;
-        if (!model_number(r, &x))
-            return 0;
-    }
-    return model_enter(r, &r->let_of, word, at);
+    if (!r->round)
+        return model_enter(r, &r->let_of, word, at);
+    const model_local l = { word, r->word[at].text };
+    return model_add(r, &r->local, &r->locals, sizeof l, &l);
 }
 
-/* The `end` of the `repeat` at k; -1: there is none. */
+/* The `end` of the `repeat` or `stage` at k; -1: there is none. */
 static int find_end(const model_reader *r, int k)
 {
     for (int open = 0; k < r->cuts; k++) {
-        open += is(&r->cut[k], "repeat") - is(&r->cut[k], "end");
+        open += opens(&r->cut[k]) - is(&r->cut[k], "end");
         if (open == 0)
             return k;
     }
@@ -365,7 +364,7 @@ static int find_end(const model_reader *r, int k)
 
 static int walk(model_reader *r, int from, int to);
 
-/* "i = 7, j = 2" of the round, for messages. */
+/* "i = 7, j = 2" of the round, for messages; its last word is the value. */
 static const char *describe_round(model_reader *r, const char *outer, const char *name, int i)
 {
     const size_t room = strlen(name) + NUMBER_ROOM + (outer ? strlen(outer) : 0);
@@ -385,21 +384,19 @@ static int repeat(model_reader *r, int from, int end)
 
     if (!add_statement(r, &r->cut[from]))
         return 0;
-    const char *word = model_name(r);
-    if (!word || !is_new(r, word) || !model_whole(r, "FROM", -INT_MAX / 2, &low)
+    const char *word = new_number(r);
+    if (!word || !model_whole(r, "FROM", -INT_MAX / 2, &low)
         || !model_whole(r, "TO", -INT_MAX / 2, &high) || !model_at_end(r))
         return 0;
     if (++r->depth > DEEPEST_REPEAT)
         return model_blame(r, "more than %d times repeat in repeat, expected fewer",
                            DEEPEST_REPEAT);
     for (int i = low; i <= high; i++) {
-        char *value = model_text(r, NUMBER_ROOM);
-        const model_local l = { word, value };
-        if (!value || !(r->round = describe_round(r, outer, word, i))
-            || !model_add(r, &r->local, &r->locals, sizeof l, &l))
+        if (!(r->round = describe_round(r, outer, word, i)))
             return 0;
-        snprintf(value, NUMBER_ROOM, "%d", i);
-        if (!walk(r, from + 1, end) || !add_statement(r, &r->cut[end]) || !model_at_end(r))
+        const model_local l = { word, strrchr(r->round, ' ') + 1 };
+        if (!model_add(r, &r->local, &r->locals, sizeof l, &l) || !walk(r, from + 1, end)
+            || !add_statement(r, &r->cut[end]) || !model_at_end(r))
             return 0;
         r->locals = locals;
     }
@@ -408,31 +405,36 @@ static int repeat(model_reader *r, int from, int end)
     return 1;
 }
 
-/* The statements from .. to-1; the `let`s of the file have been read before. */
+/* The statements from .. to-1; the `let`s of the file have been read before. An `end` is that of a
+ * stage. */
 static int walk(model_reader *r, int from, int to)
 {
     for (int k = from; k < to; k++) {
         const model_statement *s = &r->cut[k];
         const int end = is(s, "repeat") ? find_end(r, k) : k;
+        if (is(s, "stage") && r->stage)
+            return model_fail(r, s->at, "a stage in a stage, expected the `end` of the first");
+        r->stage = is(s, "stage") ? ++r->p->stages : r->stage;
         if (is(s, "repeat") ? !repeat(r, k, end)
-            : is(s, "let") ? r->round && (!add_statement(r, s) || !read_let(r))
-            : !add_statement(r, s))
+            : is(s, "let") ? (r->round || r->stage) && (!add_statement(r, s) || !read_let(r))
+            : !add_statement(r, s) || (is(s, "end") && !model_at_end(r)))
             return 0;
+        r->stage = is(s, "end") ? 0 : r->stage;
         k = end;
     }
     return 1;
 }
 
-/* Reads each `let` outside of `repeat`; each `repeat` has its `end`. */
+/* Reads each `let` outside of `repeat` and `stage`, which have their `end`. */
 static int read_lets(model_reader *r)
 {
     for (int k = 0; k < r->cuts; k++) {
         const model_statement *s = &r->cut[k];
-        const int end = is(s, "repeat") ? find_end(r, k) : k;
+        const int end = opens(s) ? find_end(r, k) : k;
         if (end < 0)
-            return model_fail(r, s->at, "repeat without its `end`, expected: %s", s->form);
+            return model_fail(r, s->at, "%s without its `end`, expected: %s", s->name, s->form);
         if (is(s, "end"))
-            return model_fail(r, s->at, "end without `repeat`, expected: %s", s->form);
+            return model_fail(r, s->at, "end without `repeat` or `stage`, expected: %s", s->form);
         if (is(s, "let") && (!add_statement(r, s) || !read_let(r)))
             return 0;
         k = end;

@@ -8,7 +8,6 @@
 #include "output.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -33,17 +32,13 @@ int output_open(output *o, const char *path)
         return 0;
     }
     o->direct = stat(path, &old) == 0 && !S_ISREG(old.st_mode);
-    if (o->direct)
-        memcpy(o->temporary, o->path, sizeof o->path);
-    else
-        snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
-    o->file = fopen(o->temporary, "wb");
+    snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
+    o->file = fopen(o->direct ? path : o->temporary, "wb");
     errno = o->file ? 0 : errno;
     return o->file != NULL;
 }
 
-/* The first error of the file stays. */
-static int note(output *o, int good)
+int output_note(output *o, int good)
 {
     if (!good && !o->why)
         o->why = errno ? errno : EIO;
@@ -52,7 +47,7 @@ static int note(output *o, int good)
 
 int output_keep(output *o)
 {
-    if (note(o, !fflush(o->file) && !ferror(o->file)))
+    if (output_note(o, !fflush(o->file) && !ferror(o->file)))
         o->kept = ftell(o->file);
     return !o->why;
 }
@@ -92,10 +87,10 @@ int output_close(output *o)
     o->file = NULL;
     if (!file)
         return 0;
-    note(o, !fflush(file) && !ferror(file));
-    note(o, !fclose(file));
+    output_note(o, !fflush(file) && !ferror(file));
+    output_note(o, !fclose(file));
     const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
-    if (!keep || !(o->direct || give_name(o->temporary, o->path) || note(o, 0)))
+    if (!keep || !(o->direct || give_name(o->temporary, o->path) || output_note(o, 0)))
         give_up(o);
     errno = o->why;
     return !o->why;
@@ -115,16 +110,12 @@ int output_make_folder(const char *path)
     return made || (errno == EEXIST && stat(path, &there) == 0 && S_ISDIR(there.st_mode));
 }
 
-size_t output_is_temporary(const char *name)
+int output_is_temporary(const char *ending)
 {
-    const size_t n = strlen(name), ending = strlen(ENDING);
-    size_t k = n < ending ? 0 : n - ending;
+    int n = 0;
 
-    if (k == 0 || strcmp(name + k, ENDING) != 0)
-        return 0;
-    while (k > 0 && name[k - 1] >= '0' && name[k - 1] <= '9')
-        k--;
-    return k > 1 && name[k - 1] == '.' && k < n - ending ? k - 1 : 0;
+    sscanf(ending, ".%*[0-9]" ENDING "%n", &n);
+    return n > 0 && !ending[n];
 }
 
 FILE *output_lock(const char *path)

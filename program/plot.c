@@ -10,7 +10,6 @@
  */
 #include "plot.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -30,8 +29,7 @@ void plot_put(plot *p, const char *format, ...)
     if (!p->out.file)
         return;
     va_start(list, format);
-    if (vfprintf(p->out.file, format, list) < 0 && !p->failed)
-        p->failed = errno;
+    output_note(&p->out, vfprintf(p->out.file, format, list) >= 0);
     va_end(list);
 }
 
@@ -136,11 +134,7 @@ int plot_open(plot *p, const char *path, double width, double height)
 int plot_close(plot *p)
 {
     plot_put(p, "</svg>\n");
-    if (!p->failed)
-        return output_close(&p->out);
-    errno = p->failed;
-    output_drop(&p->out);
-    return 0;
+    return output_close(&p->out);
 }
 
 /* ------------------------------------------------------------------------------------- numbers */
@@ -451,8 +445,7 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
     chart_axes(p, box, c);
     const double left = 40 + widest_tick(&p->y), top = c->title ? 40 : 16;
     plot_box b = { box.x + left, box.y + top, box.w - left - 24, 0 };
-    plot nowhere = { .failed = 0 };
-    b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&nowhere, (plot_legend){ .room = b.w }, c);
+    b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&(plot){ 0 }, (plot_legend){ .room = b.w }, c);
     place_axes(p, b);
     draw_axes(p, b, 1);
     plot_title(p, b.x + b.w / 2, b.y - 14, c->title);

@@ -65,7 +65,6 @@ typedef struct {
 
 typedef struct {
     output    out;
-    int       failed;           /* the first error, as errno has it                               */
     plot_axis x, y;             /* of the last panel                                              */
 } plot;
 

@@ -23,41 +23,44 @@ void model_clean(char *text)
             *c = '?';
 }
 
+/* FILE:LINE: i = 7: what is said. */
+static void put_message(char *text, size_t room, model_place at, const char *format, va_list args)
+{
+    char line[20] = "";
+
+    if (at.line > 0)
+        snprintf(line, sizeof line, "%d:", at.line);
+    const int used = snprintf(text, room, "%.200s:%s %.100s%s", at.file, line,
+                              at.round ? at.round : "", at.round ? ": " : "");
+    vsnprintf(text + used, room - (size_t)used, format, args);
+    model_clean(text);
+}
+
 int model_fail(model_reader *r, model_place at, const char *format, ...)
 {
-    char *message = r->p->message;
-    const size_t room = sizeof r->p->message;
     va_list args;
 
     if (r->p->status)
         return 0;
     r->p->status = 2;
-    size_t used = (size_t)snprintf(message, room, "%.200s:", at.file);
-    if (at.line > 0)
-        used += (size_t)snprintf(message + used, room - used, "%d:", at.line);
-    message[used++] = ' ';
-    if (at.round)
-        used += (size_t)snprintf(message + used, room - used, "%.100s: ", at.round);
     va_start(args, format);
-    vsnprintf(message + used, room - used, format, args);
+    put_message(r->p->message, sizeof r->p->message, at, format, args);
     va_end(args);
-    model_clean(message);
     return 0;
 }
 
 int model_note(model_reader *r, const char *format, ...)
 {
     enum { ROOM = 600 };
+    const model_place at = { r->s->at.file, r->s->at.line, NULL };
     char *text = model_text(r, ROOM);
     va_list args;
 
     if (!text)
         return 0;
-    const int used = snprintf(text, ROOM, "%.200s:%d: ", r->s->at.file, r->s->at.line);
     va_start(args, format);
-    vsnprintf(text + used, (size_t)(ROOM - used), format, args);
+    put_message(text, ROOM, at, format, args);
     va_end(args);
-    model_clean(text);
     return model_add(r, &r->p->note, &r->p->notes, sizeof text, &text);
 }
 
@@ -107,68 +110,53 @@ void *model_room(model_reader *r, int count, size_t size)
     return p;
 }
 
-static char *keep_text(model_reader *r, char *text)
+/* Keeps what is given until model_free; NULL: no memory. */
+static void *keep(model_reader *r, void *p)
 {
-    if (model_add(r, &r->p->text, &r->p->texts, sizeof text, &text))
-        return text;
-    free(text);
+    if (p && model_add(r, &r->p->kept, &r->p->keeps, sizeof p, &p))
+        return p;
+    free(p);
     return NULL;
 }
 
-/* Room for a text that is kept until model_free; NULL: no memory. */
-char *model_text(model_reader *r, size_t size)
-{
-    char *text = calloc(size + 1, 1);
-
-    if (text)
-        return keep_text(r, text);
-    model_out_of_memory(r);
-    return NULL;
-}
+void *model_keep(model_reader *r, int n, size_t size) { return keep(r, model_room(r, n, size)); }
+char *model_text(model_reader *r, size_t size) { return model_keep(r, (int)size, 1); }
 
 /* The slot of a key in the table, or the empty one where it belongs; FNV-1a. */
-static int slot_of(const model_table *t, const char *key)
+static model_slot *slot_of(const model_table *t, const char *key)
 {
     unsigned hash = 2166136261u;
 
     for (const char *c = key; *c; c++)
         hash = (hash ^ (unsigned char)*c) * 16777619u;
     int i = (int)(hash & (unsigned)(t->room - 1));
-    while (t->key[i] && strcmp(t->key[i], key) != 0)
+    while (t->slot[i].key && strcmp(t->slot[i].key, key) != 0)
         i = (i + 1) & (t->room - 1);
-    return i;
+    return &t->slot[i];
 }
 
 int model_find(const model_table *t, const char *key)
 {
-    const int i = t->room ? slot_of(t, key) : 0;
+    const model_slot *s = t->room ? slot_of(t, key) : NULL;
 
-    return t->room && t->key[i] ? t->value[i] : -1;
+    return s && s->key ? s->value : -1;
 }
 
 int model_enter(model_reader *r, model_table *t, const char *key, int value)
 {
     if (2 * t->count >= t->room) {
-        const int room = t->room ? 2 * t->room : 64;
-        model_table larger = { room, t->count, model_room(r, room, sizeof(int)),
-                               model_room(r, room, sizeof(char *)) };
-        for (int k = 0; k < t->room && larger.value && larger.key; k++)
-            if (t->key[k]) {
-                const int to = slot_of(&larger, t->key[k]);
-                larger.key[to] = t->key[k];
-                larger.value[to] = t->value[k];
-            }
-        model_table *old = larger.value && larger.key ? t : &larger;
-        free(old->value);
-        free((void *)old->key);
-        if (old == &larger)
+        model_table larger = { .what = t->what, .room = t->room ? 2 * t->room : 64 };
+        if (!(larger.slot = model_room(r, larger.room, sizeof *larger.slot)))
             return 0;
+        for (int k = 0; k < t->room; k++)
+            if (t->slot[k].key)
+                model_enter(r, &larger, t->slot[k].key, t->slot[k].value);
+        free(t->slot);
         *t = larger;
     }
-    const int i = slot_of(t, key);
-    t->count += t->key[i] == NULL;
-    t->key[i] = key;
-    t->value[i] = value;
+    model_slot *s = slot_of(t, key);
+    t->count += s->key == NULL;
+    *s = (model_slot){ key, value };
     return 1;
 }
 
@@ -176,35 +164,25 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
 char *model_load(model_reader *r, const char *path, model_place at, size_t *size)
 {
     FILE *f = path == r->path && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-    size_t room = 65536, got = 1;
-    char *text = f ? malloc(room) : NULL;
+    char *text = NULL;
+    int n = 0;
 
-    *size = 0;
-    while (text && got > 0 && *size < LARGEST - 1) {
-        got = fread(text + *size, 1, room - 1 - *size, f);
-        *size += got;
-        if (*size == room - 1 && room < LARGEST) {
-            char *more = realloc(text, room *= 2);
-            if (!more)
-                free(text);
-            text = more;
-        }
+    for (int c = 0; f && c != EOF && n < LARGEST && !r->p->status; ) {
+        c = getc(f);
+        model_add(r, &text, &n, 1, &(char){ c == EOF ? '\0' : (char)c });
     }
-    const int bad = !f || ferror(f), why = errno;
-    if (bad)
+    const int why = errno;
+    if (!f || ferror(f))
         model_fail(r, at, "%.200s cannot be read: %s", path, strerror(why));
-    else if (*size == LARGEST - 1)
+    else if (n == LARGEST)
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
-    else if (!text)
-        model_out_of_memory(r);
     if (f && f != stdin)
         fclose(f);
-    if (r->p->status) {
-        free(text);
-        return NULL;
-    }
-    text[*size] = '\0';
-    return keep_text(r, text);
+    *size = (size_t)n - 1;
+    if (!r->p->status)
+        return keep(r, text);
+    free(text);
+    return NULL;
 }
 
 /* How many letters, large or small, are to be changed, added or taken away (Levenshtein 1966). */
@@ -231,20 +209,18 @@ static int distance(const char *a, const char *b)
 
 const char *model_nearest(const char *word, const void *names, int n, size_t stride, char text[200])
 {
-    const char *found[3] = { NULL, NULL, NULL };
-    int d[3] = { INT_MAX, INT_MAX, INT_MAX };
+    const char *found[4] = { NULL };            /* the fourth one is not wanted */
+    int d[4] = { INT_MAX, INT_MAX, INT_MAX };
 
     for (int k = 0; k < n; k++) {
         const char *const name = *(const char *const *)((const char *)names + (size_t)k * stride);
-        int at = 3;
         const int far = name ? distance(word, name) : INT_MAX;
+        int at = 3;
         for (; at > 0 && name
                && (far < d[at - 1] || (far == d[at - 1] && strcmp(name, found[at - 1]) < 0));
              at--)
-            if (at < 3)
-                found[at] = found[at - 1], d[at] = d[at - 1];
-        if (at < 3)
-            found[at] = name, d[at] = far;
+            found[at] = found[at - 1], d[at] = d[at - 1];
+        found[at] = name, d[at] = far;
     }
     text[0] = '\0';
     for (int k = 0; k < 3 && found[k]; k++)
@@ -254,17 +230,7 @@ const char *model_nearest(const char *word, const void *names, int n, size_t str
 
 const char *model_nearest_of(const model_table *t, const char *word, char text[200])
 {
-    return model_nearest(word, (const void *)t->key, t->room, sizeof *t->key, text);
-}
-
-int model_unknown(model_reader *r, const model_table *t, const char *what, const char *word)
-{
-    char text[200];
-
-    if (t->count == 0)
-        return model_blame(r, "unknown %s '%.60s': the model has none", what, word);
-    return model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", what,
-                       word, model_nearest_of(t, word, text));
+    return model_nearest(word, t->slot, t->room, sizeof *t->slot, text);
 }
 
 int model_is_name(const char *word)
@@ -283,21 +249,22 @@ const char *model_hint(const char *word)
          : *c ? "; it has letters beyond ASCII: minus is -" : "";
 }
 
-/* What the file has in place of a word of the statement, or NULL: the same. */
-static const char *source_of(const model_reader *r, const char *word)
+/* ", from " and what the file has in place of a word of the statement, or "": the same. */
+static const char *source_of(const model_reader *r, const char *word, char text[80])
 {
+    text[0] = '\0';
     for (int k = r->s->first; k < r->s->first + r->s->n; k++)
-        if (r->word[k] == word && r->given[k].text != word)
-            return r->given[k].text;
-    return NULL;
+        if (r->word[k].text == word && r->word[k].source != word)
+            snprintf(text, 80, ", from %.60s", r->word[k].source);
+    return text;
 }
 
 int model_wrong(model_reader *r, const char *what, const char *word)
 {
-    const char *source = source_of(r, word);
+    char source[80];
 
-    return model_blame(r, "%s '%.60s'%s%.60s, expected: %s%s", what, word, source ? ", from " : "",
-                       source ? source : "", r->s->form,
+    return model_blame(r, "%s '%.60s'%s, expected: %s%s", what, word, source_of(r, word, source),
+                       r->s->form,
                        model_find(&r->let_of, word) >= 0 ? "; $ stands before the name of a number"
                                                          : model_hint(word));
 }
@@ -305,7 +272,7 @@ int model_wrong(model_reader *r, const char *what, const char *word)
 /* The word that comes next stays; NULL at the end. */
 char *model_look(const model_reader *r)
 {
-    return r->next < r->s->n ? r->word[r->s->first + r->next] : NULL;
+    return r->next < r->s->n ? r->word[r->s->first + r->next].text : NULL;
 }
 
 char *model_word(model_reader *r)
@@ -348,9 +315,9 @@ static char *number_word(model_reader *r)
     char *word = model_word(r);
     const int at = r->s->first + r->next - 1;
 
-    if (word && r->given[at].glued)
+    if (word && r->word[at].glued)
         return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or "
-                           "$(2*p)", r->given[at].text, word), NULL;
+                           "$(2*p)", r->word[at].source, word), NULL;
     return word;
 }
 
@@ -370,13 +337,12 @@ int model_number(model_reader *r, double *x)
     return 1;
 }
 
-/* The last words of a statement. */
 int model_numbers(model_reader *r, int n, double x[])
 {
     for (int k = 0; k < n; k++)
         if (!model_number(r, &x[k]))
             return 0;
-    return model_at_end(r);
+    return 1;
 }
 
 int model_whole(model_reader *r, const char *what, int least, int *n)
@@ -418,19 +384,33 @@ const char *model_id(model_reader *r)
     return word;
 }
 
-/* The number that a word stands for in a table; -1 after an error. */
-int model_known(model_reader *r, const model_table *t, const char *what, const char *word)
+/* The number that the next word stands for; -1 after an error. */
+int model_known(model_reader *r, const model_table *t)
 {
+    const char *word = t == &r->node_of ? model_id(r) : model_word(r);
     const int found = word ? model_find(t, word) : -1;
+    char text[200];
 
-    if (word && found < 0)
-        model_unknown(r, t, what, word);
+    if (word && t->count == 0)
+        model_blame(r, "unknown %s '%.60s': the model has none", t->what, word);
+    else if (word && found < 0)
+        model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", t->what,
+                    word, model_nearest_of(t, word, text));
     return found;
 }
 
-int model_next_block(model_reader *r)
+int model_is_new(model_reader *r, model_place at, const model_table *t, const char *word)
 {
-    return model_known(r, &r->block_of, "block", model_word(r));
+    return model_find(t, word) < 0
+           || model_fail(r, at, "%s '%.60s' for the second time, expected a new one", t->what,
+                         word);
+}
+
+const char *model_new_name(model_reader *r, const model_table *t)
+{
+    const char *word = model_name(r);
+
+    return word && model_is_new(r, r->s->at, t, word) ? word : NULL;
 }
 
 /* Angles are in degrees; tan(phi) is given elsewhere. */
@@ -439,13 +419,6 @@ int model_note_friction(model_reader *r, double friction)
     return !(friction > 0 && friction < 1)
            || model_note(r, "warning: a friction of %g degrees; if it is meant as tan(phi), phi is "
                          "%.3g degrees", friction, atan(friction) * 180 / acos(-1));
-}
-
-int model_is_new(model_reader *r, const model_table *t, const char *what, const char *word)
-{
-    if (model_find(t, word) >= 0)
-        return model_blame(r, "%s '%.60s' for the second time, expected a new one", what, word);
-    return 1;
 }
 
 /* -------------------------------------------------------------------------------------- options */
@@ -469,10 +442,11 @@ static int in_range(model_reader *r, const model_option *o)
     const double x = *o->x;
     const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
                      && (o->rim[1] == ']' ? x <= o->high : x < o->high);
+    char source[80];
 
-    const char *source = source_of(r, r->word[r->s->first + r->next - 1]);
-    return good ? 1 : model_blame(r, "%s is %g%s%.60s, expected %s", o->name, x,
-                                  source ? ", from " : "", source ? source : "", o->expected);
+    return good || model_blame(r, "%s is %g%s, expected %s", o->name, x,
+                               source_of(r, r->word[r->s->first + r->next - 1].text, source),
+                               o->expected);
 }
 
 static int option_value(model_reader *r, model_option *o)
@@ -489,7 +463,7 @@ static int option_value(model_reader *r, model_option *o)
     return model_number(r, o->x) && in_range(r, o);
 }
 
-int model_options(model_reader *r, int n, model_option o[])
+int model_options(model_reader *r, int needed, int n, model_option o[])
 {
     while (model_look(r)) {
         int k = 0;
@@ -500,8 +474,8 @@ int model_options(model_reader *r, int n, model_option o[])
         if (!option_value(r, &o[k]))
             return 0;
     }
-    for (int k = 0; k < n; k++)
-        if (o[k].needed && !o[k].seen)
+    for (int k = 0; k < needed; k++)
+        if (!o[k].seen)
             return model_blame(r, "%s is missing, expected: %s", o[k].name, r->s->form);
     return 1;
 }
@@ -518,22 +492,20 @@ static void note_id(long long *last, const char *id)
 
 int model_add_node(model_reader *r, const model_node *n)
 {
-    if (model_find(&r->node_of, n->id) >= 0)
-        return model_fail(r, n->at, "node '%.60s' for the second time, expected a new one", n->id);
     note_id(&r->last_node, n->id);
-    return model_enter(r, &r->node_of, n->id, r->nodes)
+    return model_is_new(r, n->at, &r->node_of, n->id)
+           && model_enter(r, &r->node_of, n->id, r->nodes)
            && model_add(r, &r->node, &r->nodes, sizeof *n, n);
 }
 
 int model_find_block(model_reader *r, const char *word, model_place at)
 {
     const model_block block = { .name = word, .at = at, .material = -1 };
-    const int found = model_find(&r->block_of, word);
 
-    if (found >= 0)
-        return found;
-    return model_enter(r, &r->block_of, word, r->blocks)
-           && model_add(r, &r->block, &r->blocks, sizeof block, &block) ? r->blocks - 1 : -1;
+    if (model_find(&r->block_of, word) < 0 && model_enter(r, &r->block_of, word, r->blocks)
+        && model_add(r, &r->p->block, &r->p->blocks, sizeof word, &word))
+        model_add(r, &r->block, &r->blocks, sizeof block, &block);
+    return r->p->status ? -1 : model_find(&r->block_of, word);
 }
 
 int model_add_corner(model_reader *r, int node)
@@ -547,22 +519,18 @@ int model_add_element(model_reader *r, const model_element *e)
 
     own.first = r->corners - e->n;
     note_id(&r->last_element, e->id);
-    if (model_find(&r->element_of, e->id) >= 0)
-        return model_fail(r, e->at, "element '%.60s' for the second time, expected a new one",
-                          e->id);
-    return model_enter(r, &r->element_of, e->id, r->elements)
+    return model_is_new(r, e->at, &r->element_of, e->id)
+           && model_enter(r, &r->element_of, e->id, r->elements)
            && model_add(r, &r->element, &r->elements, sizeof own, &own);
 }
 
 int model_find_set(model_reader *r, const char *word)
 {
     const model_set set = { 0, NULL, 0 };
-    const int found = model_find(&r->set_of, word);
 
-    if (found >= 0)
-        return found;
-    return model_enter(r, &r->set_of, word, r->sets)
-           && model_add(r, &r->set, &r->sets, sizeof set, &set) ? r->sets - 1 : -1;
+    if (model_find(&r->set_of, word) < 0 && model_enter(r, &r->set_of, word, r->sets))
+        model_add(r, &r->set, &r->sets, sizeof set, &set);
+    return r->p->status ? -1 : model_find(&r->set_of, word);
 }
 
 int model_add_to_set(model_reader *r, int set, int node)

@@ -7,6 +7,7 @@
  * sets in the same reader.
  *
  * Every function of a statement takes its words one by one and returns 1, or 0 after model_fail.
+ * What is left of them is surplus.
  * Words are never copied: names and ids point into texts that are kept until model_free.
  */
 #ifndef READER_H
@@ -19,18 +20,19 @@
 
 /* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */
 typedef struct { const char *file; int line; const char *round; } model_place;
-typedef struct {                /* from a word to a number */
-    int room, count, *value;
-    const char **key;
-} model_table;
+typedef struct { const char *key; int value; } model_slot;     /* key: NULL, empty */
+/* From a word to a number; what such a word names, for messages. */
+typedef struct { const char *what; int room, count; model_slot *slot; } model_table;
 
 typedef struct {                /* words first .. first+n-1 */
     model_place at;
-    int first, n, kind;         /* kind: its row in the table of statements.c */
+    int first, n, kind, stage;  /* kind: its row in the table of statements.c; stage: 0, of none */
     const char *name, *form;    /* its first word; what it looks like, for messages */
 } model_statement;
 
-typedef struct { char *text; int glued; } model_given;  /* glued: of several pieces, no number */
+/* A word with the values of its numbers, and as the file has it; glued: of several pieces, no
+ * number. */
+typedef struct { char *text, *source; int glued; } model_given;
 typedef struct { const char *name, *value; } model_local;   /* a number of a round */
 
 typedef struct {
@@ -62,14 +64,13 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    int cuts, cut_words, locals, depth, repeated;
+    int cuts, cut_words, locals, depth, repeated, stage;
     model_statement *cut;                   /* [cuts]       as the file has them, and their words */
     char **cut_word;                        /* [cut_words]  */
     model_local *local;                     /* [locals]     of the round in hand */
     const char *round;
     double grown;                           /* bytes of the values of numbers */
-    char **word;                            /* [words]      with their values */
-    model_given *given;                     /* [words]      as the file gives them */
+    model_given *word;                      /* [words] */
     model_statement *statement;             /* [statements] */
     model_node *node;
     model_element *element;
@@ -78,10 +79,10 @@ typedef struct {
     bbm_material *material;
     model_set *set;
     model_copy *copy;
-    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of;
+    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of, stage_of;
     long long last_node, last_element;      /* the largest ids */
-    int other_material;                     /* of `use MATERIAL on *`, or -1 */
-    int plane_strain, no_shear, stressed;   /* no_shear: ks is 0; stressed: by `stress *` */
+    model_block any;                        /* `*`: the blocks without their own */
+    int plane_strain, no_shear;             /* no_shear: ks is 0 */
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
     int wheres;                             /* many nodes of the file; and how many there were */
     double margin;                          /* m            lengths below it are none */
@@ -103,7 +104,8 @@ const char *model_hint(const char *word);               /* what it may mean; or 
 /* One more item at the end of an array of `count`; 0: no memory. */
 int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
 void *model_room(model_reader *r, int count, size_t size);      /* zeros, and one more; or NULL */
-char *model_text(model_reader *r, size_t size);                 /* kept until model_free */
+void *model_keep(model_reader *r, int n, size_t size);          /* the same, until model_free */
+char *model_text(model_reader *r, size_t size);                 /* of so many letters, as well */
 /* With a 0 behind it; or NULL. */
 char *model_load(model_reader *r, const char *path, model_place at, size_t *size);
 int   model_find(const model_table *t, const char *key);        /* -1: not there */
@@ -113,7 +115,6 @@ int   model_is_name(const char *word);
 const char *model_nearest(const char *word, const void *names, int n, size_t stride,
                           char text[200]);
 const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
-int   model_unknown(model_reader *r, const model_table *t, const char *what, const char *word);
 
 /* --- words of the statement in hand --- */
 int   model_wrong(model_reader *r, const char *what, const char *word);
@@ -123,13 +124,13 @@ int   model_skip(model_reader *r, const char *word);     /* takes the next word 
 int   model_keyword(model_reader *r, const char *word);        /* this one must come next */
 int   model_at_end(model_reader *r);
 int   model_number(model_reader *r, double *x);
-int   model_numbers(model_reader *r, int n, double x[]);        /* and nothing behind them */
+int   model_numbers(model_reader *r, int n, double x[]);
 int   model_whole(model_reader *r, const char *what, int least, int *n);
 const char *model_name(model_reader *r);
 const char *model_id(model_reader *r);
-int   model_known(model_reader *r, const model_table *t, const char *what, const char *word);
-int   model_is_new(model_reader *r, const model_table *t, const char *what, const char *word);
-int   model_next_block(model_reader *r);
+int   model_known(model_reader *r, const model_table *t);   /* the next word's number, or -1 */
+int   model_is_new(model_reader *r, model_place at, const model_table *t, const char *word);
+const char *model_new_name(model_reader *r, const model_table *t);
 int   model_note_friction(model_reader *r, double friction);    /* of less than a degree */
 int   model_choice(model_reader *r, const char *choices, int *n);
 
@@ -142,10 +143,11 @@ typedef struct {
     int    *n, least;
     const char *choices;            /* "a|b|c" */
     int    *flag;
-    int    needed, seen;
+    int    seen;
 } model_option;
 
-int   model_options(model_reader *r, int n, model_option o[]);
+/* So many of the first ones are needed. */
+int   model_options(model_reader *r, int needed, int n, model_option o[]);
 
 #define RANGE(text, where, from, to, rims, words) \
     { .name = text, .x = where, .low = from, .high = to, .rim = rims, .expected = words }
@@ -178,6 +180,11 @@ int   model_expand(model_reader *r);
 /* --- hooked.c: what takes part in the library's step by hooks --- */
 int   model_read_record(model_reader *r, const char *path);     /* of the base's acceleration */
 int   model_hook(model_reader *r);
+
+/* --- stage.c --- */
+int   model_stage_head(model_reader *r);                /* NAME [steps N] [remove BLOCK ...] */
+void  model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
+void  model_gather_loads(bbm_model *m);                 /* the library's hook */
 
 /* --- build.c: the library's model, and the statements that need it --- */
 int   model_build(model_reader *r);

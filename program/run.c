@@ -34,12 +34,16 @@ bbm_status run_step(run *r)
         m->info.t = m->info.step = 0;
         return model_start(r->p) ? BBM_OK : BBM_NO_MEMORY;
     }
+    if (r->stage_is_over)
+        model_next_stage(r->p);
+    r->stage_is_over = 0;
     if (m->info.step == par->steps)
         return BBM_STEPS_EXHAUSTED;
-    model_move_supports(r->p, r->p->dynamic ? (m->info.step + 1) * par->dt : INFINITY);
+    model_move_supports(r->p);
     const bbm_status status = bbm_step(m);
-    r->is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
-                                                : m->info.step == par->steps);
+    r->stage_is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
+                                                      : m->info.step == par->steps);
+    r->is_over = r->stage_is_over && r->p->now == r->p->stages;
     return status;
 }
 

@@ -12,23 +12,27 @@
 
 typedef struct {
     model *p;
-    int settling, has_begun, is_over;   /* settling: quasi-static steps that are left */
+    int settling, has_begun;            /* settling: quasi-static steps that are left */
+    int stage_is_over, is_over;
 } run;
 
 /* Settles by a step; if that is done, begins at t = 0; then takes the steps of the model, until all
- * are done or (71) is met. BBM_STEPS_EXHAUSTED: all are done, and it is not met. */
+ * are done or (71) is met, and those of each stage. BBM_STEPS_EXHAUSTED: all are done, and it is
+ * not met. */
 bbm_status run_step(run *r);
 void run_says(const run *r, bbm_status status, char out[500]);      /* why a run failed */
 int  run_is_met(const model *p, int k, char out[300]);  /* expectation k beside what came out */
 
-typedef struct {                /* the limit of a number: `./bbm MODEL --find NAME LOW HIGH` */
-    const char *model, *name;   /* the file; the name of a `let` */
+typedef struct {                /* what the command line asks for */
+    const char *model;
+    char *matrix, folder[1024];
+    int  lets, quiet, check, exit;      /* exit: its status, or -1: go on */
+    char **let;                 /* [lets]       NAME=VALUE; room for one more */
+    const char *find;           /* a `let` whose limit between low and high is wanted, or NULL */
     double low, high;
-    int    lets, quiet;
-    char **let;                 /* [lets]       NAME=VALUE of the command line; room for one more */
     int  (*stop)(const bbm_model *m, void *none);       /* looked at before each solution */
-} find;
+} arguments;
 
-int find_limit(const find *f);  /* find.c: says what it finds; the exit status */
+int find_limit(const arguments *a);     /* find.c: says what it finds; the exit status */
 
 #endif

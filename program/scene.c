@@ -48,6 +48,9 @@ static const struct { const char *colour; double width; const char *name, *unit;
 
 static int is_contact(int kind) { return kind >= LOCKED && kind <= PULLED; }
 
+/* All contacts have the scale of one kind. */
+static int scale_of(int kind) { return is_contact(kind) ? LOCKED : kind; }
+
 typedef struct { double x, y; } point;
 
 typedef struct {                        /* a block                                                */
@@ -56,11 +59,10 @@ typedef struct {                        /* a block                              
     double box[2][2];                   /* m        x from, to; y from, to, in the first frame    */
 } body;
 
-typedef struct { int columns; double left, top, over, w, h; } layout;   /* of w x h pixels */
-
 typedef struct {                        /* what the functions below draw with                     */
     plot         p;
-    layout       l;
+    int          columns;               /* of panels of w x h pixels                              */
+    double       left, top, over, w, h; /* over: above the frame of a panel                       */
     const scene *s;
     const bbm_model *m;
     int          bodies, held, thrust;  /* whether any is held; whether there is a line of thrust */
@@ -69,19 +71,18 @@ typedef struct {                        /* what the functions below draw with   
     point       *normal;                /*          [nodes] outward, of the boundary there        */
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
-    double       most[KINDS], length[KINDS];    /* of each kind of arrow: the largest force, its  */
-                                        /* pixels                                                 */
+    double       most[KINDS];           /* the largest force of each kind, by scale_of            */
+    double       contact;               /* pixels of a contact's arrow                            */
     int          seen[KINDS], supports[4];      /* of each kind of arrow; held in each way        */
     double       seconds;               /* of one pass; zero: nothing moves                       */
 } film;
 
 /* ----------------------------------------------------------------------------------- recording */
 
-static void drop_frame(scene_frame *f)
+static void drop_frame(const scene_frame *f)
 {
     free(f->at);
     free(f->force);
-    *f = (scene_frame){ 0 };
 }
 
 void scene_free(scene *s)
@@ -89,8 +90,7 @@ void scene_free(scene *s)
     for (int k = 0; k < s->frames; k++)
         drop_frame(&s->frame[k]);
     free(s->frame);
-    s->frame = NULL;
-    s->frames = s->vertices = s->calls = s->every = s->failed = 0;
+    *s = (scene){ .title = s->title, .bolts = s->bolts, .bolt = s->bolt };
 }
 
 /* Makes room for one more: the last frame only stays if its turn has come, and half of them go if
@@ -115,26 +115,24 @@ static void thin_out(scene *s)
 
 static scene_force force_of(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
+    const bbm_edge *corner = &m->edge[c->corner];
     double f[2];
 
-    scene_contact_force(m, c, c->N, c->T, f);
-    return (scene_force){ P1->x + m->origin[0], P1->y + m->origin[1], f[0], f[1], c->N,
-                          c->N < 0 ? PULLED : (int)c->state,
-                          { m->edge[c->corner].block, m->edge[c->edge].block } };
+    field_contact_force(m, c, c->N, c->T, f);
+    return (scene_force){ field_place(m, corner->a, 0), field_place(m, corner->a, 1), f[0], f[1],
+                          c->N, c->N < 0 ? PULLED : (int)c->state,
+                          { corner->block, m->edge[c->edge].block } };
 }
 
 static int copy_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
     f->force = malloc(((size_t)m->contacts + 1) * sizeof *f->force);
-    if (!f->at || !f->force) {
-        drop_frame(f);
+    if (!f->at || !f->force)
         return 0;
-    }
     for (int v = 0; v < m->vertices; v++) {
-        f->at[v][0] = m->vertex[v].x + m->origin[0];
-        f->at[v][1] = m->vertex[v].y + m->origin[1];
+        f->at[v][0] = field_place(m, v, 0);
+        f->at[v][1] = field_place(m, v, 1);
     }
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)
@@ -142,27 +140,24 @@ static int copy_frame(scene_frame *f, const bbm_model *m)
     return 1;
 }
 
-int scene_record(scene *s, const bbm_model *m)
+void scene_record(scene *s, const bbm_model *m)
 {
     scene_frame f = { .time = m->info.t, .call = s->calls++ };
 
     for (int v = 0; v < m->vertices; v++)
         if (!isfinite(m->vertex[v].x + m->vertex[v].y))
-            return 0;
+            return;
     if (!s->frame) {
         s->frame = calloc(FRAMES, sizeof *s->frame);
-        s->vertices = m->vertices;
         s->every = 1;
     }
-    if (!s->frame || m->vertices != s->vertices || !copy_frame(&f, m))
-        s->failed = 1;
+    s->failed |= !s->frame || !copy_frame(&f, m);
     if (s->failed) {
         drop_frame(&f);
-        return 0;
+        return;
     }
     thin_out(s);
     s->frame[s->frames++] = f;
-    return 1;
 }
 
 /* -------------------------------------------------------------------------------------- blocks */
@@ -222,27 +217,31 @@ static void add_vertex(film *f, body *b, int v)
     const point x = position(f, 0, v);
     const bbm_node *i = &f->m->node[f->m->vertex[v].node];
 
-    b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0;
+    b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0
+               && !field_is_gone(f->m, v);
     b->n++;
     plot_widen(b->box[0], x.x);
     plot_widen(b->box[1], x.y);
 }
 
-/* Block by block, which are numbered from 0, in the order of their elements. */
+/* Block by block, which are numbered from 0, in the order of their elements; those that are gone in
+ * the first frame are held and have no vertices. */
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
 
-    for (int block = 0, n = 0; n < m->vertices; block++) {
+    for (int n = 0; n < m->vertices; f->bodies++) {
         body *b = &f->body[f->bodies];
         *b = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
         for (int v = 0; v < m->vertices; v++)
-            if (m->element[m->vertex[v].element].block == block) {
+            if (m->element[m->vertex[v].element].block == f->bodies) {
                 f->vertex[n++] = v;
                 add_vertex(f, b, v);
             }
-        f->bodies += b->n > 0;
-        f->held |= b->n > 0 && b->held;
+        const int gone = b->box[0][0] == b->box[0][1] && b->box[1][0] == b->box[1][1];
+        f->held |= b->held && !gone;
+        if (gone)
+            b->held = 1, b->n = 0;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -277,7 +276,7 @@ static int begin_film(film *f)
     const bbm_model *m = f->m;
 
     errno = f->s->failed ? ENOMEM : EINVAL;
-    if (f->s->failed || f->s->frames < 1 || m->vertices != f->s->vertices)
+    if (f->s->failed || f->s->frames < 1)
         return 0;
     f->body = malloc((size_t)m->elements * sizeof *f->body);
     f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
@@ -363,10 +362,12 @@ static void draw_block(film *f, int frame, const body *b)
     }
 }
 
-static void draw_blocks(film *f, int frame)
+/* All of them, or those that are held. */
+static void draw_blocks(film *f, int frame, int all)
 {
-    for (int b = 0; b < f->bodies; b++)
-        draw_block(f, frame, &f->body[b]);
+    for (const body *b = f->body; b < f->body + f->bodies; b++)
+        if (b->n > 0 && (all || b->held))
+            draw_block(f, frame, b);
 }
 
 /* ------------------------------------------------------------------- forces, loads and supports */
@@ -380,16 +381,17 @@ typedef void visitor(film *f, int kind, point from, point size, double share);
  * less than 2 pixels; those of contacts are as wide, and left out below a twentieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
-    const double size = hypot(force.x, force.y), share = size / f->most[kind];
-    const double pixels = f->length[kind] / (is_contact(kind) ? size : f->most[kind]);
+    double *most = &f->most[scale_of(kind)];
+    const double size = hypot(force.x, force.y), share = size / *most;
+    const double pixels = is_contact(kind) ? f->contact / size : ARROW / *most;
     const double before = is_contact(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
     const point d = { pixels * force.x, pixels * force.y };
 
     if (!isfinite(size + from.x + from.y) || size == 0)
         return;
     if (!visit)                         /* the largest is looked for */
-        f->most[kind] = fmax(f->most[kind], size);
-    if (!visit || share < (is_contact(kind) ? 0.05 : 2 / f->length[kind]))
+        *most = fmax(*most, size);
+    if (!visit || share < (is_contact(kind) ? 0.05 : 2.0 / ARROW))
         return;
     f->seen[kind] = 1;
     from = (point){ from.x - before * d.x / f->scale, from.y - before * d.y / f->scale };
@@ -453,7 +455,7 @@ static void visit_supports(film *f, int frame, visitor *visit)
     for (int b = 0; b < f->bodies; b++)
         for (int k = 0; k < f->body[b].n && !f->body[b].held; k++) {
             const int v = f->vertex[f->body[b].first + k], n = f->m->vertex[v].node;
-            const int held = f->m->node[n].held;
+            const int held = field_is_gone(f->m, v) ? 0 : f->m->node[n].held;
             const point x = position(f, frame, v);
             point d = f->normal[n];
             if (held == 0 || hypot(x.x - last[held].x, x.y - last[held].y) * f->scale < 8)
@@ -526,9 +528,9 @@ static void draw_forces(film *f, int frame)
 
 #define THRUST "fill=\"none\" stroke=\"#ee7733\" stroke-width=\"2.5\" stroke-linecap=\"round\""
 
-/* What a block feels of two others: how many touch it, 3 for more, which, and the forces on it,
- * with the sums of N and of N times the place. */
-typedef struct { int n, other[2]; point at[2], force[2]; double N[2]; } neighbours;
+/* What a block feels of two others, and the third time of all the rest: how many touch it, 3 for
+ * more, which, and the forces on it, with the sums of N and of N times the place. */
+typedef struct { int n, other[3]; point at[3], force[3]; double N[3]; } neighbours;
 
 static void add_force(neighbours *b, const scene_force *c, int side)
 {
@@ -538,8 +540,6 @@ static void add_force(neighbours *b, const scene_force *c, int side)
     while (k < b->n && k < 2 && b->other[k] != other)
         k++;
     b->n = k < b->n ? b->n : k + 1;
-    if (k == 2)
-        return;
     b->other[k] = other;
     b->at[k] = (point){ b->at[k].x + c->N * c->x, b->at[k].y + c->N * c->y };
     b->force[k] = (point){ b->force[k].x + sign * c->fx, b->force[k].y + sign * c->fy };
@@ -549,7 +549,7 @@ static void add_force(neighbours *b, const scene_force *c, int side)
 /* The line of thrust goes through each block that two others press from both sides, from the point
  * where the force of the one acts to that of the other. A film has none: it would be half as large
  * again. Returns whether there is any. */
-static int draw_thrust(film *f, int frame, int draws)
+static int draw_thrust(film *f, int frame)
 {
     const scene_frame *g = &f->s->frame[frame];
     neighbours *b = calloc((size_t)f->bodies, sizeof *b);
@@ -564,9 +564,8 @@ static int draw_thrust(film *f, int frame, int draws)
             continue;
         const point from = pixel(f, (point){ x[0].x / N[0], x[0].y / N[0] });
         const point to = pixel(f, (point){ x[1].x / N[1], x[1].y / N[1] });
-        if (draws)
-            plot_put(&f->p, "<path " THRUST " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
-                     to.y);
+        plot_put(&f->p, "<path " THRUST " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
+                 to.y);
         any = 1;
     }
     free(b);
@@ -599,7 +598,7 @@ static void put_entry(film *f, plot_legend *l, const char *symbol, const char *t
 static void put_force_entry(film *f, plot_legend *l, int kind)
 {
     static const char *const prefix[] = { "", "k", "M", "G" };
-    const double size = f->most[kind];
+    const double size = f->most[scale_of(kind)];
     const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
     char text[80];
 
@@ -609,7 +608,7 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
              prefix[power], arrow[kind].unit);
     plot_begin_entry(&f->p, l, text);
     begin_arrows(f, kind);
-    put_shaft(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
+    put_shaft(f, kind, (point){ 0, 0 }, (point){ is_contact(kind) ? f->contact : ARROW, 0 }, 1);
     plot_put(&f->p, "</g></g>\n");
 }
 
@@ -660,26 +659,18 @@ static void widen_window(film *f, int kind, point from, point size, double share
     plot_widen(f->window[1], from.y + size.y / f->scale);
 }
 
-/* The number of columns that makes n panels largest, on a page of about 1100 x 760 pixels (one
- * panel: 860 x 660), and the scale that they have then. */
+/* A panel, on a page of about 860 x 660 pixels, or two, on 1100 x 760: side by side, where they are
+ * high, or one below the other, and their scale. */
 static void arrange(film *f, int n)
 {
-    layout *l = &f->l;
     const double w = f->window[0][1] - f->window[0][0], h = f->window[1][1] - f->window[1][0];
-    const double around = LEFT + RIGHT, over = l->over + UNDER;
+    const double around = LEFT + RIGHT, over = f->over + UNDER;
 
-    f->scale = 0;
-    for (int c = 1; c <= n; c++) {
-        const int rows = (n + c - 1) / c;
-        const double scale = fmin(((n > 1 ? 1100 : 860) / c - around) / w,
-                                  ((n > 1 ? 760.0 : 660.0) / rows - over) / h);
-        if (scale <= f->scale)
-            continue;
-        f->scale = scale;
-        l->columns = c;
-    }
-    l->w = f->scale * w + around;
-    l->h = f->scale * h + over;
+    f->columns = w < 1.5 * h ? n : 1;
+    f->scale = fmin(((n > 1 ? 1100 : 860) / f->columns - around) / w,
+                    ((n > 1 ? 760.0 : 660.0) * f->columns / n - over) / h);
+    f->w = f->scale * w + around;
+    f->h = f->scale * h + over;
 }
 
 /* The window that holds all vertices. */
@@ -712,7 +703,7 @@ static double block_size(const film *f)
     return n ? sum / n : INFINITY;
 }
 
-/* Window and scales. How long an arrow is in metres depends on the scale of the panel, and that on
+/* Window and scale. How long an arrow is in metres depends on the scale of the panel, and that on
  * the window, which holds all arrows: by repetition. Those of contacts are not longer than
  * blocks. */
 static void measure(film *f, int n)
@@ -720,19 +711,11 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
-    f->thrust = f->s->frames == 1 && draw_thrust(f, 0, 0);
-    const double most = fmax(f->most[LOCKED], fmax(f->most[SLIDING], f->most[PULLED]));
-    find_window(f);
-    arrange(f, n);
-    for (int round = 0; round < 4; round++) {
-        f->length[LOAD] = ARROW;
-        f->length[LINE_LOAD] = ARROW;
-        for (int kind = LOCKED; kind <= PULLED; kind++) {
-            f->most[kind] = most;
-            f->length[kind] = fmax(12, fmin(ARROW, block_size(f) * f->scale));
-        }
+    f->thrust = f->s->frames == 1 && draw_thrust(f, 0);
+    for (int round = 0; round < 5; round++) {           /* the first one without arrows */
+        f->contact = fmax(12, fmin(ARROW, block_size(f) * f->scale));
         find_window(f);
-        for (int i = 0; i < f->s->frames; i++) {
+        for (int i = 0; i < f->s->frames && round > 0; i++) {
             visit_supports(f, i, widen_window);
             for (int kind = 0; kind < KINDS; kind++)
                 visit_forces(f, i, kind, widen_window);
@@ -747,15 +730,13 @@ static int is_timed(const film *f) { return f->s->frame[f->s->frames - 1].time >
 /* Opens a page for n panels and, `below` them, something else; draws title and legend. */
 static int open_page(film *f, const char *path, int n, double below)
 {
-    layout *l = &f->l;
-
-    *l = (layout){ .columns = 1, .top = f->s->title ? 36 : 0,
-                   .over = n > 1 || is_timed(f) ? OVER : 14 };
+    f->top = f->s->title ? 36 : 0;
+    f->over = n > 1 || is_timed(f) ? OVER : 14;
     measure(f, n);
-    const double width = fmax(l->columns * l->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
-    const double bottom = l->top + l->h * ((n + l->columns - 1) / l->columns) + below;
+    const double width = fmax(f->columns * f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
+    const double bottom = f->top + f->h * (n / f->columns) + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
-    l->left = (width - l->columns * l->w) / 2;
+    f->left = (width - f->columns * f->w) / 2;
     if (!plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8))
         return 0;
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
@@ -776,10 +757,9 @@ static int open_page(film *f, const char *path, int n, double below)
 /* The frame of a panel with its axes; what follows until end_panel is cut off at it. */
 static plot_box begin_panel(film *f, int k)
 {
-    const layout *l = &f->l;
-    const plot_box b = { l->left + k % l->columns * l->w + LEFT,
-                         l->top + k / l->columns * l->h + l->over, l->w - LEFT - RIGHT,
-                         l->h - l->over - UNDER };
+    const plot_box b = { f->left + k % f->columns * f->w + LEFT,
+                         f->top + k / f->columns * f->h + f->over, f->w - LEFT - RIGHT,
+                         f->h - f->over - UNDER };
 
     plot_draw_frame(&f->p, b, f->window[0], f->window[1]);
     plot_put(&f->p, "<clipPath id=\"panel%d\">", k);
@@ -795,24 +775,17 @@ static void end_panel(film *f, plot_box b)
     plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
 }
 
-/* It begins at the same place in each frame of a film. */
-static void put_time(film *f, plot_box b, int frame)
-{
-    char text[60];
-
-    snprintf(text, sizeof text, "t = %.6g s", f->s->frame[frame].time);
-    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", text);
-}
-
-/* What stands over the blocks of a panel. */
+/* What stands over the blocks of a panel; the time begins at the same place in each frame. */
 static void draw_state(film *f, plot_box b, int frame)
 {
+    char time[60];
+
     draw_bolts(f, frame);
     draw_forces(f, frame);
     if (f->thrust)
-        draw_thrust(f, frame, 1);
-    if (is_timed(f))
-        put_time(f, b, frame);
+        draw_thrust(f, frame);
+    snprintf(time, sizeof time, "t = %.6g s", f->s->frame[frame].time);
+    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", is_timed(f) ? time : NULL);
 }
 
 /* A group that is visible from half an interval before its frame to half an interval behind it, the
@@ -855,7 +828,7 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
     int done = begin_film(&f) && open_page(&f, path, 1, 0);
     if (done) {
         const plot_box b = begin_panel(&f, 0);
-        draw_blocks(&f, 0);
+        draw_blocks(&f, 0, 1);
         end_panel(&f, b);
         for (int k = 0; k < s->frames && f.seconds > 0; k++) {
             begin_turn(&f, k);
@@ -955,15 +928,14 @@ static sample sample_of(const film *f, const nodal *n, int v)
 
 static void put_element_share(film *f, const nodal *n, const bbm_element *e, const double level[2])
 {
+    const int parts = e->n == 3 ? 1 : e->n, end = e->first + e->n;
     sample t[3] = { { 0, 0, 0 } };
 
-    for (int v = e->first; v < e->first + e->n && e->n > 3; v++) {
+    for (int v = end - parts; v < end; v++) {           /* the mean point, or the third */
         const sample a = sample_of(f, n, v);
-        t[2] = (sample){ t[2].x + a.x / e->n, t[2].y + a.y / e->n, t[2].value + a.value / e->n };
+        t[2] = (sample){ t[2].x + a.x / parts, t[2].y + a.y / parts, t[2].value + a.value / parts };
     }
-    if (e->n == 3)
-        t[2] = sample_of(f, n, e->first + 2);
-    for (int v = e->first; v < e->first + (e->n == 3 ? 1 : e->n); v++) {
+    for (int v = e->first; v < e->first + parts; v++) {
         t[0] = sample_of(f, n, v);
         t[1] = sample_of(f, n, next_vertex(f->m, v));
         put_share(f, t, level);
@@ -981,13 +953,9 @@ static void draw_bands(film *f, const nodal *n, const plot_axis *bar)
             k < bands - 1 ? (bar->lo + (k + 1) * bar->step) / bar->scale : INFINITY };
         plot_put(&f->p, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.6\" d=\"",
                  fill.text, fill.text);
-        for (int b = 0; b < f->bodies; b++)
-            for (int i = 0; i < f->body[b].n && !f->body[b].held; i++) {
-                const int v = f->vertex[f->body[b].first + i];
-                const bbm_element *e = &f->m->element[f->m->vertex[v].element];
-                if (v == e->first)
-                    put_element_share(f, n, e, level);
-            }
+        for (const bbm_element *e = f->m->element; e < f->m->element + f->m->elements; e++)
+            if (!f->body[e->block].held)
+                put_element_share(f, n, e, level);
         plot_put(&f->p, "\"/>\n");
     }
 }
@@ -1006,9 +974,7 @@ static void draw_lines(film *f, int frame, const char *stroke,
 static void draw_field(film *f, const nodal *n, const plot_axis *bar)
 {
     draw_bands(f, n, bar);
-    for (int b = 0; b < f->bodies; b++)
-        if (f->body[b].held)
-            draw_block(f, 1, &f->body[b]);
+    draw_blocks(f, 1, 0);
     draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
                put_elements);
     draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
@@ -1019,6 +985,7 @@ static void draw_field(film *f, const nodal *n, const plot_axis *bar)
 static int write_field(film *f, const char *path, const nodal *n, const scene_map *map,
                        const field *shown)
 {
+    const bbm_model *m = f->m;
     const plot_quantity q = { .name = shown->label, .unit = shown->unit };
     const int panels = map->other ? 2 : 1;
     double range[2] = { INFINITY, -INFINITY };
@@ -1026,11 +993,9 @@ static int write_field(film *f, const char *path, const nodal *n, const scene_ma
 
     if (!begin_film(f))
         return 0;
-    for (int k = 0; k < f->bodies; k++)
-        for (int i = 0; i < f->body[k].n * panels && !f->body[k].held; i++) {
-            const int v = f->vertex[f->body[k].first + i / panels];
-            plot_widen(range, n[f->m->vertex[v].node + i % panels * f->m->nodes].value);
-        }
+    for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
+        for (int k = 0; k < panels && !f->body[m->element[v->element].block].held; k++)
+            plot_widen(range, n[k * m->nodes + v->node].value);
     if (range[0] > range[1])
         range[0] = range[1] = 0;
     if (!open_page(f, path, panels, BAR))
@@ -1038,13 +1003,13 @@ static int write_field(film *f, const char *path, const nodal *n, const scene_ma
     const plot_axis bar = plot_bar_axis(&q, map->limits[0] < map->limits[1] ? map->limits : range);
     for (int k = 0; k < panels; k++) {
         b = begin_panel(f, k);
-        draw_field(f, n + k * f->m->nodes, &bar);
+        draw_field(f, n + k * m->nodes, &bar);
         end_panel(f, b);
         draw_state(f, b, 1);
         if (map->other)
             plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", map->name[k]);
     }
-    const double left = f->l.left + LEFT;
+    const double left = f->left + LEFT;
     plot_draw_bar(&f->p, (plot_box){ left, b.y + b.h + UNDER + 4, b.x + b.w - left, 16 }, &bar,
                   range);
     return plot_close(&f->p);
@@ -1058,7 +1023,8 @@ static int find_values(const bbm_model *m, const field *shown, nodal *n)
     for (int i = 0; i < m->nodes; i++) {
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
-        n[i] = (nodal){ r.u, r.v, field_of_node(shown, m, i) };
+        const int there = !field_is_gone(m, m->adjacent[m->adjacent_first[i]]);
+        n[i] = (nodal){ there * r.u, there * r.v, field_of_node(shown, m, i) };
         finite &= isfinite(r.u + r.v + n[i].value);
     }
     return finite;
@@ -1072,7 +1038,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
     nodal *n = malloc(2 * (size_t)m->nodes * sizeof *n);
     scene_frame state[2] = { { m->info.t, .at = place },
                              { m->info.t, .at = place ? place + all : NULL } };
-    scene s = { .frames = 2, .vertices = m->vertices, .frame = state };
+    scene s = { .frames = 2, .frame = state };
     film f = { .s = &s, .m = m };
     char title[300];
     int done = 0;
@@ -1083,10 +1049,11 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
                            && (!map->other || find_values(map->other, shown, n + m->nodes));
         const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
         for (int v = 0; v < 2 * m->vertices; v++) {
-            const int i = m->vertex[v % m->vertices].node;
+            const int k = v % m->vertices, i = m->vertex[k].node;
             const double times = v < m->vertices ? 0 : scale;
-            place[v][0] = m->node[i].x + times * n[i].u;
-            place[v][1] = m->node[i].y + times * n[i].v;
+            const int gone = field_is_gone(m, k);
+            place[v][0] = gone ? field_place(m, k, 0) : m->node[i].x + times * n[i].u;
+            place[v][1] = gone ? field_place(m, k, 1) : m->node[i].y + times * n[i].v;
         }
         snprintf(title, sizeof title, "%s%sdisplacements × %.12g", map->title ? map->title : "",
                  map->title ? ", " : "", scale);

@@ -46,16 +46,13 @@ typedef struct {
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
     /* --- the recording --- */
-    int    frames, vertices, calls, every, failed;
+    int    frames, calls, every, failed;
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */
 } scene;
 
-/* The force on the block of the corner of a contact that carries N and T. */
-void scene_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2]);
-
-/* Records the present positions, contact forces and time. Returns 1, or 0: no memory (then the
- * scene cannot be written), or a position that is not finite (then this frame is left out). */
-int  scene_record(scene *s, const bbm_model *m);
+/* Records the present positions, contact forces and time, if the positions are finite. Without
+ * memory the scene cannot be written. */
+void scene_record(scene *s, const bbm_model *m);
 void scene_free(scene *s);      /* the recording; the choices stay                                */
 
 /* They return 1 when the complete file stands under its name, else 0 and errno. Nothing recorded is

@@ -9,17 +9,19 @@
  *     ALL_NODES        set                        needs nodes
  *     BLOCKS           use, fixblock              need blocks
  *     MODEL            the rest, on the library's model, which is built and prepared: build.c
- *     MONITORS         expect                     needs monitors */
+ *     MONITORS         expect                     needs monitors
+ *
+ * The statements of a stage follow, stage by stage, on the finished model: stage.c. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cell.h"
-#include "field.h"
 #include "reader.h"
 
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
+enum { ONCE = 1, STAGED };      /* a statement that may stand once, and one that a stage may have */
 
 /* Letters of an id; cells of a grid; memory for each element, at least. */
 enum { ID_ROOM = 24, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
@@ -40,8 +42,7 @@ static int read_node(model_reader *r)
 {
     model_node n = { .id = model_id(r), .at = r->s->at, .by_hand = 1, .first = -1 };
 
-    return n.id && model_number(r, &n.x) && model_number(r, &n.y) && model_at_end(r)
-           && model_add_node(r, &n);
+    return n.id && model_number(r, &n.x) && model_number(r, &n.y) && model_add_node(r, &n);
 }
 
 /* The path of a file that the next word names, beside the model file; or NULL. */
@@ -67,18 +68,15 @@ static int read_mesh(model_reader *r)
 
 static int read_material(model_reader *r)
 {
-    const char *word = model_name(r);
+    const char *word = model_new_name(r, &r->material_of);
     bbm_material m = { .thickness = 1 };
-    enum { E, DENSITY, NU, THICKNESS };
     model_option o[] = {
-        [E] = NORMAL("E", &m.E), [DENSITY] = NORMAL("density", &m.density),
-        [NU] = RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
-        [THICKNESS] = NORMAL("thickness", &m.thickness),
+        NORMAL("E", &m.E), NORMAL("density", &m.density),
+        RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
+        NORMAL("thickness", &m.thickness),
     };
 
-    o[E].needed = o[DENSITY].needed = o[NU].needed = 1;
-    if (!word || !model_is_new(r, &r->material_of, "material", word)
-        || !model_options(r, LENGTH(o), o))
+    if (!word || !model_options(r, 3, LENGTH(o), o))
         return 0;
     r->light = m.density < 10 ? r->s : r->light;
     return model_enter(r, &r->material_of, word, r->materials)
@@ -96,14 +94,14 @@ static int read_shake(model_reader *r)
 
     r->p->shake = 1;
     if (model_look(r) && (strtod(model_look(r), &end), *end))           /* no number: a file */
-        return (path = next_path(r)) && model_options(r, 1, &scale) && model_read_record(r, path);
-    return model_number(r, &b->shake[0]) && model_number(r, &b->shake[1])
-           && model_numbers(r, 1, &b->shake_omega);
+        return (path = next_path(r)) && model_options(r, 0, 1, &scale)
+               && model_read_record(r, path);
+    return model_numbers(r, 2, b->shake) && model_number(r, &b->shake_omega);
 }
 
 static int read_plane(model_reader *r)
 {
-    return model_choice(r, "stress|strain", &r->plane_strain) && model_at_end(r);
+    return model_choice(r, "stress|strain", &r->plane_strain);
 }
 
 static int read_contact(model_reader *r)
@@ -111,13 +109,18 @@ static int read_contact(model_reader *r)
     bbm_parameters *p = &r->p->m->par;
     bbm_beyond *b = r->p->m->beyond;
     model_option o[] = {
-        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s), FROM_ZERO("cohesion", &b->cohesion),
-        FROM_ZERO("tension", &b->tension),
-        ANGLE("friction", &p->friction),
+        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s),
         RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
+        FROM_ZERO("cohesion", &b->cohesion), FROM_ZERO("tension", &b->tension),
+        ANGLE("friction", &p->friction),
     };
 
-    return model_options(r, LENGTH(o), o) && model_note_friction(r, p->friction);
+    if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, p->friction))
+        return 0;
+    if (r->s->stage && (o[0].seen || o[1].seen || o[2].seen))
+        return model_blame(r, "kn, ks or restitution in a stage, expected friction, cohesion or "
+                              "tension");
+    return 1;
 }
 
 static int read_static(model_reader *r)
@@ -126,27 +129,25 @@ static int read_static(model_reader *r)
     model_option o[] = { COUNT("steps", &p->steps, 1), ABOVE_ZERO("tolerance", &p->tolerance) };
 
     p->steps = 1;
-    return model_options(r, LENGTH(o), o);
+    return model_options(r, 0, LENGTH(o), o);
 }
 
 static int read_dynamic(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
-    enum { DT, STEPS, FACTOR, DAMPING, SETTLE, RAMP };
     model_option o[] = {
-        [DT] = ABOVE_ZERO("dt", &p->dt), [STEPS] = COUNT("steps", &p->steps, 1),
-        [FACTOR] = RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
-        [DAMPING] = RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),    /* the same */
-        [SETTLE] = COUNT("settle", &r->p->settle, 0), [RAMP] = FROM_ZERO("ramp", &r->p->ramp),
+        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
+        RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
+        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),        /* the same */
+        COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
     };
 
-    o[DT].needed = o[STEPS].needed = 1;
     p->velocity_factor = 1;
     r->p->dynamic = 1;
     r->p->ramp = -1;
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 2, LENGTH(o), o))
         return 0;
-    if (o[FACTOR].seen && o[DAMPING].seen)
+    if (o[2].seen && o[3].seen)
         return model_blame(r, "velocity_factor and damping, which are the same, expected one");
     r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
     return 1;
@@ -161,11 +162,11 @@ static int read_bond(model_reader *r)
                          CHOICE("at", &kind, "vertices|moment|auto") };
 
     for (int k = 1; k < r->s->n; k++)
-        if (strcmp(r->word[r->s->first + k], "midpoints") == 0)
+        if (strcmp(r->word[r->s->first + k].text, "midpoints") == 0)
             return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in "
                                   "the middles of their sides alone elements can turn against "
                                   "each other");
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 0, LENGTH(o), o))
         return 0;
     b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
     return 1;
@@ -181,7 +182,7 @@ static int read_pcg(model_reader *r)
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 0, LENGTH(o), o))
         return 0;
     p->method = coarse == 0 ? &bbm_two_level : NULL;
     return 1;
@@ -191,7 +192,7 @@ static int read_rotation(model_reader *r)
 {
     int kind;
 
-    if (!model_choice(r, "exact|linear", &kind) || !model_at_end(r))
+    if (!model_choice(r, "exact|linear", &kind))
         return 0;
     r->p->m->beyond->rotation = kind == 0 ? BBM_EXACT : BBM_LINEAR;
     return 1;
@@ -209,7 +210,7 @@ static int read_output(model_reader *r)
     for (const field *f = field_table; f->name; f++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
                  f->name);
-    if (!model_options(r, LENGTH(o), o))
+    if (!model_options(r, 0, LENGTH(o), o))
         return 0;
     r->p->field = field_table[chosen].name;
     return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
@@ -223,14 +224,14 @@ static int read_element(model_reader *r)
     model_element e = { .id = model_id(r), .at = r->s->at };
     const char *block = e.id ? model_name(r) : NULL;
 
-    if (!block || (e.material = model_known(r, &r->material_of, "material", model_word(r))) < 0)
+    if (!block || (e.material = model_known(r, &r->material_of)) < 0)
         return 0;
     e.n = r->s->n - r->next;
     if (e.n < 3)
         return model_fail(r, e.at, "element %.60s has %d nodes, expected 3 or more", e.id, e.n);
     e.block = model_find_block(r, block, e.at);
     for (int k = 0; k < e.n; k++)
-        if (!model_add_corner(r, model_known(r, &r->node_of, "node", model_id(r))))
+        if (!model_add_corner(r, model_known(r, &r->node_of)))
             return 0;
     return e.block >= 0 && model_add_element(r, &e);
 }
@@ -269,9 +270,8 @@ static int add_own_element(model_reader *r, int block, int material, int n)
 /* NAME MATERIAL of a new block; its number, or -1. */
 static int new_block(model_reader *r, const char **word, int *material)
 {
-    *word = model_name(r);
-    if (!*word || !model_is_new(r, &r->block_of, "block", *word)
-        || (*material = model_known(r, &r->material_of, "material", model_word(r))) < 0)
+    *word = model_new_name(r, &r->block_of);
+    if (!*word || (*material = model_known(r, &r->material_of)) < 0)
         return -1;
     return model_find_block(r, *word, r->s->at);
 }
@@ -283,14 +283,16 @@ static int read_block(model_reader *r)
     int material;
     const int block = new_block(r, &word, &material), words = r->s->n - r->next;
 
-    for (int k = 0; k < words && block >= 0; k++)
+    if (block < 0)
+        return 0;
+    for (int k = 0; k < words; k++)
         if (!model_number(r, &xy[k % 2])
             || (k % 2 && !(add_own_node(r, xy[0], xy[1]) && model_add_corner(r, r->nodes - 1))))
             return 0;
-    if (block >= 0 && (words < 6 || words % 2))
+    if (words < 6 || words % 2)
         return model_blame(r, "block '%.60s' has %d coordinates, expected X Y of 3 corners or "
                            "more", word, words);
-    return block >= 0 && add_own_element(r, block, material, words / 2);
+    return add_own_element(r, block, material, words / 2);
 }
 
 /* The nodes from `first` on, `step` apart, as the set NAME.side. */
@@ -301,7 +303,7 @@ static int add_rim(model_reader *r, const char *block, const char *side, int fir
     if (!word)
         return 0;
     sprintf(word, "%s.%s", block, side);
-    int set = model_is_new(r, &r->set_of, "set", word) ? model_find_set(r, word) : -1;
+    int set = model_is_new(r, r->s->at, &r->set_of, word) ? model_find_set(r, word) : -1;
     for (int k = 0; k < n && set >= 0; k++)
         if (!model_add_to_set(r, set, first + k * step))
             set = -1;
@@ -311,15 +313,13 @@ static int add_rim(model_reader *r, const char *block, const char *side, int fir
 static int read_grid(model_reader *r)
 {
     double p[4];
-    int material, n[2], kind = CELL_QUADS, good = 1, element[4][4], corners;
+    int material, n[2], kind = CELL_QUADS, element[4][4], corners;
     const char *word;
     const int block = new_block(r, &word, &material), first = r->nodes;
 
-    for (int k = 0; k < 4 && good; k++)
-        good = block >= 0 && model_number(r, &p[k]);
-    if (!good || !model_whole(r, "NX", 1, &n[0]) || !model_whole(r, "NY", 1, &n[1])
-        || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind))
-        || !model_at_end(r))
+    if (block < 0 || !model_numbers(r, 4, p) || !model_whole(r, "NX", 1, &n[0])
+        || !model_whole(r, "NY", 1, &n[1])
+        || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind)))
         return 0;
     if (!(p[0] < p[2] && p[1] < p[3]))
         return model_blame(r, "a grid from %g %g to %g %g, expected X0 < X1 and Y0 < Y1", p[0],
@@ -333,24 +333,24 @@ static int read_grid(model_reader *r)
     if (!room)
         return model_blame(r, "out of memory: a grid of %d x %d cells takes %.2g GB and more", n[0],
                            n[1], 1e-9 * ELEMENT_BYTES * elements), r->p->status = 1, 0;
-    for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && good; k++) {
+    for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && !r->p->status; k++) {
         const double s = (double)(k % (n[0] + 1)) / n[0], t = (double)(k / (n[0] + 1)) / n[1];
-        good = add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
+        add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
     }
-    for (int k = 0; k < n[0] * n[1] && good; k++) {
+    for (int k = 0; k < n[0] * n[1] && !r->p->status; k++) {
         const int a = first + k / n[0] * (n[0] + 1) + k % n[0], d = a + n[0] + 1;
         const int corner[5] = { a, a + 1, d + 1, d, r->nodes };
         if (kind == CELL_CROSSED)
-            good = add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
-                                (r->node[a].y + r->node[d + 1].y) / 2);
+            add_own_node(r, (r->node[a].x + r->node[d + 1].x) / 2,
+                         (r->node[a].y + r->node[d + 1].y) / 2);
         const int cells = cell_cut(kind, (k / n[0] + k % n[0]) % 2, corner, element, &corners);
-        for (int c = 0; c < cells && good; c++) {
-            for (int i = 0; i < corners && good; i++)
-                good = model_add_corner(r, element[c][i]);
-            good = good && add_own_element(r, block, material, corners);
+        for (int c = 0; c < cells; c++) {
+            for (int i = 0; i < corners; i++)
+                model_add_corner(r, element[c][i]);
+            add_own_element(r, block, material, corners);
         }
     }
-    return good && add_rim(r, word, "left", first, n[0] + 1, n[1] + 1)
+    return add_rim(r, word, "left", first, n[0] + 1, n[1] + 1)
         && add_rim(r, word, "right", first + n[0], n[0] + 1, n[1] + 1)
         && add_rim(r, word, "bottom", first, 1, n[0] + 1)
         && add_rim(r, word, "top", first + n[1] * (n[0] + 1), 1, n[0] + 1);
@@ -360,46 +360,44 @@ static int read_grid(model_reader *r)
 
 static int read_set(model_reader *r)
 {
-    const char *word = model_name(r);
+    const char *word = model_new_name(r, &r->set_of);
 
-    if (!word || !model_is_new(r, &r->set_of, "set", word) || !model_keyword(r, "nodes"))
+    if (!word || !model_keyword(r, "nodes"))
         return 0;
     const int set = model_find_set(r, word);
-    for (int good = set >= 0, first = 1; first || model_look(r); first = 0) {
-        const int node = good ? model_known(r, &r->node_of, "node", model_id(r)) : -1;
+    do {
+        const int node = set < 0 ? -1 : model_known(r, &r->node_of);
         if (node < 0 || !model_add_to_set(r, set, node))
             return 0;
-    }
+    } while (model_look(r));
     return 1;
 }
 
 /* A block of the mesh gets the material; `*`: every one that has none of its own. */
 static int read_use(model_reader *r)
 {
-    const int material = model_known(r, &r->material_of, "material", model_word(r));
+    const int material = model_known(r, &r->material_of);
 
     if (material < 0 || !model_keyword(r, "on"))
         return 0;
-    const char *word = model_word(r);
-    const int star = word && strcmp(word, "*") == 0;
-    const int block = star ? 0 : model_known(r, &r->block_of, "block", word);
-    if (block < 0 || !model_at_end(r))
+    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
+    if (block < 0)
         return 0;
-    if (!star && !r->block[block].meshed)
+    model_block *b = star ? &r->any : &r->block[block];
+    if (!b->meshed)
         return model_blame(r, "block '%.60s' has its material in its own statement, expected a "
-                           "block of a mesh", word);
-    int *m = star ? &r->other_material : &r->block[block].material;
-    if (*m >= 0)
-        return model_blame(r, "a material for '%.60s' for the second time, expected one", word);
-    *m = material;
+                           "block of a mesh", b->name);
+    if (b->material >= 0)
+        return model_blame(r, "a material for '%.60s' for the second time, expected one", b->name);
+    b->material = material;
     return 1;
 }
 
 static int read_fixblock(model_reader *r)
 {
-    const int block = model_next_block(r);
+    const int block = model_known(r, &r->block_of);
 
-    if (block < 0 || !model_at_end(r))
+    if (block < 0)
         return 0;
     if (r->block[block].fixed)
         return model_blame(r, "block '%.60s' is fixed for the second time, expected once",
@@ -412,12 +410,10 @@ static int read_fixblock(model_reader *r)
 static int read_expect(model_reader *r)
 {
     model *p = r->p;
-    model_expected e = { 0 };
-    const int monitor = model_known(r, &r->monitor_of, "monitor", model_word(r));
+    model_expected e = { .monitor = model_known(r, &r->monitor_of) };
 
-    if (monitor < 0 || !model_choice(r, "u|v|moves|stays", &e.kind))
+    if (e.monitor < 0 || !model_choice(r, "u|v|moves|stays", &e.kind))
         return 0;
-    e.monitor = monitor;
     const int value = e.kind == MODEL_U || e.kind == MODEL_V;
     if ((value && !model_number(r, &e.value)) || !model_keyword(r, value ? "within" : "by"))
         return 0;
@@ -425,9 +421,9 @@ static int read_expect(model_reader *r)
     const size_t n = last ? strlen(last) : 0;
     const int percent = value && n > 1 && last[n - 1] == '%';
     if (percent) {                              /* the word may stand in other rounds, too */
-        if (!(r->word[r->s->first + r->next] = model_text(r, n)))
+        if (!(r->word[r->s->first + r->next].text = model_text(r, n)))
             return 0;
-        memcpy(r->word[r->s->first + r->next], last, n - 1);
+        memcpy(model_look(r), last, n - 1);
     }
     if (!model_number(r, &e.within))
         return 0;
@@ -435,7 +431,7 @@ static int read_expect(model_reader *r)
         return model_blame(r, "a tolerance of %g, expected more than 0", e.within);
     if (value && (percent || model_skip(r, "%")) && (e.within *= fabs(e.value) / 100) <= 0)
         return model_blame(r, "a tolerance in %% of 0, expected one in metre");
-    return model_at_end(r) && model_add(r, &p->expected, &p->expectations, sizeof e, &e);
+    return model_add(r, &p->expected, &p->expectations, sizeof e, &e);
 }
 
 /* ------------------------------------------------------------------------------------ the table */
@@ -443,33 +439,35 @@ static int read_expect(model_reader *r)
 static const struct kind {
     const char *name, *form;
     int (*read)(model_reader *r);
-    int phase, once;
+    int phase, may;
 } kinds[] = {
-    { "let", "let NAME VALUE", NULL, NUMBERS, 0 },
-    { "repeat", "repeat NAME FROM TO, statements, end", NULL, NUMBERS, 0 },
-    { "end", "end", NULL, NUMBERS, 0 },
-    { "title", "title TEXT", read_title, NOTHING_NEEDED, 1 },
+    { "let", "let NAME VALUE", NULL, NUMBERS, STAGED },
+    { "repeat", "repeat NAME FROM TO, statements, end", NULL, NUMBERS, STAGED },
+    { "stage", "stage NAME [steps N] [remove BLOCK ...], statements, end", model_stage_head,
+      NOTHING_NEEDED, STAGED },
+    { "end", "end", NULL, NUMBERS, STAGED },
+    { "title", "title TEXT", read_title, NOTHING_NEEDED, ONCE },
     { "node", "node ID X Y", read_node, NOTHING_NEEDED, 0 },
     { "mesh", "mesh FILE.msh", read_mesh, NOTHING_NEEDED, 0 },
     { "material", "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material,
       NOTHING_NEEDED, 0 },
-    { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, 1 },
-    { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, 1 },
-    { "shake", "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NOTHING_NEEDED, 1 },
+    { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, ONCE },
+    { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, ONCE | STAGED },
+    { "shake", "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NOTHING_NEEDED, ONCE },
     { "contact",
       "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
       "[restitution E]",
-      read_contact, NOTHING_NEEDED, 1 },
-    { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, 1 },
+      read_contact, NOTHING_NEEDED, ONCE | STAGED },
+    { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, ONCE },
     { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",
-      read_dynamic, NOTHING_NEEDED, 1 },
+      read_dynamic, NOTHING_NEEDED, ONCE },
     { "bond", "bond [alpha VALUE] [augment N] [at vertices|moment|auto]", read_bond,
-      NOTHING_NEEDED, 1 },
+      NOTHING_NEEDED, ONCE },
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
-      NOTHING_NEEDED, 1 },
-    { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, 1 },
+      NOTHING_NEEDED, ONCE },
+    { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, ONCE },
     { "output", "output [every N] [vtk] [svg] [field NAME] [scale N] [low VALUE] [high VALUE]",
-      read_output, NOTHING_NEEDED, 1 },
+      read_output, NOTHING_NEEDED, ONCE },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
     { "grid", "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE,
@@ -479,10 +477,10 @@ static const struct kind {
     { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
     { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
       model_joint, MODEL, 0 },
-    { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, 0 },
-    { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, 0 },
-    { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, 0 },
-    { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, 0 },
+    { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, STAGED },
+    { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, STAGED },
+    { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, STAGED },
+    { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, STAGED },
     { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
     { "bolt", "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts,
       MODEL, 0 },
@@ -499,7 +497,7 @@ static const char *find_other(const char *word)
 {
     static const struct { const char *words, *here; } other[] = {
         { " anchor cable spring ", "see bolt" },
-        { " excavate remove stage ", "a file with the block and one without are two runs" },
+        { " excavate remove ", "see stage" },
         { " accelerogram earthquake pulse ", "see shake, which reads a record" },
         { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
         { " var define ", "see let" }, { " force ", "see load" },
@@ -542,7 +540,7 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
                           model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text),
                           model_hint(word));
     }
-    const model_statement s = { at, r->cut_words, 0, k, kinds[k].name, kinds[k].form };
+    const model_statement s = { at, r->cut_words, 0, k, 0, kinds[k].name, kinds[k].form };
     return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
 }
 
@@ -551,10 +549,14 @@ static int note_places(model_reader *r)
 {
     for (int i = 0; i < r->statements; i++) {
         const model_statement *s = &r->statement[i];
-        if (kinds[s->kind].once && r->seen[s->kind].line > 0)
+        if (s->stage && !(kinds[s->kind].may & STAGED))
+            return model_fail(r, s->at, "%s in a stage, expected load, traction, pressure, fix, "
+                              "contact or gravity", s->name);
+        if (!s->stage && kinds[s->kind].may & ONCE && r->seen[s->kind].line > 0)
             return model_fail(r, s->at, "%s for the second time, after line %d, expected it once",
                               s->name, r->seen[s->kind].line);
-        r->seen[s->kind] = s->at;
+        if (!s->stage)
+            r->seen[s->kind] = s->at;
     }
     return 1;
 }
@@ -614,13 +616,14 @@ static int cut_file(model_reader *r, char *text, size_t size)
     return 1;
 }
 
-static int read_phase(model_reader *r, int phase)
+static int read_phase(model_reader *r, int phase, int stage)
 {
     for (int k = 0; k < r->statements && !r->p->status; k++) {
         r->s = &r->statement[k];
         r->next = 0;
-        if (kinds[r->s->kind].phase == phase)
-            kinds[r->s->kind].read(r);
+        const struct kind *kind = &kinds[r->s->kind];
+        if (kind->phase == phase && r->s->stage == stage && kind->read(r))
+            model_at_end(r);
     }
     return !r->p->status;
 }
@@ -647,31 +650,38 @@ static int check_kind(model_reader *r)
 static void free_reader(model_reader *r)
 {
     model_table *table[] = { &r->node_of, &r->element_of, &r->block_of, &r->material_of,
-                             &r->set_of,  &r->monitor_of, &r->let_of };
+                             &r->set_of,  &r->monitor_of, &r->let_of, &r->stage_of };
 
-    for (int k = 0; k < LENGTH(table); k++) {
-        free(table[k]->value);
-        free((void *)table[k]->key);
-    }
+    for (int k = 0; k < LENGTH(table); k++)
+        free(table[k]->slot);
     for (int k = 0; k < r->sets; k++)
         free(r->set[k].node);
-    free(r->cut), free(r->cut_word), free(r->local), free(r->word), free(r->given);
+    free(r->cut), free(r->cut_word), free(r->local), free(r->word);
     free(r->statement), free(r->node), free(r->element), free(r->corner), free(r->block);
-    free(r->material), free(r->set), free(r->copy), free(r->chosen_node);
+    free(r->material), free(r->set), free(r->copy);
 }
 
+/* Each stage begins with what the one before it has, and is kept until the run comes to it. */
 static int read_all(model_reader *r)
 {
+    model *p = r->p;
     size_t size;
     char *text = model_load(r, r->path, (model_place){ .file = r->path }, &size);
 
     if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;
-    for (int phase = NUMBERS + 1; phase < PHASES; phase++)
-        if ((phase == MODEL && !model_build(r)) || !read_phase(r, phase))
-            return 0;
+    p->stage = model_keep(r, p->stages, sizeof *p->stage);
+    for (int stage = 0; stage <= p->stages && !p->status; stage++) {
+        for (int phase = NUMBERS + 1; phase < PHASES; phase++)
+            if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage))
+                return 0;
+        model_keep_stage(r, stage);
+    }
+    if (p->status)
+        return 0;
+    model_next_stage(p);
     r->s = r->light;
-    if (r->light && (r->p->m->par.gravity[0] != 0 || r->p->m->par.gravity[1] != 0))
+    if (r->light && (p->m->par.gravity[0] != 0 || p->m->par.gravity[1] != 0))
         model_note(r, "warning: a density below 10 kg/m^3 under gravity; is it in kg/m^3?");
     return model_finish(r);
 }
@@ -679,10 +689,15 @@ static int read_all(model_reader *r)
 int model_read(const char *path, int lets, char *const let[], model *p)
 {
     model_place seen[LENGTH(kinds)] = { { 0 } };
-    model_reader r = { .p = p, .path = path, .lets = lets, .let = let, .other_material = -1,
-                       .seen = seen };
+    model_reader r = {
+        .p = p, .path = path, .lets = lets, .let = let, .seen = seen,
+        .any = { .name = "*", .material = -1, .meshed = 1 }, .node_of.what = "node",
+        .element_of.what = "element", .block_of.what = "block", .material_of.what = "material",
+        .set_of.what = "set", .monitor_of.what = "monitor", .let_of.what = "let",
+        .stage_of.what = "stage",
+    };
 
-    *p = (model){ .field = "mises" };
+    *p = (model){ .field = "mises", .now = -1 };
     if (bbm_beyond_new(&p->m)) {
         model_out_of_memory(&r);
     } else {

@@ -9,7 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "field.h"
 #include "length.h"
 #include "plot.h"
 #include "write.h"
@@ -33,10 +32,14 @@ static int fail(write_results *w, const char *path, const char *why)
     return 0;
 }
 
-static const char *path_of(const write_results *w, const char *name, char path[LONGEST])
+/* In the folder, until the next one; form: a name, with %06d where the number of the step is. */
+static const char *path_of(write_results *w, const char *form)
 {
-    snprintf(path, LONGEST, "%s/%s", w->folder, name);
-    return path;
+    char name[300];
+
+    snprintf(name, sizeof name, form, w->step);
+    snprintf(w->path, sizeof w->path, "%s/%s", w->folder, name);
+    return w->path;
 }
 
 static int open_file(write_results *w, output *f, const char *path)
@@ -86,6 +89,8 @@ static void put_results(FILE *f, const model *p, int files)
             fprintf(f, ",%s", q->name);
     fputc('\n', f);
     for (int k = 0; k < (nodes ? m->nodes : m->elements); k++) {
+        if (field_is_gone(m, nodes ? m->adjacent[m->adjacent_first[k]] : m->element[k].first))
+            continue;
         fprintf(f, "%s,%s", nodes ? p->node[k] : p->element[k],
                 p->block[nodes ? p->node_block[k] : m->element[k].block]);
         put_numbers(f, 2, nodes ? (double[]){ m->node[k].x, m->node[k].y } : p->centre[k]);
@@ -104,8 +109,6 @@ static void put_elements(FILE *f, const write_results *w)
     put_results(f, w->p, w->p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS);
 }
 
-static const char *const state_name[] = { "OPEN", "LOCK", "SLIDE" };
-
 /* The closed ones: where the corner is, what presses and shears, how far it is outside. */
 static void put_contacts(FILE *f, const write_results *w)
 {
@@ -113,16 +116,14 @@ static void put_contacts(FILE *f, const write_results *w)
     const bbm_model *m = p->m;
 
     fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k];
-        const bbm_vertex *P1 = &m->vertex[m->edge[c->corner].a];
-        if (c->state == BBM_OPEN)
-            continue;
-        fprintf(f, "%s,%s", p->block[m->edge[c->corner].block], p->block[m->edge[c->edge].block]);
-        put_numbers(f, 2, (double[]){ m->node[P1->node].x + P1->u, m->node[P1->node].y + P1->v });
-        fprintf(f, ",%s", state_name[c->state]);
-        put_numbers(f, 3, (double[]){ c->N, c->T, c->d_n });
-        fputc('\n', f);
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+        const bbm_edge *corner = &m->edge[c->corner];
+        const bbm_vertex *P1 = &m->vertex[corner->a];
+        const bbm_node *start = &m->node[P1->node];
+        if (c->state != BBM_OPEN)
+            fprintf(f, "%s,%s,%.15g,%.15g,%s,%.15g,%.15g,%.15g\n", p->block[corner->block],
+                    p->block[m->edge[c->edge].block], start->x + P1->u, start->y + P1->v,
+                    c->state == BBM_LOCK ? "LOCK" : "SLIDE", c->N, c->T, c->d_n);
     }
 }
 
@@ -134,12 +135,9 @@ static void put_reactions(FILE *f, const write_results *w)
     fprintf(f, "node,x,y,fx,fy\n");
     for (int n = 0; n < p->m->nodes; n++) {
         const bbm_node *a = &p->m->node[n];
-        if (!a->held)
-            continue;
-        fprintf(f, "%s", p->node[n]);
-        put_numbers(f, 2, (double[]){ a->x, a->y });
-        put_numbers(f, 2, p->m->beyond->support[n].force);
-        fputc('\n', f);
+        const double *F = p->m->beyond->support[n].force;
+        if (a->held && !field_is_gone(p->m, p->m->adjacent[p->m->adjacent_first[n]]))
+            fprintf(f, "%s,%.15g,%.15g,%.15g,%.15g\n", p->node[n], a->x, a->y, F[0], F[1]);
     }
 }
 
@@ -249,7 +247,8 @@ static void put_cells(FILE *f, const bbm_model *m)
     }
     fprintf(f, "CELL_TYPES %d\n", m->elements);
     for (int e = 0; e < m->elements; e++)
-        fprintf(f, "%d\n", m->element[e].n == 3 ? 5 : m->element[e].n == 4 ? 9 : 7);
+        fprintf(f, "%d\n", field_is_gone(m, m->element[e].first) ? 0 : m->element[e].n == 3 ? 5
+                            : m->element[e].n == 4 ? 9 : 7);
 }
 
 /* Points where they started, with the displacement as a vector to warp by; cells with stress. */
@@ -275,7 +274,8 @@ static void put_vtk(FILE *f, const write_results *w)
     for (int n = 0; n < m->nodes; n++) {
         bbm_result r;
         bbm_nodal_result(m, n, -1, &r);
-        fprintf(f, "%.15g %.15g 0\n", r.u, r.v);
+        const int there = !field_is_gone(m, m->adjacent[m->adjacent_first[n]]);
+        fprintf(f, "%.15g %.15g 0\n", there * r.u, there * r.v);
     }
 }
 
@@ -283,61 +283,60 @@ static void put_vtk(FILE *f, const write_results *w)
 static void put_vtk_contacts(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
+    const bbm_contact *end = m->contact + m->contacts;
     const int n = m->info.contacts;
+    double force[2];
 
     put_head(f, w, "POLYDATA", n);
-    for (int k = 0; k < m->contacts; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            fprintf(f, "%.15g %.15g 0\n", m->vertex[m->edge[m->contact[k].corner].a].x,
-                    m->vertex[m->edge[m->contact[k].corner].a].y);
+    for (const bbm_contact *c = m->contact; c < end; c++)
+        if (c->state != BBM_OPEN)
+            fprintf(f, "%.15g %.15g 0\n", field_place(m, m->edge[c->corner].a, 0),
+                    field_place(m, m->edge[c->corner].a, 1));
     fprintf(f, "VERTICES %d %d\n", n, 2 * n);
     for (int k = 0; k < n; k++)
         fprintf(f, "1 %d\n", k);
     fprintf(f, "POINT_DATA %d\nSCALARS state int 1\nLOOKUP_TABLE default\n", n);
-    for (int k = 0; k < m->contacts; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            fprintf(f, "%d\n", (int)m->contact[k].state);
+    for (const bbm_contact *c = m->contact; c < end; c++)
+        if (c->state != BBM_OPEN)
+            fprintf(f, "%d\n", (int)c->state);
     for (int shear = 0; shear < 2; shear++) {
         fprintf(f, "VECTORS %s double\n", shear ? "shear" : "normal");
-        for (int k = 0; k < m->contacts; k++) {
-            const bbm_contact *c = &m->contact[k];
-            double force[2];
-            if (c->state == BBM_OPEN)
-                continue;
-            scene_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
-            fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
+        for (const bbm_contact *c = m->contact; c < end; c++) {
+            field_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
+            if (c->state != BBM_OPEN)
+                fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
         }
     }
 }
 
 static void write_vtk(write_results *w)
 {
-    char name[32], path[LONGEST];
+    if (write_file(w, path_of(w, "step_%06d.vtk"), put_vtk))
+        write_file(w, path_of(w, "contacts_%06d.vtk"), put_vtk_contacts);
+}
 
-    snprintf(name, sizeof name, "step_%06d.vtk", w->step);
-    if (!write_file(w, path_of(w, name, path), put_vtk))
-        return;
-    snprintf(name, sizeof name, "contacts_%06d.vtk", w->step);
-    write_file(w, path_of(w, name, path), put_vtk_contacts);
+void write_stage(write_results *w)
+{
+    if (write_file(w, path_of(w, "nodes_%06d.csv"), put_nodes))
+        write_file(w, path_of(w, "reactions_%06d.csv"), put_reactions);
 }
 
 /* ------------------------------------------------------------------------------------- pictures */
 
-/* A picture that cannot be made costs no results. */
-static void note_picture(write_results *w, const char *path, int done)
+/* The picture at the last path; one that cannot be made costs no results. */
+static void note_picture(write_results *w, int done)
 {
     if (!done)
-        fail(w, path, strerror(errno));
+        fail(w, w->path, strerror(errno));
 }
 
 /* The present state. */
 static void draw_now(write_results *w, const char *name)
 {
     scene now = { .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt };
-    char path[LONGEST];
 
     scene_record(&now, w->p->m);
-    note_picture(w, path, scene_write_movie(&now, w->p->m, path_of(w, name, path)));
+    note_picture(w, scene_write_movie(&now, w->p->m, path_of(w, name)));
     scene_free(&now);
 }
 
@@ -384,13 +383,12 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
 static void draw_history(write_results *w)
 {
     const model *m = w->p;
-    char path[LONGEST];
+    const char *path = path_of(w, "history.svg");
     plot_series s[5];
     plot p;
 
     errno = ENOMEM;
-    int done = w->kept && plot_open(&p, path_of(w, "history.svg", path), 860,
-                                    40 + PANEL * (m->monitors + 2));
+    int done = w->kept && plot_open(&p, path, 860, 40 + PANEL * (m->monitors + 2));
     if (done) {
         plot_title(&p, 430, 28, m->title);
         for (int k = 0; k < m->monitors; k++)
@@ -401,7 +399,7 @@ static void draw_history(write_results *w)
                    s, PASSES, (const char *[]){ "passes of a step, at most", NULL });
         done = plot_close(&p);
     }
-    note_picture(w, path_of(w, "history.svg", path), done);
+    note_picture(w, done);
 }
 
 static void draw_pictures(write_results *w)
@@ -410,13 +408,13 @@ static void draw_pictures(write_results *w)
     scene_map map = { .title = w->p->title, .field = w->p->field,  /* a static one is magnified */
                       .scale = w->p->scale > 0 ? w->p->scale : w->p->dynamic,
                       .limits = { w->p->colours[0], w->p->colours[1] } };
-    char path[LONGEST], name[100];
+    char name[100];
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
-        note_picture(w, path, scene_write_movie(&w->film, m, path_of(w, "movie.svg", path)));
+        note_picture(w, scene_write_movie(&w->film, m, path_of(w, "movie.svg")));
     snprintf(name, sizeof name, "%.90s.svg", map.field);
-    note_picture(w, path, scene_write_map(m, path_of(w, name, path), &map));
+    note_picture(w, scene_write_map(m, path_of(w, name), &map));
     if (w->row > 0 && (w->p->dynamic || m->par.steps > 1))
         draw_history(w);
 }
@@ -432,8 +430,10 @@ static void put_block(FILE *f, int i, int j, double B[6][6])
                     6 * (i > j ? j : i) + (i < j ? a : b) + 1, B[a][b]);
 }
 
-static void put_matrix(FILE *f, const bbm_matrix *K)
+static void put_matrix(FILE *f, const write_results *w)
 {
+    const bbm_matrix *K = w->p->m->K;
+
     fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %lld\n", 6 * K->n,
             6 * K->n, 36LL * K->first[K->n] + 21LL * K->n);
     for (int i = 0; i < K->n; i++) {
@@ -456,60 +456,57 @@ void write_matrix(write_results *w)
 {
     const clock_t start = clock();
     char name[LONGEST];
-    output f;
 
-    if (w->matrix_done++)
-        return;
-    if (open_file(w, &f, w->matrix)) {
-        put_matrix(f.file, w->p->m->K);
-        close_file(w, &f);
-    }
     snprintf(name, sizeof name, "%s.rhs", w->matrix);
-    if (!w->status)
+    if (write_file(w, w->matrix, put_matrix))
         write_file(w, name, put_right_side);
+    w->matrix = NULL;
     w->writing += clock() - start;
 }
 
 /* -------------------------------------------------------------------------------------- the run */
 
-/* The length of a name that a run writes, without the ending of a temporary file; 0: it is
- * another one. */
-static size_t is_ours(const char *name)
+static int has_form(const char *name, const char *form)
 {
-    static const char *const all[] = {
-        "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
-        "reactions.csv", "bolts.csv", "contacts.svg", "movie.svg", "model.svg", "history.svg",
-    };
-    const size_t temporary = output_is_temporary(name), n = temporary ? temporary : strlen(name);
-    const size_t start = strncmp(name, "step_", 5) == 0 ? 5
-                       : strncmp(name, "contacts_", 9) == 0 ? 9 : 0;
-    const size_t digits = start ? strspn(name + start, "0123456789") : 0;
+    int n = 0;
 
-    if (digits > 0 && n == start + digits + 4 && strncmp(name + start + digits, ".vtk", 4) == 0)
-        return n;
-    for (int k = 0; k < LENGTH(all); k++)
-        if (n == strlen(all[k]) && strncmp(name, all[k], n) == 0)
-            return n;
-    for (const field *q = field_table; q->name; q++)
-        if (n == strlen(q->name) + 4 && strncmp(name, q->name, n - 4) == 0
-            && strncmp(name + n - 4, ".svg", 4) == 0)
-            return n;
-    return 0;
+    sscanf(name, form, &n);
+    return n > 0 && (!name[n] || output_is_temporary(name + n));
+}
+
+/* Whether a run writes a file of that name, or begins it. */
+static int is_ours(const char *name)
+{
+    static const char *const form[] = {
+        "nodes.csv%n", "elements.csv%n", "history.csv%n", "summary.csv%n", "timing.csv%n",
+        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "contacts.svg%n", "movie.svg%n",
+        "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n", "contacts_%*[0-9].vtk%n",
+        "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
+    };
+    char picture[LONGEST];
+    int ours = 0;
+
+    for (int k = 0; k < LENGTH(form); k++)
+        ours |= has_form(name, form[k]);
+    for (const field *q = field_table; q->name; q++) {
+        snprintf(picture, sizeof picture, "%s.svg%%n", q->name);
+        ours |= has_form(name, picture);
+    }
+    return ours;
 }
 
 /* Removes what an earlier run left in the folder, so that all that stands there is of one run. */
 static int empty_folder(write_results *w)
 {
-    char path[LONGEST];
     struct stat what;
     DIR *folder = opendir(w->folder);
 
     if (!folder)
         return fail(w, w->folder, strerror(errno));
     for (struct dirent *entry; !w->status && (entry = readdir(folder)) != NULL; )
-        if (is_ours(entry->d_name) && stat(path_of(w, entry->d_name, path), &what) == 0
-            && S_ISREG(what.st_mode) && remove(path))
-            fail(w, path, strerror(errno));
+        if (is_ours(entry->d_name) && stat(path_of(w, entry->d_name), &what) == 0
+            && S_ISREG(what.st_mode) && remove(w->path))
+            fail(w, w->path, strerror(errno));
     closedir(folder);
     return !w->status;
 }
@@ -517,25 +514,21 @@ static int empty_folder(write_results *w)
 /* The end of a run; whether all went well. */
 static int leave_folder(write_results *w)
 {
-    char path[LONGEST];
-
     if (w->lock)
-        output_unlock(w->lock, path_of(w, LOCK, path));
+        output_unlock(w->lock, path_of(w, LOCK));
     return !w->status;
 }
 
 /* Makes the folder, if need be, and locks it. */
 static int open_folder(write_results *w)
 {
-    char path[LONGEST];
-
-    if ((size_t)snprintf(path, sizeof path, "%s/contacts_2147483647.vtk", w->folder) >= sizeof path)
+    if (strlen(w->folder) + strlen("/contacts_2147483647.vtk") >= sizeof w->path)
         return fail(w, w->folder, strerror(ENAMETOOLONG));
     if (!output_make_folder(w->folder))
         return fail(w, w->folder,
                     errno == EEXIST ? "it is there and no folder; another one may be given with -o"
                                     : strerror(errno));
-    w->lock = output_lock(path_of(w, LOCK, path));
+    w->lock = output_lock(path_of(w, LOCK));
     return w->lock ? 1 : fail(w, w->folder, errno == EBUSY
                                   ? "another run is at work there; another folder may be given "
                                     "with -o" : strerror(errno));
@@ -551,11 +544,9 @@ int write_check(write_results *w)
 
 int write_open(write_results *w)
 {
-    char path[LONGEST];
-
     if (!open_folder(w) || !empty_folder(w)
-        || !open_file(w, &w->history, path_of(w, "history.csv", path))
-        || !open_file(w, &w->summary, path_of(w, "summary.csv", path))) {
+        || !open_file(w, &w->history, path_of(w, "history.csv"))
+        || !open_file(w, &w->summary, path_of(w, "summary.csv"))) {
         output_drop(&w->history);
         return leave_folder(w);
     }
@@ -572,7 +563,7 @@ int write_open(write_results *w)
     return 1;
 }
 
-int write_step(write_results *w, int step)
+void write_step(write_results *w, int step)
 {
     const clock_t start = clock();
     const model *p = w->p;
@@ -589,10 +580,9 @@ int write_step(write_results *w, int step)
         write_vtk(w);
     w->status |= !output_keep(&w->history) || !output_keep(&w->summary);
     w->writing += clock() - start;
-    return !w->status;
 }
 
-int write_close(write_results *w)
+void write_close(write_results *w)
 {
     const clock_t start = clock();
     const model *p = w->p;
@@ -603,12 +593,11 @@ int write_close(write_results *w)
         { "reactions.csv", put_reactions },
         { "bolts.csv", put_bolts },
     };
-    char path[LONGEST];
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
     for (int k = 0; k < LENGTH(table) - !p->bolts; k++)
-        write_file(w, path_of(w, table[k].name, path), table[k].put);
+        write_file(w, path_of(w, table[k].name), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);
     if (p->svg)
@@ -616,6 +605,6 @@ int write_close(write_results *w)
     scene_free(&w->film);
     free(w->kept);
     w->writing += clock() - start;
-    write_file(w, path_of(w, "timing.csv", path), put_timing);
-    return leave_folder(w);
+    write_file(w, path_of(w, "timing.csv"), put_timing);
+    leave_folder(w);
 }

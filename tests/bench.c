@@ -75,17 +75,17 @@ static void add_wall(bbm_model *m, int n)
     for (int row = 0; row < n; row++)
         for (int i = 0; i < n; i++) {
             const double x = i + row % 2 / 2.0;
-            case_add_box(m, &(case_box){ .block = row * n + i, .nx = 1, .ny = 1, .x = x, .y = row,
-                                         .w = 1, .h = 1 });
+            case_add_grid(m, &(case_grid){ .block = row * n + i, .nx = 1, .ny = 1, .x = x, .y = row,
+                                           .w = 1, .h = 1 });
         }
 }
 
 /* A subdivided block on a subdivided plate: straight sides of n and 2 n edges in contact. */
 static void add_long_sides(bbm_model *m, int n)
 {
-    case_add_box(m, &(case_box){ .block = 0, .nx = 2 * n, .ny = 1, .x = -0.5, .y = -1, .w = 2 * n,
-                                 .h = 1 });
-    case_add_box(m, &(case_box){ .block = 1, .nx = n, .ny = 1, .x = 0, .y = 0, .w = n, .h = 1 });
+    case_add_grid(m, &(case_grid){ .block = 0, .nx = 2 * n, .ny = 1, .x = -0.5, .y = -1, .w = 2 * n,
+                                   .h = 1 });
+    case_add_grid(m, &(case_grid){ .block = 1, .nx = n, .ny = 1, .x = 0, .y = 0, .w = n, .h = 1 });
 }
 
 /* A model whose contacts have been found once and are closed, as in the middle of a run; they have
@@ -342,12 +342,12 @@ static void add_wall_at_rest(bbm_model *m, double n)
     int block = 1;
 
     m->par.p_n = m->par.p_s = 1e9;
-    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -1, .y = -1, .w = n + 2, .h = 1 });
+    case_add_grid(m, &(case_grid){ .nx = 1, .ny = 1, .x = -1, .y = -1, .w = n + 2, .h = 1 });
     for (int row = 0; row < (int)n / 2; row++)
         for (double x = 0, w; x < n; x += w) {
             w = row % 2 && (x == 0 || x == n - 0.5) ? 0.5 : 1;
-            case_add_box(m, &(case_box){ .block = block++, .nx = 1, .ny = 1, .x = x, .y = row / 2.0,
-                                         .w = w, .h = 0.5 });
+            case_add_grid(m, &(case_grid){ .block = block++, .nx = 1, .ny = 1, .x = x, .y = row / 2.0,
+                                           .w = w, .h = 0.5 });
         }
 }
 
@@ -355,10 +355,10 @@ static void add_wall_at_rest(bbm_model *m, double n)
 static void add_jointed_rock(bbm_model *m, double kn)
 {
     m->par.p_n = m->par.p_s = kn * 1e10;
-    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -1, .y = -1, .w = 6, .h = 1 });
+    case_add_grid(m, &(case_grid){ .nx = 1, .ny = 1, .x = -1, .y = -1, .w = 6, .h = 1 });
     for (int k = 0; k < 24; k++)
-        case_add_box(m, &(case_box){ .block = 1 + k, .nx = k % 5 ? 3 : 1, .ny = k % 5 ? 3 : 1,
-                                     .x = k % 4, .y = k / 4, .w = 1, .h = 1 });
+        case_add_grid(m, &(case_grid){ .block = 1 + k, .nx = k % 5 ? 3 : 1, .ny = k % 5 ? 3 : 1,
+                                       .x = k % 4, .y = k / 4, .w = 1, .h = 1 });
 }
 
 /* A tunnel of 5 m x 4 m in rock of 20 m x 20 m with two joint sets, blocks of 2.5 m x 2 m with nx x
@@ -369,15 +369,15 @@ static void add_tunnel(bbm_model *m, double nx)
     m->par.velocity_factor = 1;
     m->par.friction = 35;
     m->par.p_n = 5e11, m->par.p_s = 2e11;
-    case_add_box(m, &(case_box){ .nx = 1, .ny = 1, .x = -10, .y = -11, .w = 20, .h = 1 });
+    case_add_grid(m, &(case_grid){ .nx = 1, .ny = 1, .x = -10, .y = -11, .w = 20, .h = 1 });
     for (int row = 0, b = 1; row < 10; row++)
         for (double x = -10, w; x < 10; x += w, b++) {
             const int i = m->nodes, dug = row / 2 == 2 && fabs(x + 1.25 * (1 + row % 2)) < 2;
             w = row % 2 && (x == -10 || x == 8.75) ? 1.25 : 2.5;
             if (dug)
                 continue;
-            case_add_box(m, &(case_box){ .block = b, .nx = (int)nx, .ny = (int)nx, .x = x,
-                                         .y = 2 * row - 10, .w = w, .h = 2 });
+            case_add_grid(m, &(case_grid){ .block = b, .nx = (int)nx, .ny = (int)nx, .x = x,
+                                           .y = 2 * row - 10, .w = w, .h = 2 });
             for (int n = i; n < m->nodes; n++)
                 if (fabs(m->node[n].x) == 10)
                     bbm_fix_node(m, n, BBM_X, 0, 0);
@@ -392,11 +392,11 @@ static void add_slider(bbm_model *m, double stiffness)
     m->par.p_n = stiffness, m->par.p_s = stiffness / 2.5;
     m->par.pcg.tolerance = 1e-12;
     m->beyond->multiplier_rounds = 2;
-    case_add_box(m, &(case_box){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
+    case_add_grid(m, &(case_grid){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
     for (int n = 0; n < m->nodes; n++)
         bbm_fix_node(m, n, BBM_XY, 0, 0);
-    const int first = case_add_box(m, &(case_box){ .block = 1, .nx = 4, .ny = 2, .x = -8, .y = 1,
-                                                   .w = 4, .h = 1 });
+    const int first = case_add_grid(m, &(case_grid){ .block = 1, .nx = 4, .ny = 2, .x = -8, .y = 1,
+                                                     .w = 4, .h = 1 });
     for (int e = first; e < m->elements; e++)
         m->element[e].V[0] = 1;
     for (int j = 0; j < 2; j++)
