@@ -223,24 +223,29 @@ void bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_elemen
     g->d0[1] = P->v - Q->v;
     bbm_step_matrix(i, P->x, P->y, g->Ti);
     bbm_step_matrix(j, Q->x, Q->y, g->Tj);
-    g->k[0] = g->k[1] = k;
+    g->W[0][0] = g->W[1][1] = k;
 }
 
-/* Pi_b = k/2 d.d   ->   K_ii += k Ti^T Ti,  K_ij -= k Ti^T Tj,  K_jj += k Tj^T Tj,   Eq. (27),
- *                      F_i -= k Ti^T d0,  F_j += k Tj^T d0,                       Eq. (28). */
+/* Pi_b = k/2 d.d, or 1/2 d.W d with W = k [1 0; 0 1]
+ *     ->   K_ii += Ti^T W Ti,  K_ij -= Ti^T W Tj,  K_jj += Tj^T W Tj,   Eq. (27),
+ *          F_i -= Ti^T W d0,  F_j += Tj^T W d0,                         Eq. (28).
+ * With a hook W is any symmetric matrix, and the energy has f.d besides: W d0 + f for W d0. */
 void bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s)
 {
-    for (int r = 0; r < 2; r++)
-        for (int a = 0; a < 6; a++) {
-            const double kTi = g->k[r] * g->Ti[r][a], kTj = g->k[r] * g->Tj[r][a];
-            for (int b = 0; b < 6; b++) {
-                s->Kii[a][b] += kTi * g->Ti[r][b];
-                s->Kij[a][b] -= kTi * g->Tj[r][b];
-                s->Kjj[a][b] += kTj * g->Tj[r][b];
+    for (int r = 0; r < 2; r++) {
+        const double *W = g->W[r], pull = W[0] * g->d0[0] + W[1] * g->d0[1] + g->own.f[r];
+        for (int b = 0; b < 6; b++) {
+            const double WTi = W[0] * g->Ti[0][b] + W[1] * g->Ti[1][b];
+            const double WTj = W[0] * g->Tj[0][b] + W[1] * g->Tj[1][b];
+            for (int a = 0; a < 6; a++) {
+                s->Kii[a][b] += g->Ti[r][a] * WTi;
+                s->Kij[a][b] -= g->Ti[r][a] * WTj;
+                s->Kjj[a][b] += g->Tj[r][a] * WTj;
             }
-            s->Fi[a] -= kTi * g->d0[r];
-            s->Fj[a] += kTj * g->d0[r];
+            s->Fi[b] -= g->Ti[r][b] * pull;
+            s->Fj[b] += g->Tj[r][b] * pull;
         }
+    }
 }
 
 /* ---------------------------------------------- 3.4 Bonding submatrices at fixed points */
@@ -263,8 +268,8 @@ void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
     g->d0[1] = P->v - W->wall[1];
     bbm_step_matrix(e, P->x, P->y, g->Ti);
     memset(g->Tj, 0, sizeof g->Tj);
-    g->k[0] = W->held & BBM_X ? k : 0;
-    g->k[1] = W->held & BBM_Y ? k : 0;
+    g->W[0][0] = W->held & BBM_X ? k : 0;
+    g->W[1][1] = W->held & BBM_Y ? k : 0;
 }
 
 /* --------------------------------------------------------- 3.5 Line loading submatrices */
@@ -461,7 +466,7 @@ static void assemble_gap(bbm_model *m, const bbm_gap *g)
 {
     bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
 
-    (m->hook->add_gap ? m->hook->add_gap : bbm_bonding_submatrices)(g, &s);
+    bbm_bonding_submatrices(g, &s);
     bbm_add_submatrices(m, g->i, g->j, &s);
 }
 

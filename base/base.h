@@ -25,21 +25,19 @@ struct bbm_bond {               /* an internal edge: two bonding springs        
 /* What two elements add to K and F; K_ji = K_ij^T. */
 typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
 
-/* A hook may give a gap the energy 1/2 d.W d + f.d in place of k/2 d.d. */
-typedef struct {
-    int    penalty;             /* 1: W stands for a rigid joint; 0: it is a stiffness          */
-    double W[2][2];             /* N/m                                                          */
-    double f[2];                /* N        multiplier: the force besides W d                   */
+typedef struct {                /* of a hook: the force in a gap besides that of its spring     */
+    double f[2];                /* N        in the paper 0                                      */
     double f_before[2];         /* N        f at the end of the last step                       */
-} bbm_weight;
+} bbm_multiplier;
 
 struct bbm_gap {                /* of a spring: d = d0 + T_i D_i - T_j D_j, Eq. (22)            */
     int    i, j;                /* elements; j = -1: the wall, which does not move: T_j = 0     */
     int    node[2];             /* at the wall: the held node, twice; a hook may name two       */
-    double k[2];                /* N/m      in x and y; 0: not held in that direction           */
+    double W[2][2];             /* N/m      k on its diagonal; 0: not held in that direction    */
     double d0[2];               /* m        d at the start of the step                          */
     double Ti[2][6], Tj[2][6];
-    bbm_weight own;             /* of a hook; stays when the gaps are listed anew               */
+    int    elastic;             /* W stands for a rigid joint: 0; a hook's stiffness: 1         */
+    bbm_multiplier own;         /* stays when the gaps are listed anew                          */
 };
 
 struct bbm_line_load {          /* a load along a boundary edge                                 */
@@ -182,7 +180,6 @@ struct bbm_hooks {
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
-    void (*add_gap)(const bbm_gap *g, bbm_submatrices *s);  /* in place of (27), (28)           */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
     int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);

@@ -91,42 +91,14 @@ void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2]
 /* Of an edge with the gaps d1 and d2 at its ends the gap (d1 + sign d2)/2 with the weight W. */
 void bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g)
 {
-    memcpy(g->own.W, W, sizeof g->own.W);
-    g->own.penalty = sign > 0;
+    memcpy(g->W, W, sizeof g->W);
+    g->elastic = sign < 0;
     for (int r = 0; r < 2; r++) {
         g->d0[r] = (end[0].d0[r] + sign * end[1].d0[r]) / 2;
         for (int a = 0; a < 6; a++) {
             g->Ti[r][a] = (end[0].Ti[r][a] + sign * end[1].Ti[r][a]) / 2;
             g->Tj[r][a] = (end[0].Tj[r][a] + sign * end[1].Tj[r][a]) / 2;
         }
-    }
-}
-
-/* K += sign Ti^T W Tj. */
-static void add_product(double sign, const double Ti[2][6], const double W[2][2],
-                        const double Tj[2][6], double K[6][6])
-{
-    for (int b = 0; b < 6; b++) {
-        const double x = sign * (W[0][0] * Tj[0][b] + W[0][1] * Tj[1][b]);
-        const double y = sign * (W[1][0] * Tj[0][b] + W[1][1] * Tj[1][b]);
-        for (int a = 0; a < 6; a++)
-            K[a][b] += Ti[0][a] * x + Ti[1][a] * y;
-    }
-}
-
-/* A gap with the energy 1/2 d.W d + f.d: (27), (28) with W for k I, and W d0 + f for k d0. */
-void bbm_weighted_submatrices(const bbm_gap *g, bbm_submatrices *s)
-{
-    const bbm_weight *o = &g->own;
-    const double pull[2] = { o->W[0][0] * g->d0[0] + o->W[0][1] * g->d0[1] + o->f[0],
-                             o->W[1][0] * g->d0[0] + o->W[1][1] * g->d0[1] + o->f[1] };
-
-    add_product(1, g->Ti, o->W, g->Ti, s->Kii);
-    add_product(-1, g->Ti, o->W, g->Tj, s->Kij);
-    add_product(1, g->Tj, o->W, g->Tj, s->Kjj);
-    for (int a = 0; a < 6; a++) {
-        s->Fi[a] -= g->Ti[0][a] * pull[0] + g->Ti[1][a] * pull[1];
-        s->Fj[a] += g->Tj[0][a] * pull[0] + g->Tj[1][a] * pull[1];
     }
 }
 
@@ -198,7 +170,7 @@ static void turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
 {
     const double *Di = i->middle->D, *Dj = j->middle->D;
     const double r = (Di[2] + Dj[2]) / 2, t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
-    double d[2] = { g->d0[0], g->d0[1] }, (*W)[2] = g->own.W, M[3] = { W[0][0], W[1][1], W[0][1] };
+    double d[2] = { g->d0[0], g->d0[1] }, (*W)[2] = g->W, M[3] = { W[0][0], W[1][1], W[0][1] };
 
     bbm_turn_tensor(M, (i->sum[2] + j->sum[2]) / 2);
     W[0][0] = M[0], W[1][1] = M[1], W[0][1] = W[1][0] = M[2];
@@ -271,20 +243,11 @@ static void list_fixed(bbm_model *m, int v)
     list_edge(m, i, -1, end, edge, k, M);
 }
 
-/* What glues, with whole edges where quadrilaterals meet. A gap of the paper has the weight k. */
+/* What glues, with whole edges where quadrilaterals meet. */
 void bbm_list_edge_gaps(bbm_model *m)
 {
     for (int b = 0; b < m->bonds; b++)
         list_bond(m, &m->bond[b]);
     for (int v = 0; v < m->vertices; v++)
         list_fixed(m, v);
-    for (int n = 0; n < m->gaps; n++) {
-        bbm_gap *g = &m->gap[n];
-        if (g->k[0] == 0 && g->k[1] == 0)
-            continue;
-        memset(g->own.W, 0, sizeof g->own.W);
-        g->own.W[0][0] = g->k[0];
-        g->own.W[1][1] = g->k[1];
-        g->own.penalty = 1;
-    }
 }

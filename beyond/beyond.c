@@ -139,7 +139,6 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
-        .add_gap = bbm_weighted_submatrices,
         .motion = bbm_find_motion,
         .before_solution = bbm_interpolate_elements,
         .renew = renew,

@@ -130,7 +130,6 @@ int        bbm_contacts_are_off(const bbm_model *m, double share);
 void       bbm_condense(int n, int rows, double W[n][n]);
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
-void       bbm_weighted_submatrices(const bbm_gap *g, bbm_submatrices *s);
 void       bbm_list_edge_gaps(bbm_model *m);
 
 /* multipliers.c */

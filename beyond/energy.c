@@ -102,7 +102,7 @@ void bbm_note_springs(bbm_model *m, int when)
         const bbm_gap *g = &m->gap[k];
         for (int r = 0; r < 2; r++)
             a[g->i].springs[when] += g->d0[r] / 2
-                    * (g->own.f[r] + g->own.W[r][0] * g->d0[0] + g->own.W[r][1] * g->d0[1]);
+                    * (g->own.f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]);
     }
     for (int k = 0; k < m->scratch->contacts; k++)
         a[bbm_element_of(m, c[k].corner)].springs[when] += contact_energy(m, &c[k]);

@@ -140,7 +140,7 @@ static void start_gaps(bbm_model *m)
             const double w0 = support_velocity(m, g->node[0], a);
             const double w1 = support_velocity(m, g->node[1], a);
             g->d0[a] = g->j >= 0 ? -(*jumps(m, g->i) > 0) * d[a]
-                     : -m->h / 4 * (g->own.penalty ? w0 + w1 : w0 - w1);
+                     : -m->h / 4 * (g->elastic ? w0 - w1 : w0 + w1);
         }
     }
 }

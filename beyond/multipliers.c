@@ -83,8 +83,8 @@ bbm_pass bbm_take_over(bbm_model *m)
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         bbm_gap_length(m, g, d);
-        for (int r = 0; r < 2 && g->own.penalty; r++) {
-            const double df = g->own.W[r][0] * d[0] + g->own.W[r][1] * d[1];
+        for (int r = 0; r < 2 && !g->elastic; r++) {
+            const double df = g->W[r][0] * d[0] + g->W[r][1] * d[1];
             g->own.f[r] += df;
             for (int a = 0; a < 6; a++) {
                 m->F[6 * g->i + a] -= df * g->Ti[r][a];

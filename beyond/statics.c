@@ -41,13 +41,13 @@
  * point from which its element is at (X, Y). */
 static void add_hold(bbm_gap g, double X, double Y, double G[3][3])
 {
-    const double trace = g.own.W[0][0] + g.own.W[1][1];
+    const double trace = g.W[0][0] + g.W[1][1];
 
     for (int r = 0; r < 2; r++)
         g.Ti[r][2] += g.Ti[r][1] * X - g.Ti[r][0] * Y;
     for (int k = 0; k < 36 && trace > 0; k++) {
         const int a = k / 12, b = k / 4 % 3, r = k / 2 % 2, s = k % 2;
-        G[a][b] += g.Ti[r][a] * g.own.W[r][s] / trace * g.Ti[s][b];
+        G[a][b] += g.Ti[r][a] * g.W[r][s] / trace * g.Ti[s][b];
     }
 }
 

@@ -158,9 +158,9 @@ void bbm_find_reactions(bbm_model *m)
             continue;
         bbm_gap_length(m, g, d);
         for (int a = 0; a < 2; a++) {
-            const double half = (g->own.f[a] + g->own.W[a][0] * d[0] + g->own.W[a][1] * d[1]) / 2;
+            const double half = (g->own.f[a] + g->W[a][0] * d[0] + g->W[a][1] * d[1]) / 2;
             force_of(m, g->node[0])[a] -= half;
-            force_of(m, g->node[1])[a] -= g->own.penalty ? half : -half;
+            force_of(m, g->node[1])[a] -= g->elastic ? -half : half;
         }
     }
 }

@@ -79,8 +79,9 @@ static void list_gaps(bbm_model *m)
         const double across = fmax(0, model_bolt_force(m, b, &along)) / along.length,
                      n[2] = { along.x, along.y };
         bbm_bonding_gap(&m->element[g->i], P, &m->element[g->j], Q, 0, g);
+        g->elastic = 1;
         for (int a = 0; a < 4; a++) {
-            g->own.W[a / 2][a % 2] = (b->k - across) * n[a / 2] * n[a % 2] + across * (a % 3 == 0);
+            g->W[a / 2][a % 2] = (b->k - across) * n[a / 2] * n[a % 2] + across * (a % 3 == 0);
             g->d0[a / 2] = (along.length - b->rest) * n[a / 2];
         }
     }

@@ -216,7 +216,7 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
     for (int g = 0; g < 2; g++) {
         bbm_gap gap = { .i = b->i, .j = b->j };
         bbm_edge_gap(end, g == 0 ? 1 : -1, W[g], &gap);
-        bbm_weighted_submatrices(&gap, &s);
+        bbm_bonding_submatrices(&gap, &s);
     }
     get_block(m->K, b->i, b->j, K);
     for (int a = 0; a < 36; a++)        /* K of its middle is 100 times larger: 1e-13 of it */

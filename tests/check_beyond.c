@@ -186,7 +186,7 @@ START_TEST(a_chequerboard_of_turns_costs_bonds_at_midpoints_nothing)
     for (int k = 0; k < m->gaps; k++) {
         double d[2];
         bbm_gap_length(m, &m->gap[k], d);
-        if (m->gap[k].own.penalty)
+        if (!m->gap[k].elastic)
             ck_assert_double_lt(hypot(d[0], d[1]), 1e-14);      /* rounding of numbers near 1 */
         else
             ck_assert_double_gt(hypot(d[0], d[1]), 0.1);
@@ -262,7 +262,7 @@ START_TEST(the_edge_submatrices_are_derivatives_of_the_edge_energy)
     for (int k = 0; k < 2; k++) {
         bbm_gap gap = { .i = b->i, .j = b->j };
         bbm_edge_gap(end, k == 0 ? 1 : -1, W[k], &gap);
-        bbm_weighted_submatrices(&gap, &s);
+        bbm_bonding_submatrices(&gap, &s);
     }
     for (int a = 0; a < 6; a++)
         for (int c = 0; c < 6; c++) {

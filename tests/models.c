@@ -342,8 +342,8 @@ void list_middles(bbm_model *m)
 {
     bbm_list_edge_gaps(m);
     for (int g = 0; g < m->gaps; g++)
-        if (!m->gap[g].own.penalty)
-            memset(m->gap[g].own.W, 0, sizeof m->gap[g].own.W);
+        if (m->gap[g].elastic)
+            memset(m->gap[g].W, 0, sizeof m->gap[g].W);
 }
 
 void set_springs(bbm_model *m, double p_n, double p_s)

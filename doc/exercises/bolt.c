@@ -37,7 +37,7 @@ static void add_bolts(bbm_model *m)
             g->Ti[0][a] = n[0] * g->Ti[0][a] + n[1] * g->Ti[1][a];
             g->Tj[0][a] = n[0] * g->Tj[0][a] + n[1] * g->Tj[1][a];
         }
-        g->k[1] = 0;
+        g->W[1][1] = 0;
     }
 }
 

@@ -23,7 +23,7 @@ static int break_bonds(bbm_model *m, double strength)
         for (int end = 0; end < 2; end++) {
             const bbm_gap *g = &m->gap[2 * b + end];
             const bbm_vertex *P = &m->vertex[m->bond[b].p[end]], *Q = &m->vertex[m->bond[b].q[end]];
-            most = fmax(most, hypot(g->k[0] * (P->u - Q->u), g->k[1] * (P->v - Q->v)));
+            most = fmax(most, g->W[0][0] * hypot(P->u - Q->u, P->v - Q->v));
         }
         if (most <= strength)
             continue;
