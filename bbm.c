@@ -506,23 +506,21 @@ bbm_status bbm_begin_step(bbm_model *m)
 }
 
 /* Lists the contacts that may close in the step, and lays out K for them: at first for the guess at
- * D, later for a solution that moves further than the list allows. `other`: the list has changed,
- * so the solution does not count. */
-bbm_status bbm_detect(bbm_model *m, int *other)
+ * D, later for a solution that moves further than the list allows. `same`: the list has not changed,
+ * so the solution counts. */
+bbm_status bbm_detect(bbm_model *m, int *same)
 {
     const clock_t start = clock();
-    int same = 1;
 
-    *other = 0;
+    *same = 1;
     if (m->detections > 0 && !bbm_moved_too_far(m))
         return BBM_OK;
     if (m->detections++ == BBM_MAX_DETECTIONS)
         return bbm_say_what_failed(m, BBM_OPEN_CLOSE);
-    bbm_status status = bbm_detect_contacts(m, &same);
+    bbm_status status = bbm_detect_contacts(m, same);
     bbm_count_time(m, BBM_DETECT, start);
-    if (status || same)
+    if (status || *same)
         return status;
-    *other = 1;
     bbm_list_gaps(m);
     status = bbm_lay_out_matrix(m);
     return status || !m->hook->listed ? status : m->hook->listed(m);
@@ -612,10 +610,10 @@ bbm_status bbm_try_step(bbm_model *m)
 {
     bbm_status status = bbm_begin_step(m);
     bbm_pass pass = BBM_PASS_DONE;
-    int other = 0;
+    int same = 1;
 
     if (!status)
-        status = bbm_detect(m, &other);             /* 3.7: which contacts may close            */
+        status = bbm_detect(m, &same);              /* 3.7: which contacts may close            */
     do {
         do {
             if (!status && pass != BBM_PASS_SAME_K)
@@ -626,8 +624,8 @@ bbm_status bbm_try_step(bbm_model *m)
                 status = open_close(m, &pass);      /* 3.8: do the contacts fit the solution?   */
         } while (!status && pass != BBM_PASS_DONE);
         if (!status)
-            status = bbm_detect(m, &other);         /* too far for the list of contacts?        */
-    } while (!status && other);
+            status = bbm_detect(m, &same);          /* too far for the list of contacts?        */
+    } while (!status && !same);
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 

@@ -191,14 +191,6 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
     c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
-/* What a contact can carry in this step: friction by the model's angle, or what a hook says. */
-static void find_strength(const bbm_model *m, bbm_contact *c)
-{
-    c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
-    if (m->hook->strength)
-        m->hook->strength(m, c);
-}
-
 /* Whether a contact is of an unbroken joint with cohesion or tensile strength. */
 static int is_strong(const bbm_contact *c)
 {
@@ -208,8 +200,9 @@ static int is_strong(const bbm_contact *c)
 /* The state with which a contact begins the step: that of its last step. But one that touches when
  * the run begins is closed: what lies flush is so under load. In dynamics it is open where P can
  * come in over several lines of a corner, unless its joint has a strength: its way shows over which
- * one. One that P1 has left past the end of the edge is open. The anchor is placed anew if the
- * contact is open or its edge is another one. */
+ * one. One that P1 has left past the end of the edge is open. It can carry friction by the model's
+ * angle, or what a hook says. The anchor is placed anew if the contact is open or its edge is
+ * another one. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     int lines = 0;
@@ -223,7 +216,9 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
         c->state = BBM_OPEN;
         c->N = c->T = c->slip = c->was_closed = c->inside = 0;
     }
-    find_strength(m, c);
+    c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
+    if (m->hook->strength)
+        m->hook->strength(m, c);
     if (c->touches && !c->has_left)
         c->state = lines == 0 || is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
     if (!c->carried || c->state == BBM_OPEN) {

@@ -99,12 +99,12 @@ bbm_status bbm_check_supports(bbm_model *m)
 bbm_status bbm_check_held(bbm_model *m)
 {
     bbm_status status = bbm_check_step(m);
-    int other;
+    int same;
 
     m->h = INFINITY;
     if (!status)
         status = bbm_begin_step(m);
-    return status ? status : bbm_detect(m, &other);
+    return status ? status : bbm_detect(m, &same);
 }
 
 /* ----------------------------------------------------------------------- who parts from whom */

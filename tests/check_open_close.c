@@ -488,7 +488,7 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
 {
     const double p = ldexp(1, 30), tip[2] = { 1, 64 / p }, beside[2] = { -1, 64 / p };
     bbm_model *m = weightless_blocks();
-    int n, other;
+    int n, same;
 
     m->par.p_n = m->par.p_s = p;
     add_table(m, 0);
@@ -499,7 +499,7 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
     set_velocity(m, 2, 0, -1);
     m->h = m->par.dt;
     bbm_begin_step(m);
-    ck_ok(bbm_detect(m, &other), m);                    /* lays out K for the contacts */
+    ck_ok(bbm_detect(m, &same), m);                     /* lays out K for the contacts */
     memset(m->D, 0, 24 * sizeof *m->D);
     bbm_set_middle(m);
     (void)list_contacts(m, &n);
