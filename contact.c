@@ -476,7 +476,7 @@ static void note_states(bbm_contact_scratch *w)
 
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         const int direction = c->state == BBM_SLIDE && c->sign < 0 ? -1 : 1;
-        c->settled[w->round] = (bbm_settled){ c->state, c->sign, c->time_left };
+        c->settled[w->round < 2 ? w->round : 2] = (bbm_settled){ c->state, c->sign, c->time_left };
         hash = (hash ^ (uint64_t)(3 + direction * (int)c->state)) * 1099511628211u;
     }
     for (int p = 0; p < w->passes; p++)

@@ -136,7 +136,7 @@ struct bbm_contact_scratch {
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- contact.c: the iteration --- */
-    int round;                  /* of multipliers: its place in bbm_contact.settled             */
+    int round;                  /* of multipliers, in this step                                 */
     int passes, friction_passes;
     int one_until;              /* before this pass one contact alone changes its state in each */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */

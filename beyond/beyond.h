@@ -54,7 +54,6 @@ struct bbm_beyond {
     double shake_omega;         /* 1/s      */
     double reach;               /* -        statics.c: how far blocks may part in a static step */
     double restitution;         /* -        impact.c: -1: none, as the springs do               */
-    int rounds_done;            /* in this step                                                 */
     int passed[2];              /* overlap.c: a corner and an edge whose block it passed into;  */
                                 /* -1: none                                                     */
     int joints;

@@ -37,7 +37,7 @@ static int recall_states(bbm_model *m, int round)
     w->round = round;
     w->passes = w->one_until = 0;
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
-        const bbm_settled *s = &c->settled[round];
+        const bbm_settled *s = &c->settled[round < 2 ? round : 2];
         if ((s->state == c->state && s->sign == c->sign) || s->time_left == 0
             || bbm_is_static(m) || c->has_left || (c->beyond_end && !c->was_closed))
             continue;
@@ -57,7 +57,6 @@ void bbm_start_multipliers(bbm_model *m)
     for (int k = 0; k < m->gaps; k++)
         for (int r = 0; r < 2; r++)
             m->gap[k].own.f[r] = bbm_is_static(m) ? m->gap[k].own.f_before[r] : 0;
-    m->beyond->rounds_done = 0;
     recall_states(m, 0);
 }
 
@@ -78,7 +77,7 @@ bbm_pass bbm_take_over(bbm_model *m)
 {
     double d[2];
 
-    if (m->beyond->rounds_done++ >= m->beyond->multiplier_rounds || !needs_multipliers(m))
+    if (m->scratch->round >= m->beyond->multiplier_rounds || !needs_multipliers(m))
         return BBM_PASS_DONE;
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
@@ -92,7 +91,7 @@ bbm_pass bbm_take_over(bbm_model *m)
             }
         }
     }
-    return recall_states(m, m->scratch->round == 0 ? 1 : 2) ? BBM_PASS_AGAIN : BBM_PASS_SAME_K;
+    return recall_states(m, m->scratch->round + 1) ? BBM_PASS_AGAIN : BBM_PASS_SAME_K;
 }
 
 /* At the end of a step. */

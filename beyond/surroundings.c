@@ -79,8 +79,7 @@ static bbm_status add(bbm_model *m, int edge, bbm_edge_load load)
         return m->status;
     if (!m->K || edge < 0 || edge >= m->edges)
         return m->status = bbm_fail(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges);
-    if (!isfinite(load.f[0]) || !isfinite(load.f[1]) || !isfinite(load.pressure)
-        || !isfinite(load.level * load.weight))
+    if (!isfinite(load.f[0] + load.f[1] + load.pressure + load.level * load.weight))
         return m->status = bbm_fail(m, BBM_NOT_FINITE, "the load of edge %d", edge);
     load.a = m->edge[edge].a;
     add_load(m, &load, F);
