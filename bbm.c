@@ -274,20 +274,14 @@ void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W,
 
 /* --------------------------------------------------------- 3.5 Line loading submatrices */
 
-/* F += T^T(x, y) f: a force f [N] at the point (x, y). */
-static void add_force(const bbm_element *e, double x, double y, const double f[2], double F[6])
+/* A concentrated load f [N] at the point (x, y): F_i += T^T(x, y) f. */
+void bbm_point_load(const bbm_element *e, double x, double y, const double f[2], double F[6])
 {
     double T[2][6];
 
     bbm_step_matrix(e, x, y, T);
     for (int a = 0; a < 6; a++)
         F[a] += T[0][a] * f[0] + T[1][a] * f[1];
-}
-
-/* A concentrated load f [N] at the vertex P: F_i += T^T(P) f. */
-void bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6])
-{
-    add_force(e, P->x, P->y, f, F);
 }
 
 /* Gauss point g and its weight on 0 <= s <= 1, for Eq. (38) and (42). */
@@ -312,7 +306,7 @@ void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const
         double s, w;
         bbm_gauss_point(g, &s, &w);
         const double wlf[2] = { w * l * f[g][0], w * l * f[g][1] };
-        add_force(e, a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, wlf, F);
+        bbm_point_load(e, a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, wlf, F);
     }
 }
 
@@ -324,7 +318,7 @@ void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, cons
 {
     const double l = hypot(b->x - a->x, b->y - a->y), lf[2] = { l * f[0], l * f[1] };
 
-    add_force(e, (a->x + b->x) / 2, (a->y + b->y) / 2, lf, F);
+    bbm_point_load(e, (a->x + b->x) / 2, (a->y + b->y) / 2, lf, F);
 }
 
 /* ------------------------------------------------------------ 3.6 Volume force submatrix */
@@ -344,7 +338,7 @@ void bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex v[], bb
             double here[2];
             f(x[g], y[g], context, here);
             const double wf[2] = { c / 6 * here[0], c / 6 * here[1] };
-            add_force(e, x[g], y[g], wf, F);
+            bbm_point_load(e, x[g], y[g], wf, F);
         }
     }
 }
@@ -421,7 +415,7 @@ static void gather_loads(bbm_model *m)
         const int i = m->vertex[v].element, n = m->vertex[v].node;
         const int adjacent = m->adjacent_first[n + 1] - m->adjacent_first[n];
         const double share[2] = { m->node[n].load[0] / adjacent, m->node[n].load[1] / adjacent };
-        bbm_point_load(&m->element[i], &m->vertex[v], share, &m->load[6 * i]);
+        bbm_point_load(&m->element[i], m->vertex[v].x, m->vertex[v].y, share, &m->load[6 * i]);
     }
     for (int l = 0; l < m->line_loads; l++) {
         const bbm_line_load *line = &m->line_load[l];
@@ -506,8 +500,8 @@ bbm_status bbm_begin_step(bbm_model *m)
 }
 
 /* Lists the contacts that may close in the step, and lays out K for them: at first for the guess at
- * D, later for a solution that moves further than the list allows. `same`: the list has not changed,
- * so the solution counts. */
+ * D, later for a solution that moves further than the list allows. `same`: the list has not
+ * changed, so the solution counts. */
 bbm_status bbm_detect(bbm_model *m, int *same)
 {
     const clock_t start = clock();

@@ -258,7 +258,7 @@ void   bbm_inertia_submatrix(const bbm_element *e, double dt, bbm_submatrix *s);
 void   bbm_newmark_velocity(bbm_element *e, double dt, double factor);          /* (14)         */
 /* 3.4, 3.5, 3.6 */
 double bbm_fixed_stiffness(double alpha, const bbm_element *e);                 /* (29)         */
-void   bbm_point_load(const bbm_element *e, const bbm_vertex *P, const double f[2], double F[6]);
+void   bbm_point_load(const bbm_element *e, double x, double y, const double f[2], double F[6]);
 void   bbm_gauss_point(int g, double *s, double *weight);                       /* 0 <= s <= 1  */
 void   bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
                                   const double f[BBM_GAUSS][2], double F[6]);   /* (42)         */

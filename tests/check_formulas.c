@@ -567,7 +567,7 @@ START_TEST(a_concentrated_load_is_the_derivative_of_its_potential)
     make_body(&b, &SHAPES[_i], 3, -2, &seed);
     source s = { .i = &b, .P = 1, .f = { { 2, -3 } } };
     bbm_submatrix sub = ones();
-    bbm_point_load(&b.e, &b.v[s.P], s.f[0], sub.F);
+    bbm_point_load(&b.e, b.v[s.P].x, b.v[s.P].y, s.f[0], sub.F);
     check_load(point_load_energy, &s, sub.F);
 }
 END_TEST
