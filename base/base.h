@@ -36,7 +36,7 @@ struct bbm_gap {                /* of a spring: d = d0 + T_i D_i - T_j D_j, Eq. 
     double W[2][2];             /* N/m      k on its diagonal; 0: not held in that direction    */
     double d0[2];               /* m        d at the start of the step                          */
     double Ti[2][6], Tj[2][6];
-    int    elastic;             /* W stands for a rigid joint: 0; a hook's stiffness: 1         */
+    int    elastic;             /* 0: W stands for a rigid joint; 1: a hook's W is a stiffness  */
     bbm_multiplier own;         /* stays when the gaps are listed anew                          */
 };
 
