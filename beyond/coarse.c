@@ -230,8 +230,7 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2], d
     if (!first || k < 0 || k >= first[1] - first[0])
         return BBM_BAD_INDEX;
     memcpy(c->P[first[0] + k], P, sizeof *c->P);
-    c->at[first[0] + k][0] = x;
-    c->at[first[0] + k][1] = y;
+    memcpy(c->at[first[0] + k], (double [2]){ x, y }, sizeof *c->at);
     K->ready = 0;
     return BBM_OK;
 }
@@ -273,11 +272,10 @@ static int find_rest(const coarse_space *c, int a, const int side[2], double Z[6
     const int common = a == side[0] || a == side[1];
     const double *from = c->at[a], *to = c->at[side[a == side[0]]];
     const double x = to[0] - from[0], y = to[1] - from[1], l2 = x * x + y * y;
-    double R[6][2];
 
-    bbm_linear_unknowns((to[0] * x + to[1] * y) / l2, -x / l2, -y / l2, R);
+    bbm_linear_unknowns((to[0] * x + to[1] * y) / l2, -x / l2, -y / l2, Z);
     for (int k = 0; k < 12; k++)
-        Z[k / 2][k % 2] = c->P[a][k / 2][k % 2] - (common ? R[k / 2][k % 2] : 0);
+        Z[k / 2][k % 2] = c->P[a][k / 2][k % 2] - common * Z[k / 2][k % 2];
     return common;
 }
 

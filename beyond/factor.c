@@ -163,8 +163,8 @@ static double find_pivot(double square, double size)
     return square > VANISHING * size ? 1 / sqrt(square) : 0;
 }
 
-/* C_ij in place of K_ij in the part p of the rows i, two rows and two columns at a time, with 1/C_jj
- * on the diagonal:
+/* C_ij in place of K_ij in the part p of the rows i, two rows and two columns at a time, on the
+ * diagonal 1/C_jj:
  *
  *     C_ij = (K_ij - sum_k<j C_ik C_jk)/C_jj,      C_jj^2 = K_jj - sum_k<j C_jk^2. */
 static void make_entry(const bbm_factor *f, int i, int j, const bbm_part *p)

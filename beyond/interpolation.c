@@ -128,10 +128,9 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         const int in = worth[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
-        const int count = in ? e->n : 0;
-        for (int k = 0; k < count; k++)
+        for (int k = 0; k < in * e->n; k++)
             node[first[i] + k] = bbm_root_of(up, e->first + k);
-        first[i + 1] = first[i] + count;
+        first[i + 1] = first[i] + in * e->n;
     }
     find_places(m, box, place);
     const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node, place);

@@ -127,7 +127,7 @@ void model_next_stage(model *p)
             b->k = 0, b->until = m->info.t;
     for (int k = 0; k < m->gaps; k++)
         if (m->gap[k].j < 0 || field_is_gone(m, m->element[m->gap[k].i].first))
-            m->gap[k].own = (bbm_weight){ 0 };
+            m->gap[k].own = (bbm_multiplier){ 0 };
     m->contacts = 0;
     for (const bbm_contact *c = m->contact; c < m->contact + contacts; c++)
         if (!field_is_gone(m, m->edge[c->corner].a) && !field_is_gone(m, m->edge[c->edge].a))
