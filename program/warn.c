@@ -7,6 +7,9 @@
 
 enum { NAMED = 10 };            /* pieces of a block that a warning names                       */
 
+/* [-] (71) of the last static step above which it is said */
+#define UNSETTLED 0.01
+
 static void put_warning(const char *path, const char *text)
 {
     fprintf(stderr, "%s: warning: %s\n", path, text);
@@ -287,5 +290,8 @@ void warn_after(const model *p, const char *path)
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         put_warning(path, "elements turn by more than 0.1 rad, which statics takes as small: "
                           "lengths are wrong; dynamic with velocity_factor 0 has them right");
+    if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)
+        fprintf(stderr, "%s: warning: the last step was %.2g of the way of all: no equilibrium yet; "
+                "more steps, or `static steps N tolerance VALUE`\n", path, p->m->info.change);
 }
 
