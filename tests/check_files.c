@@ -55,8 +55,8 @@ static void remove_folder(const char *folder)
     rmdir(folder);
 }
 
-/* Runs ./bbm, or the one with the allocator that fails, without a shell in between, its messages in the
- * file `said`; call[0] is its path. */
+/* Runs ./bbm, or the one with the allocator that fails, without a shell in between, its messages
+ * in the file `said`; call[0] is its path. */
 static pid_t start(const char *said, char *const call[])
 {
     const pid_t child = fork();

@@ -1,5 +1,5 @@
-/* wrong.c - ./bbm on one wrong model after the other, in one process: what the first leaves behind, or
- * does not release, is found by the sanitizers as in a process of its own.
+/* wrong.c - ./bbm on one wrong model after the other, in one process: the sanitizers find what one of
+ * them does not release, or leaves behind for the next.
  *
  *     wrong FOLDER MODEL ...
  *
