@@ -181,8 +181,10 @@ $(LIBRARY:%=$O/failing/%.o) $O/tests/test_alloc.o
 
 $(PROGRAMS:%=$O/tests/%.o) $O/tests/check_run.o $O/tests/programs.o: override CPPFLAGS += -DBUILD='"$O"'
 
-# To compile the tests themselves takes longer than what an optimizer would spare.
-$(SUITES:%=$O/tests/%.o) $O/tests/models.o $(filter-out $(TORTURE:%=$O/tests/%.o),$(PROGRAMS:%=$O/tests/%.o)): override CFLAGS += -O0
+# To compile the tests themselves, and what draws figures, takes longer than what an optimizer would spare.
+HASTY = $(addprefix tests/,$(SUITES) models $(filter-out $(TORTURE),$(PROGRAMS))) doc/figures
+
+$(HASTY:%=$O/%.o): override CFLAGS += -O0
 
 $O/tests/check_all.o: DEFINE = -DCASES
 $O/tests/check_paper.o: DEFINE = -DPAPER
