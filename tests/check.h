@@ -60,7 +60,7 @@ make_suite formulas_suite, elastic_suite, steps_suite, mesh_suite, input_suite, 
     corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite, blocks_suite,
     repeat_suite, solver_suite, coarse_suite, beyond_suite, motion_suite, bars_suite,
     statics_suite, refused_suite, theory_suite, run_suite, impact_suite,
-    cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
+    scenes_suite, cases_suite, model_suite, statements_suite, moving_suite, files_suite,
     pictures_suite, page_suite;
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */

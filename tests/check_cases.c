@@ -169,10 +169,22 @@ static void compare_files(const char *one, const char *other)
     free(second);
 }
 
+/* The second run could write neither fig15.svg nor what it prints. */
 START_TEST(two_runs_write_the_same_digits)
 {
     compare_files("out/exp2/results.csv", "out/again/out/exp2/results.csv");
-    compare_files("out/exp2/fig15.svg", "out/again/out/exp2/fig15.svg");
+    compare_files("out/exp2/fig15v.svg", "out/again/out/exp2/fig15v.svg");
+}
+END_TEST
+
+START_TEST(a_picture_of_an_experiment_or_stdout_that_cannot_be_made_costs_no_results)
+{
+    static const char said[] = "out/again/said";
+
+    check_text(said, "out/exp2/fig15.svg could not be written: Is a directory");
+    check_text(said, "stdout: could not be written");
+    check_text(said, "\nstatus 1\n");
+    ck_assert_int_eq(shell("test $(wc -l < out/again/out/exp2/results.csv) = 818"), 0);
 }
 END_TEST
 
@@ -271,6 +283,7 @@ Suite *cases_suite(void)
     tcase_add_test(t, theory_in_the_results_is_the_textbook_formula);
     tcase_add_test(t, every_file_of_an_experiment_is_complete);
     tcase_add_test(t, two_runs_write_the_same_digits);
+    tcase_add_test(t, a_picture_of_an_experiment_or_stdout_that_cannot_be_made_costs_no_results);
     tcase_add_test(t, the_pictures_of_the_readme_are_what_the_programs_draw);
     tcase_add_test(t, without_beyond_the_same_is_printed_as_the_papers_way);
     tcase_add_test(t, without_beyond_the_same_files_are_written);

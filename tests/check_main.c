@@ -18,7 +18,7 @@
  * when hundreds hang, one after the other, all end after LIMIT. PROGRAMS: so many of the suites, the
  * last, run programs. */
 #ifdef CASES
-enum { SHARE = 60, LIMIT = 1200, PROGRAMS = 8 };
+enum { SHARE = 60, LIMIT = 1200, PROGRAMS = 7 };
 #else
 enum { SHARE = 4, LIMIT = 80, PROGRAMS = 0 };
 #endif
@@ -67,7 +67,7 @@ static make_suite *const SUITES[] = {
     theory_suite, run_suite, impact_suite,
 #endif
 #ifdef CASES
-    cases_suite, model_suite, statements_suite, moving_suite, scenes_suite, files_suite,
+    scenes_suite, cases_suite, model_suite, statements_suite, moving_suite, files_suite,
     pictures_suite, page_suite,
 #endif
 };

@@ -415,13 +415,14 @@ static double rebound(double q)
     return pow(1 + q, -acos(-1) / (2 * acos((2 - q) / (2 * sqrt(1 + q)))));
 }
 
-/* ((1 + e)/2)^4 by e of the average impact, nearer for the shorter step; momentum is exact. */
+/* ((1 + e)/2)^4 by e of the average impact, nearer for the shorter step; momentum is exact. After
+ * 0.44 s all have hit: of the many short steps 0.6 s are enough. */
 START_TEST(the_last_of_a_row_flies_off_as_restitution_says)
 {
     for (int k = 0; k < 2; k++) {
         const double dt = k ? 1e-5 : 1e-4, e = rebound(dt * dt * 2 * 1e9 / 2500);
         double sum_of = 0;
-        ck_assert_int_eq(run_with("cradle", k ? "-d dt=0.00001 -d steps=100000" : ""), k ? 3 : 0);
+        ck_assert_int_eq(run_with("cradle", k ? "-d dt=0.00001 -d steps=60000" : ""), k ? 3 : 0);
         for (int b = 1; b <= 5; b++) {
             char row[20];
             snprintf(row, sizeof row, "%d,b%d,", b, b);

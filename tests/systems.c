@@ -135,7 +135,7 @@ void eliminate(int n, double *A, double *b)
     for (int p = 0; p < n; p++)
         for (int r = p + 1; r < n; r++) {
             const double factor = A[r * n + p] / A[p * n + p];
-            for (int c = p; c < n; c++)
+            for (int c = p; c < n && factor != 0; c++)
                 A[r * n + c] -= factor * A[p * n + c];
             b[r] -= factor * b[p];
         }
