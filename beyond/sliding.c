@@ -160,12 +160,11 @@ static bbm_status solve(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     bbm_factor f = { 0 };
     double *d = malloc(24 * (size_t)K->n * sizeof *d), stop = 0;
-    bbm_status status = d ? BBM_OK : BBM_NO_MEMORY;
 
-    if (!status && K->to - K->from <= SMALL)
-        status = factor(K, &f);
-    if (!status)
-        bbm_combine(K, K->r, 0, K->r, d + 18 * K->n);
+    if (!d)
+        return BBM_NO_MEMORY;
+    bbm_combine(K, K->r, 0, K->r, d + 18 * K->n);
+    bbm_status status = K->to - K->from <= SMALL ? factor(K, &f) : BBM_OK;
     for (int turn = 0; turn < 2 && !status; turn++) {
         bbm_multiply(K, K->x, K->q);
         bbm_combine(K, d + 18 * K->n, -1, K->q, K->r);
