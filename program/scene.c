@@ -612,6 +612,19 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
     plot_put(&f->p, "</g></g>\n");
 }
 
+/* How far the film is: full at its last frame. The whole of it takes the clicks. */
+static void put_bar(film *f, plot_box b)
+{
+    const double end = (f->s->frames - 1.0) / (value_count(f) - 1);
+
+    plot_rectangle(&f->p, b, "id=\"bar\" fill=\"#dddddd\" style=\"touch-action: none\"");
+    plot_put(&f->p, "<g fill=\"#0072b2\" pointer-events=\"none\">"
+             "<rect x=\"%.1f\" y=\"%.1f\" height=\"%g\"><animate attributeName=\"width\" "
+             "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"0;%.1f;%.1f\" "
+             "keyTimes=\"0;%.5f;1\"/></rect></g>\n",
+             b.x, b.y, b.h, f->seconds, b.w, b.w, end);
+}
+
 /* Returns the number of rows. */
 static int draw_legend(film *f, double x, double y, double room)
 {
@@ -643,6 +656,7 @@ static int draw_legend(film *f, double x, double y, double room)
         plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
         put_entry(f, &l, "", "click, space: stop or play");
         put_entry(f, &l, "", "arrow keys, Home, End: step");
+        put_bar(f, (plot_box){ x, y + PLOT_ROW * l.rows++ - 6, room, 12 });
         plot_put(&f->p, "</g>\n");
     }
     return l.rows;
@@ -802,21 +816,27 @@ static void begin_turn(film *f, int frame)
 }
 
 /* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
- * first and the last, and the film fills the window. Where scripts do not run, it plays. */
+ * first and the last, the bar goes to where it is pressed and follows the pointer, and the film
+ * fills the window. Where scripts do not run, it plays. */
 static void put_script(film *f)
 {
     plot_put(&f->p, "<script>\nconst film = document.documentElement;\n"
-             "const step = %.6g, end = %d * step;\n"
+             "const step = %.6g, end = %d * step, bar = document.getElementById('bar');\n"
              "document.getElementById('how').setAttribute('visibility', 'visible');\n"
              "film.setAttribute('width', '100%%'), film.setAttribute('height', '100%%');\n"
-             "film.onclick = () => film.animationsPaused() ? film.unpauseAnimations() :\n"
+             "const play = () => film.animationsPaused() ? film.unpauseAnimations() :\n"
              "    film.pauseAnimations();\n", f->seconds / (value_count(f) - 1), f->s->frames - 1);
+    plot_put(&f->p, "const go = (to) => {\n    film.pauseAnimations();\n"
+             "    film.setCurrentTime(Math.max(0, to));\n};\nlet held = false;\n"
+             "const drag = (e) => {\n    const b = bar.getBoundingClientRect();\n"
+             "    if (!held || !e.buttons) return;\n"
+             "    go(end * Math.min(1, (e.clientX - b.left) / b.width));\n};\n"
+             "film.onpointerdown = (e) => { held = e.target === bar; drag(e); };\n"
+             "film.onpointermove = drag;\nfilm.onclick = () => held || play();\n");
     plot_put(&f->p, "window.onkeydown = (e) => {\n    const now = film.getCurrentTime();\n"
              "    const to = { ArrowLeft: now - step, ArrowRight: now + step,\n"
-             "                 Home: 0, End: end }[e.key];\n"
-             "    if (e.key === ' ') film.onclick();\n    if (to === undefined) return;\n"
-             "    film.pauseAnimations();\n    film.setCurrentTime(Math.max(0, to));\n"
-             "    e.preventDefault();\n};\n</script>\n");
+             "                 Home: 0, End: end }[e.key];\n    if (e.key === ' ') play();\n"
+             "    if (to !== undefined) go(to), e.preventDefault();\n};\n</script>\n");
 }
 
 int scene_write_movie(const scene *s, const bbm_model *m, const char *path)

@@ -98,6 +98,7 @@ static void check_form(const char *path, const char *text)
     ck_assert_msg(depth == 0, "%s: <%s> has no end", path, depth > 0 ? open[depth - 1] : "");
     ck_assert_msg(!strstr(text, "nan") && !strstr(text, "inf ") && !strstr(text, "inf\""),
                   "%s: NaN or infinity", path);
+    ck_assert_msg(!strstr(text, "&&") && !strstr(text, "& "), "%s: & is no XML", path);
 }
 
 typedef struct { double x, y, w, h; } box;
@@ -200,6 +201,20 @@ static void check_labels(const char *path, const char *text)
     }
 }
 
+/* The bar at the bottom of a film is full when the last frame, which is visible before, has come. */
+static void check_bar(const char *path, const char *text)
+{
+    const char *id = strstr(text, " id=\"bar\""), *bar = id ? strstr(id, "values=\"0;") : NULL;
+    double w[2] = { 0 }, full = 0, last = 0;
+
+    for (const char *s = text; (s = strstr(s, "hidden\" keyTimes=\"0;")) != NULL; s++)
+        last = fmax(last, strtod(strchr(s, ';') + 1, NULL));
+    ck_assert_msg(bar && sscanf(bar, "values=\"0;%lf;%lf\" keyTimes=\"0;%lf;1\"", &w[0], &w[1], &full) == 3
+                  && w[0] > 200 && w[0] == w[1] && full > last && full < 1,
+                  "%s has no bar that is full at %g or later", path, last);
+    ck_assert_msg(strstr(text, "onpointermove = drag"), "the bar of %s cannot be dragged", path);
+}
+
 START_TEST(pictures_are_well_formed_and_all_is_inside_and_no_texts_touch)
 {
     int films = 0;
@@ -213,6 +228,7 @@ START_TEST(pictures_are_well_formed_and_all_is_inside_and_no_texts_touch)
             check_places(path, text);
         if (strstr(text, "<animate")) {         /* it plays by itself, and can be stopped */
             ck_assert_msg(strstr(text, "pauseAnimations"), "%s cannot be stopped", path);
+            check_bar(path, text);
             films++;
         }
         free(text);
