@@ -14,7 +14,8 @@
  *     scene_free(&s);
  *
  * The film is one SVG that a browser plays over and over, a click stops it, the arrow keys step, a
- * bar shows and chooses the time; a viewer that cannot play shows the first frame. Supports, loads and contact forces are drawn.
+ * bar shows and chooses the time; a viewer that cannot play shows the first frame. Supports, loads
+ * and contact forces are drawn.
  */
 #ifndef SCENE_H
 #define SCENE_H
