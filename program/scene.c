@@ -90,7 +90,7 @@ void scene_free(scene *s)
     for (int k = 0; k < s->frames; k++)
         drop_frame(&s->frame[k]);
     free(s->frame);
-    *s = (scene){ .title = s->title, .bolts = s->bolts, .bolt = s->bolt };
+    *s = (scene){ .title = s->title, .bolts = s->bolts, .bolt = s->bolt, .scale = s->scale };
 }
 
 /* Makes room for one more: the last frame only stays if its turn has come, and half of them go if
@@ -113,30 +113,32 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-static scene_force force_of(const bbm_model *m, const bbm_contact *c)
+static scene_force force_of(const scene_frame *s, const bbm_model *m, const bbm_contact *c)
 {
     const bbm_edge *corner = &m->edge[c->corner];
     double f[2];
 
     field_contact_force(m, c, c->N, c->T, f);
-    return (scene_force){ field_place(m, corner->a, 0), field_place(m, corner->a, 1), f[0], f[1],
-                          c->N, c->N < 0 ? PULLED : (int)c->state,
+    return (scene_force){ s->at[corner->a][0], s->at[corner->a][1], f[0], f[1], c->N,
+                          c->N < 0 ? PULLED : (int)c->state,
                           { corner->block, m->edge[c->edge].block } };
 }
 
-static int copy_frame(scene_frame *f, const bbm_model *m)
+/* `more`: what displacements are enlarged by, less 1. */
+static int copy_frame(scene_frame *f, const bbm_model *m, double more)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
     f->force = malloc(((size_t)m->contacts + 1) * sizeof *f->force);
     if (!f->at || !f->force)
         return 0;
     for (int v = 0; v < m->vertices; v++) {
-        f->at[v][0] = field_place(m, v, 0);
-        f->at[v][1] = field_place(m, v, 1);
+        const double further = field_is_gone(m, v) ? 0 : more;
+        f->at[v][0] = field_place(m, v, 0) + further * m->vertex[v].u;
+        f->at[v][1] = field_place(m, v, 1) + further * m->vertex[v].v;
     }
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)
-            f->force[f->forces++] = force_of(m, &m->contact[k]);
+            f->force[f->forces++] = force_of(f, m, &m->contact[k]);
     return 1;
 }
 
@@ -151,7 +153,7 @@ void scene_record(scene *s, const bbm_model *m)
         s->frame = calloc(FRAMES, sizeof *s->frame);
         s->every = 1;
     }
-    s->failed |= !s->frame || !copy_frame(&f, m);
+    s->failed |= !s->frame || !copy_frame(&f, m, s->scale > 0 ? s->scale - 1 : 0);
     if (s->failed) {
         drop_frame(&f);
         return;
@@ -648,6 +650,10 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
         put_force_entry(f, &l, kind);
+    if (f->s->scale > 0) {
+        snprintf(text, sizeof text, "displacements × %.12g", f->s->scale);
+        put_entry(f, &l, "", text);
+    }
     if (f->seconds > 0) {
         const double time = f->s->frame[last].time - f->s->frame[0].time;
         snprintf(text, sizeof text, "%.2g × real speed",

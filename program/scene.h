@@ -46,6 +46,7 @@ typedef struct {
     const char *title;
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
+    double scale;               /* -        of the displacements; 0: as they are                  */
     /* --- the recording --- */
     int    frames, calls, every, failed;
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */

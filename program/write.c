@@ -563,7 +563,8 @@ int write_open(write_results *w)
                              "springs,external,gained\n");
     output_keep(&w->history);
     output_keep(&w->summary);
-    w->film = (scene){ .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt };
+    w->film = (scene){ .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt,
+                       .scale = w->p->scale };
     w->kept = calloc(ROWS * (MONITORS + 2 * (size_t)w->p->monitors), sizeof *w->kept);
     return 1;
 }

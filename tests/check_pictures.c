@@ -375,6 +375,30 @@ START_TEST(a_picture_says_its_title_and_the_time_that_it_shows)
 }
 END_TEST
 
+/* Displacements that are drawn ten times as large are those under ten times the gravity. */
+START_TEST(a_film_magnifies_displacements_if_it_is_asked_to)
+{
+    static const char *const fall = STEEL "block a steel 0 0 1 0 1 1 0 1\ngravity 0 -%d\n"
+                                    "dynamic dt 0.1 steps 5\noutput every 1 svg%s\n";
+    char *film[2], text[LONG];
+
+    for (int k = 0; k < 2; k++) {
+        snprintf(text, sizeof text, fall, k ? 10 : 1, k ? "" : " scale 10");
+        ck_assert_int_eq(run_text("larger", text), 0);
+        film[k] = read_all("out/model/larger/movie.svg");
+        ck_assert_int_eq(strstr(film[k], ">displacements × 10<") != NULL, k == 0);
+        char *way = strstr(film[k], "attributeName=\"d\"");
+        ck_assert_ptr_nonnull(way);
+        const size_t length = strcspn(way, "/");
+        memmove(film[k], way, length);
+        film[k][length] = '\0';
+    }
+    ck_assert_str_eq(film[0], film[1]);
+    free(film[0]);
+    free(film[1]);
+}
+END_TEST
+
 /* How often something stands in a picture of a shipped model. */
 static int count(const char *model, const char *what)
 {
@@ -641,6 +665,7 @@ Suite *pictures_suite(void)
     tcase_add_loop_test(t, the_numbers_of_axes_do_not_touch, 0, 5);
     tcase_add_loop_test(t, no_element_is_turned_over_by_magnified_displacements, 0, 2);
     tcase_add_loop_test(t, a_picture_says_its_title_and_the_time_that_it_shows, 0, 8);
+    tcase_add_test(t, a_film_magnifies_displacements_if_it_is_asked_to);
     tcase_add_loop_test(t, an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner, 0, 2);
     tcase_add_test(t, the_line_of_thrust_goes_through_the_points_where_forces_act);
     tcase_add_test(t, the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end);
