@@ -13,10 +13,10 @@
  * At a common side both neighbours do the same but for the change of a or b from one to the next:
  * the gaps are differences of a along s, and of b along t. No sweep sees much of that, and the
  * finer the mesh, or the stiffer the bonds, the less. Nodes that move by f to and fro by turns, f
- * smooth, make a = df/dt, b = df/ds, which opens no gap; that is in the space. (In large models the
- * Kc of coarse.c holds it fast.) Orthogonal to these are a = dg/ds, b = -dg/dt, which no nodes make.
- * So on quadrilaterals the iterations grow with the number of elements along a body, and with alpha.
- * They remain far fewer than those of SSOR alone.
+ * smooth, make a = df/dt, b = df/ds, which opens no gap; that is in the space. (In large models
+ * Kc of coarse.c holds it fast.) Orthogonal to these are a = dg/ds, b = -dg/dt, which no nodes
+ * make. So on quadrilaterals the iterations grow with the number of elements along a body, and with
+ * alpha. They remain far fewer than those of SSOR alone.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -291,7 +291,7 @@ void warn_after(const model *p, const char *path)
         put_warning(path, "elements turn by more than 0.1 rad, which statics takes as small: "
                           "lengths are wrong; dynamic with velocity_factor 0 has them right");
     if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)
-        fprintf(stderr, "%s: warning: the last step was %.2g of the way of all: no equilibrium yet; "
-                "more steps, or `static steps N tolerance VALUE`\n", path, p->m->info.change);
+        fprintf(stderr, "%s: warning: the last step was %.2g of the way of all: no equilibrium "
+                "yet; more steps, or `static steps N tolerance VALUE`\n", path, p->m->info.change);
 }
 
