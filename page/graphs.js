@@ -36,8 +36,7 @@ function drawGraph(id, unit, all, bands = []) {
 }
 
 /* Energies as they changed since the start, so that one scale serves: what the work of loads and
- * gravity has become. Monitors, of nodes alone: along the axes for which something is expected, or
- * else both. */
+ * gravity has become. Monitors: along the axes for which something is expected, or else both. */
 function drawGraphs(frame) {
   const frames = run.frames.filter(f => !f.failure), bands = [], curves = [];
   const history = name => frames.map(f => f[name]);
@@ -45,7 +44,7 @@ function drawGraphs(frame) {
   drawGraph('energies', 'J',
     ['kinetic', 'elastic', 'springs', 'work', 'gained'].map(name => [name, since(name)]));
   drawGraph('passes', '', [['open-close passes', history('passes')]]);
-  run.monitors.forEach((name, k) => name && ['u', 'v'].forEach((axis, kind) => {
+  run.monitors.forEach((name, k) => ['u', 'v'].forEach((axis, kind) => {
     const asked = rows(frame, 'x').filter(x => x[0] === k), fit = asked.filter(x => x[1] === kind);
     bands.push(...fit.map(x => [x[2] - x[3], x[2] + x[3]]));
     if (fit.length || asked.every(x => x[1] > 1))

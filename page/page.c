@@ -209,7 +209,7 @@ static void put_facts(page *g, const bbm_model *m)
         i->pcg.residual, i->cuts, i->contacts, i->penetration, i->candidates, i->change, e.kinetic,
         e.elastic, e.springs, m->beyond->work, m->beyond->gained, g->p.scale);
     for (int k = 0; k < g->p.monitors; k++) {
-        model_observe(&g->p, &g->p.monitor[k], u);
+        model_displacement(&g->p, &g->p.monitor[k], u);
         put(&g->out, 2, u);
     }
 }
@@ -257,7 +257,7 @@ const char *page_text(page *g, int what, int k)
     return what == 't' && p->title ? p->title
          : what == 'b' && k < p->blocks ? p->block[k]
          : what == 'e' && k < p->m->elements ? p->element[k]
-         : what == 'o' && k < p->monitors && p->monitor[k].nodes ? p->monitor[k].name
+         : what == 'o' && k < p->monitors ? p->monitor[k].name
          : what == 'n' && k < p->m->vertices ? p->node[p->m->vertex[k].node]
          : what == 'x' && k < p->expectations ? g->sentence : "";
 }

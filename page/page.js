@@ -54,7 +54,7 @@ function load() {
     return false;
   findShape();
   hasPredicted = false;
-  fill('what', run.monitors.filter(m => m).flatMap(m => [`${m} u`, `${m} v`])
+  fill('what', run.monitors.flatMap(m => [`${m} u`, `${m} v`])
     .map(text => new Option(text, text, false, text === is('what').value)));
   document.title = `${textOf('t')} - bbm`;
   setView({ ...NEWEST, ...NONE });

@@ -511,16 +511,8 @@ int model_monitors(model_reader *r)
 {
     model *p = r->p;
     model_monitor m = { .name = model_new_name(r, &r->monitor_of) };
-    const int joint = m.name && model_skip(r, "joint");
 
-    r->chosen = 0;
-    for (int k = 0; k < 2 && joint; k++)
-        if ((m.joint[k] = model_known(r, &r->block_of)) < 0)
-            return 0;
-    if (joint && m.joint[0] == m.joint[1])
-        return model_blame(r, "the same block twice, expected the two of a joint");
-    if (!m.name || (!joint && !where(r, 1))
-        || !model_enter(r, &r->monitor_of, m.name, p->monitors)
+    if (!m.name || !where(r, 1) || !model_enter(r, &r->monitor_of, m.name, p->monitors)
         || !(m.node = model_keep(r, r->chosen, sizeof *m.node)))
         return 0;
     for (; m.nodes < r->chosen; m.nodes++)

@@ -56,28 +56,14 @@ void model_move_supports(model *p)
     }
 }
 
-const char *const model_observed[2][3] = { { "u", "v", "m" }, { "fx", "fy", "N" } };
-
-/* The mean displacement of the nodes, or the force of the second block on the first. */
-void model_observe(const model *p, const model_monitor *m, double x[2])
+void model_displacement(const model *p, const model_monitor *m, double u[2])
 {
-    const bbm_contact *const end = p->m->contact + p->m->contacts;
-
-    x[0] = x[1] = 0;
+    u[0] = u[1] = 0;
     for (int n = 0; n < m->nodes; n++) {
         bbm_result r;
         bbm_nodal_result(p->m, m->node[n], -1, &r);
-        x[0] += r.u / m->nodes;
-        x[1] += r.v / m->nodes;
-    }
-    for (const bbm_contact *c = p->m->contact; c < end && m->nodes == 0; c++) {
-        const int i = p->m->edge[c->corner].block, j = p->m->edge[c->edge].block;
-        const int sign = (i == m->joint[0] && j == m->joint[1])
-                       - (i == m->joint[1] && j == m->joint[0]);
-        double f[2];
-        field_contact_force(p->m, c, c->N, c->T, f);
-        x[0] += sign * f[0];
-        x[1] += sign * f[1];
+        u[0] += r.u / m->nodes;
+        u[1] += r.v / m->nodes;
     }
 }
 

@@ -13,10 +13,7 @@
 #include "field.h"
 #include "scene.h"
 
-typedef struct {        /* of library nodes; without any, of the joint between two blocks */
-    const char *name;
-    int nodes, *node, joint[2];
-} model_monitor;
+typedef struct { const char *name; int nodes, *node; } model_monitor;   /* of library nodes */
 typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s */
 typedef struct { int monitor, kind; double value, within; } model_expected;     /* at the end */
 
@@ -80,8 +77,7 @@ double model_distance(const bbm_model *m, int corner, int edge);
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p);     /* to where they are after the next step */
 void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */
-void model_observe(const model *p, const model_monitor *m, double x[2]);        /* m or N */
-extern const char *const model_observed[2][3];  /* of nodes, of a joint: x[0], x[1], unit */
+void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
 /* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);
 void model_free(model *p);

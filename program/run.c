@@ -64,24 +64,22 @@ void run_says(const run *r, bbm_status status, char out[500])
 
 int run_is_met(const model *p, int k, char out[300])
 {
+    static const char *const kind[] = { "u", "v", "moves", "stays" };
     const model_expected *e = &p->expected[k];
-    const model_monitor *m = &p->monitor[e->monitor];
-    const char *const *name = model_observed[m->nodes == 0];
-    const char *const kind[] = { name[0], name[1], "moves", "stays" };
     const int value = e->kind == MODEL_U || e->kind == MODEL_V;
     char what[100];
     double u[2];
 
-    model_observe(p, m, u);
+    model_displacement(p, &p->monitor[e->monitor], u);
     const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
     const int met = value ? fabs(got - e->value) <= e->within
                   : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
     if (value)
-        snprintf(what, sizeof what, "%.6g within %.2g %s", e->value, e->within, name[2]);
+        snprintf(what, sizeof what, "%.6g within %.2g m", e->value, e->within);
     else
         snprintf(what, sizeof what, "by %s than %.6g m", e->kind == MODEL_MOVES ? "more" : "less",
                  e->within);
-    snprintf(out, 300, "%s %s %s; computed: %.6g %s: %s", m->name, kind[e->kind], what, got,
-             name[2], met ? "ok" : "NOT MET");
+    snprintf(out, 300, "%s %s %s; computed: %.6g m: %s", p->monitor[e->monitor].name,
+             kind[e->kind], what, got, met ? "ok" : "NOT MET");
     return met;
 }

@@ -189,7 +189,7 @@ static void put_history(const write_results *w)
     fprintf(w->history.file, "%d,%.15g", w->step, time_of(w));
     for (int k = 0; k < p->monitors; k++) {
         double u[2];
-        model_observe(p, &p->monitor[k], u);
+        model_displacement(p, &p->monitor[k], u);
         put_numbers(w->history.file, 2, u);
         keep(w, MONITORS + 2 * k, 2, u);
     }
@@ -356,16 +356,13 @@ static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_serie
     plot_draw_chart(p, (plot_box){ 0, 40 + PANEL * place, 860, PANEL }, &c);
 }
 
-/* What a monitor observes, and the bands in which that is expected to end. */
+/* u and v, and the bands in which they are expected to end. */
 static void draw_monitor(const write_results *w, plot *p, int monitor)
 {
-    static const char *const expected[] = { "u expected", "v expected", "to leave", "to stay",
-                                          "fx expected", "fy expected" };
-    const int joint = w->p->monitor[monitor].nodes == 0;
-    const char *const *names = model_observed[joint], *const name[] = { names[0], names[1], NULL };
+    static const char *const name[] = { "u", "v", NULL },
+        *const expected[] = { "u expected", "v expected", "to leave", "to stay" };
     const double from = column(w, T)[0], to = column(w, T)[w->row], x[] = { from, to, to, from };
-    plot_chart c = { .title = w->p->monitor[monitor].name,
-                     .y = { joint ? "force" : "displacement", names[2] } };
+    plot_chart c = { .title = w->p->monitor[monitor].name, .y = { "displacement", "m" } };
     plot_series s[2 + BANDS];
     double y[BANDS][4];
 
@@ -375,7 +372,7 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
             continue;
         for (int i = 0; i < 4; i++)
             y[c.count][i] = e->value + (i < 2 ? -e->within : e->within);
-        s[2 + c.count] = (plot_series){ .name = expected[e->kind + 4 * joint], .n = 4, .x = x,
+        s[2 + c.count] = (plot_series){ .name = expected[e->kind], .n = 4, .x = x,
                                         .y = y[c.count], .style = PLOT_BAND, .look = 2 + e->kind };
         c.count++;
     }
@@ -554,10 +551,8 @@ int write_open(write_results *w)
         return leave_folder(w);
     }
     fprintf(w->history.file, "step,t");
-    for (int k = 0; k < 2 * w->p->monitors; k++) {
-        const model_monitor *m = &w->p->monitor[k / 2];
-        fprintf(w->history.file, ",%s_%s", m->name, model_observed[m->nodes == 0][k % 2]);
-    }
+    for (int k = 0; k < w->p->monitors; k++)
+        fprintf(w->history.file, ",%s_u,%s_v", w->p->monitor[k].name, w->p->monitor[k].name);
     fprintf(w->history.file, "\n");
     fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,"
                              "springs,external,gained\n");

@@ -59,7 +59,7 @@ static void compare_facts(page *g, const model *p)
     SAME(page_data(g), i->step, p->dynamic ? i->step * p->m->par.dt : 0);
     SAME(page_data(g) + 8, i->passes, i->iterations, i->pcg.residual, i->cuts, i->contacts);
     for (int k = 0; k < p->monitors; k++) {
-        model_observe(p, &p->monitor[k], u);
+        model_displacement(p, &p->monitor[k], u);
         same(page_data(g) + 22 + 2 * k, 2, u);
     }
     for (int k = 0; k < p->expectations; k++) {

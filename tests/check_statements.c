@@ -505,28 +505,6 @@ START_TEST(of_block_takes_the_nodes_of_one_block)
 }
 END_TEST
 
-/* Both orders of a block's weight on another one, down a slope that it does not slide on; in equilibrium to
- * what the solver leaves, 1e-10. Without the block there is no force. */
-START_TEST(a_monitor_of_a_joint_has_the_force_of_one_block_on_the_other)
-{
-    char text[LONG];
-
-    snprintf(text, sizeof text, ROCK "grid base rock -1 -1 3 0 4 1\ngrid stone rock 0 0 2 1 3 2\nfixblock base\n"
-             "gravity 2 -9\ncontact friction 30\nmonitor under joint stone base\nmonitor over joint base stone\n"
-             "%s\noutput svg\nstage off remove stone\nend\nexpect over fy 5 within 1\n",
-             _i ? "dynamic dt 0.01 steps 1 velocity_factor 0 settle 300" : "static");
-    ck_assert_int_eq(run_text("joint", text), 3);
-    const double mass = 2 * 2500;
-    ck_relative(cell("joint", "history.csv", "1,", "under_fx"), -2 * mass, 1e-6);
-    ck_relative(cell("joint", "history.csv", "1,", "under_fy"), 9 * mass, 1e-6);
-    ck_assert(cell("joint", "history.csv", "1,", "over_fx") == -cell("joint", "history.csv", "1,", "under_fx"));
-    ck_assert(cell("joint", "history.csv", "2,", "under_fy") == 0);
-    check_text("out/model/joint.out", "over fy 5 within 1 N; computed: 0 N: NOT MET");
-    check_text("out/model/joint/history.svg", "force [kN]");
-    check_text("out/model/joint/history.svg", "fy expected");
-}
-END_TEST
-
 /* --------------------------------------------------------------------- expectations and numbers */
 
 #define FALL ROCK "let g 10\nlet steps 100\nblock a rock 0 0 1 0 1 1 0 1\ngravity 0 -$g\n" \
@@ -762,7 +740,6 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
     tcase_add_loop_test(t, a_block_is_the_set_of_its_nodes, 0, 4);
     tcase_add_test(t, of_block_takes_the_nodes_of_one_block);
-    tcase_add_loop_test(t, a_monitor_of_a_joint_has_the_force_of_one_block_on_the_other, 0, 2);
     tcase_add_loop_test(t, what_is_expected_is_compared, 0, 8);
     tcase_add_test(t, a_number_of_the_command_line_takes_the_place_of_let);
     tcase_add_test(t, arithmetic_has_its_value_to_15_digits);
