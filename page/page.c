@@ -103,9 +103,7 @@ void page_free(page *g)
     if (!g)
         return;
     model_free(&g->p);
-    free(g->out.x);
-    free(g->look.x);
-    free(g->before.x);
+    free(g->out.x), free(g->look.x), free(g->before.x);
     free(g);
 }
 
@@ -258,6 +256,7 @@ const char *page_text(page *g, int what, int k)
          : what == 'b' && k < p->blocks ? p->block[k]
          : what == 'e' && k < p->m->elements ? p->element[k]
          : what == 'o' && k < p->monitors ? p->monitor[k].name
+         : what == 'q' && k < p->monitors ? p->monitor[k].of->kinds
          : what == 'n' && k < p->m->vertices ? p->node[p->m->vertex[k].node]
          : what == 'x' && k < p->expectations ? g->sentence : "";
 }
