@@ -15,9 +15,10 @@
 
 enum { MODEL_FOLLOWED = 4 };    /* numbers that a monitor has at most */
 
-typedef struct {                /* what a monitor follows; what may be expected of it, */
-    const char *what, *unit, *kinds;            /* `values` numbers first; in a picture */
-    const char *name[MODEL_FOLLOWED + 1], *expected[MODEL_FOLLOWED];
+/* What a monitor follows. kinds: what may be expected of it, the names of its values first;
+ * expected: what a picture calls these kinds. */
+typedef struct {
+    const char *what, *unit, *kinds, *name[MODEL_FOLLOWED + 1], *expected[MODEL_FOLLOWED];
     int values;
 } model_followed;
 

@@ -490,8 +490,8 @@ static const struct kind {
     { "monitor", "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK",
       model_monitors, MODEL, 0 },
     { "expect",
-      "expect NAME u|v|normal|shear|fx|fy VALUE within TOLERANCE [%], or expect NAME moves|stays by "
-      "TOLERANCE",
+      "expect NAME u|v|normal|shear|fx|fy VALUE within TOLERANCE [%], or expect NAME moves|stays "
+      "by TOLERANCE",
       read_expect, MONITORS, 0 },
 };
 
