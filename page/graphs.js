@@ -11,18 +11,18 @@ function findTicks(values, n) {
   return times(Math.max(1, Math.ceil(high / step - 0.02) - first) + 1, k => (first + k) * step);
 }
 
-/* Curves [name, values], one scale for all; bands [low, high] of `expect`. */
-function drawGraph(id, unit, all, bands = []) {
+/* Curves [name, values, bands [low, high] of `expect`, if any], one scale for all. */
+function drawGraph(id, unit, all) {
   const { g, w, h } = begin(id), ink = css('--ink'), left = 68, right = w - 8, bottom = h - 8;
   const curves = all.map(([name, values], k) =>
     ({ name, values, line: css(COLOURS[k % 5]), dash: DASHES[k % 6] }));
   Object.assign(g, { font: `12px ${css('--sans')}`, fillStyle: ink });
   const top = drawNames(g, w, 11, curves) + 13, n = run.frames.length - 1;
-  const ticks = findTicks([0, ...bands.flat(), ...all.flatMap(c => c[1])], (bottom - top) / 28);
+  const ticks = findTicks([0, ...all.flatMap(c => c.slice(1).flat(2))], (bottom - top) / 28);
   const low = ticks[0], high = ticks.at(-1);
   const X = k => left + (right - left) * k / Math.max(1, n);
   const Y = a => bottom - (bottom - top) * (a - low) / (high - low);
-  for (const [a, b] of bands)
+  for (const [a, b] of all.flatMap(c => c[2] ?? []))
     paint(g, () => g.rect(left, Y(b) - 1, right - left, Y(a) - Y(b) + 2), { fill: css('--band') });
   g.textAlign = 'right';
   for (const a of ticks) {
@@ -36,21 +36,24 @@ function drawGraph(id, unit, all, bands = []) {
 }
 
 /* Energies as they changed since the start, so that one scale serves: what the work of loads and
- * gravity has become. Monitors: along the axes for which something is expected, or else both. */
+ * gravity has become. Monitors of nodes, and those of joints with 4 numbers: the numbers for which
+ * something is expected, or else all. */
 function drawGraphs(frame) {
-  const frames = run.frames.filter(f => !f.failure), bands = [], curves = [];
-  const history = name => frames.map(f => f[name]);
-  const since = name => history(name).map(a => a - (name === 'kinetic' ? 0 : frames[0][name]));
+  const frames = run.frames.filter(f => !f.failure);
+  const since = name => frames.map(f => f[name] - (name === 'kinetic' ? 0 : frames[0][name]));
   drawGraph('energies', 'J',
     ['kinetic', 'elastic', 'springs', 'work', 'gained'].map(name => [name, since(name)]));
-  drawGraph('passes', '', [['open-close passes', history('passes')]]);
-  run.monitors.forEach((name, k) => ['u', 'v'].forEach((axis, kind) => {
-    const asked = rows(frame, 'x').filter(x => x[0] === k), fit = asked.filter(x => x[1] === kind);
-    bands.push(...fit.map(x => [x[2] - x[3], x[2] + x[3]]));
-    if (fit.length || asked.every(x => x[1] > 1))
-      curves.push([`${name} ${axis}`, frames.map(f => f.o[2 * k + kind])]);
-  }));
-  drawGraph('monitors', 'm', curves, bands);
+  drawGraph('passes', '', [['open-close passes', frames.map(f => f.passes)]]);
+  for (const [id, unit, n, curves] of [['monitors', 'm', 2, []], ['joints', 'N', 4, []]]) {
+    run.monitors.forEach(([name, ...what], k) => what.length === n && what.forEach((axis, i) => {
+      const asked = rows(frame, 'x').filter(x => x[0] === k), fit = asked.filter(x => x[1] === i);
+      if (fit.length || asked.every(x => x[1] >= n))
+        curves.push([`${name} ${axis}`, frames.map(f => f.o[4 * k + i]),
+          fit.map(x => [x[2] - x[3], x[2] + x[3]])]);
+    }));
+    is(id).hidden = curves.length === 0;
+    drawGraph(id, unit, curves);
+  }
 }
 
 /* Of the newest step, in the solver's order; the row and column of an element that is picked. */

@@ -52,7 +52,8 @@ function loadModel(name, text) {
   run = { handle, name, frames: [], bytes: 0, state: 0 };
   run.d = numbersOf('d');
   keepFrame();
-  run.monitors = times(run.frames[0].o.length / 2, k => textOf('o', k));
+  run.monitors = times(run.frames[0].o.length / 4, k =>
+    [textOf('o', k), ...textOf('q', k).replace('|moves|stays', '').split('|')]);
   if (run.frames[0].settle === 0)
     stepModel();                                /* begins, at step 0 */
   return '';

@@ -103,9 +103,7 @@ void page_free(page *g)
     if (!g)
         return;
     model_free(&g->p);
-    free(g->out.x);
-    free(g->look.x);
-    free(g->before.x);
+    free(g->out.x), free(g->look.x), free(g->before.x);
     free(g);
 }
 
@@ -201,7 +199,7 @@ static void put_facts(page *g, const bbm_model *m)
 {
     const bbm_info *i = &m->info;
     bbm_energy e;
-    double u[2];
+    double x[MODEL_FOLLOWED];
 
     bbm_energies(m, &e);
     PUT(&g->out, i->step, g->p.dynamic ? i->step * m->par.dt : 0, m->par.steps, g->p.dynamic,
@@ -209,8 +207,8 @@ static void put_facts(page *g, const bbm_model *m)
         i->pcg.residual, i->cuts, i->contacts, i->penetration, i->candidates, i->change, e.kinetic,
         e.elastic, e.springs, m->beyond->work, m->beyond->gained, g->p.scale);
     for (int k = 0; k < g->p.monitors; k++) {
-        model_displacement(&g->p, &g->p.monitor[k], u);
-        put(&g->out, 2, u);
+        model_follow(&g->p, &g->p.monitor[k], x);
+        put(&g->out, MODEL_FOLLOWED, x);
     }
 }
 
@@ -258,6 +256,7 @@ const char *page_text(page *g, int what, int k)
          : what == 'b' && k < p->blocks ? p->block[k]
          : what == 'e' && k < p->m->elements ? p->element[k]
          : what == 'o' && k < p->monitors ? p->monitor[k].name
+         : what == 'q' && k < p->monitors ? p->monitor[k].of->kinds
          : what == 'n' && k < p->m->vertices ? p->node[p->m->vertex[k].node]
          : what == 'x' && k < p->expectations ? g->sentence : "";
 }

@@ -21,8 +21,9 @@ void  page_free(page *g);
 int   page_state(const page *g);
 int   page_step(page *g);       /* one step, if there is one left; the state */
 
-/* m: why it failed; t: the title; b, e, o: name of a block, element, monitor; n: of the node of a
- * vertex; x: expectation k beside what came out. What is not there is "". */
+/* m: why it failed; t: the title; b, e, o: name of a block, element, monitor; q: what may be
+ * expected of a monitor, u|v|moves|stays or normal|shear|fx|fy; n: name of the node of a vertex; x:
+ * expectation k beside what came out. What is not there is "". */
 const char *page_text(page *g, int what, int k);
 
 /* Gathers numbers; how many, or -1: no memory. JavaScript has the same list, page/model.js.
@@ -33,7 +34,7 @@ const char *page_text(page *g, int what, int k);
  *     c  of each contact: corner edge state fx fy N T d_n strength slip
  *     l  of each load: vertices a b (-1: at a point), fx fy in N or N/m
  *     k  of each submatrix below the diagonal of K: row column
- *     f  facts of the step; then u v of each monitor
+ *     f  facts of the step; then of each monitor u v 0 0, or of a joint normal shear fx fy
  *     x  of each expectation: monitor kind value within met
  *     p  of each look at the contacts in the last step: t h what count; and of each that is closed
  *        before or after: corner edge from to N T d_n, whether in tension */

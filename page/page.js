@@ -54,7 +54,7 @@ function load() {
     return false;
   findShape();
   hasPredicted = false;
-  fill('what', run.monitors.flatMap(m => [`${m} u`, `${m} v`])
+  fill('what', run.monitors.flatMap(([name, ...what]) => what.map(axis => `${name} ${axis}`))
     .map(text => new Option(text, text, false, text === is('what').value)));
   document.title = `${textOf('t')} - bbm`;
   setView({ ...NEWEST, ...NONE });
@@ -163,9 +163,8 @@ function makeLink() {
 
 function followLink() {
   const link = new URLSearchParams(location.hash.slice(1));
-  choose(link.get('model') ?? 'arch.model', link.get('text') ?? undefined);
   is('full').checked = link.has('full');
-  show();
+  choose(link.get('model') ?? 'arch.model', link.get('text') ?? undefined);
 }
 
 /* Of the keys: what has no button or box with data-key. */

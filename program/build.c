@@ -440,6 +440,18 @@ int model_water(model_reader *r)
     return load_edges(r, &l);
 }
 
+/* BLOCK BLOCK, `*`: -1, any. */
+static int read_blocks(model_reader *r, int block[2])
+{
+    for (int k = 0; k < 2; k++) {
+        block[k] = -1;
+        if (!model_skip(r, "*") && (block[k] = model_known(r, &r->block_of)) < 0)
+            return 0;
+    }
+    return block[0] < 0 || block[0] != block[1]
+           || model_blame(r, "a joint of a block with itself, expected two blocks");
+}
+
 /* What is left out is as in `contact`. A joint that can never count is hardly meant. */
 int model_joint(model_reader *r)
 {
@@ -449,15 +461,9 @@ int model_joint(model_reader *r)
                          FROM_ZERO("tension", &tension) };
     int block[2];
 
-    for (int k = 0; k < 2; k++) {
-        block[k] = -1;
-        if (!model_skip(r, "*") && (block[k] = model_known(r, &r->block_of)) < 0)
-            return 0;
-    }
-    if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, friction))
+    if (!read_blocks(r, block) || !model_options(r, 0, LENGTH(o), o)
+        || !model_note_friction(r, friction))
         return 0;
-    if (block[0] >= 0 && block[0] == block[1])
-        return model_blame(r, "a joint of a block with itself, expected two blocks");
     for (int k = 0; k < b->joints; k++) {
         const int *a = b->joint[k].block;
         if (((a[0] < 0 || a[0] == block[0]) && (a[1] < 0 || a[1] == block[1]))
@@ -511,11 +517,16 @@ int model_monitors(model_reader *r)
 {
     model *p = r->p;
     model_monitor m = { .name = model_new_name(r, &r->monitor_of) };
+    const int joint = m.name && model_skip(r, "joint");
 
-    if (!m.name || !where(r, 1) || !model_enter(r, &r->monitor_of, m.name, p->monitors)
+    m.of = joint ? &model_force : &model_displacement;
+    if (!m.name || !(joint ? read_blocks(r, m.block) : where(r, 1))
+        || !model_enter(r, &r->monitor_of, m.name, p->monitors)
         || !(m.node = model_keep(r, r->chosen, sizeof *m.node)))
         return 0;
-    for (; m.nodes < r->chosen; m.nodes++)
+    if (m.block[0] < 0 && m.block[1] < 0)
+        return model_blame(r, "a joint of any block with any, expected one block at least");
+    for (; m.nodes < r->chosen && !joint; m.nodes++)
         m.node[m.nodes] = r->chosen_node[m.nodes];
     return model_add(r, &p->monitor, &p->monitors, sizeof m, &m);
 }

@@ -56,14 +56,38 @@ void model_move_supports(model *p)
     }
 }
 
-void model_displacement(const model *p, const model_monitor *m, double u[2])
+const model_followed
+    model_displacement = { "displacement", "m", "u|v|moves|stays", { "u", "v" },
+                           { "u expected", "v expected", "to leave", "to stay" }, 2 },
+    model_force = { "force", "N", "normal|shear|fx|fy", { "normal", "shear", "fx", "fy" },
+                    { "normal expected", "shear expected", "fx expected", "fy expected" }, 4 };
+
+static int fits(const int block[2], int i, int j)
 {
-    u[0] = u[1] = 0;
+    return (block[0] < 0 || block[0] == i) && (block[1] < 0 || block[1] == j);
+}
+
+/* The shear of a contact is the same from both sides: where each of two blocks has corners on the
+ * other one, all of them add up. */
+void model_follow(const model *p, const model_monitor *m, double x[MODEL_FOLLOWED])
+{
+    const bbm_model *b = p->m;
+
+    memset(x, 0, MODEL_FOLLOWED * sizeof *x);
     for (int n = 0; n < m->nodes; n++) {
         bbm_result r;
-        bbm_nodal_result(p->m, m->node[n], -1, &r);
-        u[0] += r.u / m->nodes;
-        u[1] += r.v / m->nodes;
+        bbm_nodal_result(b, m->node[n], -1, &r);
+        x[0] += r.u / m->nodes;
+        x[1] += r.v / m->nodes;
+    }
+    for (const bbm_contact *c = b->contact; c < b->contact + b->contacts && !m->nodes; c++) {
+        const int i = b->edge[c->corner].block, j = b->edge[c->edge].block,
+                  sign = fits(m->block, i, j) - fits(m->block, j, i);
+        double f[2];
+        field_contact_force(b, c, c->N, c->T, f);
+        const double of[] = { c->N, c->T, sign * f[0], sign * f[1] };
+        for (int k = 0; k < LENGTH(of) && sign; k++)
+            x[k] += of[k];
     }
 }
 

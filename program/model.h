@@ -13,7 +13,21 @@
 #include "field.h"
 #include "scene.h"
 
-typedef struct { const char *name; int nodes, *node; } model_monitor;   /* of library nodes */
+enum { MODEL_FOLLOWED = 4 };    /* numbers that a monitor has at most */
+
+/* What a monitor follows. kinds: what may be expected of it, the names of its values first;
+ * expected: what a picture calls these kinds. */
+typedef struct {
+    const char *what, *unit, *kinds, *name[MODEL_FOLLOWED + 1], *expected[MODEL_FOLLOWED];
+    int values;
+} model_followed;
+
+typedef struct {                /* of library nodes, or of the joint of two blocks, -1: any */
+    const char *name;
+    const model_followed *of;
+    int nodes, *node, block[2];
+} model_monitor;
+
 typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s */
 typedef struct { int monitor, kind; double value, within; } model_expected;     /* at the end */
 
@@ -26,7 +40,7 @@ typedef struct {                /* what holds from a stage on; the first is the 
     bbm_node *node;             /* [nodes]      held, load; wall: how far it is moved in the */
 } model_stage;                  /*              stage, and once that has begun, to where */
 
-enum { MODEL_U, MODEL_V, MODEL_MOVES, MODEL_STAYS };                 /* kinds of what is expected */
+enum { MODEL_MOVES = 2, MODEL_STAYS };                  /* kinds of what is expected of nodes */
 
 typedef struct {
     bbm_model *m;
@@ -77,7 +91,9 @@ double model_distance(const bbm_model *m, int corner, int edge);
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p);     /* to where they are after the next step */
 void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */
-void model_displacement(const model *p, const model_monitor *m, double u[2]);   /* m */
+extern const model_followed model_displacement, model_force;
+/* u, v of nodes; of a joint normal, shear, and fx, fy of its second block on the first; and 0. */
+void model_follow(const model *p, const model_monitor *m, double x[MODEL_FOLLOWED]);
 /* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);
 void model_free(model *p);

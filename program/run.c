@@ -64,22 +64,23 @@ void run_says(const run *r, bbm_status status, char out[500])
 
 int run_is_met(const model *p, int k, char out[300])
 {
-    static const char *const kind[] = { "u", "v", "moves", "stays" };
     const model_expected *e = &p->expected[k];
-    const int value = e->kind == MODEL_U || e->kind == MODEL_V;
+    const model_monitor *m = &p->monitor[e->monitor];
+    const int value = e->kind < m->of->values;
     char what[100];
-    double u[2];
+    double x[MODEL_FOLLOWED];
 
-    model_displacement(p, &p->monitor[e->monitor], u);
-    const double got = value ? u[e->kind == MODEL_V] : hypot(u[0], u[1]);
+    model_follow(p, m, x);
+    const double got = value ? x[e->kind] : hypot(x[0], x[1]);
     const int met = value ? fabs(got - e->value) <= e->within
                   : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
     if (value)
-        snprintf(what, sizeof what, "%.6g within %.2g m", e->value, e->within);
-    else
-        snprintf(what, sizeof what, "by %s than %.6g m", e->kind == MODEL_MOVES ? "more" : "less",
+        snprintf(what, sizeof what, "%s %.6g within %.2g", m->of->name[e->kind], e->value,
                  e->within);
-    snprintf(out, 300, "%s %s %s; computed: %.6g m: %s", p->monitor[e->monitor].name,
-             kind[e->kind], what, got, met ? "ok" : "NOT MET");
+    else
+        snprintf(what, sizeof what, "%s than %.6g",
+                 e->kind == MODEL_MOVES ? "moves by more" : "stays by less", e->within);
+    snprintf(out, 300, "%s %s %s; computed: %.6g %s: %s", m->name, what, m->of->unit, got,
+             m->of->unit, met ? "ok" : "NOT MET");
     return met;
 }

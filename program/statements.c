@@ -412,9 +412,9 @@ static int read_expect(model_reader *r)
     model *p = r->p;
     model_expected e = { .monitor = model_known(r, &r->monitor_of) };
 
-    if (e.monitor < 0 || !model_choice(r, "u|v|moves|stays", &e.kind))
+    if (e.monitor < 0 || !model_choice(r, p->monitor[e.monitor].of->kinds, &e.kind))
         return 0;
-    const int value = e.kind == MODEL_U || e.kind == MODEL_V;
+    const int value = e.kind < p->monitor[e.monitor].of->values;
     if ((value && !model_number(r, &e.value)) || !model_keyword(r, value ? "within" : "by"))
         return 0;
     char *last = model_look(r);
@@ -430,7 +430,8 @@ static int read_expect(model_reader *r)
     if (e.within <= 0)
         return model_blame(r, "a tolerance of %g, expected more than 0", e.within);
     if (value && (percent || model_skip(r, "%")) && (e.within *= fabs(e.value) / 100) <= 0)
-        return model_blame(r, "a tolerance in %% of 0, expected one in metre");
+        return model_blame(r, "a tolerance in %% of 0, expected one in %s",
+                           p->monitor[e.monitor].nodes ? "metre" : "newton");
     return model_add(r, &p->expected, &p->expectations, sizeof e, &e);
 }
 
@@ -486,9 +487,11 @@ static const struct kind {
       MODEL, 0 },
     { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
     { "stress", "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
-    { "monitor", "monitor NAME WHERE [of BLOCK]", model_monitors, MODEL, 0 },
+    { "monitor", "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK",
+      model_monitors, MODEL, 0 },
     { "expect",
-      "expect NAME u|v VALUE within TOLERANCE [%], or expect NAME moves|stays by TOLERANCE",
+      "expect NAME u|v|normal|shear|fx|fy VALUE within TOLERANCE [%], or expect NAME moves|stays "
+      "by TOLERANCE",
       read_expect, MONITORS, 0 },
 };
 

@@ -15,8 +15,8 @@
 
 #define LOCK "bbm.lock"
 
-/* What history.svg shows: so many rows at most, and its columns; u and v of monitor k are from
- * MONITORS + 2 k on. */
+/* What history.svg shows: so many rows at most, and its columns; those of monitor k are from
+ * MONITORS + MODEL_FOLLOWED k on. */
 enum { ROWS = 1025, T = 0, PASSES, KINETIC, ELASTIC, SPRINGS, EXTERNAL, GAINED, MONITORS };
 enum { PANEL = 300, BANDS = 6 };        /* pixels; expectations of a monitor that are drawn */
 
@@ -174,7 +174,7 @@ static void keep(const write_results *w, int first, int n, const double x[])
 /* Every second row goes; of passes the larger number stays. */
 static void halve(write_results *w)
 {
-    for (int k = 0; k < MONITORS + 2 * w->p->monitors && w->kept; k++)
+    for (int k = 0; k < MONITORS + MODEL_FOLLOWED * w->p->monitors && w->kept; k++)
         for (int r = 1; r <= ROWS / 2; r++) {
             const double *x = &column(w, k)[2 * r];
             column(w, k)[r] = k == PASSES ? fmax(x[-1], x[0]) : x[0];
@@ -188,10 +188,10 @@ static void put_history(const write_results *w)
 
     fprintf(w->history.file, "%d,%.15g", w->step, time_of(w));
     for (int k = 0; k < p->monitors; k++) {
-        double u[2];
-        model_displacement(p, &p->monitor[k], u);
-        put_numbers(w->history.file, 2, u);
-        keep(w, MONITORS + 2 * k, 2, u);
+        double x[MODEL_FOLLOWED];
+        model_follow(p, &p->monitor[k], x);
+        put_numbers(w->history.file, p->monitor[k].of->values, x);
+        keep(w, MONITORS + MODEL_FOLLOWED * k, MODEL_FOLLOWED, x);
     }
     fputc('\n', w->history.file);
 }
@@ -346,7 +346,7 @@ static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_serie
                        const char *const name[])
 {
     const int place = first < MONITORS ? w->p->monitors + (first == PASSES)
-                                       : (first - MONITORS) / 2;
+                                       : (first - MONITORS) / MODEL_FOLLOWED;
 
     for (int k = 0; name[k]; k++, c.count++)
         s[k] = (plot_series){ .name = name[k], .n = w->row + 1, .x = column(w, T),
@@ -356,14 +356,13 @@ static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_serie
     plot_draw_chart(p, (plot_box){ 0, 40 + PANEL * place, 860, PANEL }, &c);
 }
 
-/* u and v, and the bands in which they are expected to end. */
+/* What it follows, and the bands in which that is expected to end. */
 static void draw_monitor(const write_results *w, plot *p, int monitor)
 {
-    static const char *const name[] = { "u", "v", NULL },
-        *const expected[] = { "u expected", "v expected", "to leave", "to stay" };
+    const model_followed *of = w->p->monitor[monitor].of;
     const double from = column(w, T)[0], to = column(w, T)[w->row], x[] = { from, to, to, from };
-    plot_chart c = { .title = w->p->monitor[monitor].name, .y = { "displacement", "m" } };
-    plot_series s[2 + BANDS];
+    plot_chart c = { .title = w->p->monitor[monitor].name, .y = { of->what, of->unit } };
+    plot_series s[MODEL_FOLLOWED + BANDS];
     double y[BANDS][4];
 
     for (int k = 0; k < w->p->expectations && c.count < BANDS; k++) {
@@ -372,11 +371,12 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
             continue;
         for (int i = 0; i < 4; i++)
             y[c.count][i] = e->value + (i < 2 ? -e->within : e->within);
-        s[2 + c.count] = (plot_series){ .name = expected[e->kind], .n = 4, .x = x,
-                                        .y = y[c.count], .style = PLOT_BAND, .look = 2 + e->kind };
+        s[of->values + c.count] = (plot_series){ .name = of->expected[e->kind], .n = 4, .x = x,
+                                                 .y = y[c.count], .style = PLOT_BAND,
+                                                 .look = 2 + e->kind };
         c.count++;
     }
-    draw_panel(w, p, c, s, MONITORS + 2 * monitor, name);
+    draw_panel(w, p, c, s, MONITORS + MODEL_FOLLOWED * monitor, of->name);
 }
 
 /* What a run has been through: monitors, energies, passes. */
@@ -551,8 +551,9 @@ int write_open(write_results *w)
         return leave_folder(w);
     }
     fprintf(w->history.file, "step,t");
-    for (int k = 0; k < w->p->monitors; k++)
-        fprintf(w->history.file, ",%s_u,%s_v", w->p->monitor[k].name, w->p->monitor[k].name);
+    for (const model_monitor *m = w->p->monitor; m < w->p->monitor + w->p->monitors; m++)
+        for (int k = 0; k < m->of->values; k++)
+            fprintf(w->history.file, ",%s_%s", m->name, m->of->name[k]);
     fprintf(w->history.file, "\n");
     fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,"
                              "springs,external,gained\n");
@@ -560,7 +561,7 @@ int write_open(write_results *w)
     output_keep(&w->summary);
     w->film = (scene){ .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt,
                        .scale = w->p->scale };
-    w->kept = calloc(ROWS * (MONITORS + 2 * (size_t)w->p->monitors), sizeof *w->kept);
+    w->kept = calloc(ROWS * (MONITORS + MODEL_FOLLOWED * (size_t)w->p->monitors), sizeof *w->kept);
     return 1;
 }
 

@@ -53,14 +53,14 @@ static void compare_facts(page *g, const model *p)
 {
     const bbm_info *i = &p->m->info;
     char said[300];
-    double u[2];
+    double x[MODEL_FOLLOWED];
 
-    ck_assert_int_eq(page_numbers(g, 'f'), 22 + 2 * p->monitors);
+    ck_assert_int_eq(page_numbers(g, 'f'), 22 + MODEL_FOLLOWED * p->monitors);
     SAME(page_data(g), i->step, p->dynamic ? i->step * p->m->par.dt : 0);
     SAME(page_data(g) + 8, i->passes, i->iterations, i->pcg.residual, i->cuts, i->contacts);
     for (int k = 0; k < p->monitors; k++) {
-        model_displacement(p, &p->monitor[k], u);
-        same(page_data(g) + 22 + 2 * k, 2, u);
+        model_follow(p, &p->monitor[k], x);
+        same(page_data(g) + 22 + MODEL_FOLLOWED * k, MODEL_FOLLOWED, x);
     }
     for (int k = 0; k < p->expectations; k++) {
         page_numbers(g, 'x');

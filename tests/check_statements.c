@@ -244,6 +244,53 @@ START_TEST(contacts_and_reactions_carry_the_weight)
 }
 END_TEST
 
+/* A block on a slope of a, or on a level base under gravity that leans by l: N = W cos, and the shear W sin is to the
+ * left, seen from the base. Those of a grid touch with the nodes of both sides. fy leaves its tolerance at cos l = 0.9. */
+START_TEST(a_joint_carries_the_weight_of_its_block)
+{
+    static const double slope[][2] = { { 0, 0 }, { 25, 0 }, { -25, 0 }, { 0, 25 } };
+    const double W = 50000, l = slope[_i][1] * acos(-1) / 180, a = slope[_i][0] * acos(-1) / 180 + l;
+    char text[LONG];
+
+    snprintf(text, sizeof text, "material rigid E 1e18 nu 0 density 2500\nmaterial rock E 1e12 nu 0 density 2500\n"
+        "let a %g\nlet l %g\nlet c $(cos(a))\nlet s $(sin(a))\nfixblock base\ncontact kn 1e14 friction 40\n"
+        "block base rigid $(-9*c) $(-9*s) $(9*c) $(9*s) $(9*c + s) $(9*s - c) $(s - 9*c) $(-9*s - c)\n%s"
+        "gravity $(-10*sin(l)) $(-10*cos(l))\ndynamic dt 0.01 steps 40 velocity_factor 0\noutput svg\n"
+        "monitor on joint stone base\nmonitor all joint * stone\nexpect all fy -5e4 within 10%%\n",
+        slope[_i][0], slope[_i][1], _i == 3 ? "grid stone rock 0 0 2 1 4 2\n"
+        : "block stone rock 0 0 $(2*c) $(2*s) $(2*c - s) $(2*s + c) $(-s) $c\n");
+    ck_assert_int_eq(run_text("on", text), 0);
+    const struct { const char *on, *all; double value, sign; } of[] = {
+        { "on_normal", "all_normal", W * cos(a), 1 }, { "on_shear", "all_shear", -W * sin(a), 1 },
+        { "on_fx", "all_fx", W * sin(l), -1 }, { "on_fy", "all_fy", W * cos(l), -1 },
+    };
+    for (int k = 0; k < COUNT(of); k++) {
+        ck_near(cell("on", "history.csv", "", of[k].on), of[k].value, W, 1e-6);
+        ck_near(cell("on", "history.csv", "", of[k].all), of[k].sign * of[k].value, W, 1e-6);
+    }
+    check_text("out/model/on/history.svg", ">force [kN]<");
+    check_text("out/model/on/history.svg", ">fy expected<");
+    if (_i == 3)
+        ck_assert_int_eq(shell("%s/bbm out/model/on.model --find l 0 35 | tr '\\n' ' ' | grep -q 'all fy -50000 within "
+            "5e+03 N; computed: -50000 N: ok .* the limit is l = 25.8'", BUILD), 0);
+}
+END_TEST
+
+/* A wedge of 37.5 kN without friction on sides of 30 and 60 degrees, at right angles: W cos 30, W cos 60. */
+START_TEST(the_two_joints_of_a_wedge_hold_it)
+{
+    ck_assert_int_eq(run_text("wedge", "material rock E 1e12 nu 0 density 2500\nlet h $(sqrt(3)/2)\n"
+        "block left rock 0 0 $(-4*h) 2 $(-4*h) 0\nblock right rock 0 0 2 0 2 $(4*h)\nfixblock left\nfixblock right\n"
+        "block key rock $(-h) 0.5 0.5 $h 1 $(2*h) $(-2*h) 1\ngravity 0 -10\ncontact kn 1e14 friction 0\n"
+        "dynamic dt 0.01 steps 40 velocity_factor 0\n"
+        "monitor l joint key left\nmonitor r joint right key\nmonitor all joint key *\n"), 0);
+    ck_relative(cell("wedge", "history.csv", "", "l_normal"), 37500 * sqrt(0.75), 1e-6);
+    ck_relative(cell("wedge", "history.csv", "", "r_normal"), 37500 / 2.0, 1e-6);
+    ck_relative(cell("wedge", "history.csv", "", "l_fx"), 37500 * sqrt(3) / 4, 1e-6);
+    ck_relative(cell("wedge", "history.csv", "", "all_fy"), 37500, 1e-6);
+}
+END_TEST
+
 /* A shipped model with other numbers; the exit status. */
 static int run_with(const char *model, const char *lets)
 {
@@ -630,10 +677,12 @@ START_TEST(a_column_springs_back_when_its_top_is_removed)
     const char *first = _i ? "reactions_000060.csv" : "reactions_000001.csv";
     char text[LONG];
 
-    snprintf(text, sizeof text, COLUMN "%sstage off remove c\nend\n", solved[_i]);
+    snprintf(text, sizeof text, COLUMN "monitor on joint b c\n%sstage off remove c\nend\n", solved[_i]);
     ck_assert_int_eq(run_text("stage", text), 0);
     ck_relative(sum("stage", first, "fy", ""), 6 * w, 1e-6);      /* the base weighs three */
     ck_relative(sum("stage", "reactions.csv", "fy", ""), 5 * w, 1e-6);
+    ck_relative(cell("stage", "history.csv", _i ? "60," : "1,", "on_normal"), w, 1e-6);
+    ck_assert(cell("stage", "history.csv", "", "on_normal") == 0);
     /* two blocks of 1 m and two joints of two contacts carry w less; strains are 1e-7 */
     const double rebound = cell("stage", "history.csv", "", "top_v")
                          - cell("stage", "history.csv", _i ? "60," : "1,", "top_v");
@@ -728,6 +777,8 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 2);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
+    tcase_add_loop_test(t, a_joint_carries_the_weight_of_its_block, 0, 4);
+    tcase_add_test(t, the_two_joints_of_a_wedge_hold_it);
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
     tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0,
                         sizeof limits / sizeof *limits);
