@@ -98,6 +98,11 @@ START_TEST(no_table_has_a_nan_and_no_file_is_left_half_written)
 {
     ck_assert_int_eq(shell("! ls out/model/*/*.tmp 2> out/model/said && ! grep -il nan out/model/*/*.csv"), 0);
     ck_assert_int_eq(shell("grep -q '^CELLS 144 720$' out/model/exp1/step_000001.vtk"), 0);
+    /* Far from (0, 0) the library has an origin of its own; the points of the file do not. */
+    ck_assert_int_eq(run_text("far", STEEL "block low steel 1e5 0 100002 0 100002 1 1e5 1\nfixblock low\n"
+                              "block top steel 1e5 1 100001 1 100001 2 1e5 2\n"
+                              "contact friction 30\nstatic\noutput vtk\n"), 0);
+    check_text("out/model/far/contacts_000001.vtk", "\n100000 1 0\n");
 }
 END_TEST
 
