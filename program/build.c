@@ -155,6 +155,7 @@ int model_build(model_reader *r)
             model_enter(r, &r->set_of, r->block[b].name, r->sets + b);
     p->velocity = model_keep(r, r->blocks, sizeof *p->velocity);
     r->chosen_node = model_keep(r, p->m->nodes, sizeof *r->chosen_node);
+    r->named = model_keep(r, p->m->nodes, sizeof *r->named);
     return !p->status;
 }
 
@@ -168,15 +169,16 @@ typedef struct { int kind, found, block; double x[4]; } selection;
 /* Takes the library nodes of a node, each once for a WHERE. */
 static void choose(model_reader *r, const selection *w, int node)
 {
-    model_node *n = &r->node[node];
+    int c = find_copy(r, w->block, node);
 
-    if (n->mark == r->wheres || find_copy(r, w->block, node) < 0)
+    if (c < 0 || r->named[r->copy[c].node] == r->wheres)
         return;
-    n->mark = r->wheres;
     r->file_nodes++;
-    for (int c = n->first; c >= 0; c = r->copy[c].next)
-        if (is_of(r, w->block, c))
+    for (; c >= 0; c = r->copy[c].next)
+        if (is_of(r, w->block, c)) {
             r->chosen_node[r->chosen++] = r->copy[c].node;
+            r->named[r->copy[c].node] = r->wheres;
+        }
 }
 
 /* The first of the nearest nodes; -1: there is none. */
@@ -381,17 +383,12 @@ typedef struct { double t[2], pressure, weight, level; } edge_load;
 static int load_edges(model_reader *r, const edge_load *l)
 {
     bbm_model *m = r->p->m;
-    char *in = model_room(r, m->nodes, 1);
     int found = 0, wet = 0;
 
-    if (!in)
-        return 0;
-    for (int k = 0; k < r->chosen; k++)
-        in[r->chosen_node[k]] = 1;
     for (int e = 0; e < m->edges; e++) {
-        const bbm_vertex *a = &m->vertex[m->edge[e].a], *b = &m->vertex[m->edge[e].b];
-        const double t = m->element[m->edge[e].element].material.thickness;
-        if (!in[a->node] || !in[b->node])
+        const bbm_vertex *a = bbm_start_of(m, e), *b = bbm_end_of(m, e);
+        const double t = m->element[bbm_element_of(m, e)].material.thickness;
+        if (r->named[a->node] != r->wheres || r->named[b->node] != r->wheres)
             continue;
         found = 1;
         wet |= fmin(a->y, b->y) + m->origin[1] < l->level;
@@ -400,7 +397,6 @@ static int load_edges(model_reader *r, const edge_load *l)
         else
             bbm_load_edge(m, e, l->t[0] * t, l->t[1] * t, l->pressure * t);
     }
-    free(in);
     if (!found)
         return model_blame(r, "no boundary edge has both ends there, expected one");
     if (l->weight > 0 && !wet)

@@ -128,9 +128,9 @@ int model_start(model *p)
 void model_free(model *p)
 {
     bbm_model_free(p->m);
-    for (int k = 0; k < p->keeps; k++)
-        free(p->kept[k]);
-    free(p->kept), free((void *)p->block), free(p->monitor), free(p->expected);
-    free(p->note), free(p->shaking), free(p->bolt);
+    for (model_kept *k = p->kept, *next; k; k = next) {
+        next = k->next;
+        free(k);
+    }
     *p = (model){ 0 };
 }

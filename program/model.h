@@ -40,6 +40,9 @@ typedef struct {                /* what holds from a stage on; the first is the 
     bbm_node *node;             /* [nodes]      held, load; wall: how far it is moved in the */
 } model_stage;                  /*              stage, and once that has begun, to where */
 
+/* What stands before each array; link: what points here. All stay until model_free. */
+typedef struct model_kept { struct model_kept *next, **link; double array[]; } model_kept;
+
 enum { MODEL_MOVES = 2, MODEL_STAYS };                  /* kinds of what is expected of nodes */
 
 typedef struct {
@@ -71,11 +74,10 @@ typedef struct {
     double shake;               /* its scale */
     int    bolts;
     scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
-    int    keeps;
-    void **kept;                /* [keeps]      until model_free: the files read, of which names and
-                                                ids are words, and the arrays of known length */
+    model_kept *kept;           /* all that is allocated for the file: arrays, and the texts of
+                                   which names and ids are words */
     int    notes;
-    char **note;                /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
+    const char **note;              /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
     int    status;              /* 0, 1: failed, 2: the input is wrong */
     char   message[600];
 } model;

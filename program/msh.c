@@ -361,12 +361,9 @@ int model_read_mesh(model_reader *r, const char *path, model_place statement)
     size_t size;
 
     m.text = model_load(r, path, statement, &size);
-    if (m.text) {
-        m.end = m.text + size;
-        read_sections(&m);
-    }
-    free(m.group.entry);
-    free(m.entity.entry);
-    free((void *)m.tag);
+    if (!m.text)
+        return 0;
+    m.end = m.text + size;
+    read_sections(&m);
     return !r->p->status;
 }

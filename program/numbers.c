@@ -231,12 +231,10 @@ static double sum(formula *f)
 /* The value of the $(...) that the text begins with, as text, and its length. */
 static const char *evaluate(model_reader *r, const char *text, char number[NUMBER_ROOM], size_t *n)
 {
-    formula f = { r, text, text + 2, 0 };
-    const double x = sum(&f) + 0.0;             /* -0 is 0 */
+    formula f = { r, text, text + 1, 0 };
+    const double x = primary(&f) + 0.0;         /* -0 is 0 */
 
-    if (!r->p->status && !take(&f, ")"))
-        blame_formula(&f, "an operator or ) is missing");
-    if (!r->p->status && !isfinite(x))
+    if (!isfinite(x))
         model_blame(r, "'%.80s' has no value, it is %s", text, isnan(x) ? "no number" : "infinite");
     snprintf(number, NUMBER_ROOM, "%.15g", x);
     *n = (size_t)(f.at - text);
@@ -364,18 +362,8 @@ static int find_end(const model_reader *r, int k)
 
 static int walk(model_reader *r, int from, int to);
 
-/* "i = 7, j = 2" of the round, for messages; its last word is the value. */
-static const char *describe_round(model_reader *r, const char *outer, const char *name, int i)
-{
-    const size_t room = strlen(name) + NUMBER_ROOM + (outer ? strlen(outer) : 0);
-    char *text = model_text(r, room);
-
-    if (text)
-        snprintf(text, room, "%s%s%s = %d", outer ? outer : "", outer ? ", " : "", name, i);
-    return text;
-}
-
-/* The statements between the `repeat` at `from` and its `end`, round by round. */
+/* The statements between the `repeat` at `from` and its `end`, round by round. "i = 7, j = 2" of
+ * the round is for messages; its last word is the value. */
 static int repeat(model_reader *r, int from, int end)
 {
     const char *outer = r->round;
@@ -392,7 +380,8 @@ static int repeat(model_reader *r, int from, int end)
         return model_blame(r, "more than %d times repeat in repeat, expected fewer",
                            DEEPEST_REPEAT);
     for (int i = low; i <= high; i++) {
-        if (!(r->round = describe_round(r, outer, word, i)))
+        if (!(r->round = model_print(r, "%s%s%s = %d", outer ? outer : "", outer ? ", " : "", word,
+                                     i)))
             return 0;
         const model_local l = { word, strrchr(r->round, ' ') + 1 };
         if (!model_add(r, &r->local, &r->locals, sizeof l, &l) || !walk(r, from + 1, end)

@@ -51,17 +51,15 @@ int model_fail(model_reader *r, model_place at, const char *format, ...)
 
 int model_note(model_reader *r, const char *format, ...)
 {
-    enum { ROOM = 600 };
     const model_place at = { r->s->at.file, r->s->at.line, NULL };
-    char *text = model_text(r, ROOM);
+    char text[600];
     va_list args;
 
-    if (!text)
-        return 0;
     va_start(args, format);
-    put_message(text, ROOM, at, format, args);
+    put_message(text, sizeof text, at, format, args);
     va_end(args);
-    return model_add(r, &r->p->note, &r->p->notes, sizeof text, &text);
+    const char *note = model_print(r, "%s", text);
+    return note && model_add(r, &r->p->note, &r->p->notes, sizeof note, &note);
 }
 
 int model_out_of_memory(model_reader *r)
@@ -84,6 +82,22 @@ int model_refused(model_reader *r, bbm_status status)
                       model_says(r->p, status, text));
 }
 
+/* The array, NULL: a new one, with room for n items; or NULL, and it stays as it is. */
+static void *resize(model_reader *r, void *array, size_t n, size_t size)
+{
+    model_kept **link = array ? ((model_kept *)array - 1)->link : &r->p->kept;
+    model_kept *k = n > INT_MAX / 2 ? NULL : realloc(array ? *link : NULL, sizeof *k + n * size);
+
+    if (!k)
+        return model_out_of_memory(r), NULL;
+    k->next = array ? k->next : *link;
+    k->link = link;
+    *link = k;
+    if (k->next)
+        k->next->link = &k->next;
+    return k + 1;
+}
+
 /* The room is a power of two, 16 at least: when the count has reached it, it is doubled. */
 int model_add(model_reader *r, void *array, int *count, size_t size, const void *item)
 {
@@ -91,9 +105,9 @@ int model_add(model_reader *r, void *array, int *count, size_t size, const void 
     const size_t n = (size_t)*count;
 
     if (n == 0 || (n >= 16 && (n & (n - 1)) == 0)) {
-        void *more = *count > INT_MAX / 4 ? NULL : realloc(*a, (n == 0 ? 16 : 2 * n) * size);
+        void *more = resize(r, *a, n == 0 ? 16 : 2 * n, size);
         if (!more)
-            return model_out_of_memory(r);
+            return 0;
         *a = more;
     }
     memcpy((char *)*a + n * size, item, size);
@@ -101,26 +115,29 @@ int model_add(model_reader *r, void *array, int *count, size_t size, const void 
     return 1;
 }
 
-void *model_room(model_reader *r, int count, size_t size)
+void *model_keep(model_reader *r, int n, size_t size)
 {
-    void *p = calloc((size_t)count + 1, size);
+    const size_t room = (size_t)n + 1;
+    void *array = resize(r, NULL, room, size);
 
-    if (!p)
-        model_out_of_memory(r);
-    return p;
+    return array ? memset(array, 0, room * size) : NULL;
 }
 
-/* Keeps what is given until model_free; NULL: no memory. */
-static void *keep(model_reader *r, void *p)
-{
-    if (p && model_add(r, &r->p->kept, &r->p->keeps, sizeof p, &p))
-        return p;
-    free(p);
-    return NULL;
-}
-
-void *model_keep(model_reader *r, int n, size_t size) { return keep(r, model_room(r, n, size)); }
 char *model_text(model_reader *r, size_t size) { return model_keep(r, (int)size, 1); }
+
+char *model_print(model_reader *r, const char *format, ...)
+{
+    va_list args, again;
+
+    va_start(args, format);
+    va_copy(again, args);
+    char *text = model_text(r, (size_t)vsnprintf(NULL, 0, format, args));
+    if (text)
+        vsprintf(text, format, again);
+    va_end(again);
+    va_end(args);
+    return text;
+}
 
 /* The slot of a key in the table, or the empty one where it belongs; FNV-1a. */
 static model_slot *slot_of(const model_table *t, const char *key)
@@ -146,12 +163,11 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
 {
     if (2 * t->count >= t->room) {
         model_table larger = { .what = t->what, .room = t->room ? 2 * t->room : 64 };
-        if (!(larger.slot = model_room(r, larger.room, sizeof *larger.slot)))
+        if (!(larger.slot = model_keep(r, larger.room, sizeof *larger.slot)))
             return 0;
         for (int k = 0; k < t->room; k++)
             if (t->slot[k].key)
                 model_enter(r, &larger, t->slot[k].key, t->slot[k].value);
-        free(t->slot);
         *t = larger;
     }
     model_slot *s = slot_of(t, key);
@@ -179,10 +195,7 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
     if (f && f != stdin)
         fclose(f);
     *size = (size_t)n - 1;
-    if (!r->p->status)
-        return keep(r, text);
-    free(text);
-    return NULL;
+    return r->p->status ? NULL : text;
 }
 
 /* How many letters, large or small, are to be changed, added or taken away (Levenshtein 1966). */

@@ -39,7 +39,7 @@ typedef struct {
     const char *id;
     double x, y;
     model_place at;
-    int by_hand, first, mark;   /* first copy, or -1; the last WHERE that named it */
+    int by_hand, first;         /* first copy, or -1 */
 } model_node;
 
 typedef struct {                /* corner[first .. first+n-1] */
@@ -84,7 +84,8 @@ typedef struct {
     model_block any;                        /* `*`: the blocks without their own */
     int plane_strain, no_shear;             /* no_shear: ks is 0 */
     int chosen, file_nodes, *chosen_node;   /* what the last WHERE names: library nodes, of so */
-    int wheres;                             /* many nodes of the file; and how many there were */
+    int wheres, *named;                     /* many nodes of the file; how many there were; and */
+                                            /* [nodes] the last one that named a library node */
     double margin;                          /* m            lengths below it are none */
     const model_statement *light;           /* of a material that weighs next to nothing */
     const model_statement *s;               /* in hand, and its next word */
@@ -103,9 +104,9 @@ void  model_clean(char *text);                          /* of what a terminal wo
 const char *model_hint(const char *word);               /* what it may mean; or "" */
 /* One more item at the end of an array of `count`; 0: no memory. */
 int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
-void *model_room(model_reader *r, int count, size_t size);      /* zeros, and one more; or NULL */
-void *model_keep(model_reader *r, int n, size_t size);          /* the same, until model_free */
+void *model_keep(model_reader *r, int n, size_t size);          /* zeros, and one more; or NULL */
 char *model_text(model_reader *r, size_t size);                 /* of so many letters, as well */
+char *model_print(model_reader *r, const char *format, ...);    /* as by printf; or NULL */
 /* With a 0 behind it; or NULL. */
 char *model_load(model_reader *r, const char *path, model_place at, size_t *size);
 int   model_find(const model_table *t, const char *key);        /* -1: not there */

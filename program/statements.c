@@ -23,8 +23,8 @@
 enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 enum { ONCE = 1, STAGED };      /* a statement that may stand once, and one that a stage may have */
 
-/* Letters of an id; cells of a grid; memory for each element, at least. */
-enum { ID_ROOM = 24, MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
+/* Cells of a grid; memory for each element, at least. */
+enum { MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
 
 #define MOST_NUMBERED 100000000000000000        /* ids of blocks and grids are below it */
 
@@ -53,10 +53,7 @@ static const char *next_path(model_reader *r)
     if (!word)
         return NULL;
     const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->path) : 0;
-    char *path = model_text(r, (size_t)folder + strlen(word));
-    if (path)
-        sprintf(path, "%.*s%s", folder, r->path, word);
-    return path;
+    return model_print(r, "%.*s%s", folder, r->path, word);
 }
 
 static int read_mesh(model_reader *r)
@@ -241,14 +238,10 @@ static int read_element(model_reader *r)
 /* The id behind the last one of nodes or elements, kept as text. */
 static const char *next_id(model_reader *r, long long *last)
 {
-    char *text = model_text(r, ID_ROOM);
-
     if (*last >= MOST_NUMBERED)
         return model_blame(r, "an id of 18 digits or more, expected at most 17 where blocks are "
                            "numbered on"), NULL;
-    if (text)
-        snprintf(text, ID_ROOM, "%lld", ++*last);
-    return text;
+    return model_print(r, "%lld", ++*last);
 }
 
 static int add_own_node(model_reader *r, double x, double y)
@@ -298,16 +291,14 @@ static int read_block(model_reader *r)
 /* The nodes from `first` on, `step` apart, as the set NAME.side. */
 static int add_rim(model_reader *r, const char *block, const char *side, int first, int step, int n)
 {
-    char *word = model_text(r, strlen(block) + strlen(side) + 1);
+    const char *word = model_print(r, "%s.%s", block, side);
 
-    if (!word)
+    if (!word || !model_is_new(r, r->s->at, &r->set_of, word))
         return 0;
-    sprintf(word, "%s.%s", block, side);
-    int set = model_is_new(r, r->s->at, &r->set_of, word) ? model_find_set(r, word) : -1;
-    for (int k = 0; k < n && set >= 0; k++)
-        if (!model_add_to_set(r, set, first + k * step))
-            set = -1;
-    return set >= 0;
+    const int set = model_find_set(r, word);
+    for (int k = 0; k < n && !r->p->status; k++)
+        model_add_to_set(r, set, first + k * step);
+    return !r->p->status;
 }
 
 static int read_grid(model_reader *r)
@@ -650,20 +641,6 @@ static int check_kind(model_reader *r)
     return 1;
 }
 
-static void free_reader(model_reader *r)
-{
-    model_table *table[] = { &r->node_of, &r->element_of, &r->block_of, &r->material_of,
-                             &r->set_of,  &r->monitor_of, &r->let_of, &r->stage_of };
-
-    for (int k = 0; k < LENGTH(table); k++)
-        free(table[k]->slot);
-    for (int k = 0; k < r->sets; k++)
-        free(r->set[k].node);
-    free(r->cut), free(r->cut_word), free(r->local), free(r->word);
-    free(r->statement), free(r->node), free(r->element), free(r->corner), free(r->block);
-    free(r->material), free(r->set), free(r->copy);
-}
-
 /* Each stage begins with what the one before it has, and is kept until the run comes to it. */
 static int read_all(model_reader *r)
 {
@@ -711,7 +688,6 @@ int model_read(const char *path, int lets, char *const let[], model *p)
         p->m->par.pcg.method = &bbm_two_level;
         read_all(&r);
     }
-    free_reader(&r);
     return p->status;
 }
 
