@@ -312,26 +312,18 @@ static int where(model_reader *r, int nearest)
  * `free` ends what holds it. */
 int model_fix(model_reader *r)
 {
-    static const char *const name[] = { "x", "y" };
     double by[2] = { 0, 0 };
-    int directions = 0;
+    int x = 0, y = 0;
     model *p = r->p;
 
     if (!where(r, 0))
         return 0;
     const int ends = r->s->stage && model_skip(r, "free");
-    while (model_look(r)) {
-        const int a = model_skip(r, "x") ? 0 : model_skip(r, "y") ? 1 : -1;
-        if (a < 0)
-            return model_wrong(r, "unknown option", model_look(r));
-        if (directions & 1 << a)
-            return model_blame(r, "%s for the second time, expected: %s", name[a],
-                               r->s->form);
-        directions |= 1 << a;
-        if (!ends && model_skip(r, "by") && !model_number(r, &by[a]))
-            return 0;
-    }
-    directions = directions ? directions : BBM_XY;
+    model_option o[] = { { .name = "x", .flag = &x, .x = ends ? NULL : &by[0] },
+                         { .name = "y", .flag = &y, .x = ends ? NULL : &by[1] } };
+    if (!model_options(r, 0, LENGTH(o), o))
+        return 0;
+    const int directions = x || y ? BBM_X * x + BBM_Y * y : BBM_XY;
     for (int k = 0; k < r->chosen; k++) {
         const int n = r->chosen_node[k];
         bbm_node *at = &p->m->node[n];
@@ -340,7 +332,7 @@ int model_fix(model_reader *r)
                 && !(r->s->stage && at->wall[a] == 0))
                 return model_blame(r, "node %.60s is displaced by %g in %s here, by %g in another "
                                       "statement, expected one of them", p->node[n], by[a],
-                                   name[a], at->wall[a]);
+                                   o[a].name, at->wall[a]);
         p->moving |= by[0] != 0 || by[1] != 0;
         bbm_fix_node(p->m, n, directions, by[0], by[1]);
         at->held &= ends ? ~directions : BBM_XY;

@@ -130,8 +130,7 @@ static int read_arguments(arguments *a, int argc, char *argv[])
 static const char *plural(int n) { return n == 1 ? "" : "s"; }
 
 typedef struct {
-    int shown, steps, settling;                 /* steps, settling: in all */
-    int begun, warned;                          /* begun: a line without its end */
+    int shown, begun, warned;                   /* begun: a line without its end */
     double start, last;                         /* s            of t = 0, of the last line */
 } progress;
 enum { SILENCE = 10 };          /* s between lines of progress that go to a file */
@@ -151,23 +150,27 @@ static double now(void)
 
 /* What is left takes as long for each step as those since t = 0. Settling, whose steps are shorter,
  * does not tell. */
-static void show_progress(progress *s, const bbm_model *m, int settling, int step)
+static void show_progress(progress *s, const run *r)
 {
-    const int done = settling ? s->settling - settling : step;
+    const model *p = r->p;
+    const bbm_info *i = &p->m->info;
+    const int all = r->settling ? p->settle : p->stage[p->stages].par.steps;
+    const int done = r->settling ? all - r->settling : r->is_over ? all
+                   : r->has_begun ? i->step : 0;
     const double t = now(), apart = isatty(2) ? 0.1 : SILENCE;
     char left[40] = "";
 
     s->start = done == 0 ? t : s->start;
-    if (!s->shown || done == 0 || (t < s->last + apart && !(isatty(2) && step == s->steps)))
+    if (!s->shown || done == 0 || (t < s->last + apart && !(isatty(2) && done == all)))
         return;
     s->last = t;
     s->begun = isatty(2);
-    if (!settling)
-        snprintf(left, sizeof left, ", %.0f s left", (t - s->start) / done * (s->steps - done));
+    if (!r->settling)
+        snprintf(left, sizeof left, ", %.0f s left", (t - s->start) / done * (all - done));
     fprintf(stderr, "%s%sstep %d of %d, %d open-close pass%s, %d contact%s%s%s",
-            s->begun ? "\r" : "", settling ? "settling, " : "", done,
-            settling ? s->settling : s->steps, m->info.passes, m->info.passes == 1 ? "" : "es",
-            m->info.contacts, plural(m->info.contacts), left, s->begun ? "   " : "\n");
+            s->begun ? "\r" : "", r->settling ? "settling, " : "", done, all, i->passes,
+            i->passes == 1 ? "" : "es", i->contacts, plural(i->contacts), left,
+            s->begun ? "   " : "\n");
     fflush(stderr);
 }
 
@@ -281,7 +284,7 @@ static bbm_status run_all(run *r, write_results *w, progress *s)
         if (r->stage_is_over && !r->is_over)
             write_stage(w);
         warn_in_step(r->p, w->source, i->step, &s->warned);
-        show_progress(s, r->p->m, r->settling, !r->has_begun ? 0 : r->is_over ? s->steps : i->step);
+        show_progress(s, r);
     }
     return status;
 }
@@ -382,8 +385,7 @@ static int run_model(model *p, const arguments *a, clock_t start)
 {
     write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
                         .start = start, .reading = clock() - start };
-    progress s = { .shown = !a->quiet, .steps = p->stage[p->stages].par.steps,
-                   .settling = p->settle, .last = now() };
+    progress s = { .shown = !a->quiet, .last = now() };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
 

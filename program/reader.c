@@ -468,7 +468,7 @@ static int option_value(model_reader *r, model_option *o)
         return model_blame(r, "%s for the second time, expected: %s", o->name, r->s->form);
     o->seen = 1;
     if (o->flag)
-        return *o->flag = 1;
+        return (*o->flag = 1) && (!o->x || !model_skip(r, "by") || model_number(r, o->x));
     if (o->choices)
         return model_choice(r, o->choices, o->n);
     if (o->n)

@@ -6,8 +6,6 @@
  * is wrong, and what was expected. msh.c does the same for mesh files and puts nodes, elements and
  * sets in the same reader.
  *
- * Every function of a statement takes its words one by one and returns 1, or 0 after model_fail.
- * What is left of them is surplus.
  * Words are never copied: names and ids point into texts that are kept until model_free.
  */
 #ifndef READER_H
@@ -136,7 +134,8 @@ int   model_note_friction(model_reader *r, double friction);    /* of less than 
 int   model_choice(model_reader *r, const char *choices, int *n);
 
 /* `word value`, in any order, each once. One of: a number (low to high, with the rims of `rim`), a
- * whole number, a choice (its place in the list), a flag without a value. */
+ * whole number, a choice (its place in the list), a flag without a value, or with the number x
+ * behind it where `by` follows. */
 typedef struct {
     const char *name;
     double *x, low, high;
@@ -183,22 +182,18 @@ int   model_read_record(model_reader *r, const char *path);     /* of the base's
 int   model_hook(model_reader *r);
 
 /* --- stage.c --- */
-int   model_stage_head(model_reader *r);                /* NAME [steps N] [remove BLOCK ...] */
 void  model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
 void  model_gather_loads(bbm_model *m);                 /* the library's hook */
 
-/* --- build.c: the library's model, and the statements that need it --- */
+/* --- build.c: the library's model --- */
 int   model_build(model_reader *r);
 int   model_finish(model_reader *r);
-int   model_fix(model_reader *r);
-int   model_load_nodes(model_reader *r);
-int   model_traction(model_reader *r);
-int   model_pressure(model_reader *r);
-int   model_water(model_reader *r);
-int   model_velocities(model_reader *r);
-int   model_stress(model_reader *r);
-int   model_bolts(model_reader *r);
-int   model_joint(model_reader *r);
-int   model_monitors(model_reader *r);
+
+/* --- build.c, stage.c: what a statement does --- */
+/* It takes its words one by one and returns 1, or 0 after model_fail. What is left of them is
+ * surplus. */
+typedef int model_action(model_reader *r);
+model_action model_fix, model_load_nodes, model_traction, model_pressure, model_water, model_joint,
+             model_velocities, model_stress, model_monitors, model_bolts, model_stage_head;
 
 #endif

@@ -408,14 +408,11 @@ static int read_expect(model_reader *r)
     const int value = e.kind < p->monitor[e.monitor].of->values;
     if ((value && !model_number(r, &e.value)) || !model_keyword(r, value ? "within" : "by"))
         return 0;
-    char *last = model_look(r);
+    const char *last = model_look(r);
     const size_t n = last ? strlen(last) : 0;
     const int percent = value && n > 1 && last[n - 1] == '%';
-    if (percent) {                              /* the word may stand in other rounds, too */
-        if (!(r->word[r->s->first + r->next].text = model_text(r, n)))
-            return 0;
-        memcpy(model_look(r), last, n - 1);
-    }
+    if (percent)                                /* the word may stand in other rounds, too */
+        r->word[r->s->first + r->next].text = model_print(r, "%.*s", (int)n - 1, last);
     if (!model_number(r, &e.within))
         return 0;
     if (e.within <= 0)
@@ -430,7 +427,7 @@ static int read_expect(model_reader *r)
 
 static const struct kind {
     const char *name, *form;
-    int (*read)(model_reader *r);
+    model_action *read;
     int phase, may;
 } kinds[] = {
     { "let", "let NAME VALUE", NULL, NUMBERS, STAGED },
