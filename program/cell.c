@@ -1,6 +1,4 @@
 /* cell.c - the elements of a cell of a grid. */
-#include <string.h>
-
 #include "cell.h"
 
 /* The cell (i, j) with corners a b c d counter-clockwise:
@@ -12,16 +10,17 @@
  *                                a---b */
 int cell_cut(int cut, int odd, const int node[5], int element[4][4], int *corners)
 {
-    const int *n = node;
-    const int halves[2][6] = { { n[0], n[1], n[2], n[2], n[3], n[0] },
-                               { n[0], n[1], n[3], n[2], n[3], n[1] } };
+    enum { ODD = CELL_CROSSED + 1 };
+    static const struct { int elements, corners, of[4][4]; } cuts[] = {
+        [CELL_QUADS] = { 1, 4, { { 0, 1, 2, 3 } } },
+        [CELL_ALTERNATING] = { 2, 3, { { 0, 1, 2 }, { 2, 3, 0 } } },
+        [ODD] = { 2, 3, { { 0, 1, 3 }, { 2, 3, 1 } } },
+        [CELL_CROSSED] = { 4, 3, { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } } },
+    };
+    const int row = cut == CELL_ALTERNATING && odd ? ODD : cut;
 
-    *corners = cut == CELL_QUADS ? 4 : 3;
-    if (cut == CELL_QUADS)
-        memcpy(element[0], n, 4 * sizeof *n);
-    for (int k = 0; k < 2 && cut == CELL_ALTERNATING; k++)
-        memcpy(element[k], &halves[odd][3 * k], 3 * sizeof *n);
-    for (int k = 0; k < 4 && cut == CELL_CROSSED; k++)
-        memcpy(element[k], (int[]){ n[k], n[(k + 1) % 4], n[4] }, 3 * sizeof *n);
-    return cut == CELL_QUADS ? 1 : cut == CELL_CROSSED ? 4 : 2;
+    *corners = cuts[row].corners;
+    for (int k = 0; k < 16; k++)
+        element[k / 4][k % 4] = node[cuts[row].of[k / 4][k % 4]];
+    return cuts[row].elements;
 }
