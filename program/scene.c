@@ -51,7 +51,7 @@ static int is_contact(int kind) { return kind >= LOCKED && kind <= PULLED; }
 /* All contacts have the scale of one kind. */
 static int scale_of(int kind) { return is_contact(kind) ? LOCKED : kind; }
 
-typedef struct { double x, y; } point;
+typedef scene_point point;
 
 typedef struct {                        /* a block                                                */
     int first, n;                       /* its vertices are film.vertex[first .. first+n-1]       */
@@ -119,8 +119,7 @@ static scene_force force_of(const scene_frame *s, const bbm_model *m, const bbm_
     double f[2];
 
     field_contact_force(m, c, c->N, c->T, f);
-    return (scene_force){ s->at[corner->a][0], s->at[corner->a][1], f[0], f[1], c->N,
-                          c->N < 0 ? PULLED : (int)c->state,
+    return (scene_force){ s->at[corner->a], { f[0], f[1] }, c->N, c->N < 0 ? PULLED : (int)c->state,
                           { corner->block, m->edge[c->edge].block } };
 }
 
@@ -133,8 +132,8 @@ static int copy_frame(scene_frame *f, const bbm_model *m, double more)
         return 0;
     for (int v = 0; v < m->vertices; v++) {
         const double further = field_is_gone(m, v) ? 0 : more;
-        f->at[v][0] = field_place(m, v, 0) + further * m->vertex[v].u;
-        f->at[v][1] = field_place(m, v, 1) + further * m->vertex[v].v;
+        f->at[v] = (point){ field_place(m, v, 0) + further * m->vertex[v].u,
+                            field_place(m, v, 1) + further * m->vertex[v].v };
     }
     for (int k = 0; k < m->contacts; k++)
         if (m->contact[k].state != BBM_OPEN)
@@ -165,12 +164,7 @@ void scene_record(scene *s, const bbm_model *m)
 /* -------------------------------------------------------------------------------------- blocks */
 
 /* m, in a frame */
-static point position(const film *f, int frame, int v)
-{
-    const double *x = f->s->frame[frame].at[v];
-
-    return (point){ x[0], x[1] };
-}
+static point position(const film *f, int frame, int v) { return f->s->frame[frame].at[v]; }
 
 /* pixels */
 static point pixel(const film *f, point a)
@@ -277,14 +271,11 @@ static int begin_film(film *f)
 {
     const bbm_model *m = f->m;
 
-    errno = f->s->failed ? ENOMEM : EINVAL;
-    if (f->s->failed || f->s->frames < 1)
-        return 0;
     f->body = malloc((size_t)m->elements * sizeof *f->body);
     f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
     f->normal = calloc((size_t)m->nodes, sizeof *f->normal);
-    errno = ENOMEM;
-    if (!f->body || !f->vertex || !f->normal)
+    errno = f->s->frames || f->s->failed ? ENOMEM : EINVAL;
+    if (f->s->failed || !f->s->frames || !f->body || !f->vertex || !f->normal)
         return 0;
     find_bodies(f);
     find_normals(f);
@@ -445,8 +436,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
         visit_edge(f, frame, &l, &last, visit);
     for (int i = 0; i < g->forces; i++)
         if (g->force[i].kind == kind)
-            visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },
-                        (point){ g->force[i].fx, g->force[i].fy }, (point){ 0, 0 }, visit);
+            visit_force(f, kind, g->force[i].at, g->force[i].force, (point){ 0, 0 }, visit);
 }
 
 /* The supports of blocks that are not held as a whole, those of one kind 8 pixels apart or more. */
@@ -543,8 +533,8 @@ static void add_force(neighbours *b, const scene_force *c, int side)
         k++;
     b->n = k < b->n ? b->n : k + 1;
     b->other[k] = other;
-    b->at[k] = (point){ b->at[k].x + c->N * c->x, b->at[k].y + c->N * c->y };
-    b->force[k] = (point){ b->force[k].x + sign * c->fx, b->force[k].y + sign * c->fy };
+    b->at[k] = (point){ b->at[k].x + c->N * c->at.x, b->at[k].y + c->N * c->at.y };
+    b->force[k] = (point){ b->force[k].x + sign * c->force.x, b->force[k].y + sign * c->force.y };
     b->N[k] += c->N;
 }
 
@@ -1060,7 +1050,7 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
 {
     const field *shown = field_find(map->field ? map->field : "mises");
     const size_t all = (size_t)m->vertices;
-    double (*place)[2] = malloc(2 * all * sizeof *place);       /* as at the start, and magnified */
+    point *place = malloc(2 * all * sizeof *place);             /* as at the start, and magnified */
     nodal *n = malloc(2 * (size_t)m->nodes * sizeof *n);
     scene_frame state[2] = { { m->info.t, .at = place },
                              { m->info.t, .at = place ? place + all : NULL } };
@@ -1077,9 +1067,8 @@ int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
         for (int v = 0; v < 2 * m->vertices; v++) {
             const int k = v % m->vertices, i = m->vertex[k].node;
             const double times = v < m->vertices ? 0 : scale;
-            const int gone = field_is_gone(m, k);
-            place[v][0] = gone ? field_place(m, k, 0) : m->node[i].x + times * n[i].u;
-            place[v][1] = gone ? field_place(m, k, 1) : m->node[i].y + times * n[i].v;
+            place[v] = field_is_gone(m, k) ? (point){ field_place(m, k, 0), field_place(m, k, 1) }
+                     : (point){ m->node[i].x + times * n[i].u, m->node[i].y + times * n[i].v };
         }
         snprintf(title, sizeof title, "%s%sdisplacements × %.12g", map->title ? map->title : "",
                  map->title ? ", " : "", scale);

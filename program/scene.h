@@ -22,9 +22,11 @@
 
 #include "../base/base.h"
 
+typedef struct { double x, y; } scene_point;
+
 typedef struct {                /* of a closed contact                                            */
-    double x, y;                /* m                                                              */
-    double fx, fy, N;           /* N        on the corner's block; normal                         */
+    scene_point at, force;      /* m, N     of the corner; on its block                           */
+    double N;                   /* N        normal                                                */
     int    kind, block[2];      /* of its arrow; the corner's and the edge's                      */
 } scene_force;
 
@@ -32,7 +34,7 @@ typedef struct {                /* what was recorded at one time                
     double time;                /* s                                                              */
     int    call;                /* of scene_record, from 0                                        */
     int    forces;
-    double (*at)[2];            /* m        [vertices]                                            */
+    scene_point *at;            /* m        [vertices]                                            */
     scene_force *force;         /*          [forces]                                              */
 } scene_frame;
 
