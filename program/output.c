@@ -52,19 +52,14 @@ int output_keep(output *o)
     return !o->why;
 }
 
-static void give_up(const output *o)
-{
-    if (!o->direct)
-        remove(o->temporary);
-}
-
+/* A device has no temporary file to remove. */
 void output_drop(output *o)
 {
     const int why = errno;
 
     if (o->file) {
         fclose(o->file);
-        give_up(o);
+        remove(o->temporary);
     }
     o->file = NULL;
     errno = why;
@@ -91,7 +86,7 @@ int output_close(output *o)
     output_note(o, !fclose(file));
     const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
     if (!keep || !(o->direct || give_name(o->temporary, o->path) || output_note(o, 0)))
-        give_up(o);
+        remove(o->temporary);
     errno = o->why;
     return !o->why;
 }
