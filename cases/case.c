@@ -132,7 +132,7 @@ double case_percent(double computed, double reference)
 
 /* A line is: problem, variant, quantity, x, y, converged, six_node_triangles, one more; nan where
  * there is none. */
-void case_read_reference(const char *problem, const char *variant, case_reference *r)
+static void read_reference(const char *problem, const char *variant, case_reference *r)
 {
     char line[256], of[2][32];
     FILE *f = fopen("cases/fem.csv", "r");
@@ -199,10 +199,7 @@ void case_row(case_results *r, const char *quantity, const double xy[2], double 
     const double error = reference != 0 ? (computed - reference) / reference : computed;
 
     fprintf(r->csv, strchr(quantity, ',') ? "\"%s\"," : "%s,", quantity);
-    if (isnan(xy[0]))
-        fprintf(r->csv, ",,");
-    else
-        fprintf(r->csv, "%.9g,%.9g,", xy[0], xy[1]);
+    fprintf(r->csv, isnan(xy[0]) ? ",," : "%.9g,%.9g,", xy[0], xy[1]);
     fprintf(r->csv, "%.15g,%.15g,%s,%.3e\n", computed, reference, kind, error);
 }
 
@@ -233,7 +230,7 @@ static bbm_model *solve_run(case_results *r, const case_experiment *p, const cas
 {
     bbm_model *m = run->beyond ? case_beyond_model(2) : case_paper_model();
 
-    case_read_reference(p->name, run->variant, ref);
+    read_reference(p->name, run->variant, ref);
     if (!m)
         return NULL;
     case_progress(run->label);
@@ -334,7 +331,7 @@ static void print_convergence(const case_experiment *e)
     static const double alpha[4] = { 10, 100, 1000, 1e5 };
     case_reference ref;
 
-    case_read_reference(e->name, e->run[1].variant, &ref);
+    read_reference(e->name, e->run[1].variant, &ref);
     printf("\n%s\n\n"
            "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
            "|---|---|---|---|---|", e->errors);

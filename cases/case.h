@@ -50,7 +50,6 @@ void   case_solve(bbm_model *m);                                /* prepared and 
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
 double case_percent(double computed, double reference);
 
-void   case_read_reference(const char *problem, const char *variant, case_reference *r);
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
                                    double y);
 typedef struct {                    /* a solution of an experiment, alpha = 1000                */
