@@ -2,8 +2,6 @@
  * where it is held and loaded, WHERE by its nodes. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -30,11 +28,9 @@ static void set_defaults(model_reader *r)
     p->friction = fmax(p->friction, 0);
     if (p->p_n < 0)
         p->p_n = 50 * softest[isinf(softest[0]) ? 1 : 0];
-    if (p->p_s < 0)
-        p->p_s = 0.4 * p->p_n;
-    if (p->p_n == 0)                            /* no contact: springs that cannot be felt */
+    else if (p->p_n == 0)                       /* no contact: springs that cannot be felt */
         p->p_n = 1e-200;
-    if (p->p_s == 0)
+    if (p->p_s <= 0)
         p->p_s = 0.4 * p->p_n;
 }
 

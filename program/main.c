@@ -54,8 +54,7 @@ static int name_folder(arguments *a, const char *given)
     const size_t n = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     if (n == 0 || n >= sizeof a->folder)
         return complain(a, "no folder of that name; expected -o FOLDER");
-    memcpy(a->folder, base, n);
-    a->folder[n] = '\0';
+    snprintf(a->folder, sizeof a->folder, "%.*s", (int)n, base);
     return 0;
 }
 
@@ -174,13 +173,6 @@ static void show_progress(progress *s, const run *r)
     fflush(stderr);
 }
 
-static void end_progress(progress *s)
-{
-    if (s->begun)
-        fputc('\n', stderr);
-    s->begun = 0;
-}
-
 static void describe(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
@@ -218,11 +210,10 @@ static void summarise(const model *p, const char *folder)
         printf("t = %g s, ", m->info.t);
     printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
            m->info.pcg.residual);
-    if (p->dynamic && m->beyond->gain > 1e-12)              /* below it is rounding */
-        printf("no step made more than %.1e of its energy beyond the work of loads\n",
-               m->beyond->gain);
-    else if (p->dynamic)
-        printf("no step made energy beyond the work of loads\n");
+    if (p->dynamic)                                         /* below 1e-12 it is rounding */
+        printf(m->beyond->gain > 1e-12
+               ? "no step made more than %.1e of its energy beyond the work of loads\n"
+               : "no step made energy beyond the work of loads\n", m->beyond->gain);
     bbm_energies(m, &e);
     if (p->dynamic && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
         printf("hits came with %.3g J in their normal velocities, %.0f %% of it was given back\n",
@@ -397,7 +388,7 @@ static int run_model(model *p, const arguments *a, clock_t start)
         describe(p, a->model);
     if (write_open(&w)) {
         status = run_all(&r, &w, &s);
-        end_progress(&s);
+        fputs(s.begun ? "\n" : "", stderr);
         write_close(&w);
         report(&r, status, a);
     }

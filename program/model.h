@@ -75,9 +75,9 @@ typedef struct {
     int    bolts;
     scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
     model_kept *kept;           /* all that is allocated for the file: arrays, and the texts of
-                                   which names and ids are words */
+                                                which names and ids are words */
     int    notes;
-    const char **note;              /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
+    const char **note;          /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
     int    status;              /* 0, 1: failed, 2: the input is wrong */
     char   message[600];
 } model;

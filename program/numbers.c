@@ -107,16 +107,15 @@ static char take(formula *f, const char *letters)
     return !f->r->p->status && *f->at && strchr(letters, *f->at) ? *f->at++ : 0;
 }
 
-static double radians(double degrees) { return degrees * (acos(-1) / 180); }
-static double degrees(double radian) { return radian / (acos(-1) / 180); }
+static const double DEGREE = 3.14159265358979323846 / 180;
 
 /* Multiples of 90 degrees have their exact values. */
-static double sine(double x) { return fmod(x, 180) == 0 ? 0 : sin(radians(x)); }
-static double cosine(double x) { return fmod(fabs(x), 180) == 90 ? 0 : cos(radians(x)); }
+static double sine(double x) { return fmod(x, 180) == 0 ? 0 : sin(x * DEGREE); }
+static double cosine(double x) { return fmod(fabs(x), 180) == 90 ? 0 : cos(x * DEGREE); }
 static double tangent(double x) { return sine(x) / cosine(x); }
-static double arc_sine(double x) { return degrees(asin(x)); }
-static double arc_cosine(double x) { return degrees(acos(x)); }
-static double arc_tangent(double x) { return degrees(atan(x)); }
+static double arc_sine(double x) { return asin(x) / DEGREE; }
+static double arc_cosine(double x) { return acos(x) / DEGREE; }
+static double arc_tangent(double x) { return atan(x) / DEGREE; }
 
 /* A function of one number; or of two and more, pair by pair. */
 typedef struct { const char *name; double (*one)(double), (*two)(double, double); } function;

@@ -26,12 +26,10 @@ void model_clean(char *text)
 /* FILE:LINE: i = 7: what is said. */
 static void put_message(char *text, size_t room, model_place at, const char *format, va_list args)
 {
-    char line[20] = "";
+    int used = snprintf(text, room, at.line > 0 ? "%.200s:%d: " : "%.200s: ", at.file, at.line);
 
-    if (at.line > 0)
-        snprintf(line, sizeof line, "%d:", at.line);
-    const int used = snprintf(text, room, "%.200s:%s %.100s%s", at.file, line,
-                              at.round ? at.round : "", at.round ? ": " : "");
+    if (at.round)
+        used += snprintf(text + used, room - (size_t)used, "%.100s: ", at.round);
     vsnprintf(text + used, room - (size_t)used, format, args);
     model_clean(text);
 }
@@ -272,7 +270,7 @@ static const char *source_of(const model_reader *r, const char *word, char text[
     return text;
 }
 
-int model_wrong(model_reader *r, const char *what, const char *word)
+static int wrong(model_reader *r, const char *what, const char *word)
 {
     char source[80];
 
@@ -319,7 +317,7 @@ int model_keyword(model_reader *r, const char *word)
 
 int model_at_end(model_reader *r)
 {
-    return model_look(r) ? model_wrong(r, "surplus word", model_look(r)) : 1;
+    return model_look(r) ? wrong(r, "surplus word", model_look(r)) : 1;
 }
 
 /* A word that is to be a number: none that is put together, as 2$p. */
@@ -342,11 +340,11 @@ int model_number(model_reader *r, double *x)
         return 0;
     *x = strtod(word, &end);
     if (*word == '\0' || *end != '\0' || strpbrk(word, "xXpP"))
-        return model_wrong(r, "not a number:", word);
+        return wrong(r, "not a number:", word);
     if (!isfinite(*x))
-        return model_wrong(r, "not a finite number:", word);
+        return wrong(r, "not a finite number:", word);
     if (fabs(*x) < DBL_MIN && strcspn(word, "123456789") < strcspn(word, "eE"))
-        return model_wrong(r, "too small, and not 0:", word);
+        return wrong(r, "too small, and not 0:", word);
     return 1;
 }
 
@@ -367,11 +365,11 @@ int model_whole(model_reader *r, const char *what, int least, int *n)
     errno = 0;
     const long value = strtol(word, &end, 10);
     if (*end != '\0' || end == word)
-        return model_wrong(r, "not a whole number:", word);
+        return wrong(r, "not a whole number:", word);
     if (value < least)
         return model_blame(r, "%s is %ld, expected a whole number, %d or more", what, value, least);
     if (errno || value > INT_MAX / 2)
-        return model_wrong(r, "too large:", word);
+        return wrong(r, "too large:", word);
     *n = (int)value;
     return 1;
 }
@@ -381,7 +379,7 @@ const char *model_name(model_reader *r)
     const char *word = model_word(r);
 
     if (word && !model_is_name(word))
-        return model_wrong(r, "not a name (letters, digits, _ - .):", word), NULL;
+        return wrong(r, "not a name (letters, digits, _ - .):", word), NULL;
     return word;
 }
 
@@ -391,7 +389,7 @@ const char *model_id(model_reader *r)
     const char *word = model_word(r);
 
     if (word && word[strspn(word, "0123456789")] != '\0')
-        return model_wrong(r, "an id is a whole number, not", word), NULL;
+        return wrong(r, "an id is a whole number, not", word), NULL;
     while (word && word[0] == '0' && word[1] != '\0')
         word++;
     return word;
@@ -483,7 +481,7 @@ int model_options(model_reader *r, int needed, int n, model_option o[])
         while (k < n && !model_skip(r, o[k].name))
             k++;
         if (k == n)
-            return model_wrong(r, "unknown option", model_look(r));
+            return wrong(r, "unknown option", model_look(r));
         if (!option_value(r, &o[k]))
             return 0;
     }

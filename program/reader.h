@@ -116,7 +116,6 @@ const char *model_nearest(const char *word, const void *names, int n, size_t str
 const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
 
 /* --- words of the statement in hand --- */
-int   model_wrong(model_reader *r, const char *what, const char *word);
 char *model_look(const model_reader *r);           /* the word that comes next, it stays; or NULL */
 char *model_word(model_reader *r);
 int   model_skip(model_reader *r, const char *word);     /* takes the next word if it is this one */

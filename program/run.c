@@ -74,12 +74,10 @@ int run_is_met(const model *p, int k, char out[300])
     const double got = value ? x[e->kind] : hypot(x[0], x[1]);
     const int met = value ? fabs(got - e->value) <= e->within
                   : e->kind == MODEL_MOVES ? got > e->within : got < e->within;
-    if (value)
-        snprintf(what, sizeof what, "%s %.6g within %.2g", m->of->name[e->kind], e->value,
-                 e->within);
-    else
-        snprintf(what, sizeof what, "%s than %.6g",
-                 e->kind == MODEL_MOVES ? "moves by more" : "stays by less", e->within);
+    const char *kind = value ? m->of->name[e->kind]
+                     : e->kind == MODEL_MOVES ? "moves by more" : "stays by less";
+    snprintf(what, sizeof what, value ? "%s %.6g within %.2g" : "%s than %.6g", kind,
+             value ? e->value : e->within, e->within);
     snprintf(out, 300, "%s %s %s; computed: %.6g %s: %s", m->name, what, m->of->unit, got,
              m->of->unit, met ? "ok" : "NOT MET");
     return met;

@@ -595,12 +595,11 @@ static int cut_file(model_reader *r, char *text, size_t size)
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)     /* UTF-8's mark of some editors */
         text += 3;
     for (char *next; text < end; text = next, at.line++) {
-        char *stop = memchr(text, '\n', (size_t)(end - text));
-        next = stop ? stop + 1 : end;
-        if (stop)
-            *stop = '\0';
-        if (text + strlen(text) < (stop ? stop : end))
+        char *stop = text + strcspn(text, "\n");
+        if (*stop == '\0' && stop < end)
             return model_fail(r, at, "a zero byte: the file is binary, expected text");
+        *stop = '\0';
+        next = stop + 1;
         if (!cut_line(r, text, at))
             return 0;
     }
