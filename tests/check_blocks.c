@@ -437,26 +437,22 @@ END_TEST
 Suite *blocks_suite(void)
 {
     Suite *s = suite_create("blocks");
-    const loop_test at_rest[] = {
+
+    add_case(s, "at rest",
         { blocks_of_a_column_carry_the_weight_above_and_do_not_drift, 1 },
         { statics_balances_a_block_on_its_contacts, 2 },
         { a_block_in_a_notch_leans_on_its_floor_and_its_wall, 1 },
         { squares_of_a_block_that_meet_in_a_node_have_corners_of_their_own, 1 },
         { a_bonded_block_at_rest_has_the_stress_of_its_own_weight, 2 },
         { iterations_do_not_grow_with_the_stiffness_of_contacts, 1 },
-        { blocks_that_turn_alike_may_come_to_turn_against_each_other, 2 },
-    };
-    const loop_test in_motion[] = {
+        { blocks_that_turn_alike_may_come_to_turn_against_each_other, 2 });
+    add_case(s, "in motion",
         { a_dropped_block_never_rebounds_faster_than_it_came, 2 * COUNT(DROP_STEPS) },
         { momentum_is_kept_in_an_impact_and_the_angular_one_up_to_the_strain_of_what_turns,
           COUNT(IMPACTS) },
         { stiff_blocks_that_hit_keep_both_momenta, 8 },
         { a_stone_gives_a_heavy_wall_its_momentum_through_a_very_stiff_spring, 1 },
         { two_elastic_bars_exchange_velocities_and_part_when_the_wave_comes_back, 1 },
-        { a_bonded_block_that_turns_keeps_its_angular_momentum, 4 },
-    };
-
-    add_case(s, "at rest", at_rest, COUNT(at_rest));
-    add_case(s, "in motion", in_motion, COUNT(in_motion));
+        { a_bonded_block_that_turns_keeps_its_angular_momentum, 4 });
     return s;
 }

@@ -783,35 +783,27 @@ END_TEST
 Suite *coarse_suite(void)
 {
     Suite *s = suite_create("coarse");
-    const loop_test two_levels[] = {
+
+    add_case(s, "two levels",
         { two_level_iterates_are_those_with_dense_matrices, 1 },
         { coarse_space_of_all_unknowns_solves_in_one_iteration, PATTERNS },
         { coarse_displacements_that_move_nothing_change_no_iterate, PATTERNS },
         { two_levels_have_the_solution_of_one_and_without_a_coarse_space_all_its_digits, PATTERNS },
         { solution_does_not_depend_on_earlier_ones, 2 },
         { coarse_nodes_and_corners_that_do_not_exist_are_refused, 1 },
-        { coarse_space_that_finds_no_memory_is_none, 1 },
-    };
-    const loop_test components[] = {
+        { coarse_space_that_finds_no_memory_is_none, 1 });
+    add_case(s, "components",
         { what_is_not_connected_is_solved_as_if_it_were_alone, 2 * ARRANGEMENTS },
         { order_of_the_rows_does_not_matter_to_the_time, 1 },
-        { kc_has_room_for_corners_of_one_element_and_no_others, 1 },
-    };
-    const loop_test meshes[] = {
+        { kc_has_room_for_corners_of_one_element_and_no_others, 1 });
+    add_case(s, "meshes",
         { iterations_on_two_levels_are_few_and_hardly_grow_with_the_mesh, 17 },
         { quadrilaterals_by_the_thousand_take_a_few_iterations_more, 3 },
         { two_levels_and_one_reach_the_same_displacements, MESHES },
         { corners_that_a_bond_ties_together_are_one_coarse_node, 1 },
-        { one_level_is_used_where_two_do_not_pay, 6 },
-    };
-    const loop_test interpolation[] = {
+        { one_level_is_used_where_two_do_not_pay, 6 });
+    add_case(s, "interpolation",
         { linear_displacements_of_the_corners_are_those_of_the_element, 3 },
-        { interpolation_is_the_nearest_linear_displacement, 3 },
-    };
-
-    add_case(s, "two levels", two_levels, COUNT(two_levels));
-    add_case(s, "components", components, COUNT(components));
-    add_case(s, "meshes", meshes, COUNT(meshes));
-    add_case(s, "interpolation", interpolation, COUNT(interpolation));
+        { interpolation_is_the_nearest_linear_displacement, 3 });
     return s;
 }

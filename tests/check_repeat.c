@@ -266,22 +266,16 @@ END_TEST
 Suite *repeat_suite(void)
 {
     Suite *s = suite_create("repeat");
-    const loop_test again[] = {
+
+    add_case(s, "again",
         { a_step_done_again_in_halves_is_the_two_half_steps_to_the_last_bit, 1 },
-        { a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were, 1 },
-    };
-    const loop_test repeat[] = {
+        { a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were, 1 });
+    add_case(s, "repeat",
         { a_pile_falls_the_same_way_whichever_block_comes_first, 1 },
         { a_step_depends_on_the_state_and_not_on_what_is_left_in_memory, 1 },
         { whichever_allocation_fails_contacts_leave_the_model_fit_to_go_on, 2 },
-        { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 },
-    };
-    const loop_test units[] = {
-        { the_result_does_not_depend_on_the_units_to_the_last_bit, 2 * COUNT(UNITS) },
-    };
-
-    add_case(s, "again", again, COUNT(again));
-    add_case(s, "repeat", repeat, COUNT(repeat));
-    add_case(s, "units", units, COUNT(units));
+        { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 });
+    add_case(s, "units",
+        { the_result_does_not_depend_on_the_units_to_the_last_bit, 2 * COUNT(UNITS) });
     return s;
 }

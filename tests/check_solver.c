@@ -683,29 +683,27 @@ END_TEST
 Suite *solver_suite(void)
 {
     Suite *s = suite_create("solver");
-    const loop_test matrix[] = {
+
+    add_case(s, "matrix",
         { product_is_that_of_the_dense_matrix, PATTERNS },
         { order_direction_and_repetition_of_the_pairs_change_no_bit, PATTERNS },
         { block_added_as_ij_or_transposed_as_ji_is_the_same, 1 },
         { cleared_matrix_is_zero_and_can_be_filled_again, PATTERNS },
         { pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing, 1 },
-        { pattern_with_a_row_that_does_not_exist_is_refused, 1 },
-    };
-    const loop_test order[] = {
+        { pattern_with_a_row_that_does_not_exist_is_refused, 1 });
+    add_case(s, "order",
         { long_strips_in_any_numbering_get_a_narrow_band, 5 },
         { neighbours_of_low_degree_come_first, 5 },
-        { bandwidths_of_small_patterns_are_those_of_theory, 1 },
-    };
-    const loop_test solution[] = {
+        { bandwidths_of_small_patterns_are_those_of_theory, 1 });
+    add_case(s, "solution",
         { solution_is_that_of_the_dense_matrix, PATTERNS },
         { iterates_are_those_of_ssor_pcg_with_dense_matrices, 1 },
         { residual_is_the_true_one, PATTERNS },
         { a_solution_takes_no_longer_than_the_processor_was_at_it, 1 },
         { loads_of_any_size_give_the_same_digits, 1 },
         { no_load_gives_no_displacement_in_no_iteration, 1 },
-        { load_on_one_of_many_rows_makes_no_denormals, 1 },
-    };
-    const loop_test failure[] = {
+        { load_on_one_of_many_rows_makes_no_denormals, 1 });
+    add_case(s, "failure",
         { parameter_outside_its_range_is_refused, 1 },
         { entry_of_the_load_that_is_not_finite_is_refused, 1 },
         { entry_of_the_matrix_that_is_not_finite_is_refused, 36 },
@@ -713,18 +711,10 @@ Suite *solver_suite(void)
         { matrix_that_is_not_positive_definite_is_found_out_by_the_iteration, 1 },
         { limit_of_iterations_ends_with_the_last_iterate_and_its_residual, 1 },
         { solution_too_large_for_a_number_is_not_returned_in_silence, 1 },
-        { least_tolerance_is_met_by_an_exact_solution, 1 },
-    };
-    const loop_test components[] = {
+        { least_tolerance_is_met_by_an_exact_solution, 1 });
+    add_case(s, "components",
         { component_without_load_stays_where_it_is, 1 },
         { rows_that_are_not_connected_take_one_iteration, COUNT(OMEGA) },
-        { component_that_fails_is_reported_and_the_others_are_solved, 1 },
-    };
-
-    add_case(s, "matrix", matrix, COUNT(matrix));
-    add_case(s, "order", order, COUNT(order));
-    add_case(s, "solution", solution, COUNT(solution));
-    add_case(s, "failure", failure, COUNT(failure));
-    add_case(s, "components", components, COUNT(components));
+        { component_that_fails_is_reported_and_the_others_are_solved, 1 });
     return s;
 }
