@@ -106,15 +106,15 @@ static void dense_correct(const dense_system *s, const dense_coarse *c, const do
         z[i] += inner_product(coarse, c->P[i], x);
 }
 
-/* The same three corrections of the residual, one after the other, and the residual afresh before
+/* W: the same three corrections of the residual, one after the other, and the residual afresh before
  * each. */
-static int dense_two_level(const dense_system *s, const dense_coarse *c, double tolerance,
-                           int limit, double *x)
+START_TEST(two_level_iterates_are_those_with_dense_matrices)
 {
     static double W[MOST_6][MOST_6];
+    dense_system *s = new_system(CHAIN, 32);
+    dense_coarse *c = new_coarse(s, 33);
     double r[MOST_6];
 
-    memset(W, 0, sizeof W);
     for (int i = 0; i < 6 * s->n; i++) {
         double e[MOST_6] = { 0 };
 
@@ -125,29 +125,7 @@ static int dense_two_level(const dense_system *s, const dense_coarse *c, double 
         dense_residual(s, e, W[i], r);
         gauss_seidel(s, 1, r, W[i]);
     }
-    return dense_pcg(s, W, tolerance, limit, x);
-}
-
-START_TEST(two_level_iterates_are_those_with_dense_matrices)
-{
-    dense_system *s = new_system(CHAIN, 32);
-    dense_coarse *c = new_coarse(s, 33);
-    bbm_pcg pcg = accurate(1, &bbm_two_level);
-    double expected[MOST_6], D[MOST_6];
-    bbm_pcg_info info;
-
-    for (pcg.iterations = 1; pcg.iterations <= 5; pcg.iterations++) {
-        ck_assert_int_eq(dense_two_level(s, c, 1e-13, pcg.iterations, expected), pcg.iterations);
-        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
-        ck_assert_int_eq(info.iterations, pcg.iterations);
-        assert_same(6 * s->n, D, expected, ITERATES);
-    }
-    pcg.iterations = 1000;
-    for (pcg.tolerance = 0.1; pcg.tolerance > 1e-9; pcg.tolerance /= 100) {
-        const int iterations = dense_two_level(s, c, pcg.tolerance, 1000, expected);
-        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
-        ck_assert_int_eq(info.iterations, iterations);
-    }
+    check_iterates(s, W, accurate(1, &bbm_two_level));
     free(c);
     free_system(s);
 }

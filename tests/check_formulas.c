@@ -90,6 +90,14 @@ static void make_body(body *b, const shape *s, double dx, double dy, unsigned *s
         b->e.stress[a] = random_number(seed);
 }
 
+static body body_of(const shape *s, unsigned seed)
+{
+    body b;
+
+    make_body(&b, s, 3, -2, &seed);
+    return b;
+}
+
 /* The displacement of the body's point (x, y): translation, small rotation and strain about the
  * barycentre. */
 static void displace(const body *b, const double D[6], double x, double y, double u[2])
@@ -305,10 +313,7 @@ static double elastic_energy(const double D[], const source *s)
 
 START_TEST(the_elastic_submatrix_is_the_derivative_of_the_strain_energy)
 {
-    unsigned seed = 1;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 1);
     source s = { .i = &b };
     bbm_submatrix sub = ones();
     bbm_elastic_submatrix(&b.e, &sub);
@@ -365,12 +370,9 @@ static double product(double x, double y, const void *context)
 
 START_TEST(the_mode_integral_is_the_brute_force_integral)
 {
-    unsigned seed = 12;
-    body b;
+    const body b = body_of(&SHAPES[_i], 12);
     double M[6][6];
     char place[60];
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
     bbm_mode_integral(&b.e, M);
     for (int r = 0; r < 6; r++)
         for (int c = 0; c < 6; c++) {
@@ -410,10 +412,7 @@ static double inertia_energy(const double D[], const source *s)
 
 START_TEST(the_inertia_submatrix_is_the_derivative_of_its_energy)
 {
-    unsigned seed = 2;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 2);
     source s = { .i = &b, .dt = 0.7 };
     bbm_submatrix sub = ones();
     bbm_inertia_submatrix(&b.e, s.dt, &sub);
@@ -525,9 +524,7 @@ static void add_fixed_point(const body *b, int P, const bbm_node *W, double k, b
 START_TEST(the_fixed_submatrix_is_the_derivative_of_the_energy_of_the_held_directions)
 {
     for (int held = 0; held <= BBM_XY; held++) {
-        unsigned seed = 4;
-        body b;
-        make_body(&b, &SHAPES[_i], 3, -2, &seed);
+        const body b = body_of(&SHAPES[_i], 4);
         source s = { .i = &b, .P = 2, .k = 11, .wall = b.node[2] };
         s.wall.held = held;
         s.wall.wall[0] = 0.25;
@@ -561,10 +558,7 @@ static double point_load_energy(const double D[], const source *s)
 
 START_TEST(a_concentrated_load_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 5;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 5);
     source s = { .i = &b, .P = 1, .f = { { 2, -3 } } };
     bbm_submatrix sub = ones();
     bbm_point_load(&b.e, b.v[s.P].x, b.v[s.P].y, s.f[0], sub.F);
@@ -636,10 +630,7 @@ END_TEST
 
 START_TEST(a_load_constant_along_a_line_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 6;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 6);
     source s = { .i = &b, .P = 1, .Q = 2, .f = { { 2, -3 } } };
     bbm_submatrix sub = ones();
     bbm_constant_load_submatrix(&b.e, &b.v[s.P], &b.v[s.Q], s.f[0], sub.F);
@@ -677,10 +668,7 @@ static double volume_energy(const double D[], const source *s)
 
 START_TEST(a_volume_force_linear_in_x_and_y_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 8;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 8);
     source s = { .i = &b, .f = { { 2, -3 }, { 0.5, 1 }, { -1.5, 0.25 } } };
     bbm_submatrix sub = ones();
     bbm_varying_volume_submatrix(&b.e, b.v, linear_force, &s, sub.F);
@@ -690,10 +678,7 @@ END_TEST
 
 START_TEST(a_constant_volume_force_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 9;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 9);
     source s = { .i = &b, .f = { { 2, -3 } } };
     bbm_submatrix sub = ones();
     bbm_volume_submatrix(&b.e, s.f[0], sub.F);

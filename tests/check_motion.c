@@ -545,7 +545,6 @@ Suite *motion_suite(void)
     Suite *s = suite_create("motion");
     TCase *t = new_case(s, "motion");
 
-    tcase_set_timeout(t, 60);
     tcase_add_test(t, positions_follow_the_exact_rotation_in_dynamics_and_the_modes_otherwise);
     tcase_add_test(t, the_matrix_of_the_middle_moves_points_exactly);
     tcase_add_test(t, the_vectors_are_off_when_an_element_turns_further_than_they_did);

@@ -187,12 +187,10 @@ Suite *scenes_suite(void)
     tcase_add_loop_test(c, the_ledger_and_the_library_agree, 0, 2);
     tcase_add_loop_test(c, blocks_begin_beside_each_other, 0, SCENE_KINDS);
     c = new_case(s, "torture");
-    tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, no_step_of_any_scene_fails_or_makes_energy_or_momentum_or_lets_blocks_overlap, 0,
                         SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, scenes_that_once_showed_a_fault_show_none, 0, sizeof FAULTS / sizeof *FAULTS);
     c = new_case(s, "twins");
-    tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, a_scene_in_units_of_powers_of_two_is_the_same_to_the_last_bit, 0, TWIN_SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, a_scene_in_other_units_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
     tcase_add_loop_test(c, a_scene_in_another_order_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);

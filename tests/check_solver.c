@@ -259,44 +259,19 @@ static void form_ssor(const dense_system *s, double w, double M[MOST_6][MOST_6])
             M[i][j] = inner_product(n, E[i], column[j]) / (2 - w);
 }
 
-static int dense_ssor_pcg(const dense_system *s, double w, double tolerance, int limit, double *x)
+/* A chain keeps its order, so that L is the same here and in solver.c. */
+START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
 {
     static double M[MOST_6][MOST_6], W[MOST_6][MOST_6];
+    dense_system *s = new_system(CHAIN, 11);
 
-    form_ssor(s, w, M);
+    form_ssor(s, OMEGA[_i], M);
     for (int i = 0; i < 6 * s->n; i++) {
         double e[MOST_6] = { 0 };
         e[i] = 1;
         dense_solve(6 * s->n, M, e, W[i]);
     }
-    return dense_pcg(s, W, tolerance, limit, x);
-}
-
-/* A chain keeps its order, so that L is the same here and in solver.c. */
-START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
-{
-    static const double tolerance[] = { 0.5, 1e-2, 1e-4, 1e-6, 1e-8 };
-    dense_system *s = new_system(CHAIN, 11);
-    double expected[MOST_6], D[MOST_6];
-    bbm_pcg_info info;
-
-    for (int k = 0; k < COUNT(OMEGA); k++) {
-        bbm_pcg pcg = accurate(OMEGA[k], NULL);
-        for (pcg.iterations = 1; pcg.iterations <= 4; pcg.iterations++) {
-            ck_assert_int_eq(dense_ssor_pcg(s, pcg.omega, 1e-13, pcg.iterations, expected),
-                             pcg.iterations);
-            ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
-            ck_assert_int_eq(info.iterations, pcg.iterations);
-            assert_same(6 * s->n, D, expected, ITERATES);
-        }
-        pcg.iterations = 1000;
-        for (int t = 0; t < COUNT(tolerance); t++) {
-            pcg.tolerance = tolerance[t];
-            const int iterations = dense_ssor_pcg(s, pcg.omega, pcg.tolerance, 1000, expected);
-            ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
-            ck_assert_int_eq(info.iterations, iterations);
-        }
-    }
+    check_iterates(s, W, accurate(OMEGA[_i], NULL));
     free_system(s);
 }
 END_TEST
@@ -697,7 +672,7 @@ Suite *solver_suite(void)
         { bandwidths_of_small_patterns_are_those_of_theory, 1 });
     add_case(s, "solution",
         { solution_is_that_of_the_dense_matrix, PATTERNS },
-        { iterates_are_those_of_ssor_pcg_with_dense_matrices, 1 },
+        { iterates_are_those_of_ssor_pcg_with_dense_matrices, COUNT(OMEGA) },
         { residual_is_the_true_one, PATTERNS },
         { a_solution_takes_no_longer_than_the_processor_was_at_it, 1 },
         { loads_of_any_size_give_the_same_digits, 1 },
