@@ -321,35 +321,6 @@ START_TEST(the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks)
 }
 END_TEST
 
-/* Two boxes and a third one, as large as the others, near by or 10 km away. */
-static bbm_model *boxes(double far)
-{
-    bbm_model *m = new_blocks();
-
-    m->par.friction = 30;
-    add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .y = -1, .w = 1, .h = 1, .fixed = 1 });
-    add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.75, .y = 1e-3, .w = 1, .h = 1 });
-    add_rectangle(m, 2, BASE, (rectangle){ .x = far, .y = far, .w = 1, .h = 1, .fixed = 1 });
-    ck_ok(bbm_prepare(m), m);
-    return m;
-}
-
-START_TEST(a_block_far_away_changes_nothing)
-{
-    bbm_model *near = boxes(3), *far = boxes(1e4);
-
-    for (int i = 0; i < 30; i++) {
-        run_steps(near, 1);
-        run_steps(far, 1);
-        ck_assert_int_eq(near->contacts, far->contacts);
-        for (int k = 0; k < near->contacts; k++)
-            ck_near(near->contact[k].N, far->contact[k].N, DENSITY * GRAVITY, SOLVED);
-        for (int a = 0; a < 3; a++)
-            ck_near(near->element[1].V[a], far->element[1].V[a], 1, SOLVED);
-    }
-}
-END_TEST
-
 /* ---------------------------------------------------------------------- which grid points touch */
 
 /* The angle turns blocks and gravity alike. The upper block sinks in by different amounts at its
@@ -743,8 +714,7 @@ Suite *detection_suite(void)
         { a_block_does_not_touch_itself, 1 },
         { an_inner_corner_is_no_corner, 1 },
         { each_of_two_tips_in_a_node_is_a_corner, COUNT(TIPS) },
-        { the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks, COUNT(ANGLES) },
-        { a_block_far_away_changes_nothing, 1 });
+        { the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks, COUNT(ANGLES) });
     add_case(s, "grid points",
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
         { in_statics_the_grid_points_of_the_finer_side_touch, 2 },
