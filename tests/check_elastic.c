@@ -347,9 +347,7 @@ START_TEST(a_load_that_varies_reaches_the_element_whichever_end_is_named_first)
     bbm_model *m = new_model(&SOLID);
     double total[3] = { 0 }, expected[3] = { 0 };
 
-    for (int n = 0; n < 4; n++)
-        ck_ok(bbm_add_node(m, SHAPES[1].x[n][0], SHAPES[1].x[n][1], NULL), m);
-    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL), m);
+    add_polygon(m, 0, 4, SHAPES[1].x);
     ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
     ck_ok(bbm_fix_node(m, 3, BBM_X, 0, 0), m);
     ck_ok(bbm_add_varying_line_load(m, ends[0], ends[1], rising_load, scale), m);

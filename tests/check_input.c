@@ -363,9 +363,7 @@ START_TEST(fixed_points_close_together_hold_a_body_within_reason)
     for (int way = 0; way < 2; way++) {
         bbm_model *m = new_model(&SOLID);
         const double x[4][2] = { { 0, 0 }, { way ? 1e-3 : 1e-7, 0 }, { 1, 0 }, { 0, 1 } };
-        for (int n = 0; n < 4; n++)
-            ck_ok(bbm_add_node(m, x[n][0], x[n][1], NULL), m);
-        ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL), m);
+        add_polygon(m, 0, 4, x);
         ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
         ck_ok(bbm_fix_node(m, 1, BBM_XY, 0, 0), m);
         ck_ok(bbm_prepare(m), m);

@@ -736,11 +736,10 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_joint_carries_the_weight_of_its_block, 0, 4);
     tcase_add_test(t, the_two_joints_of_a_wedge_hold_it);
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
-    tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0,
-                        sizeof limits / sizeof *limits);
-    tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, sizeof found / sizeof *found);
+    tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0, COUNT(limits));
+    tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, COUNT(found));
     tcase_add_test(t, what_has_no_limit_is_said);
-    tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, sizeof doubtful / sizeof *doubtful);
+    tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, COUNT(doubtful));
     tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
@@ -757,7 +756,6 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
     tcase_add_test(t, a_block_slides_from_where_it_was_when_friction_falls);
-    tcase_add_loop_test(t, a_wrong_stage_is_refused_before_anything_runs, 0,
-                        sizeof bad_stages / sizeof *bad_stages);
+    tcase_add_loop_test(t, a_wrong_stage_is_refused_before_anything_runs, 0, COUNT(bad_stages));
     return s;
 }
