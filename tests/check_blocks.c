@@ -74,7 +74,8 @@ END_TEST
  * boundary goes on along the same square. */
 START_TEST(a_block_in_a_notch_leans_on_its_floor_and_its_wall)
 {
-    static const double x[7][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 2, 1 }, { 2, 2 }, { 1, 2 } };
+    static const double x[7][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 2, 1 }, { 2, 2 },
+                                    { 1, 2 } };
     static const int square[2][4] = { { 0, 1, 2, 3 }, { 2, 4, 5, 6 } };
     const double size = _i ? 0.8 : 0.25, W = size * size * DENSITY * GRAVITY;
     bbm_model *m = new_blocks();
@@ -210,9 +211,10 @@ static void momenta(bbm_model *m, double P[2][2], double *L)
 }
 
 /* Off-centre by 0.3 m, with friction and without, for springs and steps of several lengths. Forces
- * act at the middle of the step, where their points meet on the way: nothing is left of the moments
- * of the step's start. With vectors of the start 1e-2 would be. What is left of the angular momentum, as a share of what the first block brings along, falls as 1/E and
- * grows as the force of the impact does, as p_n^(1/2): 1.6e-6 for the stiffest springs. */
+ * act at the middle of the step, where their points meet on the way: nothing is left of the
+ * moments of the step's start. What is left of the angular momentum, as a share of what the first
+ * block brings along, falls as 1/E and grows as the force of the impact does, as p_n^(1/2): 1.6e-6
+ * for the stiffest springs. */
 START_TEST(stiff_blocks_that_hit_keep_both_momenta)
 {
     const double p_n = pow(10, 9 + _i % 4 % 3), share = DENSITY * 0.3;

@@ -205,17 +205,19 @@ END_TEST
 START_TEST(without_beyond_the_same_is_printed_as_the_papers_way)
 {
     ck_assert_int_eq(system("cd out && awk '/^## With beyond/ { cut = 1 } /^Numbers/ { cut = 0 } "
-                            "NF && !cut && !/beyond[/]/' run.log > run.paper && awk NF paper/paper.log "
-                            "| head -n $(wc -l < run.paper) | diff - run.paper >&2"), 0);
+                            "NF && !cut && !/beyond[/]/' run.log > run.paper && "
+                            "awk NF paper/paper.log | head -n $(wc -l < run.paper) | "
+                            "diff - run.paper >&2"), 0);
     ck_assert_int_eq(system("[ $(grep -c '^|' out/run.paper) -gt 90 ]"), 0);
 }
 END_TEST
 
 START_TEST(without_beyond_the_same_files_are_written)
 {
-    ck_assert_int_eq(system("cd out/paper/out && [ $(ls exp?/* | wc -l) = 23 ] && for f in exp?/*; do "
-                            "{ [ ${f#*/} = results.csv ] && grep -v '^beyond[.]' ../../$f || "
-                            "cat ../../$f; } | cmp $f - || exit 1; done >&2"), 0);
+    ck_assert_int_eq(system("cd out/paper/out && [ $(ls exp?/* | wc -l) = 23 ] && "
+                            "for f in exp?/*; do { [ ${f#*/} = results.csv ] && "
+                            "grep -v '^beyond[.]' ../../$f || cat ../../$f; } | "
+                            "cmp $f - || exit 1; done >&2"), 0);
 }
 END_TEST
 

@@ -106,8 +106,8 @@ static void dense_correct(const dense_system *s, const dense_coarse *c, const do
         z[i] += inner_product(coarse, c->P[i], x);
 }
 
-/* W: the same three corrections of the residual, one after the other, and the residual afresh before
- * each. */
+/* W: the same three corrections of the residual, one after the other, and the residual afresh
+ * before each. */
 START_TEST(two_level_iterates_are_those_with_dense_matrices)
 {
     static double W[MOST_6][MOST_6];

@@ -659,7 +659,8 @@ Suite *files_suite(void)
 
     tcase_set_timeout(t, 120);
     tcase_add_unchecked_fixture(t, make_folder, NULL);
-    tcase_add_loop_test(t, the_matrix_leads_to_the_displacements_that_the_program_writes, 0, COUNT(matrices));
+    tcase_add_loop_test(t, the_matrix_leads_to_the_displacements_that_the_program_writes, 0,
+                        COUNT(matrices));
     tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
     tcase_add_test(t, a_full_disk_leaves_the_rows_that_were_written);
     tcase_add_test(t, streams_that_are_closed_are_no_tables);

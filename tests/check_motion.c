@@ -450,7 +450,8 @@ static bbm_model *slabs(double x, double v)
     return m;
 }
 
-/* Up to 100 m/s, or 10 km away, in the same pattern of K: the solver's tolerance, 1e-10 of all forces, is what is left. */
+/* Up to 100 m/s, or 10 km away, in the same pattern of K: the solver's tolerance, 1e-10 of all forces, is what is
+ * left. */
 START_TEST(a_stone_far_away_changes_nothing)
 {
     static const double at[3][2] = { { 20, 5 }, { 20, 100 }, { 1e4, 0 } };

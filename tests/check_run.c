@@ -87,7 +87,8 @@ Suite *run_suite(void)
     TCase *t = new_case(s, "run");
 
     tcase_add_unchecked_fixture(t, run_all, NULL);
-    tcase_add_loop_test(t, a_model_with_every_statement_leaves_every_file_with_its_rows, 0, COUNT(written));
+    tcase_add_loop_test(t, a_model_with_every_statement_leaves_every_file_with_its_rows, 0,
+                        COUNT(written));
     tcase_add_test(t, it_leaves_no_other_file);
     return s;
 }

@@ -187,7 +187,8 @@ Suite *scenes_suite(void)
         { the_ledger_and_the_library_agree, 2 },
         { blocks_begin_beside_each_other, SCENE_KINDS });
     add_case(s, "torture",
-        { no_step_of_any_scene_fails_or_makes_energy_or_momentum_or_lets_blocks_overlap, SEEDS * SCENE_KINDS },
+        { no_step_of_any_scene_fails_or_makes_energy_or_momentum_or_lets_blocks_overlap,
+          SEEDS * SCENE_KINDS },
         { scenes_that_once_showed_a_fault_show_none, COUNT(FAULTS) });
     add_case(s, "twins",
         { a_scene_in_units_of_powers_of_two_is_the_same_to_the_last_bit, TWIN_SEEDS * SCENE_KINDS },
