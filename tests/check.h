@@ -34,11 +34,15 @@
     } while (0)
 
 /* check_main.c: a group of tests in a suite; a test and how often it is run, with _i = 0, 1, ...; a
- * group of these. */
+ * group of these, as add_case(s, "name", { test, 1 }, { other, 3 }). */
 typedef struct { const TTest *test; int times; } loop_test;
 
 TCase *new_case(Suite *s, const char *name);
-void add_case(Suite *s, const char *name, const loop_test e[], int count);
+void add_tests(TCase *c, const loop_test e[], int count);
+
+#define add_case(s, name, ...)                                                                     \
+    add_tests(new_case(s, name), (const loop_test[]){ __VA_ARGS__ },                               \
+              COUNT(((const loop_test[]){ __VA_ARGS__ })))
 
 /* models.c: a model with all of beyond/. Its test case releases it after the test, with all that
  * are left, if the test has not. */

@@ -227,10 +227,9 @@ END_TEST
 Suite *bars_suite(void)
 {
     Suite *s = suite_create("bars");
-    TCase *t = new_case(s, "bars");
 
-    tcase_add_loop_test(t, bars_of_rectangles_bend_exactly, 0, sizeof bars / sizeof *bars);
-    tcase_add_loop_test(t, a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_series,
-                        0, 3);
+    add_case(s, "bars",
+        { bars_of_rectangles_bend_exactly, COUNT(bars) },
+        { a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_series, 3 });
     return s;
 }

@@ -106,15 +106,15 @@ static void dense_correct(const dense_system *s, const dense_coarse *c, const do
         z[i] += inner_product(coarse, c->P[i], x);
 }
 
-/* The same three corrections of the residual, one after the other, and the residual afresh before
- * each. */
-static int dense_two_level(const dense_system *s, const dense_coarse *c, double tolerance,
-                           int limit, double *x)
+/* W: the same three corrections of the residual, one after the other, and the residual afresh
+ * before each. */
+START_TEST(two_level_iterates_are_those_with_dense_matrices)
 {
     static double W[MOST_6][MOST_6];
+    dense_system *s = new_system(CHAIN, 32);
+    dense_coarse *c = new_coarse(s, 33);
     double r[MOST_6];
 
-    memset(W, 0, sizeof W);
     for (int i = 0; i < 6 * s->n; i++) {
         double e[MOST_6] = { 0 };
 
@@ -125,29 +125,7 @@ static int dense_two_level(const dense_system *s, const dense_coarse *c, double 
         dense_residual(s, e, W[i], r);
         gauss_seidel(s, 1, r, W[i]);
     }
-    return dense_pcg(s, W, tolerance, limit, x);
-}
-
-START_TEST(two_level_iterates_are_those_with_dense_matrices)
-{
-    dense_system *s = new_system(CHAIN, 32);
-    dense_coarse *c = new_coarse(s, 33);
-    bbm_pcg pcg = accurate(1, &bbm_two_level);
-    double expected[MOST_6], D[MOST_6];
-    bbm_pcg_info info;
-
-    for (pcg.iterations = 1; pcg.iterations <= 5; pcg.iterations++) {
-        ck_assert_int_eq(dense_two_level(s, c, 1e-13, pcg.iterations, expected), pcg.iterations);
-        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
-        ck_assert_int_eq(info.iterations, pcg.iterations);
-        assert_same(6 * s->n, D, expected, ITERATES);
-    }
-    pcg.iterations = 1000;
-    for (pcg.tolerance = 0.1; pcg.tolerance > 1e-9; pcg.tolerance /= 100) {
-        const int iterations = dense_two_level(s, c, pcg.tolerance, 1000, expected);
-        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
-        ck_assert_int_eq(info.iterations, iterations);
-    }
+    check_iterates(s, W, accurate(1, &bbm_two_level));
     free(c);
     free_system(s);
 }
@@ -783,35 +761,27 @@ END_TEST
 Suite *coarse_suite(void)
 {
     Suite *s = suite_create("coarse");
-    const loop_test two_levels[] = {
+
+    add_case(s, "two levels",
         { two_level_iterates_are_those_with_dense_matrices, 1 },
         { coarse_space_of_all_unknowns_solves_in_one_iteration, PATTERNS },
         { coarse_displacements_that_move_nothing_change_no_iterate, PATTERNS },
         { two_levels_have_the_solution_of_one_and_without_a_coarse_space_all_its_digits, PATTERNS },
         { solution_does_not_depend_on_earlier_ones, 2 },
         { coarse_nodes_and_corners_that_do_not_exist_are_refused, 1 },
-        { coarse_space_that_finds_no_memory_is_none, 1 },
-    };
-    const loop_test components[] = {
+        { coarse_space_that_finds_no_memory_is_none, 1 });
+    add_case(s, "components",
         { what_is_not_connected_is_solved_as_if_it_were_alone, 2 * ARRANGEMENTS },
         { order_of_the_rows_does_not_matter_to_the_time, 1 },
-        { kc_has_room_for_corners_of_one_element_and_no_others, 1 },
-    };
-    const loop_test meshes[] = {
+        { kc_has_room_for_corners_of_one_element_and_no_others, 1 });
+    add_case(s, "meshes",
         { iterations_on_two_levels_are_few_and_hardly_grow_with_the_mesh, 17 },
         { quadrilaterals_by_the_thousand_take_a_few_iterations_more, 3 },
         { two_levels_and_one_reach_the_same_displacements, MESHES },
         { corners_that_a_bond_ties_together_are_one_coarse_node, 1 },
-        { one_level_is_used_where_two_do_not_pay, 6 },
-    };
-    const loop_test interpolation[] = {
+        { one_level_is_used_where_two_do_not_pay, 6 });
+    add_case(s, "interpolation",
         { linear_displacements_of_the_corners_are_those_of_the_element, 3 },
-        { interpolation_is_the_nearest_linear_displacement, 3 },
-    };
-
-    add_case(s, "two levels", two_levels, COUNT(two_levels));
-    add_case(s, "components", components, COUNT(components));
-    add_case(s, "meshes", meshes, COUNT(meshes));
-    add_case(s, "interpolation", interpolation, COUNT(interpolation));
+        { interpolation_is_the_nearest_linear_displacement, 3 });
     return s;
 }

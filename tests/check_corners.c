@@ -528,7 +528,8 @@ END_TEST
 Suite *corners_suite(void)
 {
     Suite *s = suite_create("corners");
-    const loop_test corners[] = {
+
+    add_case(s, "corners",
         { two_corners_that_meet_leave_by_the_line_crossed_last, 2 },
         { a_corner_beside_a_corner_meets_the_side_that_lies_there, 2 },
         { the_two_lines_between_two_corners_are_entrance_lines, 2 },
@@ -539,16 +540,11 @@ Suite *corners_suite(void)
         { of_two_closed_contacts_that_meet_corner_on_corner_one_stays, 1 },
         { corners_that_turn_past_each_other_close_one_contact, 4 },
         { no_shot_passes_through_a_small_block, 12 },
-        { a_block_that_turns_far_in_a_step_meets_what_it_sweeps, 2 },
-    };
-    const loop_test entrance_lines[] = {
+        { a_block_that_turns_far_in_a_step_meets_what_it_sweeps, 2 });
+    add_case(s, "entrance lines",
         { of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle, 8 },
         { a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line, 4 },
         { nothing_comes_in_from_behind, 4 },
-        { of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_the_edge, 2 },
-    };
-
-    add_case(s, "corners", corners, COUNT(corners));
-    add_case(s, "entrance lines", entrance_lines, COUNT(entrance_lines));
+        { of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_the_edge, 2 });
     return s;
 }

@@ -321,35 +321,6 @@ START_TEST(the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks)
 }
 END_TEST
 
-/* Two boxes and a third one, as large as the others, near by or 10 km away. */
-static bbm_model *boxes(double far)
-{
-    bbm_model *m = new_blocks();
-
-    m->par.friction = 30;
-    add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .y = -1, .w = 1, .h = 1, .fixed = 1 });
-    add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.75, .y = 1e-3, .w = 1, .h = 1 });
-    add_rectangle(m, 2, BASE, (rectangle){ .x = far, .y = far, .w = 1, .h = 1, .fixed = 1 });
-    ck_ok(bbm_prepare(m), m);
-    return m;
-}
-
-START_TEST(a_block_far_away_changes_nothing)
-{
-    bbm_model *near = boxes(3), *far = boxes(1e4);
-
-    for (int i = 0; i < 30; i++) {
-        run_steps(near, 1);
-        run_steps(far, 1);
-        ck_assert_int_eq(near->contacts, far->contacts);
-        for (int k = 0; k < near->contacts; k++)
-            ck_near(near->contact[k].N, far->contact[k].N, DENSITY * GRAVITY, SOLVED);
-        for (int a = 0; a < 3; a++)
-            ck_near(near->element[1].V[a], far->element[1].V[a], 1, SOLVED);
-    }
-}
-END_TEST
-
 /* ---------------------------------------------------------------------- which grid points touch */
 
 /* The angle turns blocks and gravity alike. The upper block sinks in by different amounts at its
@@ -735,17 +706,16 @@ END_TEST
 Suite *detection_suite(void)
 {
     Suite *s = suite_create("detection");
-    const loop_test outlines[] = {
+
+    add_case(s, "outlines",
         { the_sweep_finds_the_pairs_that_comparing_all_with_all_finds, 6 },
         { the_sweep_finds_the_contacts_of_a_row_in_any_direction, 9 },
         { the_detection_compares_a_corner_with_the_few_edges_around_it, 4 },
         { a_block_does_not_touch_itself, 1 },
         { an_inner_corner_is_no_corner, 1 },
         { each_of_two_tips_in_a_node_is_a_corner, COUNT(TIPS) },
-        { the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks, COUNT(ANGLES) },
-        { a_block_far_away_changes_nothing, 1 },
-    };
-    const loop_test grid_points[] = {
+        { the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks, COUNT(ANGLES) });
+    add_case(s, "grid points",
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
         { in_statics_the_grid_points_of_the_finer_side_touch, 2 },
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
@@ -755,17 +725,11 @@ Suite *detection_suite(void)
         { a_node_where_triangles_meet_on_a_straight_side_is_no_corner, 2 },
         { points_that_face_away_from_an_edge_do_not_touch_it, 1 },
         { a_grid_point_in_a_hollow_may_touch_up_to_a_tenth, 6 },
-        { grid_points_beyond_the_end_of_a_table_are_not_held, 2 },
-    };
-    const loop_test reach[] = {
+        { grid_points_beyond_the_end_of_a_table_are_not_held, 2 });
+    add_case(s, "reach",
         { the_detection_looks_as_far_as_a_block_falls_in_the_step, 8 },
         { a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step, COUNT(MOVES) },
         { a_block_reaches_as_far_as_its_fastest_element_wherever_that_stands_in_the_model, 4 },
-        { two_blocks_at_rest_reach_two_millionths_of_an_edge, 2 },
-    };
-
-    add_case(s, "outlines", outlines, COUNT(outlines));
-    add_case(s, "grid points", grid_points, COUNT(grid_points));
-    add_case(s, "reach", reach, COUNT(reach));
+        { two_blocks_at_rest_reach_two_millionths_of_an_edge, 2 });
     return s;
 }

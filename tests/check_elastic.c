@@ -347,9 +347,7 @@ START_TEST(a_load_that_varies_reaches_the_element_whichever_end_is_named_first)
     bbm_model *m = new_model(&SOLID);
     double total[3] = { 0 }, expected[3] = { 0 };
 
-    for (int n = 0; n < 4; n++)
-        ck_ok(bbm_add_node(m, SHAPES[1].x[n][0], SHAPES[1].x[n][1], NULL), m);
-    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL), m);
+    add_polygon(m, 0, 4, SHAPES[1].x);
     ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
     ck_ok(bbm_fix_node(m, 3, BBM_X, 0, 0), m);
     ck_ok(bbm_add_varying_line_load(m, ends[0], ends[1], rising_load, scale), m);
@@ -436,37 +434,27 @@ END_TEST
 Suite *elastic_suite(void)
 {
     Suite *s = suite_create("elastic");
-    const loop_test K[] = {
+
+    add_case(s, "K",
         { K_is_symmetric_and_positive_definite_when_the_body_is_held, 2 },
-        { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 },
-    };
-    const loop_test patches[] = {
+        { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 });
+    add_case(s, "patches",
         { a_strip_under_uniform_traction_has_that_stress_in_every_element, COUNT(STRESSES) },
         { an_irregular_patch_under_uniform_traction_has_that_stress_in_every_element,
           COUNT(STRESSES) },
         { a_body_under_pressure_all_round_has_that_stress, COUNT(SHAPES) },
-        { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 },
-    };
-    const loop_test bars[] = {
+        { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 });
+    add_case(s, "bars",
         { a_bonded_bar_stretches_by_its_strain_and_its_springs, 1 },
         { a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_parts, 1 },
         { a_displaced_wall_takes_the_body_along, 1 },
-        { a_node_may_be_held_in_x_and_y_by_separate_calls, 1 },
-    };
-    const loop_test loads[] = {
+        { a_node_may_be_held_in_x_and_y_by_separate_calls, 1 });
+    add_case(s, "loads",
         { a_load_that_varies_is_asked_for_at_the_gauss_points_alone, 1 },
         { a_load_that_varies_reaches_the_element_whichever_end_is_named_first, 2 },
         { loads_of_one_node_and_of_one_edge_add_up, 1 },
-        { gravity_pulls_at_the_mass_of_each_element, 1 },
-    };
-    const loop_test finite_element[] = {
-        { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 },
-    };
-
-    add_case(s, "K", K, COUNT(K));
-    add_case(s, "patches", patches, COUNT(patches));
-    add_case(s, "bars", bars, COUNT(bars));
-    add_case(s, "loads", loads, COUNT(loads));
-    add_case(s, "finite element", finite_element, COUNT(finite_element));
+        { gravity_pulls_at_the_mass_of_each_element, 1 });
+    add_case(s, "finite element",
+        { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 });
     return s;
 }

@@ -652,7 +652,8 @@ END_TEST
 Suite *entrance_suite(void)
 {
     Suite *s = suite_create("entrance");
-    const loop_test hits[] = {
+
+    add_case(s, "hits",
         { what_hits_an_edge_is_a_corner_with_its_foot_on_it, 4 },
         { a_block_that_falls_past_the_end_of_a_table_does_not_notice_it, 2 },
         { a_corner_that_turns_towards_an_edge_in_the_step_is_stopped_by_it, 2 * COUNT(ANGLES) },
@@ -661,9 +662,8 @@ Suite *entrance_suite(void)
         { a_block_that_moves_further_than_foreseen_does_not_pass_through_a_wall, 1 },
         { a_side_may_turn_out_of_an_edge_while_its_corner_is_outside, 2 },
         { the_end_of_an_edge_belongs_to_it, 4 },
-        { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 },
-    };
-    const loop_test depth[] = {
+        { a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end, 4 });
+    add_case(s, "depth",
         { a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks, 2 * COUNT(DEPTHS) },
         { a_point_may_start_as_deep_as_the_contacts_of_both_blocks, 4 },
         { a_millionth_of_an_edge_is_allowed_for_to_the_last_bit, 4 },
@@ -671,22 +671,14 @@ Suite *entrance_suite(void)
         { a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides, 24 },
         { a_side_may_dip_as_deep_as_contacts_of_the_solution, 2 },
         { the_depth_of_a_contact_is_told_against_the_smaller_block, 4 * COUNT(SIZES) },
-        { a_contact_deeper_than_a_tenth_of_its_block_is_refused, 4 },
-    };
-    const loop_test inside[] = {
+        { a_contact_deeper_than_a_tenth_of_its_block_is_refused, 4 });
+    add_case(s, "inside",
         { a_contact_that_closes_inside_starts_without_force, 2 },
         { a_point_that_stays_inside_has_no_force, 1 },
         { a_corner_that_opens_inside_may_close_again, 3 },
-        { a_corner_that_left_after_it_opened_inside_comes_in_anew, 2 },
-    };
-    const loop_test passed[] = {
+        { a_corner_that_left_after_it_opened_inside_comes_in_anew, 2 });
+    add_case(s, "passed",
         { a_corner_that_passed_into_a_block_is_refused, 3 },
-        { a_stone_in_a_hole_is_not_in_the_ring, 1 },
-    };
-
-    add_case(s, "hits", hits, COUNT(hits));
-    add_case(s, "depth", depth, COUNT(depth));
-    add_case(s, "inside", inside, COUNT(inside));
-    add_case(s, "passed", passed, COUNT(passed));
+        { a_stone_in_a_hole_is_not_in_the_ring, 1 });
     return s;
 }

@@ -200,11 +200,9 @@ END_TEST
 
 START_TEST(a_closed_pipe_is_status_1)
 {
-    char said[LONG];
-
     ck_assert_int_eq(shell("{ sleep 0.2; %s/bbm cases/models/incline.model -o out/model/pipe 2> out/model/bad.err; "
                            "echo $? > out/model/said; } | true", BUILD), 0);
-    ck_assert_str_eq(slurp("out/model/said", said), "1\n");
+    ck_assert_str_eq(slurp("out/model/said"), "1\n");
     ck_assert_int_eq(access("out/model/pipe/nodes.csv", F_OK), 0);
 }
 END_TEST
@@ -329,14 +327,14 @@ static const struct { const char *model, *text, *last; } short_of_memory[] = {
 
 START_TEST(a_check_without_memory_says_so)
 {
-    char said[LONG];
     int status = 1;
 
     write_text("out/model/named.model", NAMED);
     for (int n = 0; status; n++) {
         status = shell("TEST_ALLOCATIONS=%d exec %s/failing/bbm -q --check out/model/named.model -o "
                        "out/model/checked 2> out/model/short.err", n, BUILD);
-        ck_assert_msg(status == !!*slurp("out/model/short.err", said), "%d: %d, %s", n, status, said);
+        const char *said = slurp("out/model/short.err");
+        ck_assert_msg(status == !!*said, "%d: %d, %s", n, status, said);
     }
 }
 END_TEST
@@ -347,7 +345,7 @@ END_TEST
 static int run_short(int model, int allocations, int *kept)
 {
     const char *name = short_of_memory[model].model;
-    char folder[60], path[100], said[LONG], text[20];
+    char folder[60], path[100], text[20];
 
     snprintf(folder, sizeof folder, "out/model/%s", name);
     snprintf(path, sizeof path, "out/model/%s.model", name);
@@ -359,7 +357,7 @@ static int run_short(int model, int allocations, int *kept)
     const int status = exit_of(start("out/model/short.err", (char *[]){
         BUILD "/failing/bbm", "-q", path, "-o", folder, "-m", "out/model/short.mtx", NULL }));
     unsetenv("TEST_ALLOCATIONS");
-    slurp("out/model/short.err", said);
+    const char *said = slurp("out/model/short.err");
     ck_assert_msg((status == 0 && !*said) || (status == 1 && *said),
                   "%s, %d allocations: status %d, said: %s", name, allocations, status, said);
     ck_assert_msg(!has_file(folder, ".tmp", 0) && !has_file(folder, "", 1), "%s, %d: left over",
@@ -397,14 +395,13 @@ START_TEST(without_memory_an_experiment_says_so)
     static const char *const name[] = {
         "exp1", "exp2", "exp3",
     };
-    char said[LONG];
 
     shell("mkdir -p out/model/cases; cp cases/fem.csv out/model/cases");
     for (size_t k = 0; k < sizeof name / sizeof *name; k++)
         for (int n = 0; n <= 100; n = n ? 10 * n : 1) {
             const int status = shell("cd out/model; TEST_ALLOCATIONS=%d exec ../../%s/failing/%s "
                                      "> short.log 2> short.err", n, BUILD, name[k]);
-            ck_assert_msg(status == 1 && *slurp("out/model/short.err", said),
+            ck_assert_msg(status == 1 && *slurp("out/model/short.err"),
                           "%s, %d allocations: status %d", name[k], n, status);
         }
 }
@@ -445,13 +442,13 @@ START_TEST(an_interrupted_run_keeps_what_it_has_computed)
         { SIGINT, "" }, { SIGTERM, "" }, { SIGINT, " settle 1000000" },
     };
     const pid_t child = start_long(call[_i].more);
-    char said[LONG], text[LONG];
+    char text[LONG];
 
     kill(child, call[_i].number);
     nanosleep(&(struct timespec){ 0, 1000000 }, NULL);
     kill(child, call[_i].number);                   /* as timeout(1) does */
     ck_assert_int_eq(exit_of(child), 128 + call[_i].number);
-    slurp("out/model/long.err", said);
+    const char *said = slurp("out/model/long.err");
     ck_assert_msg(strstr(said, _i == 2 ? "interrupted at settling, step " : "interrupted at step "),
                   "%s", said);
     ck_assert(!has_file("out/model/long", ".tmp", 0) && !has_file("out/model/long", "", 1));
@@ -516,8 +513,6 @@ END_TEST
 
 START_TEST(a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else)
 {
-    char said[LONG];
-
     write_text("out/model/again.model", SLIDE("10"));
     ck_assert_int_eq(shell("rm -rf out/model/again; mkdir -p out/model/again/step_000007.vtk; "
                            "cd out/model/again; echo 1 | tee step_000099.vtk step_1.vtk.old notes.txt "
@@ -525,7 +520,7 @@ START_TEST(a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else)
                            "notes.csv.1999999999.tmp > said"), 0);
     ck_assert_int_eq(shell("%s/bbm -q out/model/again.model -o out/model/again", BUILD), 0);
     ck_assert_int_eq(shell("cd out/model/again; ls -d *.vtk* *.tmp *.txt | tr '\\n' ' ' > ../said"), 0);
-    ck_assert_str_eq(slurp("out/model/said", said),
+    ck_assert_str_eq(slurp("out/model/said"),
                      "contacts_000000.vtk contacts_000002.vtk contacts_000004.vtk "
                      "contacts_000006.vtk contacts_000008.vtk contacts_000010.vtk "
                      "notes.csv.1999999999.tmp notes.txt step_000000.vtk step_000002.vtk "
@@ -572,10 +567,8 @@ END_TEST
 
 START_TEST(a_run_that_fails_says_at_which_step_and_what_the_library_says)
 {
-    char said[LONG];
-
     ck_assert_int_eq(run_text("fails", GLUED("10\npcg iterations 1 coarse off")), 1);
-    slurp("out/model/fails.err", said);
+    const char *said = slurp("out/model/fails.err");
     const char *step = strstr(said, "step 1");
     ck_assert_msg(strncmp(said, "out/model/fails.model: ", 23) == 0 && step
                   && !strstr(step + 1, "step 1"), "%s", said);
@@ -667,7 +660,7 @@ Suite *files_suite(void)
     tcase_set_timeout(t, 120);
     tcase_add_unchecked_fixture(t, make_folder, NULL);
     tcase_add_loop_test(t, the_matrix_leads_to_the_displacements_that_the_program_writes, 0,
-                        sizeof matrices / sizeof *matrices);
+                        COUNT(matrices));
     tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
     tcase_add_test(t, a_full_disk_leaves_the_rows_that_were_written);
     tcase_add_test(t, streams_that_are_closed_are_no_tables);

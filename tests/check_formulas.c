@@ -90,6 +90,14 @@ static void make_body(body *b, const shape *s, double dx, double dy, unsigned *s
         b->e.stress[a] = random_number(seed);
 }
 
+static body body_of(const shape *s, unsigned seed)
+{
+    body b;
+
+    make_body(&b, s, 3, -2, &seed);
+    return b;
+}
+
 /* The displacement of the body's point (x, y): translation, small rotation and strain about the
  * barycentre. */
 static void displace(const body *b, const double D[6], double x, double y, double u[2])
@@ -305,10 +313,7 @@ static double elastic_energy(const double D[], const source *s)
 
 START_TEST(the_elastic_submatrix_is_the_derivative_of_the_strain_energy)
 {
-    unsigned seed = 1;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 1);
     source s = { .i = &b };
     bbm_submatrix sub = ones();
     bbm_elastic_submatrix(&b.e, &sub);
@@ -365,12 +370,9 @@ static double product(double x, double y, const void *context)
 
 START_TEST(the_mode_integral_is_the_brute_force_integral)
 {
-    unsigned seed = 12;
-    body b;
+    const body b = body_of(&SHAPES[_i], 12);
     double M[6][6];
     char place[60];
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
     bbm_mode_integral(&b.e, M);
     for (int r = 0; r < 6; r++)
         for (int c = 0; c < 6; c++) {
@@ -410,10 +412,7 @@ static double inertia_energy(const double D[], const source *s)
 
 START_TEST(the_inertia_submatrix_is_the_derivative_of_its_energy)
 {
-    unsigned seed = 2;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 2);
     source s = { .i = &b, .dt = 0.7 };
     bbm_submatrix sub = ones();
     bbm_inertia_submatrix(&b.e, s.dt, &sub);
@@ -525,9 +524,7 @@ static void add_fixed_point(const body *b, int P, const bbm_node *W, double k, b
 START_TEST(the_fixed_submatrix_is_the_derivative_of_the_energy_of_the_held_directions)
 {
     for (int held = 0; held <= BBM_XY; held++) {
-        unsigned seed = 4;
-        body b;
-        make_body(&b, &SHAPES[_i], 3, -2, &seed);
+        const body b = body_of(&SHAPES[_i], 4);
         source s = { .i = &b, .P = 2, .k = 11, .wall = b.node[2] };
         s.wall.held = held;
         s.wall.wall[0] = 0.25;
@@ -561,10 +558,7 @@ static double point_load_energy(const double D[], const source *s)
 
 START_TEST(a_concentrated_load_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 5;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 5);
     source s = { .i = &b, .P = 1, .f = { { 2, -3 } } };
     bbm_submatrix sub = ones();
     bbm_point_load(&b.e, b.v[s.P].x, b.v[s.P].y, s.f[0], sub.F);
@@ -636,10 +630,7 @@ END_TEST
 
 START_TEST(a_load_constant_along_a_line_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 6;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 6);
     source s = { .i = &b, .P = 1, .Q = 2, .f = { { 2, -3 } } };
     bbm_submatrix sub = ones();
     bbm_constant_load_submatrix(&b.e, &b.v[s.P], &b.v[s.Q], s.f[0], sub.F);
@@ -677,10 +668,7 @@ static double volume_energy(const double D[], const source *s)
 
 START_TEST(a_volume_force_linear_in_x_and_y_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 8;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 8);
     source s = { .i = &b, .f = { { 2, -3 }, { 0.5, 1 }, { -1.5, 0.25 } } };
     bbm_submatrix sub = ones();
     bbm_varying_volume_submatrix(&b.e, b.v, linear_force, &s, sub.F);
@@ -690,10 +678,7 @@ END_TEST
 
 START_TEST(a_constant_volume_force_is_the_derivative_of_its_potential)
 {
-    unsigned seed = 9;
-    body b;
-
-    make_body(&b, &SHAPES[_i], 3, -2, &seed);
+    const body b = body_of(&SHAPES[_i], 9);
     source s = { .i = &b, .f = { { 2, -3 } } };
     bbm_submatrix sub = ones();
     bbm_volume_submatrix(&b.e, s.f[0], sub.F);
@@ -1028,81 +1013,47 @@ START_TEST(von_mises_stress_is_that_of_its_principal_stresses)
 }
 END_TEST
 
-static void add_elements(Suite *s)
+Suite *formulas_suite(void)
 {
+    Suite *s = suite_create("formulas");
     const int shapes = COUNT(SHAPES);
-    const loop_test displacements[] = {
-        { the_mode_matrix_moves_points_by_translation_rotation_and_strain, shapes },
-    };
-    const loop_test stiffness[] = {
-        { the_bonding_stiffness_has_its_value_in_either_order_of_elements_and_at_any_strain, 1 },
-    };
-    const loop_test elastic[] = {
+
+    add_case(s, "2.1 displacements",
+        { the_mode_matrix_moves_points_by_translation_rotation_and_strain, shapes });
+    add_case(s, "2.2 stiffness",
+        { the_bonding_stiffness_has_its_value_in_either_order_of_elements_and_at_any_strain, 1 });
+    add_case(s, "3.1 elastic",
         { hookes_law_gives_uniaxial_tension_and_pure_shear_their_strains, 1 },
-        { the_elastic_submatrix_is_the_derivative_of_the_strain_energy, shapes },
-    };
-    const loop_test inertia[] = {
+        { the_elastic_submatrix_is_the_derivative_of_the_strain_energy, shapes });
+    add_case(s, "3.2 inertia",
         { moments_of_polygons_have_their_closed_forms_also_far_from_the_origin, COUNT(AREAS) },
         { the_mode_integral_is_the_brute_force_integral, shapes },
         { the_inertia_submatrix_is_the_derivative_of_its_energy, shapes },
         { newmark_carries_a_constant_acceleration_without_error, 1 },
-        { a_step_hands_on_the_share_of_the_velocity_that_is_kept, 1 },
-    };
-    const loop_test bonding[] = {
-        { the_bonding_submatrices_are_derivatives_of_the_springs_energy, shapes },
-    };
-    const loop_test fixed[] = {
-        { the_fixed_submatrix_is_the_derivative_of_the_energy_of_the_held_directions, shapes },
-    };
-    const loop_test loads[] = {
+        { a_step_hands_on_the_share_of_the_velocity_that_is_kept, 1 });
+    add_case(s, "3.3 bonding",
+        { the_bonding_submatrices_are_derivatives_of_the_springs_energy, shapes });
+    add_case(s, "3.4 fixed",
+        { the_fixed_submatrix_is_the_derivative_of_the_energy_of_the_held_directions, shapes });
+    add_case(s, "3.5 loads",
         { a_concentrated_load_is_the_derivative_of_its_potential, shapes },
         { gauss_points_integrate_polynomials_to_degree_seven, 1 },
         { a_load_that_varies_along_a_line_is_the_derivative_of_its_potential, shapes },
-        { a_load_constant_along_a_line_is_the_derivative_of_its_potential, shapes },
-    };
-    const loop_test volume[] = {
+        { a_load_constant_along_a_line_is_the_derivative_of_its_potential, shapes });
+    add_case(s, "3.6 volume",
         { a_volume_force_linear_in_x_and_y_is_the_derivative_of_its_potential, shapes },
-        { a_constant_volume_force_is_the_derivative_of_its_potential, shapes },
-    };
-
-    add_case(s, "2.1 displacements", displacements, COUNT(displacements));
-    add_case(s, "2.2 stiffness", stiffness, COUNT(stiffness));
-    add_case(s, "3.1 elastic", elastic, COUNT(elastic));
-    add_case(s, "3.2 inertia", inertia, COUNT(inertia));
-    add_case(s, "3.3 bonding", bonding, COUNT(bonding));
-    add_case(s, "3.4 fixed", fixed, COUNT(fixed));
-    add_case(s, "3.5 loads", loads, COUNT(loads));
-    add_case(s, "3.6 volume", volume, COUNT(volume));
-}
-
-static void add_contacts_and_results(Suite *s)
-{
-    const loop_test contact[] = {
+        { a_constant_volume_force_is_the_derivative_of_its_potential, shapes });
+    add_case(s, "3.7 contact",
         { the_normal_submatrices_are_derivatives_of_the_normal_springs_energy, 4 },
         { the_shear_submatrices_are_derivatives_of_the_shear_springs_energy, 4 },
         { the_normal_distance_is_negative_inside_and_the_slip_positive_towards_P3, 2 },
         { contact_forces_are_equal_and_opposite_and_their_moment_is_that_of_the_gap, 4 },
-        { each_cell_of_the_table_of_states_is_as_written, COUNT(CELLS) },
-    };
-    const loop_test friction[] = {
+        { each_cell_of_the_table_of_states_is_as_written, COUNT(CELLS) });
+    add_case(s, "3.8 friction",
         { the_shear_strength_is_that_of_mohr_and_coulomb, 4 },
         { the_friction_submatrices_are_derivatives_of_the_work_against_friction, 4 },
-        { friction_opposes_the_slip_on_both_sides, 1 },
-    };
-    const loop_test results[] = {
-        { von_mises_stress_is_that_of_its_principal_stresses, 1 },
-    };
-
-    add_case(s, "3.7 contact", contact, COUNT(contact));
-    add_case(s, "3.8 friction", friction, COUNT(friction));
-    add_case(s, "results", results, COUNT(results));
-}
-
-Suite *formulas_suite(void)
-{
-    Suite *s = suite_create("formulas");
-
-    add_elements(s);
-    add_contacts_and_results(s);
+        { friction_opposes_the_slip_on_both_sides, 1 });
+    add_case(s, "results",
+        { von_mises_stress_is_that_of_its_principal_stresses, 1 });
     return s;
 }

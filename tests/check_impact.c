@@ -145,14 +145,12 @@ END_TEST
 Suite *impact_suite(void)
 {
     Suite *s = suite_create("impact");
-    const loop_test e[] = {
+
+    add_case(s, "impact",
         { a_block_rebounds_at_the_velocity_asked_for_whatever_the_step, 27 },
         { a_rocking_block_loses_what_housner_says, 3 },
         { blocks_that_hit_keep_their_momentum, 3 },
         { what_a_support_moves_evenly_moves_evenly, 2 },
-        { a_support_that_swings_pulls_with_mass_times_acceleration, 1 },
-    };
-
-    add_case(s, "impact", e, COUNT(e));
+        { a_support_that_swings_pulls_with_mass_times_acceleration, 1 });
     return s;
 }

@@ -363,9 +363,7 @@ START_TEST(fixed_points_close_together_hold_a_body_within_reason)
     for (int way = 0; way < 2; way++) {
         bbm_model *m = new_model(&SOLID);
         const double x[4][2] = { { 0, 0 }, { way ? 1e-3 : 1e-7, 0 }, { 1, 0 }, { 0, 1 } };
-        for (int n = 0; n < 4; n++)
-            ck_ok(bbm_add_node(m, x[n][0], x[n][1], NULL), m);
-        ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL), m);
+        add_polygon(m, 0, 4, x);
         ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
         ck_ok(bbm_fix_node(m, 1, BBM_XY, 0, 0), m);
         ck_ok(bbm_prepare(m), m);
@@ -596,7 +594,8 @@ END_TEST
 Suite *input_suite(void)
 {
     Suite *s = suite_create("input");
-    const loop_test bad_models[] = {
+
+    add_case(s, "bad models",
         { bad_materials_are_refused, COUNT(BAD_MATERIALS) },
         { materials_up_to_the_limits_are_taken, 1 },
         { polygons_are_judged_by_their_shape, COUNT(POLYGONS) },
@@ -608,27 +607,18 @@ Suite *input_suite(void)
         { a_line_load_on_what_is_no_boundary_edge_is_refused, 4 },
         { a_load_on_an_edge_that_two_blocks_have_goes_to_the_first, 1 },
         { statics_refuses_a_body_that_is_free_to_move_and_names_it, COUNT(HOLDS) },
-        { fixed_points_close_together_hold_a_body_within_reason, 1 },
-    };
-    const loop_test bad_parameters[] = {
+        { fixed_points_close_together_hold_a_body_within_reason, 1 });
+    add_case(s, "bad parameters",
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { settings_outside_their_range_are_refused_by_name, COUNT(SETTINGS) },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
-        { a_step_needs_bbm_prepare_and_again_after_what_is_added, 3 },
-    };
-    const loop_test failing_steps[] = {
+        { a_step_needs_bbm_prepare_and_again_after_what_is_added, 3 });
+    add_case(s, "failing steps",
         { a_negative_stiffness_is_found, 1 },
-        { every_status_has_a_text_of_its_own, 1 },
-    };
-    const loop_test memory[] = {
+        { every_status_has_a_text_of_its_own, 1 });
+    add_case(s, "memory",
         { whichever_allocation_fails_the_status_is_no_memory_and_nothing_leaks, 2 },
-        { an_array_grows_by_doubling_when_it_is_full, 1 },
-    };
-
-    add_case(s, "bad models", bad_models, COUNT(bad_models));
-    add_case(s, "bad parameters", bad_parameters, COUNT(bad_parameters));
-    add_case(s, "failing steps", failing_steps, COUNT(failing_steps));
-    add_case(s, "memory", memory, COUNT(memory));
+        { an_array_grows_by_doubling_when_it_is_full, 1 });
     return s;
 }

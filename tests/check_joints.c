@@ -264,7 +264,8 @@ END_TEST
 Suite *joints_suite(void)
 {
     Suite *s = suite_create("joints");
-    const loop_test e[] = {
+
+    add_case(s, "joints",
         { a_joint_is_where_a_corner_lies_on_an_edge, 2 },
         { a_joint_may_gape_by_a_millionth_of_an_edge, 2 },
         { a_joint_is_there_at_the_start_or_never, 2 },
@@ -274,9 +275,6 @@ Suite *joints_suite(void)
         { the_areas_of_a_joints_contacts_add_up_to_its_own, COUNT(PIECES) * COUNT(SEATS) },
         { blocks_that_come_to_touch_have_no_tensile_strength, 1 },
         { a_joint_of_no_meaning_is_refused, 6 },
-        { statics_finds_the_states_of_many_blocks_in_unbroken_joints, 1 },
-    };
-
-    add_case(s, "joints", e, COUNT(e));
+        { statics_finds_the_states_of_many_blocks_in_unbroken_joints, 1 });
     return s;
 }

@@ -48,10 +48,8 @@ TCase *new_case(Suite *s, const char *name)
     return c;
 }
 
-void add_case(Suite *s, const char *name, const loop_test e[], int count)
+void add_tests(TCase *c, const loop_test e[], int count)
 {
-    TCase *c = new_case(s, name);
-
     for (int i = 0; i < count; i++)
         tcase_add_loop_test(c, e[i].test, 0, e[i].times);
 }

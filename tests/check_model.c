@@ -26,7 +26,6 @@ END_TEST
 
 START_TEST(wrong_arguments_are_status_2_and_help_is_status_0)
 {
-    char said[LONG];
     static const struct { const char *arguments; int status; } call[] = {
         { "", 2 }, { "-x a.model", 2 }, { "a.model b.model", 2 }, { "a.model -o", 2 }, { "-h", 0 },
         { "nowhere.model", 2 }, { "a.model -m a.model", 2 }, { "a.model -m nodes.csv", 2 }, { "a.model -m .mtx", 2 }, { "--version", 0 },
@@ -36,7 +35,7 @@ START_TEST(wrong_arguments_are_status_2_and_help_is_status_0)
         ck_assert_int_eq(shell("%s/bbm %s > out/model/said 2>> out/model/bad.err", BUILD, call[k].arguments),
                          call[k].status);
     check_text("out/model/bad.err", "nowhere.model: nowhere.model cannot be read: No such file or directory\n");
-    ck_assert_str_eq(slurp("out/model/said", said), "bbm " BBM_VERSION "\n");
+    ck_assert_str_eq(slurp("out/model/said"), "bbm " BBM_VERSION "\n");
 }
 END_TEST
 
@@ -116,11 +115,9 @@ START_TEST(load_traction_and_pressure_agree)
         "load box 2 0 2 1 5e5 0\nstatic\n", "traction box 2 0 2 1 1e6 0\nstatic\n",
         "set right nodes 5 6\npressure set right -1e6\nstatic\n", "load node 5 2.5e5 0\nload at 2 1 2.5e5 0\nstatic\n",
     };
-    char text[LONG];
 
     for (size_t k = 0; k < sizeof end / sizeof *end; k++) {
-        snprintf(text, sizeof text, "%s%s", STRIP, end[k]);
-        ck_assert_int_eq(run_text("pull", text), 0);
+        ck_assert_int_eq(run_printed("pull", "%s%s", STRIP, end[k]), 0);
         /* u = s L/E = 1e6 * 2/2e11; the springs give nothing away after two augmentations, to 1e-9 of it. */
         ck_relative(cell("pull", "history.csv", "1,", "end_u"), 1e-5, 1e-9);
         ck_relative(cell("pull", "history.csv", "1,", "end_v"), -1.5e-6, 1e-9);
@@ -146,17 +143,14 @@ START_TEST(a_pressure_turns_with_its_edge_and_a_traction_does_not)
     /* A square that spins freely with 1 rad/s, pushed on its trailing side: after dt it has turned by as much. */
     static const char text[] = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nelement 1 b steel 1 2 3 4\n"
         "velocity b 0 0 1.5707963267948966\nset left nodes 1 4\n%s set left %s\ndynamic dt 0.01 steps 100\n";
-    char model[LONG];
 
     /* m = 3900 kg, f = 3900 N: a(t) = (cos wt, sin wt), w = pi/2, for t = 1: x = 4/pi^2, y = (1 - 2/pi) 2/pi */
-    snprintf(model, sizeof model, text, "pressure", "7800");
-    ck_assert_int_eq(run_text("turn", model), 0);
+    ck_assert_int_eq(run_printed("turn", text, "pressure", "7800"), 0);
     const double pi = acos(-1);
     ck_near(cell("turn", "elements.csv", "1,b", "u"), 4 / (pi * pi), 0.5, 0.02);     /* dt/2 of lag: 1 % of 1 s */
     ck_near(cell("turn", "elements.csv", "1,b", "v"), (1 - 2 / pi) * 2 / pi, 0.5, 0.02);
     ck_relative(cell("turn", "elements.csv", "1,b", "rotation"), pi / 2, 1e-3);
-    snprintf(model, sizeof model, text, "traction", "7800 0");
-    ck_assert_int_eq(run_text("turn", model), 0);
+    ck_assert_int_eq(run_printed("turn", text, "traction", "7800 0"), 0);
     ck_near(cell("turn", "elements.csv", "1,b", "u"), 0.5, 0.5, 0.02);
     ck_near(cell("turn", "elements.csv", "1,b", "v"), 0, 0.5, 0.02);
 }
@@ -169,11 +163,9 @@ START_TEST(what_steps_make_beyond_the_work_of_loads_is_told)
     static const char *const text = STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nnode 4 0 1\nelement 7 b steel 1 2 3 4\n"
         "velocity b 0 0 1\ndynamic dt 0.01 steps 50\nrotation %s\n";
     const double swollen = 3900 / 12.0 * (pow(1 + 1e-4, 50) - 1);
-    char model[LONG];
 
     for (int k = 0; k < 2; k++) {
-        snprintf(model, sizeof model, text, k ? "linear" : "exact");
-        ck_assert_int_eq(run_text("gains", model), 0);
+        ck_assert_int_eq(run_printed("gains", text, k ? "linear" : "exact"), 0);
         ck_near(cell("gains", "summary.csv", "50,", "gained"), k ? swollen : 0, swollen, 1e-6);
     }
     ck_assert_int_eq(shell("%s/bbm out/model/gains.model -o out/model/gains > out/model/said", BUILD), 0);
@@ -186,11 +178,10 @@ START_TEST(a_shaken_block_follows_the_closed_form)
     double error[2];
 
     for (int k = 0; k < 2; k++) {
-        char text[LONG];
-        snprintf(text, sizeof text, STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
-                 "shake 2 0 3.141592653589793\ndynamic dt %g steps %d\nmonitor p node 2\n", 0.01 / (k + 1),
-                 100 * (k + 1));
-        ck_assert_int_eq(run_text("shake", text), 0);
+        ck_assert_int_eq(run_printed("shake",
+            STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
+            "shake 2 0 3.141592653589793\ndynamic dt %g steps %d\nmonitor p node 2\n", 0.01 / (k + 1),
+            100 * (k + 1)), 0);
         /* u'' = -A sin wt   ->   u = A (sin wt - wt)/w^2, -A/w at t = 1 */
         error[k] = cell("shake", "history.csv", "", "p_u") + 2 / acos(-1);
     }
@@ -202,11 +193,10 @@ END_TEST
 START_TEST(a_step_with_velocity_factor_0_reports_the_kinetic_energy_that_it_had)
 {
     static const char *const word[] = { "velocity_factor", "damping" };         /* they are the same */
-    char text[LONG];
 
-    snprintf(text, sizeof text, STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
-             "gravity 0 -10\ndynamic dt 0.1 steps 3 %s 0\n", word[_i]);
-    ck_assert_int_eq(run_text("damped", text), 0);
+    ck_assert_int_eq(run_printed("damped",
+        STEEL "node 1 0 0\nnode 2 1 0\nnode 3 1 1\nelement 7 b steel 1 2 3\n"
+        "gravity 0 -10\ndynamic dt 0.1 steps 3 %s 0\n", word[_i]), 0);
     ck_relative(cell("damped", "summary.csv", "3,", "kinetic"), 975.0, 1e-9);           /* v = g dt = 1 in each step */
 }
 END_TEST
@@ -225,14 +215,12 @@ START_TEST(a_ground_in_its_stress_stays)
 {
     static const char *const ground[] = { "grid low rock 0 0 8 10 4 5\n",
                                           "grid low rock 0 0 8 4 4 2\ngrid top rock 0 4 8 10 4 3\n" };
-    char text[LONG];
 
-    snprintf(text, sizeof text,
-             "material rock E 1e9 nu 0.25 density 2500\nplane strain\n%slet w $(2500*9.81)\n"
-             "stress * $(-10*w/3) $(-10*w) 0 gradient $(w/3) $w 0\ngravity 0 -9.81\nfix box 0 0 0 10 x\n"
-             "fix box 8 0 8 10 x\nfix box 0 0 8 0\ncontact friction 30\n%s\nmonitor top at 4 10\n",
-             ground[_i % 2], _i < 2 ? "static" : "dynamic dt 0.01 steps 50");
-    ck_assert_int_eq(run_text("ground", text), 0);
+    ck_assert_int_eq(run_printed("ground",
+        "material rock E 1e9 nu 0.25 density 2500\nplane strain\n%slet w $(2500*9.81)\n"
+        "stress * $(-10*w/3) $(-10*w) 0 gradient $(w/3) $w 0\ngravity 0 -9.81\nfix box 0 0 0 10 x\n"
+        "fix box 8 0 8 10 x\nfix box 0 0 8 0\ncontact friction 30\n%s\nmonitor top at 4 10\n",
+        ground[_i % 2], _i < 2 ? "static" : "dynamic dt 0.01 steps 50"), 0);
     ck_near(cell("ground", "history.csv", "", "top_v"), 0, 2500 * 9.81 * 100 / 2e9, _i % 2 ? 3e-2 : 1e-2);
     if (_i % 2 == 0)
         ck_relative(cell("ground", "elements.csv", "1,low,", "syy"), -9 * 2500 * 9.81, 1e-2);
@@ -241,14 +229,12 @@ END_TEST
 
 START_TEST(statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps)
 {
-    char said[LONG];
-
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 1 tolerance 1e-12\n"), 1);
     check_text("out/model/few.err", "few.model: step 1: no equilibrium");
     ck_assert_double_lt(cell("few", "history.csv", "1,", "end_v"), 0);
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 30 tolerance 1e-8\n"), 0);
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic steps 30\n"), 0);
-    ck_assert_ptr_null(strstr(slurp("out/model/few.err", said), "equilibrium"));
+    ck_assert_ptr_null(strstr(slurp("out/model/few.err"), "equilibrium"));
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e9\nstatic steps 2\n"), 0);
     check_text("out/model/few.err", "way of all: no equilibrium yet");
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic\npcg iterations 1 coarse off\n"), 1);
@@ -266,10 +252,9 @@ START_TEST(both_versions_of_a_mesh_and_the_same_by_hand_agree)
                               "element 1 plate steel 1 2 3\nelement 2 plate steel 1 3 4\nset left nodes 1 4\n"
                               "fix set left\nload node 3 0 -1e6\nstatic\n"), 0);
     for (int k = 0; k < 2; k++) {
-        char text[LONG];
-        snprintf(text, sizeof text, STEEL "mesh ../../tests/mesh/square%s.msh\nuse steel on plate\nfix set left\n"
-                 "load node 3 0 -1e6\nstatic\n", version[k]);
-        ck_assert_int_eq(run_text("mesh", text), 0);
+        ck_assert_int_eq(run_printed("mesh",
+            STEEL "mesh ../../tests/mesh/square%s.msh\nuse steel on plate\nfix set left\n"
+            "load node 3 0 -1e6\nstatic\n", version[k]), 0);
         ck_assert_double_eq(cell("mesh", "nodes.csv", "3,plate", "v"), cell("hand", "nodes.csv", "3,plate", "v"));
     }
 }
@@ -290,13 +275,11 @@ END_TEST
 /* An element with a hanging node, and two beside it that share it. */
 START_TEST(a_block_in_pieces_is_said)
 {
-    char said[LONG];
-
     ck_assert_int_eq(run_text("pieces", "node 1 0 0\nnode 2 2 0\nnode 3 2 1\nnode 4 1 1\nnode 5 0 1\nnode 6 2 2\n"
                               "node 7 1 2\nnode 8 0 2\nmaterial rock E 1e10 nu 0.25 density 2500\n"
                               "element 10 beam rock 1 2 3 5\nelement 20 beam rock 5 4 7 8\n"
                               "element 30 beam rock 4 3 6 7\nfixblock beam\ngravity 0 -10\ndynamic dt 0.01 steps 1\n"), 0);
-    ck_assert_str_eq(slurp("out/model/pieces.err", said), "out/model/pieces.model: warning: block 'beam' is in 2 pieces "
+    ck_assert_str_eq(slurp("out/model/pieces.err"), "out/model/pieces.model: warning: block 'beam' is in 2 pieces "
                      "that no bond joins, with the elements 10, 20; elements are bonded along sides whose two nodes they "
                      "share\n");
 }
@@ -305,12 +288,10 @@ END_TEST
 /* A block that slides off a slope. */
 START_TEST(statics_names_the_block_that_slides)
 {
-    char said[LONG];
-
     ck_assert_int_eq(run_text("slides", STEEL "node 1 0 0\nnode 2 4 0\nnode 3 4 1\nnode 4 0 1\nnode 5 1 1\nnode 6 2 1\n"
                               "node 7 2 2\nnode 8 1 2\nelement 1 base steel 1 2 3 4\nelement 9 stone steel 5 6 7 8\n"
                               "fixblock base\ngravity 5 -9.81\ncontact friction 20\nstatic\n"), 1);
-    ck_assert_str_eq(slurp("out/model/slides.err", said), "out/model/slides.model: it falls: step 1: block 'stone' "
+    ck_assert_str_eq(slurp("out/model/slides.err"), "out/model/slides.model: it falls: step 1: block 'stone' "
                      "(element 9) slides on block 'base' (element 1), and goes on\n");
 }
 END_TEST
@@ -320,7 +301,6 @@ Suite *model_suite(void)
     Suite *s = suite_create("model");
     TCase *t = new_case(s, "wrong input");
 
-    tcase_set_timeout(t, 60);
     tcase_add_unchecked_fixture(t, run_models, NULL);
     tcase_add_test(t, wrong_input_is_named_with_its_line_and_nothing_is_written);
     tcase_add_test(t, wrong_arguments_are_status_2_and_help_is_status_0);

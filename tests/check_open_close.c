@@ -557,7 +557,8 @@ END_TEST
 Suite *open_close_suite(void)
 {
     Suite *s = suite_create("open-close");
-    const loop_test passes[] = {
+
+    add_case(s, "passes",
         { solutions_that_never_agree_make_the_iteration_give_up, 2 },
         { a_solution_that_agrees_ends_the_iteration, 3 },
         { other_states_are_another_number, 1 },
@@ -573,21 +574,14 @@ Suite *open_close_suite(void)
         { friction_in_the_matrix_takes_no_passes, 4 },
         { blocks_that_slide_take_few_solutions_a_step, COUNT(FEW) },
         { blocks_without_any_force_settle_at_once, 1 },
-        { contacts_that_never_settle_end_with_a_status_and_the_numbers, 1 },
-    };
-    const loop_test foreseen[] = {
+        { contacts_that_never_settle_end_with_a_status_and_the_numbers, 1 });
+    add_case(s, "foreseen",
         { a_solution_that_moves_further_than_foreseen_is_noticed, 4 },
         { a_solution_may_move_as_far_as_foreseen_to_the_last_bit, 1 },
-        { a_step_foresees_no_less_than_it_did_before, 1 },
-    };
-    const loop_test vectors[] = {
+        { a_step_foresees_no_less_than_it_did_before, 1 });
+    add_case(s, "vectors",
         { vectors_of_the_step_are_off_by_the_force_that_they_make, 4 },
         { vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks, COUNT(WRONG) },
-        { the_direction_of_a_contacts_force_may_be_wrong_by_1e_4, 2 },
-    };
-
-    add_case(s, "passes", passes, COUNT(passes));
-    add_case(s, "foreseen", foreseen, COUNT(foreseen));
-    add_case(s, "vectors", vectors, COUNT(vectors));
+        { the_direction_of_a_contacts_force_may_be_wrong_by_1e_4, 2 });
     return s;
 }

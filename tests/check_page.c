@@ -162,12 +162,10 @@ END_TEST
 Suite *page_suite(void)
 {
     Suite *s = suite_create("page");
-    const loop_test e[] = {
+
+    add_case(s, "page",
         { after_load_and_each_step_the_arrays_are_those_of_the_library, COUNT(models) },
         { a_wrong_model_gives_its_line_and_cannot_step, COUNT(wrong) },
-        { the_looks_at_a_step_lead_from_state_to_state, 2 },
-    };
-
-    add_case(s, "page", e, COUNT(e));
+        { the_looks_at_a_step_lead_from_state_to_state, 2 });
     return s;
 }

@@ -493,19 +493,17 @@ END_TEST
 Suite *refused_suite(void)
 {
     Suite *s = suite_create("refused");
-    TCase *overlap = new_case(s, "overlap");
 
-    tcase_add_loop_test(overlap, blocks_that_overlap_are_refused_with_depth_and_place, 0,
-                        2 * (int)(sizeof OUTLINES / sizeof *OUTLINES));
-    tcase_add_loop_test(overlap, stars_overlap_where_points_lie_in_both, 0, 100);
-    tcase_add_test(overlap, elements_of_one_block_that_overlap_are_refused);
-    tcase_add_loop_test(overlap, blocks_of_many_elements_that_overlap_are_refused_at_any_angle,
-                        0, 9);
-    TCase *pieces = new_case(s, "pieces");
-    tcase_add_test(pieces, a_block_falls_into_the_pieces_that_bonds_join);
-    TCase *holds = new_case(s, "holds");
-    tcase_add_loop_test(holds, a_body_is_held_unless_all_lines_of_action_meet, 0, 16);
-    tcase_add_loop_test(holds, an_edge_holds_a_body_if_it_has_a_moment, 0, 3);
+    add_case(s, "overlap",
+        { blocks_that_overlap_are_refused_with_depth_and_place, 2 * COUNT(OUTLINES) },
+        { stars_overlap_where_points_lie_in_both, 100 },
+        { elements_of_one_block_that_overlap_are_refused, 1 },
+        { blocks_of_many_elements_that_overlap_are_refused_at_any_angle, 9 });
+    add_case(s, "pieces",
+        { a_block_falls_into_the_pieces_that_bonds_join, 1 });
+    add_case(s, "holds",
+        { a_body_is_held_unless_all_lines_of_action_meet, 16 },
+        { an_edge_holds_a_body_if_it_has_a_moment, 3 });
     TCase *failing = new_case(s, "failing");
     tcase_set_timeout(failing, 10);         /* s: the disc takes half a second, 5 with sanitizers */
     tcase_add_loop_test(failing, of_blocks_that_go_together_the_one_that_parts_is_named, 0, 4);

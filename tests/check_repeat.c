@@ -166,122 +166,17 @@ START_TEST(blocks_prepared_again_in_a_run_keep_holding_each_other)
 }
 END_TEST
 
-/* ----------------------------------------------------------------------------- units of measure */
-
-/* Units of length, mass and time as powers of two, so that no number loses a bit. */
-static const struct { int length, mass, time; } UNITS[] = { { -20, 0, 0 }, { 20, 30, -12 } };
-
-/* The same model, built in other units. */
-static bbm_model *in_units(const bbm_model *m, double L, double M, double T)
-{
-    const double force = M * L / (T * T), pressure = force / (L * L);
-    bbm_model *n = new_blocks();
-
-    n->par = m->par;
-    n->par.dt *= T;
-    n->par.gravity[0] *= L / (T * T);
-    n->par.gravity[1] *= L / (T * T);
-    n->par.p_n *= force / L;
-    n->par.p_s *= force / L;
-    n->beyond->cohesion = m->beyond->cohesion * pressure;
-    n->beyond->tension = m->beyond->tension * pressure;
-    for (int i = 0; i < m->nodes; i++) {
-        ck_ok(bbm_add_node(n, m->node[i].x * L, m->node[i].y * L, NULL), n);
-        if (m->node[i].held)
-            ck_ok(bbm_fix_node(n, i, m->node[i].held, 0, 0), n);
-    }
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        const bbm_material *r = &e->material;
-        const bbm_material rock = { r->E * pressure, r->nu, r->density * M / (L * L * L),
-                                    r->thickness * L };
-        int node[12], material;
-        for (int k = 0; k < e->n; k++)
-            node[k] = m->vertex[e->first + k].node;
-        ck_ok(bbm_add_material(n, &rock, &material), n);
-        ck_ok(bbm_add_element(n, e->block, material, e->n, node, NULL), n);
-    }
-    ck_ok(bbm_prepare(n), n);
-    return n;
-}
-
-static void check_units(const bbm_model *m, const bbm_model *n, double L, double M, double T)
-{
-    const double force = M * L / (T * T);
-
-    ck_assert_int_eq(m->info.passes, n->info.passes);
-    ck_assert_int_eq(m->contacts, n->contacts);
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k], *d = &n->contact[k];
-        ck_assert(c->corner == d->corner && c->edge == d->edge && c->state == d->state &&
-                  c->sign == d->sign);
-        ck_assert(c->beyond_end == d->beyond_end && c->entrance[0] == d->entrance[0] &&
-                  c->entrance[1] == d->entrance[1]);
-        ck_assert(c->anchor == d->anchor && c->d_n * L == d->d_n && c->area * L * L == d->area);
-        ck_assert(c->N * force == d->N && c->T * force == d->T);
-    }
-    for (int v = 0; v < m->vertices; v++)
-        ck_assert(m->vertex[v].x * L == n->vertex[v].x && m->vertex[v].y * L == n->vertex[v].y);
-}
-
-/* A pile thrown about; a bonded wall with joints on a floor, some of whose bricks are shot. */
-static bbm_model *lively(int bonded)
-{
-    const int order[16] = { 3, 2, 1, 0, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
-    bbm_model *m = bonded ? wall(order, 0) : pile(3, 0);
-
-    if (bonded)
-        add_rectangle(m, 16, BASE, (rectangle){ .x = -1, .y = -1, .w = 7, .h = 1, .nx = 3,
-                                                .fixed = 1 });
-    m->par.friction = 25;
-    m->beyond->cohesion = m->beyond->tension = bonded ? 2e3 : 0;
-    return m;
-}
-
-START_TEST(the_result_does_not_depend_on_the_units_to_the_last_bit)
-{
-    const double L = ldexp(1, UNITS[_i / 2].length), M = ldexp(1, UNITS[_i / 2].mass);
-    const double T = ldexp(1, UNITS[_i / 2].time);
-    bbm_model *m = lively(_i % 2), *n = in_units(m, L, M, T);
-    int hits = 0;
-
-    for (int e = 0; e < m->elements; e++) {
-        const int b = m->element[e].block % 5;
-        const int still = b > 2 || m->node[m->vertex[m->element[e].first].node].held;
-        set_velocity(m, e, still ? 0 : b - 1, still ? 0 : -2);
-        set_velocity(n, e, m->element[e].V[0] * L / T, m->element[e].V[1] * L / T);
-        m->element[e].V[2] = still ? 0 : 6;
-        n->element[e].V[2] = m->element[e].V[2] / T;
-    }
-    for (int i = 0; i < (_i % 2 ? 2 : 60); i++) {
-        run_steps(m, 1);
-        run_steps(n, 1);
-        check_units(m, n, L, M, T);
-        hits += m->info.contacts;
-    }
-    ck_assert_int_gt(hits, 50);
-}
-END_TEST
-
 Suite *repeat_suite(void)
 {
     Suite *s = suite_create("repeat");
-    const loop_test again[] = {
+
+    add_case(s, "again",
         { a_step_done_again_in_halves_is_the_two_half_steps_to_the_last_bit, 1 },
-        { a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were, 1 },
-    };
-    const loop_test repeat[] = {
+        { a_step_that_fails_leaves_the_contacts_and_all_else_as_they_were, 1 });
+    add_case(s, "repeat",
         { a_pile_falls_the_same_way_whichever_block_comes_first, 1 },
         { a_step_depends_on_the_state_and_not_on_what_is_left_in_memory, 1 },
         { whichever_allocation_fails_contacts_leave_the_model_fit_to_go_on, 2 },
-        { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 },
-    };
-    const loop_test units[] = {
-        { the_result_does_not_depend_on_the_units_to_the_last_bit, 2 * COUNT(UNITS) },
-    };
-
-    add_case(s, "again", again, COUNT(again));
-    add_case(s, "repeat", repeat, COUNT(repeat));
-    add_case(s, "units", units, COUNT(units));
+        { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 });
     return s;
 }

@@ -180,24 +180,22 @@ END_TEST
 Suite *scenes_suite(void)
 {
     Suite *s = suite_create("scenes");
-    TCase *c = new_case(s, "ledger");
 
-    tcase_add_test(c, the_generator_of_random_numbers_is_splitmix64);
-    tcase_add_test(c, the_ledger_knows_a_plate_that_spins_and_stretches);
-    tcase_add_loop_test(c, the_ledger_and_the_library_agree, 0, 2);
-    tcase_add_loop_test(c, blocks_begin_beside_each_other, 0, SCENE_KINDS);
-    c = new_case(s, "torture");
-    tcase_set_timeout(c, 60);
-    tcase_add_loop_test(c, no_step_of_any_scene_fails_or_makes_energy_or_momentum_or_lets_blocks_overlap, 0,
-                        SEEDS * SCENE_KINDS);
-    tcase_add_loop_test(c, scenes_that_once_showed_a_fault_show_none, 0, sizeof FAULTS / sizeof *FAULTS);
-    c = new_case(s, "twins");
-    tcase_set_timeout(c, 60);
-    tcase_add_loop_test(c, a_scene_in_units_of_powers_of_two_is_the_same_to_the_last_bit, 0, TWIN_SEEDS * SCENE_KINDS);
-    tcase_add_loop_test(c, a_scene_in_other_units_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
-    tcase_add_loop_test(c, a_scene_in_another_order_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
-    tcase_add_loop_test(c, a_scene_in_another_frame_is_the_same, 0, TWIN_SEEDS * SCENE_KINDS);
-    tcase_add_loop_test(c, a_stone_far_away_does_not_matter, 0, TWIN_SEEDS * SCENE_KINDS);
-    tcase_add_loop_test(c, the_size_of_a_stone_far_away_does_not_matter, 0, 4);
+    add_case(s, "ledger",
+        { the_generator_of_random_numbers_is_splitmix64, 1 },
+        { the_ledger_knows_a_plate_that_spins_and_stretches, 1 },
+        { the_ledger_and_the_library_agree, 2 },
+        { blocks_begin_beside_each_other, SCENE_KINDS });
+    add_case(s, "torture",
+        { no_step_of_any_scene_fails_or_makes_energy_or_momentum_or_lets_blocks_overlap,
+          SEEDS * SCENE_KINDS },
+        { scenes_that_once_showed_a_fault_show_none, COUNT(FAULTS) });
+    add_case(s, "twins",
+        { a_scene_in_units_of_powers_of_two_is_the_same_to_the_last_bit, TWIN_SEEDS * SCENE_KINDS },
+        { a_scene_in_other_units_is_the_same, TWIN_SEEDS * SCENE_KINDS },
+        { a_scene_in_another_order_is_the_same, TWIN_SEEDS * SCENE_KINDS },
+        { a_scene_in_another_frame_is_the_same, TWIN_SEEDS * SCENE_KINDS },
+        { a_stone_far_away_does_not_matter, TWIN_SEEDS * SCENE_KINDS },
+        { the_size_of_a_stone_far_away_does_not_matter, 4 });
     return s;
 }

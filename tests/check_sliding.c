@@ -579,7 +579,8 @@ END_TEST
 Suite *sliding_suite(void)
 {
     Suite *s = suite_create("sliding");
-    const loop_test friction[] = {
+
+    add_case(s, "friction",
         { a_block_slides_down_an_incline_as_the_closed_form_says, 2 * COUNT(SLIDING) },
         { the_plain_way_to_agree_finds_the_same_friction, 1 },
         { a_block_comes_to_rest_against_a_stop_in_statics, 3 },
@@ -591,24 +592,17 @@ Suite *sliding_suite(void)
         { friction_may_drop_with_the_slip, 2 },
         { blocks_that_slide_on_floors_apart_slide_alike, 1 },
         { the_springs_of_a_support_that_moves_let_no_contact_leave_its_cone, 1 },
-        { a_block_on_very_stiff_springs_rests_on_a_slope, 1 },
-    };
-    const loop_test anchors[] = {
+        { a_block_on_very_stiff_springs_rests_on_a_slope, 1 });
+    add_case(s, "anchors",
         { a_locked_contact_keeps_its_anchor, 1 },
         { a_sliding_contact_takes_its_anchor_along, 1 },
         { a_contact_is_anchored_where_it_hit, 2 },
         { a_locked_contact_passes_from_edge_to_edge_with_its_shear_force, 2 },
         { a_block_that_slides_over_an_end_keeps_its_forces, 2 },
         { a_corner_that_slides_on_along_a_bent_side_keeps_its_contact, 2 },
-        { a_block_that_slides_off_a_table_is_let_go, 4 },
-    };
-    const loop_test joints[] = {
+        { a_block_that_slides_off_a_table_is_let_go, 4 });
+    add_case(s, "joints of slabs",
         { a_block_slides_over_the_joints_of_slabs_as_over_one_slab, COUNT(PAVEMENTS) },
-        { a_step_between_two_slabs_stops_a_block, 4 },
-    };
-
-    add_case(s, "friction", friction, COUNT(friction));
-    add_case(s, "anchors", anchors, COUNT(anchors));
-    add_case(s, "joints of slabs", joints, COUNT(joints));
+        { a_step_between_two_slabs_stops_a_block, 4 });
     return s;
 }

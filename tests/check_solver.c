@@ -259,44 +259,19 @@ static void form_ssor(const dense_system *s, double w, double M[MOST_6][MOST_6])
             M[i][j] = inner_product(n, E[i], column[j]) / (2 - w);
 }
 
-static int dense_ssor_pcg(const dense_system *s, double w, double tolerance, int limit, double *x)
+/* A chain keeps its order, so that L is the same here and in solver.c. */
+START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
 {
     static double M[MOST_6][MOST_6], W[MOST_6][MOST_6];
+    dense_system *s = new_system(CHAIN, 11);
 
-    form_ssor(s, w, M);
+    form_ssor(s, OMEGA[_i], M);
     for (int i = 0; i < 6 * s->n; i++) {
         double e[MOST_6] = { 0 };
         e[i] = 1;
         dense_solve(6 * s->n, M, e, W[i]);
     }
-    return dense_pcg(s, W, tolerance, limit, x);
-}
-
-/* A chain keeps its order, so that L is the same here and in solver.c. */
-START_TEST(iterates_are_those_of_ssor_pcg_with_dense_matrices)
-{
-    static const double tolerance[] = { 0.5, 1e-2, 1e-4, 1e-6, 1e-8 };
-    dense_system *s = new_system(CHAIN, 11);
-    double expected[MOST_6], D[MOST_6];
-    bbm_pcg_info info;
-
-    for (int k = 0; k < COUNT(OMEGA); k++) {
-        bbm_pcg pcg = accurate(OMEGA[k], NULL);
-        for (pcg.iterations = 1; pcg.iterations <= 4; pcg.iterations++) {
-            ck_assert_int_eq(dense_ssor_pcg(s, pcg.omega, 1e-13, pcg.iterations, expected),
-                             pcg.iterations);
-            ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
-            ck_assert_int_eq(info.iterations, pcg.iterations);
-            assert_same(6 * s->n, D, expected, ITERATES);
-        }
-        pcg.iterations = 1000;
-        for (int t = 0; t < COUNT(tolerance); t++) {
-            pcg.tolerance = tolerance[t];
-            const int iterations = dense_ssor_pcg(s, pcg.omega, pcg.tolerance, 1000, expected);
-            ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
-            ck_assert_int_eq(info.iterations, iterations);
-        }
-    }
+    check_iterates(s, W, accurate(OMEGA[_i], NULL));
     free_system(s);
 }
 END_TEST
@@ -683,29 +658,27 @@ END_TEST
 Suite *solver_suite(void)
 {
     Suite *s = suite_create("solver");
-    const loop_test matrix[] = {
+
+    add_case(s, "matrix",
         { product_is_that_of_the_dense_matrix, PATTERNS },
         { order_direction_and_repetition_of_the_pairs_change_no_bit, PATTERNS },
         { block_added_as_ij_or_transposed_as_ji_is_the_same, 1 },
         { cleared_matrix_is_zero_and_can_be_filled_again, PATTERNS },
         { pair_that_is_not_in_the_pattern_is_refused_and_changes_nothing, 1 },
-        { pattern_with_a_row_that_does_not_exist_is_refused, 1 },
-    };
-    const loop_test order[] = {
+        { pattern_with_a_row_that_does_not_exist_is_refused, 1 });
+    add_case(s, "order",
         { long_strips_in_any_numbering_get_a_narrow_band, 5 },
         { neighbours_of_low_degree_come_first, 5 },
-        { bandwidths_of_small_patterns_are_those_of_theory, 1 },
-    };
-    const loop_test solution[] = {
+        { bandwidths_of_small_patterns_are_those_of_theory, 1 });
+    add_case(s, "solution",
         { solution_is_that_of_the_dense_matrix, PATTERNS },
-        { iterates_are_those_of_ssor_pcg_with_dense_matrices, 1 },
+        { iterates_are_those_of_ssor_pcg_with_dense_matrices, COUNT(OMEGA) },
         { residual_is_the_true_one, PATTERNS },
         { a_solution_takes_no_longer_than_the_processor_was_at_it, 1 },
         { loads_of_any_size_give_the_same_digits, 1 },
         { no_load_gives_no_displacement_in_no_iteration, 1 },
-        { load_on_one_of_many_rows_makes_no_denormals, 1 },
-    };
-    const loop_test failure[] = {
+        { load_on_one_of_many_rows_makes_no_denormals, 1 });
+    add_case(s, "failure",
         { parameter_outside_its_range_is_refused, 1 },
         { entry_of_the_load_that_is_not_finite_is_refused, 1 },
         { entry_of_the_matrix_that_is_not_finite_is_refused, 36 },
@@ -713,18 +686,10 @@ Suite *solver_suite(void)
         { matrix_that_is_not_positive_definite_is_found_out_by_the_iteration, 1 },
         { limit_of_iterations_ends_with_the_last_iterate_and_its_residual, 1 },
         { solution_too_large_for_a_number_is_not_returned_in_silence, 1 },
-        { least_tolerance_is_met_by_an_exact_solution, 1 },
-    };
-    const loop_test components[] = {
+        { least_tolerance_is_met_by_an_exact_solution, 1 });
+    add_case(s, "components",
         { component_without_load_stays_where_it_is, 1 },
         { rows_that_are_not_connected_take_one_iteration, COUNT(OMEGA) },
-        { component_that_fails_is_reported_and_the_others_are_solved, 1 },
-    };
-
-    add_case(s, "matrix", matrix, COUNT(matrix));
-    add_case(s, "order", order, COUNT(order));
-    add_case(s, "solution", solution, COUNT(solution));
-    add_case(s, "failure", failure, COUNT(failure));
-    add_case(s, "components", components, COUNT(components));
+        { component_that_fails_is_reported_and_the_others_are_solved, 1 });
     return s;
 }

@@ -14,12 +14,10 @@
 /* The sum of a column of out/model/NAME/FILE over the rows that contain `part`. */
 static double sum(const char *name, const char *file, const char *column, const char *part)
 {
-    char text[LONG];
-
     ck_assert_int_eq(shell("awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == \"%s\") c = k; "
                            "next } /%s/ { s += $c } END { printf \"%%.15g\", s }' out/model/%s/%s "
                            "> out/model/sum", column, part, name, file), 0);
-    return strtod(slurp("out/model/sum", text), NULL);
+    return strtod(slurp("out/model/sum"), NULL);
 }
 
 /* --------------------------------------------------------------------------------- plane strain */
@@ -28,12 +26,11 @@ START_TEST(a_bar_in_plane_strain_is_stiffer)
 {
     static const char *const cut[] = { "quads", "triangles", "crossed" };
     const double E = 1e9, nu = 0.4, s = 1e6, L = 4;
-    char text[LONG];
 
-    snprintf(text, sizeof text, "plane strain\nmaterial a E %g nu %g density 1 thickness 0.5\n"
-             "grid bar a 0 0 %g 1 8 2 %s\nfix set bar.left x\nfix at 0 0 y\n"
-             "traction set bar.right %g 0\nstatic\nmonitor end at 4 1\n", E, nu, L, cut[_i], s);
-    ck_assert_int_eq(run_text("strain", text), 0);
+    ck_assert_int_eq(run_printed("strain",
+        "plane strain\nmaterial a E %g nu %g density 1 thickness 0.5\n"
+        "grid bar a 0 0 %g 1 8 2 %s\nfix set bar.left x\nfix at 0 0 y\n"
+        "traction set bar.right %g 0\nstatic\nmonitor end at 4 1\n", E, nu, L, cut[_i], s), 0);
     /* ex = s (1 - nu^2)/E, ey = -s nu (1 + nu)/E, szz = nu s; the bonds give way to 1e-6 of it */
     const double ex = s * (1 - nu * nu) / E, mises = s * sqrt(1 + nu * nu - nu);
     ck_relative(cell("strain", "history.csv", "1,", "end_u"), ex * L, 1e-6);
@@ -54,13 +51,12 @@ START_TEST(a_dam_carries_the_force_of_the_water_to_its_base)
 {
     const double h = levels[_i], over = fmax(0, h - 20), g = 10, rho = 1030;
     const double force = rho * g * (h * h - over * over) / 2, top = h - over;
-    char text[LONG];
 
-    snprintf(text, sizeof text, "plane strain\nmaterial concrete E 25e9 nu 0.2 density 2400\n"
-             "grid dam concrete 0 %g 8 %.15g 4 10\nfix set dam.bottom\ngravity 0 -10\n"
-             "water set dam.left %.15g density 1030\nstatic\n", bases[_i], bases[_i] + 20,
-             bases[_i] + h);
-    ck_assert_int_eq(run_text("water", text), 0);
+    ck_assert_int_eq(run_printed("water",
+        "plane strain\nmaterial concrete E 25e9 nu 0.2 density 2400\n"
+        "grid dam concrete 0 %g 8 %.15g 4 10\nfix set dam.bottom\ngravity 0 -10\n"
+        "water set dam.left %.15g density 1030\nstatic\n", bases[_i], bases[_i] + 20,
+        bases[_i] + h), 0);
     ck_relative(sum("water", "reactions.csv", "fx", ""), -force, 1e-6);
     ck_relative(sum("water", "reactions.csv", "fy", ""), 8 * 20 * 2400 * g, 1e-6);
     /* Moment about the middle of the base: int rho g (h - y) y dy over the wet height */
@@ -78,18 +74,17 @@ END_TEST
 START_TEST(reactions_balance_forces_and_moments_however_elements_are_bonded)
 {
     static const char *const cut[] = { "quads", "triangles", "crossed" };
-    char text[LONG], said[LONG];
 
-    snprintf(text, sizeof text, ROCK "grid a rock 0 0 4 1 6 2 %s\nfix set a.left\nfix at 4 0 y\n"
-             "load at 4 1 2e5 -1e5\ngravity 0 -10\nbond at %s\n%s\n", cut[_i % 3],
-             _i < 6 ? "moment" : "vertices", _i / 3 % 2 ? "static" : "dynamic dt 0.01 steps 400 velocity_factor 0.9");
-    ck_assert_int_eq(run_text("held", text), 0);
+    ck_assert_int_eq(run_printed("held",
+        ROCK "grid a rock 0 0 4 1 6 2 %s\nfix set a.left\nfix at 4 0 y\n"
+        "load at 4 1 2e5 -1e5\ngravity 0 -10\nbond at %s\n%s\n", cut[_i % 3],
+        _i < 6 ? "moment" : "vertices", _i / 3 % 2 ? "static" : "dynamic dt 0.01 steps 400 velocity_factor 0.9"), 0);
     ck_relative(sum("held", "reactions.csv", "fx", ""), -2e5, 1e-5);
     ck_relative(sum("held", "reactions.csv", "fy", ""), 1e5 + 1e5, 1e-5);
     /* About the origin: the load, and the weight of 100 kN at x = 2 m. */
     ck_assert_int_eq(shell("awk -F, 'NR > 1 { m += $2 * $5 - $3 * $4 } END { printf \"%%.15g\", m }' "
                            "out/model/held/reactions.csv > out/model/sum"), 0);
-    ck_relative(strtod(slurp("out/model/sum", said), NULL), 4 * 1e5 + 1 * 2e5 + 2 * 1e5, 1e-3);
+    ck_relative(strtod(slurp("out/model/sum"), NULL), 4 * 1e5 + 1 * 2e5 + 2 * 1e5, 1e-3);
 }
 END_TEST
 
@@ -99,14 +94,10 @@ static const char *const pulled[] = { "static", "static steps 3",
 
 START_TEST(a_support_that_moves_pulls_its_bar)
 {
-    char text[LONG];
-
-    snprintf(text, sizeof text,
-             "material a E 1e9 nu 0.3 density 1000\ngrid bar a 0 0 4 1 8 2\nfix set bar.left x\n"
-             "fix at 0 0 y\nfix set bar.right x by 0.004\n%s\nmonitor middle at 2 0\nmonitor end "
-             "at 4 0\n",
-             pulled[_i]);
-    ck_assert_int_eq(run_text("pulled", text), 0);
+    ck_assert_int_eq(run_printed("pulled",
+        "material a E 1e9 nu 0.3 density 1000\ngrid bar a 0 0 4 1 8 2\nfix set bar.left x\n"
+        "fix at 0 0 y\nfix set bar.right x by 0.004\n%s\n"
+        "monitor middle at 2 0\nmonitor end at 4 0\n", pulled[_i]), 0);
     const double most = _i == 2 ? 2e-3 : 1e-3;   /* u/L = 1e-3 more in dynamics */
     ck_relative(cell("pulled", "history.csv", "", "end_u"), 0.004, 1e-5);
     ck_relative(cell("pulled", "history.csv", "", "middle_u"), 0.002, most);
@@ -131,22 +122,16 @@ START_TEST(two_joints_on_one_slope_have_their_own_friction)
                                          "35\ncontact friction 89\n",
                                          "joint base low friction 10\ncontact friction 35\n" };
     const double a = 20 * acos(-1) / 180, g = 9.81, tan10 = tan(acos(-1) / 18);
-    char text[LONG];
 
-    snprintf(text, sizeof text,
-             ROCK "block base rock 0 0 20 %.12g 20 -9 0 -9\nblock low rock 1 %.12g 3 %.12g 3.5 1 "
-                  "1.5 1\n"
-                  "block high rock 8 %.12g 10 %.12g 10.5 0 8.5 0\nfixblock base\ngravity 0 "
-                  "-9.81\n%s"
-                  "dynamic dt 0.005 steps 200\nmonitor low at 1 -0.4 of low\nmonitor high at 8 -3 "
-                  "of high\n"
-                  "expect high stays by 1e-5\n",
-             -20 * tan(a), -tan(a), -3 * tan(a), -8 * tan(a), -10 * tan(a), order[_i]);
-    ck_assert_int_eq(run_text("joints", text), 0);       /* its springs give way by 1e-6 m */
+    ck_assert_int_eq(run_printed("joints",               /* its springs give way by 1e-6 m */
+        ROCK "block base rock 0 0 20 %.12g 20 -9 0 -9\nblock low rock 1 %.12g 3 %.12g 3.5 1 1.5 1\n"
+        "block high rock 8 %.12g 10 %.12g 10.5 0 8.5 0\nfixblock base\ngravity 0 -9.81\n%s"
+        "dynamic dt 0.005 steps 200\nmonitor low at 1 -0.4 of low\nmonitor high at 8 -3 of high\n"
+        "expect high stays by 1e-5\n",
+        -20 * tan(a), -tan(a), -3 * tan(a), -8 * tan(a), -10 * tan(a), order[_i]), 0);
     ck_relative(cell("joints", "history.csv", "200,", "low_u"),
                 g * (sin(a) - cos(a) * tan10) / 2 * cos(a), 1e-3);
-    ck_assert_int_eq(shell("grep -c '^low,.*SLIDE' out/model/joints/contacts.csv > out/model/said"),
-                     0);
+    ck_assert_int_eq(shell("grep -q '^low,.*SLIDE' out/model/joints/contacts.csv"), 0);
 }
 END_TEST
 
@@ -163,17 +148,13 @@ START_TEST(a_joint_holds_by_its_own_tensile_strength)
         { "contact tension 60e3\njoint lump roof friction 20\n", 0 },
         { "contact tension 60e3\njoint lump * tension 0\n", 3 },
     };
-    char text[LONG];
 
-    snprintf(text, sizeof text,
-             ROCK "block roof rock 0 2 3 2 3 3 0 3\nblock lump rock 1 0 2 0 2 2 1 2\nfixblock "
-                  "roof\n%s"
-                  "gravity 0 -9.81\ndynamic dt 0.001 steps 200 settle 100\nmonitor lump at 1 "
-                  "0\nexpect lump stays by 1e-3\n",
-             table[_i].joints);
-    ck_assert_int_eq(run_text("hangs", text), table[_i].status);
+    ck_assert_int_eq(run_printed("hangs",
+        ROCK "block roof rock 0 2 3 2 3 3 0 3\nblock lump rock 1 0 2 0 2 2 1 2\nfixblock roof\n%s"
+        "gravity 0 -9.81\ndynamic dt 0.001 steps 200 settle 100\nmonitor lump at 1 0\n"
+        "expect lump stays by 1e-3\n", table[_i].joints), table[_i].status);
     if (strcmp(table[_i].joints, NEVER) == 0)
-        ck_assert_str_eq(slurp("out/model/hangs.err", text), "out/model/hangs.model:6: warning: "
+        ck_assert_str_eq(slurp("out/model/hangs.err"), "out/model/hangs.model:6: warning: "
                          "this joint never counts, below one that fits the same blocks\n");
 }
 END_TEST
@@ -188,15 +169,13 @@ START_TEST(a_block_hangs_on_its_bolt)
         { "", W, -W / K }, { "pretension 24525", W, 0 }, { "strength 30e3", W, -W / K },
         { "strength 20e3", 0, -0.02 - 0.4817 * 0.9307 - 9.81 / 2 * 0.9307 * 0.9307 },
     };
-    char text[LONG], said[LONG];
 
-    snprintf(text, sizeof text,
-             ROCK "block roof rock 1 3 2 3 2 4 0 4 0 3\nblock lump rock 0.5 0 1.5 0 1.5 1 1 1 0.5 1\n"
-             "fixblock roof\nbolt at 1 1 at 1 3 stiffness 1e6 %s\ngravity 0 -9.81\ncontact friction 30\n"
-             "dynamic dt %g steps %d velocity_factor %d\nmonitor top at 1 1\noutput svg\n", table[_i].bolt,
-             _i == 3 ? 0.001 : 0.1, _i == 3 ? 1000 : 200, _i == 3);
-    ck_assert_int_eq(run_text("bolt", text), 0);
-    ck_assert_str_eq(slurp("out/model/bolt.err", said), "");
+    ck_assert_int_eq(run_printed("bolt",
+        ROCK "block roof rock 1 3 2 3 2 4 0 4 0 3\nblock lump rock 0.5 0 1.5 0 1.5 1 1 1 0.5 1\n"
+        "fixblock roof\nbolt at 1 1 at 1 3 stiffness 1e6 %s\ngravity 0 -9.81\ncontact friction 30\n"
+        "dynamic dt %g steps %d velocity_factor %d\nmonitor top at 1 1\noutput svg\n", table[_i].bolt,
+        _i == 3 ? 0.001 : 0.1, _i == 3 ? 1000 : 200, _i == 3), 0);
+    ck_assert_str_eq(slurp("out/model/bolt.err"), "");
     ck_near(cell("bolt", "bolts.csv", "1,lump,roof,", "force"), table[_i].force, W, 1e-6);
     ck_near(cell("bolt", "history.csv", "", "top_v"), table[_i].v, W / K, _i == 3 ? 0.4 : 1e-3);
     check_text("out/model/bolt/bolts.csv", _i == 3 ? "BROKEN" : "HOLDS");
@@ -209,13 +188,11 @@ END_TEST
 START_TEST(a_bolt_holds_a_block_on_its_slope)
 {
     const double phi = _i ? 0 : 10, W = 2500 * 9.81, force = W * (0.5 - sqrt(0.75) * tan(phi * acos(-1) / 180));
-    char text[LONG];
 
-    snprintf(text, sizeof text,
-             ROCK "block base rock 0 0 9 0 9 1 0 1\nblock post rock 0 1 1 1 1 2 0 2\nblock lump rock 4 1 5 1 5 2 4 2\n"
-             "fixblock base\nfixblock post\nbolt at 4 1 at 1 1 stiffness 1e7\ngravity $(9.81/2) $(-9.81*cos(30))\n"
-             "contact friction %g\ndynamic dt 0.01 steps 300 settle 50 velocity_factor %d\n", phi, _i);
-    ck_assert_int_eq(run_text("tied", text), 0);
+    ck_assert_int_eq(run_printed("tied",
+        ROCK "block base rock 0 0 9 0 9 1 0 1\nblock post rock 0 1 1 1 1 2 0 2\nblock lump rock 4 1 5 1 5 2 4 2\n"
+        "fixblock base\nfixblock post\nbolt at 4 1 at 1 1 stiffness 1e7\ngravity $(9.81/2) $(-9.81*cos(30))\n"
+        "contact friction %g\ndynamic dt 0.01 steps 300 settle 50 velocity_factor %d\n", phi, _i), 0);
     ck_assert(cell("tied", "summary.csv", "", "gained") <= 1e-9 * W);
     if (_i == 0)
         ck_relative(cell("tied", "bolts.csv", "1,", "force"), force, 1e-4);
@@ -224,12 +201,9 @@ END_TEST
 
 START_TEST(contacts_and_reactions_carry_the_weight)
 {
-    ck_assert_int_eq(run_text("stack", ROCK "grid table rock 0 0 4 1 4 1\nblock a rock 1 1 2 1 2 2 "
-                                            "1 2\n"
-                                            "block b rock 1 2 2 2 2 3 1 3\nfix set "
-                                            "table.bottom\ngravity 0 -10\ncontact friction 30\n"
-                                            "static steps 5\noutput vtk\n"),
-                     0);
+    ck_assert_int_eq(run_text("stack",
+        ROCK "grid table rock 0 0 4 1 4 1\nblock a rock 1 1 2 1 2 2 1 2\nblock b rock 1 2 2 2 2 3 1 3\n"
+        "fix set table.bottom\ngravity 0 -10\ncontact friction 30\nstatic steps 5\noutput vtk\n"), 0);
     ck_relative(sum("stack", "contacts.csv", "normal", "^a,table"), 50000, 1e-6);
     ck_relative(sum("stack", "contacts.csv", "normal", "^b,a"), 25000, 1e-6);
     ck_relative(sum("stack", "contacts.csv", "gap", "^b,a"), -25000 / 5e11, 1e-6);   /* kn = 50 E t */
@@ -250,16 +224,15 @@ START_TEST(a_joint_carries_the_weight_of_its_block)
 {
     static const double slope[][2] = { { 0, 0 }, { 25, 0 }, { -25, 0 }, { 0, 25 } };
     const double W = 50000, l = slope[_i][1] * acos(-1) / 180, a = slope[_i][0] * acos(-1) / 180 + l;
-    char text[LONG];
 
-    snprintf(text, sizeof text, "material rigid E 1e18 nu 0 density 2500\nmaterial rock E 1e12 nu 0 density 2500\n"
+    ck_assert_int_eq(run_printed("on",
+        "material rigid E 1e18 nu 0 density 2500\nmaterial rock E 1e12 nu 0 density 2500\n"
         "let a %g\nlet l %g\nlet c $(cos(a))\nlet s $(sin(a))\nfixblock base\ncontact kn 1e14 friction 40\n"
         "block base rigid $(-9*c) $(-9*s) $(9*c) $(9*s) $(9*c + s) $(9*s - c) $(s - 9*c) $(-9*s - c)\n%s"
         "gravity $(-10*sin(l)) $(-10*cos(l))\ndynamic dt 0.01 steps 40 velocity_factor 0\noutput svg\n"
         "monitor on joint stone base\nmonitor all joint * stone\nexpect all fy -5e4 within 10%%\n",
         slope[_i][0], slope[_i][1], _i == 3 ? "grid stone rock 0 0 2 1 4 2\n"
-        : "block stone rock 0 0 $(2*c) $(2*s) $(2*c - s) $(2*s + c) $(-s) $c\n");
-    ck_assert_int_eq(run_text("on", text), 0);
+        : "block stone rock 0 0 $(2*c) $(2*s) $(2*c - s) $(2*s + c) $(-s) $c\n"), 0);
     const struct { const char *on, *all; double value, sign; } of[] = {
         { "on_normal", "all_normal", W * cos(a), 1 }, { "on_shear", "all_shear", -W * sin(a), 1 },
         { "on_fx", "all_fx", W * sin(l), -1 }, { "on_fy", "all_fy", W * cos(l), -1 },
@@ -330,7 +303,8 @@ START_TEST(a_shipped_model_stands_to_its_limit_and_falls_beyond)
 END_TEST
 
 /* Between bounds that bisection narrows to a thousandth of where it began: a; atan(k); the formula of
- * topple.model; limit analysis of the arch (doc/thrust.awk). */
+ * topple.model; limit analysis of the arch (doc/thrust.awk). A block that leans a little on its
+ * springs has a limit up to 0.07 % away. */
 static const struct { const char *call; double limit, within; } found[] = {
     { "topple.model --find phi 10 40", 20, 0.05 },
     { "topple.model --find phi 40 10 -d a=25", 25, 0.05 },
@@ -341,14 +315,20 @@ static const struct { const char *call; double limit, within; } found[] = {
     { "arch.model -d steps=400 --find t 0.95 1.2", 1.061, 0.002 },
     { "arch.model -d steps=400 --find phi 15 30", 19.2071, 0.02 },
     { "arch.model -d steps=400 -d t=1.07 --find phi 15 30", 21.5303, 0.02 },
+    { "conveyor.model --find phi 5 20", 10, 0.015 },
+    { "conveyor.model -d a=20 --find phi 10 40", 20, 0.03 },
+    { "keyblock.model --find part 0.9 1.1", 1, 1e-3 },
+    { "portal.model --find part 0.9 1.1", 1, 1e-3 },
+    { "portal.model -d span=3 -d t=0.3 -d h=3 --find part 0.9 1.1", 1, 1e-3 },
+    { "water.model --find part 0.9 1.1", 1, 1e-3 },
+    { "retaining.model --find part 0.9 1.1", 1, 1e-3 },             /* turns */
+    { "retaining.model -d phi=20 --find part 0.9 1.1", 1, 1e-3 },   /* slides */
 };
 
 START_TEST(a_limit_is_found_by_bisection)
 {
-    char said[LONG];
-
     ck_assert_int_eq(shell("%s/bbm -q cases/models/%s > out/model/said", BUILD, found[_i].call), 0);
-    slurp("out/model/said", said);
+    const char *said = slurp("out/model/said");
     ck_assert_msg(strstr(said, "; 12 runs\n"), "%s", said);
     ck_near(strtod(strstr(said, " = ") + 3, NULL), found[_i].limit, 1, found[_i].within);
 }
@@ -417,10 +397,8 @@ static const struct { const char *text, *said; } doubtful[] = {
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
 {
-    char said[LONG];
-
     const int status = run_text("doubtful", doubtful[_i].text);
-    slurp("out/model/doubtful.err", said);
+    const char *said = slurp("out/model/doubtful.err");
     const char *at = doubtful[_i].said ? strstr(said, doubtful[_i].said) : NULL;
     ck_assert_msg(!doubtful[_i].said ? status == 0 && !*said : at && strchr(at, '\n') && strchr(at, '\n')[1] == '\0' && strncmp(said, "out/model/doubtful.model:", 25) == 0,
                   "%s", said);
@@ -497,15 +475,11 @@ START_TEST(a_grid_has_its_cells_and_its_rim)
     static const struct { const char *cut; int elements, nodes; } grid[] = {
         { "", 6, 12 }, { "quads", 6, 12 }, { "triangles", 12, 12 }, { "crossed", 24, 18 },
     };
-    char text[LONG];
 
-    snprintf(text, sizeof text,
-             ROCK "node 40 9 9\nnode 41 10 9\nnode 42 9 10\nelement 7 a rock 40 41 42\nfixblock a\n"
-                  "grid g rock 0 0 3 2 3 2 %s\nfix set g.bottom\nfix set g.top x\nfix set "
-                  "g.left\nfix set g.right y\n"
-                  "gravity 0 -10\nstatic\n",
-             grid[_i].cut);
-    ck_assert_int_eq(run_text("grid", text), 0);
+    ck_assert_int_eq(run_printed("grid",
+        ROCK "node 40 9 9\nnode 41 10 9\nnode 42 9 10\nelement 7 a rock 40 41 42\nfixblock a\n"
+        "grid g rock 0 0 3 2 3 2 %s\nfix set g.bottom\nfix set g.top x\nfix set g.left\n"
+        "fix set g.right y\ngravity 0 -10\nstatic\n", grid[_i].cut), 0);
     ck_assert_int_eq(shell("test $(wc -l < out/model/grid/elements.csv) = %d && test $(wc -l < "
                            "out/model/grid/nodes.csv) = %d", grid[_i].elements + 2,
                            grid[_i].nodes + 4), 0);
@@ -525,30 +499,24 @@ START_TEST(a_block_is_the_set_of_its_nodes)
     static const struct { const char *where; int status, rows; } table[] = {
         { "set a", 0, 4 }, { "set a of a", 0, 4 }, { "set a of b", 0, 2 }, { "set b of a", 0, 2 },
     };
-    char text[LONG];
 
-    snprintf(text, sizeof text, "%sfix %s\ndynamic dt 0.01 steps 1\n", mesh, table[_i].where);
-    ck_assert_int_eq(run_text("whole", text), table[_i].status);
+    ck_assert_int_eq(run_printed("whole",
+        "%sfix %s\ndynamic dt 0.01 steps 1\n", mesh, table[_i].where), table[_i].status);
     ck_assert_int_eq(shell("test $(wc -l < out/model/whole/reactions.csv) = %d", table[_i].rows + 1), 0);
 }
 END_TEST
 
 START_TEST(of_block_takes_the_nodes_of_one_block)
 {
-    ck_assert_int_eq(run_text("of", ROCK "block a rock 0 0 1 0 1 1 0 1\nblock b rock 1 0 2 0 2 1 1 "
-                                         "1\nfix set a\n"
-                                         "fix box 1 0 1 1 of b x\ngravity 0 -10\ndynamic dt 0.01 "
-                                         "steps 10\nmonitor a at 1 1 of a\n"
-                                         "monitor b at 1 1 of b\nmonitor both at 1 1\ncontact "
-                                         "friction 0\n"),
-                     0);
+    ck_assert_int_eq(run_text("of",
+        ROCK "block a rock 0 0 1 0 1 1 0 1\nblock b rock 1 0 2 0 2 1 1 1\nfix set a\n"
+        "fix box 1 0 1 1 of b x\ngravity 0 -10\ndynamic dt 0.01 steps 10\nmonitor a at 1 1 of a\n"
+        "monitor b at 1 1 of b\nmonitor both at 1 1\ncontact friction 0\n"), 0);
     ck_near(cell("of", "history.csv", "10,", "a_v"), 0, 1, 1e-9);
     ck_relative(cell("of", "history.csv", "10,", "b_v"), -0.05, 1e-3);
     ck_near(cell("of", "history.csv", "10,", "both_v"), 0, 1, 1e-9);
-    char said[LONG];
-    ck_assert_str_eq(slurp("out/model/of.err", said), "out/model/of.model:10: note: 2 nodes lie "
-                                                      "there, node 3 of block 'a' "
-                                                      "is taken; `of BLOCK` takes another\n");
+    ck_assert_str_eq(slurp("out/model/of.err"), "out/model/of.model:10: note: 2 nodes lie there, "
+                     "node 3 of block 'a' is taken; `of BLOCK` takes another\n");
 }
 END_TEST
 
@@ -581,18 +549,15 @@ END_TEST
 
 START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
 {
-    char said[LONG];
-
     write_text("out/model/let.model", FALL "let twice $g\ntitle \033]g is $g\n");
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=30 -d g=20 -dsteps=50 -o "
                            "out/model/let 2> out/model/err", BUILD), 0);
     ck_relative(cell("let", "history.csv", "50,", "a_v"), -20 * 0.125, 1e-9);
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d f=20 2> out/model/err", BUILD), 2);
-    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model: 'f=20' of -d or --find, "
-                                                   "expected NAME=VALUE with a name of a `let`, "
-                                                   "such as g, steps, twice\n");
+    ck_assert_str_eq(slurp("out/model/err"), "out/model/let.model: 'f=20' of -d or --find, "
+                     "expected NAME=VALUE with a name of a `let`, such as g, steps, twice\n");
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=1O 2> out/model/err", BUILD), 2);
-    ck_assert_str_eq(slurp("out/model/err", said), "out/model/let.model:2: not a number: '1O', "
+    ck_assert_str_eq(slurp("out/model/err"), "out/model/let.model:2: not a number: '1O', "
                                                    "expected: let NAME VALUE\n");
     ck_assert_int_eq(shell("%s/bbm - < out/model/let.model -o out/model/let 2> out/model/err | "
                            "grep -q -- '-: ?]g is 10'", BUILD), 0);
@@ -606,14 +571,12 @@ END_TEST
 
 START_TEST(arithmetic_has_its_value_to_15_digits)
 {
-    char said[LONG];
-
     write_text("out/model/sums.model", "title $(1 + 2*3) $(2^3^2) $(-2^2) $(2^-1) $(7/2 - -1) $((1+2)*3) $t$(t)$a-b "
                "$(a-b) $(a - b) $(0.1+0.2) $(sin(30)) $(cos(90)) $(tan(45)) $(asin(-1)) $(acos(0)) $(atan(1)) "
                "$(sqrt(2)) $(abs(-3)) $(floor(-1.5)) $(min(3,1, 2)) $(max(t, 5)) $(pi) $(1e3) $(-0) $t.left\n"
                "let t 1.5\nlet a 5\nlet b 2\nlet a-b 7\n" ROCK "block x rock 0 0 1 0 1 1\ndynamic dt 1 steps 1\n");
     ck_assert_int_eq(shell("%s/bbm out/model/sums.model -o out/model/sums | head -1 > out/model/said", BUILD), 0);
-    ck_assert_str_eq(slurp("out/model/said", said), "out/model/sums.model: 7 512 -4 0.5 4.5 9 1.51.57 7 3 0.3 0.5 0 1 "
+    ck_assert_str_eq(slurp("out/model/said"), "out/model/sums.model: 7 512 -4 0.5 4.5 9 1.51.57 7 3 0.3 0.5 0 1 "
                      "-90 90 45 1.4142135623731 3 -2 1 5 3.14159265358979 1000 0 1.5.left\n");
 }
 END_TEST
@@ -626,12 +589,11 @@ START_TEST(what_is_repeated_is_what_stands_there_so_often)
         "monitor top$j.$i at $x $i of v$i-$j\nexpect top$j.$i u 1 within $(50*n)%\nend\nend\n",
         "block v1-1 rock 2 1 3 1 2 1.5\nblock v1-2 rock 4 1 5 1 4 1.5\nblock v2-2 rock 4 2 5 2 4 2.5\n",
     };
-    char text[LONG];
 
     for (int k = 0; k < 2; k++) {
-        snprintf(text, sizeof text, ROCK "%svelocity v1-1 1 0\nvelocity v1-2 1 0\nvelocity v2-2 1 0\n"
-                 "dynamic dt 0.1 steps 10\n", by[k]);
-        ck_assert_int_eq(run_text(k ? "hand" : "rounds", text), 0);
+        ck_assert_int_eq(run_printed(k ? "hand" : "rounds",
+            ROCK "%svelocity v1-1 1 0\nvelocity v1-2 1 0\nvelocity v2-2 1 0\n"
+            "dynamic dt 0.1 steps 10\n", by[k]), 0);
     }
     ck_assert_int_eq(shell("cd out/model && cmp rounds/nodes.csv hand/nodes.csv && "
                            "cmp rounds/elements.csv hand/elements.csv"), 0);
@@ -675,10 +637,9 @@ START_TEST(a_column_springs_back_when_its_top_is_removed)
 {
     const double w = 20000, E = 1e12, kn = 1e14;
     const char *first = _i ? "reactions_000060.csv" : "reactions_000001.csv";
-    char text[LONG];
 
-    snprintf(text, sizeof text, COLUMN "monitor on joint b c\n%sstage off remove c\nend\n", solved[_i]);
-    ck_assert_int_eq(run_text("stage", text), 0);
+    ck_assert_int_eq(run_printed("stage",
+        COLUMN "monitor on joint b c\n%sstage off remove c\nend\n", solved[_i]), 0);
     ck_relative(sum("stage", first, "fy", ""), 6 * w, 1e-6);      /* the base weighs three */
     ck_relative(sum("stage", "reactions.csv", "fy", ""), 5 * w, 1e-6);
     ck_relative(cell("stage", "history.csv", _i ? "60," : "1,", "on_normal"), w, 1e-6);
@@ -711,10 +672,9 @@ END_TEST
 START_TEST(what_touched_nothing_goes_unnoticed)
 {
     for (int k = 0; k < 2; k++) {
-        char text[LONG];
-        snprintf(text, sizeof text, COLUMN "grid far rock 9 20 10 21 2 2\nvelocity far 0 0\n"
-                 "dynamic dt 0.01 steps 20\nstage none%s\nend\n", k ? " remove far" : "");
-        ck_assert_int_eq(run_text(k ? "gone" : "there", text), 0);
+        ck_assert_int_eq(run_printed(k ? "gone" : "there",
+            COLUMN "grid far rock 9 20 10 21 2 2\nvelocity far 0 0\n"
+            "dynamic dt 0.01 steps 20\nstage none%s\nend\n", k ? " remove far" : ""), 0);
     }
     ck_assert_int_eq(shell("cd out/model && cmp gone/history.csv there/history.csv && grep -v ,far, "
                            "there/nodes.csv | cmp - gone/nodes.csv"), 0);
@@ -753,11 +713,7 @@ static const char *const bad_stages[][2] = {
 
 START_TEST(a_wrong_stage_is_refused_before_anything_runs)
 {
-    char text[LONG];
-
-    snprintf(text, sizeof text, COLUMN "%sstatic\n", bad_stages[_i][0]);
-    ck_assert_int_eq(shell("rm -rf out/model/wrong"), 0);
-    ck_assert_int_eq(run_text("wrong", text), 2);
+    ck_assert_int_eq(run_printed("wrong", COLUMN "%sstatic\n", bad_stages[_i][0]), 2);
     check_text("out/model/wrong.err", bad_stages[_i][1]);
     ck_assert_int_eq(shell("test ! -e out/model/wrong"), 0);
 }
@@ -780,11 +736,10 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_joint_carries_the_weight_of_its_block, 0, 4);
     tcase_add_test(t, the_two_joints_of_a_wedge_hold_it);
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
-    tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0,
-                        sizeof limits / sizeof *limits);
-    tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, sizeof found / sizeof *found);
+    tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0, COUNT(limits));
+    tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, COUNT(found));
     tcase_add_test(t, what_has_no_limit_is_said);
-    tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, sizeof doubtful / sizeof *doubtful);
+    tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, COUNT(doubtful));
     tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
@@ -801,8 +756,6 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
     tcase_add_test(t, a_block_slides_from_where_it_was_when_friction_falls);
-    tcase_add_loop_test(t, a_wrong_stage_is_refused_before_anything_runs, 0,
-                        sizeof bad_stages / sizeof *bad_stages);
-    tcase_set_timeout(t, 60);
+    tcase_add_loop_test(t, a_wrong_stage_is_refused_before_anything_runs, 0, COUNT(bad_stages));
     return s;
 }

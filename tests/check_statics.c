@@ -175,12 +175,10 @@ END_TEST
 Suite *statics_suite(void)
 {
     Suite *s = suite_create("statics");
-    const loop_test e[] = {
-        { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
-        { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
-    };
 
-    add_case(s, "statics", e, COUNT(e));
+    add_case(s, "statics",
+        { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
+        { a_static_step_that_fails_leaves_the_model_as_it_was, 2 });
     tcase_add_loop_test(new_case(s, "wedged"), a_contact_that_no_friction_holds_opens, 0, 6);
     return s;
 }

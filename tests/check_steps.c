@@ -327,28 +327,22 @@ END_TEST
 Suite *steps_suite(void)
 {
     Suite *s = suite_create("steps");
-    const loop_test dynamics[] = {
+
+    add_case(s, "dynamics",
         { a_thrown_body_follows_the_parabola, 2 },
         { the_acceleration_of_the_base_acts_like_gravity_the_other_way, 2 },
         { a_spinning_element_keeps_its_angular_velocity_and_its_mass, 2 },
         { stress_turns_with_the_element, 2 },
         { bonded_elements_keep_their_momentum_while_they_shake_each_other, 2 },
         { a_vibrating_element_is_damped_as_newmarks_recurrence_says, 1 },
-        { steps_without_memory_of_velocity_end_in_the_static_answer, 1 },
-    };
-    const loop_test statics[] = {
+        { steps_without_memory_of_velocity_end_in_the_static_answer, 1 });
+    add_case(s, "statics",
         { statics_ends_in_balance_on_the_moved_geometry, 2 },
         { stress_is_that_of_the_present_section, 1 },
-        { a_body_without_load_stays_where_it_is, 2 },
-    };
-    const loop_test end_of_a_run[] = {
+        { a_body_without_load_stays_where_it_is, 2 });
+    add_case(s, "end of a run",
         { the_stop_criterion_compares_the_step_with_the_sum_of_all_steps, 1 },
         { a_run_stops_at_the_first_step_that_is_small_enough, 1 },
-        { a_run_that_stops_short_says_so_and_keeps_what_it_has, 1 },
-    };
-
-    add_case(s, "dynamics", dynamics, COUNT(dynamics));
-    add_case(s, "statics", statics, COUNT(statics));
-    add_case(s, "end of a run", end_of_a_run, COUNT(end_of_a_run));
+        { a_run_that_stops_short_says_so_and_keeps_what_it_has, 1 });
     return s;
 }

@@ -144,13 +144,13 @@ END_TEST
 Suite *theory_suite(void)
 {
     Suite *s = suite_create("theory");
-    TCase *t = new_case(s, "beam");
 
-    tcase_add_test(t, the_theory_of_the_beam_is_in_equilibrium_and_bends_by_its_load_alone);
-    tcase_add_test(t, the_theory_of_the_beam_is_held_at_three_points_of_its_end);
-    t = new_case(s, "plate");
-    tcase_add_test(t, the_theory_of_the_plate_is_in_equilibrium_and_u_is_that_of_its_stresses);
-    tcase_add_test(t, the_hole_of_the_plate_is_free_and_far_away_there_is_tension_along_x);
-    tcase_add_test(t, the_axes_of_the_plate_stay_straight);
+    add_case(s, "beam",
+        { the_theory_of_the_beam_is_in_equilibrium_and_bends_by_its_load_alone, 1 },
+        { the_theory_of_the_beam_is_held_at_three_points_of_its_end, 1 });
+    add_case(s, "plate",
+        { the_theory_of_the_plate_is_in_equilibrium_and_u_is_that_of_its_stresses, 1 },
+        { the_hole_of_the_plate_is_free_and_far_away_there_is_tension_along_x, 1 },
+        { the_axes_of_the_plate_stay_straight, 1 });
     return s;
 }

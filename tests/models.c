@@ -113,9 +113,7 @@ bbm_model *unit_square(const bbm_material *material)
     const double x[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
     bbm_model *m = new_model(material);
 
-    for (int n = 0; n < 4; n++)
-        ck_ok(bbm_add_node(m, x[n][0], x[n][1], NULL), m);
-    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL), m);
+    add_polygon(m, 0, 4, x);
     return m;
 }
 

@@ -21,8 +21,9 @@ int shell(const char *format, ...)
     return WEXITSTATUS(status);
 }
 
-const char *slurp(const char *path, char text[LONG])
+const char *slurp(const char *path)
 {
+    static char text[LONG];
     FILE *f = fopen(path, "rb");
     const size_t got = f ? fread(text, 1, LONG - 1, f) : 0;
 
@@ -70,6 +71,18 @@ int run_text(const char *name, const char *text)
     write_text(path, text);
     return shell("rm -rf out/model/%s; %s/bbm -q out/model/%s.model -o out/model/%s > "
                  "out/model/%s.out 2> out/model/%s.err", name, BUILD, name, name, name, name);
+}
+
+int run_printed(const char *name, const char *format, ...)
+{
+    char text[LONG];
+    va_list args;
+
+    va_start(args, format);
+    const int length = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    ck_assert_int_lt(length, LONG);
+    return run_text(name, text);
 }
 
 double cell(const char *name, const char *file, const char *row, const char *column)

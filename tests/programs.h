@@ -11,12 +11,13 @@
 enum { LONG = 1500 };           /* of a text */
 
 int shell(const char *format, ...);                     /* a command, as by printf; its exit status */
-const char *slurp(const char *path, char text[LONG]);   /* the beginning of a file; "": not there */
+const char *slurp(const char *path);    /* the beginning of a file, until the next; "": not there */
 char *read_all(const char *path);                       /* the whole file, to be freed */
 void check_text(const char *path, const char *expected);    /* the file has the text in it */
 void write_text(const char *path, const char *text);
 /* Runs the text as out/model/NAME.model into out/model/NAME; the exit status. Messages: NAME.err. */
 int run_text(const char *name, const char *text);
+int run_printed(const char *name, const char *format, ...); /* the same, of a text as by printf */
 /* A cell of out/model/NAME/FILE, in the last row that begins with `row` ("" for the last one). */
 double cell(const char *name, const char *file, const char *row, const char *column);
 

@@ -226,3 +226,23 @@ bbm_matrix *tridiagonal(int n, double c)
     free(pair);
     return K;
 }
+
+void check_iterates(const dense_system *s, double W[MOST_6][MOST_6], bbm_pcg pcg)
+{
+    static const double tolerance[] = { 0.5, 1e-2, 1e-4, 1e-6, 1e-8 };
+    double expected[MOST_6], D[MOST_6];
+    bbm_pcg_info info;
+
+    for (pcg.iterations = 1; pcg.iterations <= 5; pcg.iterations++) {
+        ck_assert_int_eq(dense_pcg(s, W, 1e-13, pcg.iterations, expected), pcg.iterations);
+        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_NOT_CONVERGED);
+        ck_assert_int_eq(info.iterations, pcg.iterations);
+        assert_same(6 * s->n, D, expected, ITERATES);
+    }
+    pcg.iterations = 1000;
+    for (int t = 0; t < COUNT(tolerance); t++) {
+        pcg.tolerance = tolerance[t];
+        ck_assert_int_eq(bbm_solve(s->K, s->F, D, &pcg, &info), BBM_OK);
+        ck_assert_int_eq(info.iterations, dense_pcg(s, W, pcg.tolerance, 1000, expected));
+    }
+}

@@ -54,6 +54,9 @@ void dense_solve(int n, double A[MOST_6][MOST_6], const double *f, double *x);
 int dense_pcg(const dense_system *s, double W[MOST_6][MOST_6], double tolerance,
               int limit, double *x);
 
+/* The solver's iterates, one by one and down to some tolerances, are those of dense_pcg. */
+void check_iterates(const dense_system *s, double W[MOST_6][MOST_6], bbm_pcg pcg);
+
 double norm(int n, const double *x);
 void assert_same(int n, const double *x, const double *y, double tolerance);
 bbm_pcg accurate(double omega, const bbm_method *method);
