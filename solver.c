@@ -90,17 +90,12 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
 /* ----------------------------------------------------------------------------- products of blocks
  * These loops let a compiler do two entries at a time without a change in the order of a sum. */
 
-/* y += c B x, each row as the sum of its even columns plus that of its odd ones. */
+/* y += c B x */
 static void multiply_add(double c, double B[6][6], const double *restrict x, double *restrict y)
 {
-    double s[6][2];
-
-    for (int a = 0; a < 6; a++) {
-        s[a][0] = B[a][0] * x[0] + B[a][2] * x[2] + B[a][4] * x[4];
-        s[a][1] = B[a][1] * x[1] + B[a][3] * x[3] + B[a][5] * x[5];
-    }
     for (int a = 0; a < 6; a++)
-        y[a] += c * (s[a][0] + s[a][1]);
+        y[a] += c * ((B[a][0] * x[0] + B[a][1] * x[1]) + (B[a][2] * x[2] + B[a][3] * x[3])
+                     + (B[a][4] * x[4] + B[a][5] * x[5]));
 }
 
 /* y += c B^T x */

@@ -81,10 +81,11 @@ bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with a
 
 /* coarse.c: two levels, for pcg.method */
 #define BBM_PLACES (1LL << 30)  /* of a component */
+typedef struct { double f, fx, fy; } bbm_linear;    /* f(x, y) at the centroid, 1/m: its slopes */
 extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place);
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2], double x, double y);
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, double x, double y);
 
 /* factor.c */
 typedef struct { int from, to; size_t at; } bbm_part;  /* columns, in pairs; its first entry in A */
@@ -102,9 +103,7 @@ void       bbm_factor_make(const bbm_factor *f);
 void       bbm_substitute(const bbm_factor *f, int from, int to, double *x);
 
 /* interpolation.c */
-void       bbm_linear_unknowns(double value, double fx, double fy, double P[6][2]);
-void       bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a,
-                             double P[6][2]);
+bbm_linear bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a);
 int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
 void       bbm_interpolate_elements(bbm_model *m);

@@ -51,16 +51,16 @@
 
 #include "beyond.h"
 
-/* Corners of a large model: measured, where a solution takes as long both ways, alpha = 100 to
+/* Nodes of a large model: measured, where a solution takes as long both ways, alpha = 100 to
  * 1000. */
-#define LARGE 15000
+#define LARGE 3750
 
 typedef struct {
     int n;                      /* nodes, some without a corner                                 */
     int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
                                 /*           start[i] .. start[j]-1                             */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
-    double (*P)[6][2];          /* as node                                                      */
+    bbm_linear *P;              /* as node                                                      */
     double (*at)[2];            /* as node: from the row's centroid                             */
     bbm_factor Kc;              /* then its factor                                              */
     double *x;                  /* [2 n]     a vector                                           */
@@ -225,16 +225,18 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     return status;
 }
 
-/* The displacement (u, v) of the k-th node of block row i alone gives the row's unknowns,
- * P (u, v). (x, y) [m]: where the node lies, from the element's centroid. */
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2], double x, double y)
+/* The displacement (u, v) of the k-th node of block row i alone displaces the row by f (u, v), f
+ * linear in x and y: with ux = u f_x and so on, u0 = u f, v0 = v f, r0 = (vx - uy)/2, ex = ux,
+ * ey = vy, gxy = uy + vx are its unknowns, P (u, v). (x, y) [m]: where the node lies. Both are
+ * taken from the element's centroid. */
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, double x, double y)
 {
     const coarse_space *c = K->extra;
     const int *first = c && i >= 0 && i < K->n ? &c->first[K->place[i]] : NULL;
 
     if (!first || k < 0 || k >= first[1] - first[0])
         return BBM_BAD_INDEX;
-    memcpy(c->P[first[0] + k], P, sizeof *c->P);
+    c->P[first[0] + k] = f;
     memcpy(c->at[first[0] + k], (double [2]){ x, y }, sizeof *c->at);
     K->ready = 0;
     return BBM_OK;
@@ -242,54 +244,64 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double P[6][2], d
 
 /* ---------------------------------------------------------------------------- Kc and its factor */
 
-/* Y = f B X */
-static void multiply(double f, double B[6][6], double X[6][2], double Y[6][2])
+/* x += P^T z, one node and one row. */
+static void add_to_node(const bbm_linear *P, const double z[6], double x[2])
 {
-    memset(Y, 0, 12 * sizeof Y[0][0]);
-    for (int a = 0; a < 6; a++)
-        for (int k = 0; k < 12; k++)
-            Y[a][k % 2] += f * B[a][k / 2] * X[k / 2][k % 2];
+    x[0] += P->f * z[0] + P->fx * z[3] + P->fy * (z[5] - z[2] / 2);
+    x[1] += P->f * z[1] + P->fy * z[4] + P->fx * (z[5] + z[2] / 2);
 }
 
-/* Kc += P^T Y + its transpose, where P belongs to node i and Y to node j; `own`: P is Y's, the sum
- * is symmetric and is added once. Pivots are measured by such sums. */
-static void add_block(const coarse_space *c, double P[6][2], int i, double Y[6][2], int j, int own)
+/* Y = s B P, by columns. */
+static void multiply(double s, double B[6][6], const bbm_linear *P, double Y[2][6])
+{
+    for (int a = 0; a < 6; a++) {
+        double row[2] = { 0 };
+        add_to_node(P, B[a], row);
+        Y[0][a] = s * row[0];
+        Y[1][a] = s * row[1];
+    }
+}
+
+/* Kc += P^T Y + its transpose, where P belongs to node i and Y to node j; `own`: P is Y's, the
+ * sum is symmetric and is added once. Pivots are measured by such sums. */
+static void add_block(const coarse_space *c, const bbm_linear *P, int i, double Y[2][6], int j,
+                      int own)
 {
     double sum[2][2] = { { 0 } };
 
-    for (int b = 0; b < 6; b++)
-        for (int k = 0; k < 4; k++)
-            sum[k / 2][k % 2] += P[b][k / 2] * Y[b][k % 2];
+    for (int k = 0; k < 2; k++)
+        add_to_node(P, Y[k], sum[k]);
     for (int k = 0; k < 4; k++) {
         const int p = 2 * i + k / 2, q = 2 * j + k % 2;
         if (!own || p >= q)
             *bbm_entry(&c->Kc, p > q ? p : q, p > q ? q : p)
-                += (p == q && !own ? 2 : 1) * sum[k / 2][k % 2];
+                += (p == q && !own ? 2 : 1) * sum[k % 2][k / 2];
         if (own && p == q)
             c->Kc.size[p] += sum[k / 2][k / 2];
     }
 }
 
-/* Z = P - R of corner a of a row with this side: R is what makes s (u, v) at a and 0 at the other
- * end, or 0 if a is not on the side. Returns whether it is. */
-static int find_rest(const coarse_space *c, int a, const int side[2], double Z[6][2])
+/* Z = P - R of corner a of a row with this side: R is 1 at a and 0 at the side's other end and
+ * does not change across the side, or 0 if a is not on the side. Returns whether it is. */
+static int find_rest(const coarse_space *c, int a, const int side[2], bbm_linear *Z)
 {
     const int common = a == side[0] || a == side[1];
     const double *from = c->at[a], *to = c->at[side[a == side[0]]];
     const double x = to[0] - from[0], y = to[1] - from[1], l2 = x * x + y * y;
+    const double r = common / l2, f = to[0] * x + to[1] * y;
 
-    bbm_linear_unknowns((to[0] * x + to[1] * y) / l2, -x / l2, -y / l2, Z);
-    for (int k = 0; k < 12; k++)
-        Z[k / 2][k % 2] = c->P[a][k / 2][k % 2] - common * Z[k / 2][k % 2];
+    *Z = (bbm_linear){ c->P[a].f - r * f, c->P[a].fx + r * x, c->P[a].fy + r * y };
     return common;
 }
 
-/* Kc = P^T (D + L + L^T) P, but for rows with a side in common what the head says. Between
- * triangles all of that is 0 but the sums of a node with itself. */
-static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
+/* Kc = P^T (D + L + L^T) P, but for rows with a side in common what the head says, and its factor.
+ * Between triangles all of that is 0 but the sums of a node with itself. */
+static void make_coarse(bbm_matrix *K)
 {
-    double Y[6][2], Z[6][2], W[6][2];
+    const coarse_space *c = K->extra;
+    double Y[2][6], W[2][6];
     int p[2], q[2];
+    bbm_linear Z;
 
     memset(c->Kc.A, 0, (c->Kc.entries + 2 * (size_t)c->n) * sizeof *c->Kc.A);
     for (int i = 0; i < K->n; i++)
@@ -298,27 +310,20 @@ static void sum_coarse(const bbm_matrix *K, const coarse_space *c)
             const int side = find_side(c, i, j, p);
             find_side(c, j, i, q);
             for (int b = c->first[j]; b < c->first[j + 1]; b++) {
-                const int common = side > 6 && find_rest(c, b, q, Z);
-                multiply(1, D ? K->D[i] : K->L[k], c->P[b], Y);
+                const int common = side > 6 && find_rest(c, b, q, &Z);
+                multiply(1, D ? K->D[i] : K->L[k], &c->P[b], Y);
                 if (side > 6)
-                    multiply(-1, K->L[k], Z, W);
+                    multiply(-1, K->L[k], &Z, W);
                 for (int a = c->first[i]; a < (D ? b + 1 : c->first[i + 1]); a++) {
                     if (side == 6 ? c->node[a] != c->node[b]
-                                  : side > 6 && !find_rest(c, a, p, Z) && !common)
+                                  : side > 6 && !find_rest(c, a, p, &Z) && !common)
                         continue;
-                    add_block(c, c->P[a], c->node[a], Y, c->node[b], D && a == b);
+                    add_block(c, &c->P[a], c->node[a], Y, c->node[b], D && a == b);
                     if (side > 6)
-                        add_block(c, Z, c->node[a], W, c->node[b], 0);
+                        add_block(c, &Z, c->node[a], W, c->node[b], 0);
                 }
             }
         }
-}
-
-static void make_ready(bbm_matrix *K)
-{
-    const coarse_space *c = K->extra;
-
-    sum_coarse(K, c);
     bbm_factor_make(&c->Kc);
 }
 
@@ -329,11 +334,8 @@ static void restrict_to_nodes(const bbm_matrix *K, const coarse_space *c)
 
     memset(c->x + 2 * from, 0, 2 * (size_t)(to - from) * sizeof *c->x);
     for (int i = K->from; i < K->to; i++)
-        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
-            double *x = &c->x[2 * c->node[a]];
-            for (int k = 0; k < 12; k++)
-                x[k % 2] += c->P[a][k / 2][k % 2] * c->z[6 * i + k / 2];
-        }
+        for (int a = c->first[i]; a < c->first[i + 1]; a++)
+            add_to_node(&c->P[a], &c->z[6 * i], &c->x[2 * c->node[a]]);
 }
 
 /* z = P x for the rows in hand. */
@@ -343,9 +345,14 @@ static void interpolate(const bbm_matrix *K, const coarse_space *c)
         double *z = &c->z[6 * i];
         memset(z, 0, 6 * sizeof *z);
         for (int a = c->first[i]; a < c->first[i + 1]; a++) {
+            const bbm_linear *P = &c->P[a];
             const double *x = &c->x[2 * c->node[a]];
-            for (int k = 0; k < 6; k++)
-                z[k] += c->P[a][k][0] * x[0] + c->P[a][k][1] * x[1];
+            z[0] += P->f * x[0];
+            z[1] += P->f * x[1];
+            z[2] += (P->fx * x[1] - P->fy * x[0]) / 2;
+            z[3] += P->fx * x[0];
+            z[4] += P->fy * x[1];
+            z[5] += P->fx * x[1] + P->fy * x[0];
         }
     }
 }
@@ -372,4 +379,4 @@ static void choose(const bbm_matrix *K, bbm_pcg *pcg)
         pcg->method = NULL;
 }
 
-const bbm_method bbm_two_level = { choose, make_ready, correct };
+const bbm_method bbm_two_level = { choose, make_coarse, correct };

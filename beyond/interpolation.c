@@ -19,7 +19,6 @@
  * alpha. They remain far fewer than those of SSOR alone.
  */
 #include <stdlib.h>
-#include <string.h>
 
 #include "beyond.h"
 
@@ -27,24 +26,13 @@
  * with blocks of 2 to 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
 
-/* The unknowns D = P (u, v) of the displacement f (u, v), f linear in x and y, `value` at the
- * centroid: ux = u f_x and so on, ex = ux, ey = vy, gxy = uy + vx, r0 = (vx - uy)/2. */
-void bbm_linear_unknowns(double value, double fx, double fy, double P[6][2])
-{
-    const double matrix[6][2] = {
-        { value, 0 }, { 0, value }, { -fy / 2, fx / 2 }, { fx, 0 }, { 0, fy }, { fy, fx }
-    };
-
-    memcpy(P, matrix, sizeof matrix);
-}
-
-/* What the displacement of corner a alone does to the unknowns, D = P (u_a, v_a): of the
+/* What the displacement of corner a alone does to the element, its P: of the
  * displacements linear in x, y the one nearest to the means of the corners' over the n sides, by
  * least squares; on a triangle, and for a quadrilateral's middles, it is exact. Fitted about the
  * mean of the corners, a linear function has the value mean(u) there and, with d_k the middle of
  * side k from there, u_k that mean and M = sum d d^T, the gradient g = M^-1 sum_k d_k u_k:
  *     u_a adds ux = g_x, uy = g_y, v_a the same to v. */
-void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a, double P[6][2])
+bbm_linear bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a)
 {
     double x = 0, y = 0, xx = 0, yy = 0, xy = 0, X = 0, Y = 0;
 
@@ -64,7 +52,7 @@ void bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a, double
     }
     const double det = xx * yy - xy * xy;
     const double gx = (yy * X - xy * Y) / det, gy = (xx * Y - xy * X) / det;
-    bbm_linear_unknowns(1.0 / e->n + gx * (e->x - x) + gy * (e->y - y), gx, gy, P);
+    return (bbm_linear){ 1.0 / e->n + gx * (e->x - x) + gy * (e->y - y), gx, gy };
 }
 
 /* Whether fixed points hold every corner of an element. */
@@ -108,13 +96,14 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
-    int *up = calloc(2 * v + 2 * n + 1, sizeof *up);
+    int *up = calloc(3 * v + 2 * n + 1, sizeof *up), nodes = 0;
     long long *place = calloc(v, sizeof *place);
     bbm_box *box = malloc(n * sizeof *box);
 
     if (!up || !place || !box)
         return free(up), free(place), free(box), BBM_NO_MEMORY;
-    int *node = up + v, *first = node + v, *worth = first + n + 1;  /* [components of K] */
+    int *number = up + v, *node = number + v, *first = node + v;
+    int *worth = first + n + 1;                                     /* [components of K] */
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
@@ -126,15 +115,20 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
         worth[bbm_component_of(m->K, b->i)] |= way2 > CROSSED * CROSSED * e->A
                                             && !bbm_is_held_all_round(m, e);
     }
+    find_places(m, box, place);
+    for (int k = 0; k < m->vertices; k++)
+        if (up[k] == k) {
+            number[k] = nodes;
+            place[nodes++] = place[k];
+        }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         const int in = worth[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
         for (int k = 0; k < in * e->n; k++)
-            node[first[i] + k] = bbm_root_of(up, e->first + k);
+            node[first[i] + k] = number[bbm_root_of(up, e->first + k)];
         first[i + 1] = first[i] + in * e->n;
     }
-    find_places(m, box, place);
-    const bbm_status status = bbm_matrix_coarse(m->K, m->vertices, first, node, place);
+    const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node, place);
     free(up);
     free(place);
     free(box);
@@ -145,14 +139,13 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
  * are refused, which does no harm. */
 void bbm_interpolate_elements(bbm_model *m)
 {
-    double P[6][2];
-
     if (!m->K->extra || m->K->ready || m->par.pcg.method != &bbm_two_level)
         return;
     for (int k = 0; k < m->vertices; k++) {
         const bbm_vertex *v = &m->vertex[k];
         const bbm_element *e = &m->element[v->element];
-        bbm_interpolation(e, &m->vertex[e->first], k - e->first, P);
-        (void)bbm_matrix_interpolate(m->K, v->element, k - e->first, P, v->x - e->x, v->y - e->y);
+        (void)bbm_matrix_interpolate(m->K, v->element, k - e->first,
+                                     bbm_interpolation(e, &m->vertex[e->first], k - e->first),
+                                     v->x - e->x, v->y - e->y);
     }
 }

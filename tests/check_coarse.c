@@ -16,6 +16,25 @@ typedef struct {                /* a coarse space: P takes all its unknowns to a
     double P[MOST_6][4 * MOST_CORNERS];         /* twice, for a test that doubles the nodes */
 } dense_coarse;
 
+/* P of the displacement f (u, v), f linear in x and y. */
+static void unknowns(bbm_linear f, double P[6][2])
+{
+    const double matrix[6][2] = { { f.f, 0 },  { 0, f.f },  { -f.fy / 2, f.fx / 2 },
+                                  { f.fx, 0 }, { 0, f.fy }, { f.fy, f.fx } };
+
+    memcpy(P, matrix, sizeof matrix);
+}
+
+static void random_unknowns(dense_coarse *c, int i, int node, unsigned *seed)
+{
+    const double f = random_entry(seed), fx = random_entry(seed), fy = random_entry(seed);
+    double P[6][2];
+
+    unknowns((bbm_linear){ f, fx, fy }, P);
+    for (int a = 0; a < 12; a++)
+        c->P[6 * i + a / 2][2 * node + a % 2] = P[a / 2][a % 2];
+}
+
 static void hang(dense_system *s, dense_coarse *c)
 {
     for (int i = 0; i < s->n; i++)
@@ -25,10 +44,9 @@ static void hang(dense_system *s, dense_coarse *c)
     ck_assert_int_eq(bbm_matrix_coarse(s->K, c->nodes, c->first, c->node, c->place), BBM_OK);
     for (int i = 0; i < s->n; i++)
         for (int k = c->first[i]; k < c->first[i + 1]; k++) {
-            double P[6][2];
+            const int u = 2 * c->node[k], v = u + 1;
+            const bbm_linear P = { c->P[6 * i][u], c->P[6 * i + 3][u], c->P[6 * i + 4][v] };
 
-            for (int a = 0; a < 12; a++)
-                P[a / 2][a % 2] = c->P[6 * i + a / 2][2 * c->node[k] + a % 2];
             ck_assert_int_eq(bbm_matrix_interpolate(s->K, i, k - c->first[i], P, 0, 0), BBM_OK);
         }
 }
@@ -47,8 +65,7 @@ static dense_coarse *new_coarse(dense_system *s, unsigned seed)
         c->first[i + 1] = c->first[i] + (i % 5 == 4 ? 0 : 2);
         for (int k = c->first[i]; k < c->first[i + 1]; k++) {
             c->node[k] = most * least[i] + i / 2 + 2 * (k - c->first[i]);
-            for (int a = 0; a < 12; a++)
-                c->P[6 * i + a / 2][2 * c->node[k] + a % 2] = random_entry(&seed);
+            random_unknowns(c, i, c->node[k], &seed);
         }
     }
     hang(s, c);
@@ -145,8 +162,7 @@ START_TEST(coarse_space_of_all_unknowns_solves_in_one_iteration)
     for (int i = 0; i < 3 * s->n; i++) {
         c->first[i / 3 + 1] = i + 1;
         c->node[i] = (i + 5) % c->nodes;
-        for (int a = 0; a < 12; a++)
-            c->P[6 * (i / 3) + a / 2][2 * c->node[i] + a % 2] = random_entry(&seed);
+        random_unknowns(c, i / 3, c->node[i], &seed);
     }
     hang(s, c);
     pcg.tolerance = 1e-8;
@@ -219,12 +235,12 @@ END_TEST
  * solved before. */
 static void change(dense_system *s, dense_coarse *c, int changes)
 {
-    double B[6][6] = { { 1 } }, P[6][2] = { { 1, 2 }, { 3, 4 } };
+    double B[6][6] = { { 1 } };
 
     if (changes == 2)
         bbm_matrix_add(s->K, 3, 3, B);
     if (changes == 3)
-        bbm_matrix_interpolate(s->K, 3, 1, P, 0, 0);
+        bbm_matrix_interpolate(s->K, 3, 1, (bbm_linear){ 1, 2, 3 }, 0, 0);
     if (changes == 4)
         bbm_matrix_clear(s->K);
     if (changes == 4)
@@ -269,7 +285,7 @@ START_TEST(coarse_nodes_and_corners_that_do_not_exist_are_refused)
     dense_coarse *c = new_coarse(s, 43);
     static const int wrong[][2] = { { -1, 0 }, { 12, 0 }, { 0, -1 }, { 0, 2 }, { 4, 0 },
                                     { 11, 2 } };
-    double P[6][2] = { { 0 } };
+    const bbm_linear P = { 0, 0, 0 };
 
     for (int k = 0; k < COUNT(wrong); k++)
         ck_assert_int_eq(bbm_matrix_interpolate(s->K, wrong[k][0], wrong[k][1], P, 0, 0),
@@ -409,7 +425,8 @@ static double chains_time(int apart)
     static int pair[PAIRS][2], first[ROWS + 1], node[ROWS];
     static long long place[ROWS];
     static double F[6 * ROWS], D[6 * ROWS];
-    double P[6][2] = { { 1, 0 }, { 0, 1 } }, B[6][6] = { { 0 } };
+    const bbm_linear P = { 1, 0, 0 };
+    double B[6][6] = { { 0 } };
     bbm_pcg_info info;
     bbm_matrix *K;
 
@@ -485,11 +502,11 @@ static size_t strip_bytes(int triangles)
 }
 
 /* Each node of the strip has two rows of Kc that begin two nodes before it, of 6 entries; P of a
- * triangle's corners takes 288 bytes, their places and a vector of its unknowns 48 each, all that is
+ * triangle's corners takes 72 bytes, their places and a vector of its unknowns 48 each, all that is
  * numbered, listed and measured on the way 260. Nodes across a common side, 3 apart, would take 44 more. */
 START_TEST(kc_has_room_for_corners_of_one_element_and_no_others)
 {
-    ck_assert_uint_le(strip_bytes(200) - strip_bytes(100), 100 * (96 + 288 + 96 + 260));
+    ck_assert_uint_le(strip_bytes(200) - strip_bytes(100), 100 * (96 + 72 + 96 + 260));
 }
 END_TEST
 
@@ -630,7 +647,8 @@ START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
     static const int apart[4] = { 4, 5, 7, 6 };
     static const double xy[8][2] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 1, 1 },
                                      { 5, 0 }, { 6, 0 }, { 5, 1 }, { 6, 1 } };
-    double P[2][3][6][2], E[18];
+    bbm_linear P[2][3];
+    double E[18];
     bbm_pcg_info info;
     bbm_model *m = beyond_model();
 
@@ -647,7 +665,7 @@ START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
     bbm_add_load(m, 3, 100, -1000);
     ck_ok(bbm_prepare(m), m);
     for (int k = 0; k < 6; k++)
-        bbm_interpolation(&m->element[k / 3], &m->vertex[3 * (k / 3)], k % 3, P[k / 3][k % 3]);
+        P[k / 3][k % 3] = bbm_interpolation(&m->element[k / 3], &m->vertex[3 * (k / 3)], k % 3);
     ck_ok(bbm_step(m), m);
     const long long start = bbm_component_of(m->K, 0) * BBM_PLACES, x = 0x2aaaaaaa, y = x / 2;
     const long long place[] = { start, start + x, start + y, start + x + y };
@@ -719,7 +737,7 @@ START_TEST(linear_displacements_of_the_corners_are_those_of_the_element)
     corners(n, &e, v);
     for (int a = 0; a < n; a++) {
         bbm_mode_matrix(&e, v[a].x, v[a].y, T);
-        bbm_interpolation(&e, v, a, P);
+        unknowns(bbm_interpolation(&e, v, a), P);
         for (int i = 0; i < 6; i++)
             sum[i] += P[i][0] * inner_product(6, T[0], D) + P[i][1] * inner_product(6, T[1], D);
     }
@@ -739,7 +757,7 @@ START_TEST(interpolation_is_the_nearest_linear_displacement)
 
     corners(n, &e, v);
     for (int a = 0; a < n; a++) {
-        bbm_interpolation(&e, v, a, P);
+        unknowns(bbm_interpolation(&e, v, a), P);
         for (int k = 0; k < 2; k++) {
             u[a][k] = random_entry(&seed);
             for (int i = 0; i < 6; i++)
