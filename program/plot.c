@@ -39,7 +39,7 @@ void plot_point(plot *p, const char *before, double x, double y)
     plot_put(p, "%s%.8g %.8g", before, floor(x * 100 + 0.5) / 100, floor(y * 100 + 0.5) / 100);
 }
 
-static void put_line(plot *p, const char *attributes, double x1, double y1, double x2, double y2)
+void plot_line(plot *p, const char *attributes, double x1, double y1, double x2, double y2)
 {
     plot_put(p, "<path %s d=\"", attributes);
     plot_point(p, "M", x1, y1);
@@ -285,10 +285,10 @@ static void draw_ticks(plot *p, const plot_axis *a, plot_box b, int upright, int
 
     for (int i = 0; next_tick(a, &i, &at, text); )
         if (upright) {
-            put_line(p, stroke, b.x, at, b.x + length, at);
+            plot_line(p, stroke, b.x, at, b.x + length, at);
             plot_text(p, b.x - 8, at + 5, "text-anchor=\"end\"", text);
         } else {
-            put_line(p, stroke, at, bottom, at, bottom - length);
+            plot_line(p, stroke, at, bottom, at, bottom - length);
             plot_text(p, at, bottom + 19, "text-anchor=\"middle\"", text);
         }
 }
@@ -432,7 +432,7 @@ static int draw_legend(plot *p, plot_legend l, const plot_chart *c)
         if (c->series[k].style == PLOT_BAND)
             plot_rectangle(p, (plot_box){ 4, -6, 40, 12 }, "");
         else if (c->series[k].style != PLOT_MARKS)
-            put_line(p, "", 4, 0, 44, 0);
+            plot_line(p, "", 4, 0, 44, 0);
         if (c->series[k].style >= PLOT_MARKS)
             draw_mark(p, c->series[k].look, 24, 0);
         plot_put(p, "</g></g>\n");
@@ -489,12 +489,14 @@ int plot_bands(const plot_axis *bar)
 }
 
 /* viridis */
-plot_colour plot_band_colour(double s)
+plot_colour plot_value_colour(const plot_axis *bar, double value)
 {
     static const int rgb[10][3] = {
         { 68, 1, 84 }, { 72, 40, 120 }, { 62, 74, 137 }, { 49, 104, 142 }, { 38, 130, 142 },
         { 31, 158, 137 }, { 53, 183, 121 }, { 109, 205, 89 }, { 180, 222, 44 }, { 253, 231, 37 } };
-    const int i = s >= 1 ? 8 : (int)(9 * s);
+    const double band = floor((value * bar->scale - bar->lo) / bar->step);
+    const double s = (fmax(0, fmin(band, plot_bands(bar) - 1)) + 0.5) / plot_bands(bar);
+    const int i = (int)(9 * s);
     unsigned c[3];
     plot_colour result;
 
@@ -524,7 +526,8 @@ void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range
     int skip = 1;
 
     for (int k = 0; k < bands; k++) {
-        snprintf(text, sizeof text, "fill=\"%s\"", plot_band_colour((k + 0.5) / bands).text);
+        const double middle = (bar->lo + (k + 0.5) * bar->step) / bar->scale;
+        snprintf(text, sizeof text, "fill=\"%s\"", plot_value_colour(bar, middle).text);
         plot_rectangle(p, (plot_box){ b.x + k * w, b.y, w + (k < bands - 1), b.h }, text);
     }
     plot_rectangle(p, b, "fill=\"none\" stroke=\"#333333\"");

@@ -15,7 +15,7 @@
  *
  * The film is one SVG that a browser plays over and over, a click stops it, the arrow keys step, a
  * bar shows and chooses the time; a viewer that cannot play shows the first frame. Supports, loads
- * and contact forces are drawn.
+ * and contact forces are drawn, these not where a field is.
  */
 #ifndef SCENE_H
 #define SCENE_H
@@ -34,6 +34,7 @@ typedef struct {                /* what was recorded at one time                
     int    forces;
     double (*at)[2];            /* m        [vertices]                                            */
     scene_force *force;         /*          [forces]                                              */
+    double *value;              /*          [vertices] of the field; NaN: the block is gone       */
 } scene_frame;
 
 typedef struct {                /* a spring along the line between two vertices, by hooked.c      */
@@ -47,6 +48,8 @@ typedef struct {
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
     double scale;               /* -        of the displacements; 0: as they are                  */
+    const char *field;          /* a name of field.h: in its colours; NULL: blocks in tints       */
+    double limits[2];           /* of the colours; zeros: those of all values but the outermost   */
     /* --- the recording --- */
     int    frames, calls, every, failed;
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */

@@ -205,6 +205,7 @@ static int read_output(model_reader *r)
     double *c = r->p->colours;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
+                   { .name = "film", .flag = &r->p->film },
                    CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
 
     for (const field *f = field_table; f->name; f++)
@@ -467,7 +468,8 @@ static const struct kind {
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
       NOTHING_NEEDED, ONCE },
     { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, ONCE },
-    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N] [low VALUE] [high VALUE]",
+    { "output", "output [every N] [vtk] [svg] [film] [field NAME] [scale N] [low VALUE] "
+                "[high VALUE]",
       read_output, NOTHING_NEEDED, ONCE },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },

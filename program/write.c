@@ -560,7 +560,8 @@ int write_open(write_results *w)
     output_keep(&w->history);
     output_keep(&w->summary);
     w->film = (scene){ .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt,
-                       .scale = w->p->scale };
+                       .scale = w->p->scale, .field = w->p->film ? w->p->field : NULL,
+                       .limits = { w->p->colours[0], w->p->colours[1] } };
     w->kept = calloc(ROWS * (MONITORS + MODEL_FOLLOWED * (size_t)w->p->monitors), sizeof *w->kept);
     return 1;
 }

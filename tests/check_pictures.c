@@ -399,6 +399,59 @@ START_TEST(a_film_magnifies_displacements_if_it_is_asked_to)
 }
 END_TEST
 
+/* The colours of the bar, band by band. */
+static int find_bands(const char *text, char band[][8])
+{
+    int n = 0;
+
+    for (const char *s = strstr(text, "<clipPath"); (s = strstr(s + 1, "<rect")) != NULL; )
+        if (has(s, "fill=\"#"))
+            snprintf(band[n++], 8, "%s", strstr(s, "fill=") + 6);
+    return n;
+}
+
+/* 200 blocks at 1, 2, ..., 200 m/s and one at 10 km/s: a hundredth is beyond the colours, which are from 0 to 200. */
+START_TEST(a_film_has_the_colours_of_its_field_and_one_large_value_does_not_dim_them)
+{
+    char band[30][8], fill[20];
+    int n = 0;
+
+    ck_assert_int_eq(run_text("coloured", STEEL "repeat i 1 201\nblock b$i steel $(9*i) 0 $(9*i + 8) 0 $(9*i) 8\n"
+                              "velocity b$i $(i + 9799*floor(i/201)) 0\nend\ndynamic dt 1e-4 steps 2\n"
+                              "output film svg field vx\n"), 0);
+    char *text = read_all("out/model/coloured/movie.svg");
+    ck_assert_int_eq(find_bands(text, band), 10);
+    for (const char *s = strstr(text, "<path fill=\"#"); n < 201; s = strstr(s + 1, "<path fill=\"#"), n++) {
+        snprintf(fill, sizeof fill, "fill=\"%s\"", band[n < 199 ? (n + 1) / 20 : 9]);
+        ck_assert_msg(has(s, fill), "block %d should have %s: %.40s", n + 1, fill, s);
+    }
+    free(text);
+    check_text("out/model/coloured/movie.svg", ">vx [m/s], from 1.0 to 10000.0<");
+}
+END_TEST
+
+/* u = t, from 0 to 1.5 m: through all colours, or half of them. The last one is repeated. */
+#define SLIDING STEEL "block b steel 0 0 1 0 1 1\nvelocity b 1 0\ndynamic dt 0.015 steps 100\noutput svg film field u"
+
+START_TEST(the_colours_of_a_film_change_as_the_values_do)
+{
+    char band[30][8];
+
+    ck_assert_int_eq(run_text("changing", _i ? SLIDING " low 0 high 3\n" : SLIDING "\n"), 0);
+    char *text = read_all("out/model/changing/movie.svg");
+    const int n = find_bands(text, band);
+    const char *s = strstr(strstr(text, "attributeName=\"fill\" calcMode=\"discrete\""), "values=") + 8;
+    for (int k = 0; k < 57; k++) {
+        const double at = fmin(k, 50) / 50 * (_i ? n / 2 : n);
+        ck_assert_msg(strncmp(s + 8 * k, band[(int)fmin(at + 1e-6, n - 1)], 7) == 0
+                      || strncmp(s + 8 * k, band[(int)(at - 1e-6)], 7) == 0, "colour %d of %.460s", k, s);
+    }
+    ck_assert_int_eq(s[8 * 57 - 1], '"');
+    free(text);
+    check_text("out/model/changing/movie.svg", ">u [m], from 0.000 to 1.500<");
+}
+END_TEST
+
 /* How often something stands in a picture of a shipped model. */
 static int count(const char *model, const char *what)
 {
@@ -666,6 +719,8 @@ Suite *pictures_suite(void)
     tcase_add_loop_test(t, no_element_is_turned_over_by_magnified_displacements, 0, 2);
     tcase_add_loop_test(t, a_picture_says_its_title_and_the_time_that_it_shows, 0, 8);
     tcase_add_test(t, a_film_magnifies_displacements_if_it_is_asked_to);
+    tcase_add_test(t, a_film_has_the_colours_of_its_field_and_one_large_value_does_not_dim_them);
+    tcase_add_loop_test(t, the_colours_of_a_film_change_as_the_values_do, 0, 2);
     tcase_add_loop_test(t, an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner, 0, 2);
     tcase_add_test(t, the_line_of_thrust_goes_through_the_points_where_forces_act);
     tcase_add_test(t, the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end);
