@@ -520,10 +520,11 @@ static void range_text(char *text, size_t size, const plot_axis *bar, const doub
 /* The bands side by side, their levels as far as there is room, below them what they measure. */
 void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2])
 {
-    const int bands = plot_bands(bar), first = (int)floor(bar->lo / bar->step + 0.5);
+    const int bands = plot_bands(bar);
     const double w = b.w / bands;
+    plot_axis levels = *bar;
     char text[TICK_TEXT], whole[280];
-    int skip = 1;
+    double at;
 
     for (int k = 0; k < bands; k++) {
         const double middle = (bar->lo + (k + 0.5) * bar->step) / bar->scale;
@@ -531,14 +532,11 @@ void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range
         plot_rectangle(p, (plot_box){ b.x + k * w, b.y, w + (k < bands - 1), b.h }, text);
     }
     plot_rectangle(p, b, "fill=\"none\" stroke=\"#333333\"");
-    while (widest_tick(bar) + LETTER > skip * w && skip < bands)
-        skip += skip == 2 ? 3 : skip;           /* 1, 2, 5, 10 */
-    for (int k = 0; k <= bands; k++) {
-        if ((first + k) % skip)
-            continue;
-        number_text(text, sizeof text, (first + k) * bar->step, bar->step);
-        plot_text(p, b.x + k * w, b.y + b.h + 18, "text-anchor=\"middle\"", text);
-    }
+    levels.from = b.x;
+    levels.to = b.x + b.w;
+    spread_ticks(&levels);
+    for (int i = 0; next_tick(&levels, &i, &at, text); )
+        plot_text(p, at, b.y + b.h + 18, "text-anchor=\"middle\"", text);
     range_text(whole, sizeof whole, bar, range);
     plot_text(p, b.x + b.w / 2, b.y + b.h + 40, "text-anchor=\"middle\"", whole);
 }

@@ -34,7 +34,8 @@
 enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
 enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMBOL, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
-enum { OUTSIDE = 100 };         /* one of so many values may lie beyond each end of the colours */
+/* One of so many values may lie beyond each end of the colours, and be larger than a cross. */
+enum { OUTSIDE = 100, LARGER = 20 };
 
 static const double nothing[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
@@ -42,19 +43,26 @@ static const double FAIR = 0.5;         /* of an element's width: how much an ed
 
 /* Arrows: the largest is so wide, in pixels; name, unit: in the legend, with the force between
  * them. Contacts have a head on both sides. */
-enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, KINDS };
+enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, PRESSURE, TENSION, KINDS };
 
 static const struct { const char *colour; double width; const char *name, *unit; } arrow[KINDS] = {
     [LOAD] = { "#aa2288", 4, "load", "N" }, [LINE_LOAD] = { "#aa2288", 3, "load", "N/m" },
     [LOCKED] = { "#004488", 6, "contact force", "N, locked" },
     [SLIDING] = { "#cc3311", 6, "contact force", "N, sliding" },
     [PULLED] = { "#117733", 6, "contact force", "N, pulling" },
+    [TENSION] = { "#cc3311", 2.6, "tension", "Pa" },
+    [PRESSURE] = { "#004488", 1.8, "pressure", "Pa" },
 };
 
 static int is_contact(int kind) { return kind >= LOCKED && kind <= PULLED; }
+static int is_stress(int kind) { return kind >= PRESSURE; }
+static int has_two_heads(int kind) { return is_contact(kind) || is_stress(kind); }
 
-/* All contacts have the scale of one kind. */
-static int scale_of(int kind) { return is_contact(kind) ? LOCKED : kind; }
+/* All contacts have the scale of one kind, and both stresses. */
+static int scale_of(int k) { return is_contact(k) ? LOCKED : is_stress(k) ? TENSION : k; }
+
+/* Crosses have none. */
+static int has_colours(const char *name) { return name && strcmp(name, FIELD_PRINCIPAL) != 0; }
 
 typedef struct { double x, y; } point;
 
@@ -77,7 +85,7 @@ typedef struct {                        /* what the functions below draw with   
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
     double       most[KINDS];           /* the largest force of each kind, by scale_of            */
-    double       contact;               /* pixels of a contact's arrow                            */
+    double       length[KINDS];         /* its pixels                                             */
     int          seen[KINDS], supports[4];      /* of each kind of arrow; held in each way        */
     double       seconds;               /* of one pass; zero: nothing moves                       */
     plot_axis    bar;                   /* of the colours of a field                              */
@@ -137,8 +145,28 @@ static int make_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
     f->value = malloc((size_t)m->vertices * sizeof *f->value);
-    f->force = malloc(((size_t)m->contacts + 1) * sizeof *f->force);
+    f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
     return f->at && f->value && f->force;
+}
+
+/* The principal stresses of each element in their directions, at its mean point. */
+static void put_crosses(scene_frame *f, const bbm_model *m)
+{
+    f->forces = 0;
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
+        const double *s = e->stress, middle = (s[0] + s[1]) / 2;
+        const double radius = hypot(s[0] - middle, s[2]), angle = atan2(s[2], s[0] - middle) / 2;
+        double x = 0, y = 0;
+        for (int v = e->first; v < e->first + e->n; v++) {
+            x += f->at[v][0] / e->n;
+            y += f->at[v][1] / e->n;
+        }
+        for (int k = 0; k < 2; k++) {
+            const double p = k ? middle - radius : middle + radius, a = angle + k * acos(0);
+            f->force[f->forces++] = (scene_force){ x, y, p * cos(a), p * sin(a), 0,
+                                                   p > 0 ? TENSION : PRESSURE, { e->block } };
+        }
+    }
 }
 
 static int copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
@@ -155,6 +183,8 @@ static int copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
         if (shown)
             f->value[v] = gone ? NAN : field_of_element(shown, m, m->vertex[v].element);
     }
+    if (shown && !has_colours(s->field))
+        put_crosses(f, m);
     for (int k = 0; k < m->contacts && !shown; k++)
         if (m->contact[k].state != BBM_OPEN)
             f->force[f->forces++] = force_of(f, m, &m->contact[k]);
@@ -198,11 +228,6 @@ static point pixel(const film *f, point a)
 }
 
 static point at(const film *f, int frame, int v) { return pixel(f, position(f, frame, v)); }
-
-static int next_vertex(const bbm_model *m, int v)
-{
-    return bbm_next_vertex(&m->element[m->vertex[v].element], v);
-}
 
 /* Distance of two boxes, and a little of that of their centres. */
 static double distance(const body *a, const body *b)
@@ -318,9 +343,10 @@ static void put_elements(film *f, int frame, const body *b)
 {
     for (int k = b->first; k < b->first + b->n; k++) {
         const int v = f->vertex[k];
+        const bbm_element *e = &f->m->element[f->m->vertex[v].element];
         const point a = at(f, frame, v);
-        plot_point(&f->p, v == f->m->element[f->m->vertex[v].element].first ? "M" : " ", a.x, a.y);
-        if (next_vertex(f->m, v) < v)
+        plot_point(&f->p, v == e->first ? "M" : " ", a.x, a.y);
+        if (bbm_next_vertex(e, v) < v)
             plot_put(&f->p, "z");
     }
 }
@@ -361,19 +387,13 @@ static int is_moving(const film *f, const body *b)
     return 0;
 }
 
-static void begin_animation(film *f, const char *attribute)
-{
-    plot_put(&f->p, "<animate attributeName=\"%s\" dur=\"%.3gs\" repeatCount=\"indefinite\" ",
-             attribute, f->seconds);
-}
-
 /* What `put` writes for each frame. */
 static void animate(film *f, const char *attribute, const body *b, writer *put)
 {
     const int last = f->s->frames - 1;
 
-    begin_animation(f, attribute);
-    plot_put(&f->p, "values=\"");
+    plot_put(&f->p, "<animate attributeName=\"%s\" dur=\"%.3gs\" repeatCount=\"indefinite\" "
+             "values=\"", attribute, f->seconds);
     for (int i = 0; i < value_count(f); i++) {
         plot_put(&f->p, i ? ";" : "");
         put(f, i < last ? i : last, b);
@@ -384,9 +404,8 @@ static void animate(film *f, const char *attribute, const body *b, writer *put)
 /* The colour of the block's first element. */
 static void put_colour(film *f, int frame, const body *b)
 {
-    const double value = f->s->frame[frame].value[f->vertex[b->first]];
-
-    plot_put(&f->p, "%s", plot_value_colour(&f->bar, value).text);
+    plot_put(&f->p, "%s",
+             plot_value_colour(&f->bar, f->s->frame[frame].value[f->vertex[b->first]]).text);
 }
 
 /* What `put` draws of a block; fill: NULL, the colour of its first element. */
@@ -412,7 +431,7 @@ static void draw_block(film *f, int frame, const body *b)
 {
     static const char *const tint[TINTS] = { "#f6cf8b", "#b3dcf5", "#8fd3bd", "#f7f0a6", "#e6c3d7",
                                              "#eba98f" };
-    const int coloured = f->s->field && !b->held;
+    const int coloured = has_colours(f->s->field) && !b->held;
     body e = { .first = b->first };
 
     for (int k = 0; k < b->n && coloured; k += e.n) {
@@ -442,24 +461,25 @@ typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
  * the arrow ends there. Arrows of loads are as long as the force is large, and left out if that is
- * less than 2 pixels; those of contacts are as wide, and left out below a twentieth. */
+ * less than 2 pixels; those of contacts are as wide, those of stresses as long, and left out below a
+ * twentieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
     double *most = &f->most[scale_of(kind)];
-    const double size = hypot(force.x, force.y), share = size / *most;
-    const double pixels = is_contact(kind) ? f->contact / size : ARROW / *most;
-    const double before = is_contact(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
-    const point d = { pixels * force.x, pixels * force.y };
+    const double size = hypot(force.x, force.y), share = fmin(1, size / *most);
+    const double pixels = f->length[kind] * (is_contact(kind) ? 1 : share);
+    const double before = has_two_heads(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
+    const point d = { pixels / size * force.x, pixels / size * force.y };
 
     if (!isfinite(size + from.x + from.y) || size == 0)
         return;
-    if (!visit)                         /* the largest is looked for */
+    if (!visit && !is_stress(kind))     /* the largest is looked for */
         *most = fmax(*most, size);
-    if (!visit || share < (is_contact(kind) ? 0.05 : 2.0 / ARROW))
+    if (!visit || share < (has_two_heads(kind) ? 0.05 : 2.0 / ARROW))
         return;
     f->seen[kind] = 1;
     from = (point){ from.x - before * d.x / f->scale, from.y - before * d.y / f->scale };
-    visit(f, kind, from, d, share);
+    visit(f, kind, from, d, is_stress(kind) ? 1 : share);
 }
 
 /* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points. */
@@ -506,7 +526,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
         visit_edge(f, frame, &l, &last, visit);
     for (int i = 0; i < g->forces; i++)
-        if (g->force[i].kind == kind)
+        if (g->force[i].kind == kind && !(is_stress(kind) && f->body[g->force[i].block[0]].held))
             visit_force(f, kind, (point){ g->force[i].x, g->force[i].y },
                         (point){ g->force[i].fx, g->force[i].fy }, (point){ 0, 0 }, visit);
 }
@@ -537,8 +557,9 @@ static void visit_supports(film *f, int frame, visitor *visit)
 /* From pixel a along d, with room for heads, which are 1.6 widths long. */
 static void put_shaft(film *f, int kind, point a, point d, double share)
 {
-    const double l = hypot(d.x, d.y), w = fmax(0.5, fmin(arrow[kind].width, l / 4) * share);
-    const double head = 1.6 * w / l, before = is_contact(kind) * head;
+    const double l = hypot(d.x, d.y), most = l / (is_stress(kind) ? 8 : 4);
+    const double w = fmax(0.5, fmin(arrow[kind].width, most) * share);
+    const double head = 1.6 * w / l, before = has_two_heads(kind) * head;
     char style[40];
 
     snprintf(style, sizeof style, "stroke-width=\"%.2g\"", w);
@@ -555,7 +576,7 @@ static void put_arrow(film *f, int kind, point from, point size, double share)
 static void begin_arrows(film *f, int kind)
 {
     plot_put(&f->p, "<g stroke=\"%s\" marker-end=\"url(#head%d)\"", arrow[kind].colour, kind);
-    plot_put(&f->p, is_contact(kind) ? " marker-start=\"url(#head%d)\">\n" : ">\n", kind);
+    plot_put(&f->p, has_two_heads(kind) ? " marker-start=\"url(#head%d)\">\n" : ">\n", kind);
 }
 
 /* A triangle or, in one direction, a roller, and the ground. */
@@ -666,11 +687,12 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
 
     if (!f->seen[kind])
         return;
-    snprintf(text, sizeof text, "%s %.3g %s%s", arrow[kind].name, size / pow(1000, power),
-             prefix[power], arrow[kind].unit);
+    snprintf(text, sizeof text, "%s %.3g %s%s%s", arrow[kind].name, size / pow(1000, power),
+             prefix[power], arrow[kind].unit,
+             is_stress(kind) && f->range[1] > size ? " and more" : "");
     plot_begin_entry(&f->p, l, text);
     begin_arrows(f, kind);
-    put_shaft(f, kind, (point){ 0, 0 }, (point){ is_contact(kind) ? f->contact : ARROW, 0 }, 1);
+    put_shaft(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
     plot_put(&f->p, "</g></g>\n");
 }
 
@@ -791,9 +813,12 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
-    f->thrust = f->s->frames == 1 && draw_thrust(f, 0);
+    f->thrust = f->s->frames == 1 && !f->s->field && draw_thrust(f, 0);
     for (int round = 0; round < 5; round++) {           /* the first one without arrows */
-        f->contact = fmax(12, fmin(ARROW, block_size(f) * f->scale));
+        const double element = sqrt(f->w * f->h / f->m->elements);
+        for (int kind = 0; kind < KINDS; kind++)
+            f->length[kind] = fmax(12, fmin(ARROW, is_contact(kind) ? block_size(f) * f->scale
+                                            : is_stress(kind) ? 0.6 * element : ARROW));
         find_window(f);
         for (int i = 0; i < f->s->frames && round > 0; i++) {
             visit_supports(f, i, widen_window);
@@ -837,8 +862,10 @@ static int find_colours(film *f)
     qsort(x, (size_t)n, sizeof *x, by_size);
     f->range[0] = x[0];
     f->range[1] = x[n - 1];
-    const double most[2] = { x[n / OUTSIDE], x[n - 1 - n / OUTSIDE] };
+    const int out = n / (has_colours(f->s->field) ? OUTSIDE : LARGER);
+    const double most[2] = { x[out], x[n - 1 - out] };
     f->bar = plot_bar_axis(&q, limits[0] < limits[1] ? limits : most);
+    f->most[TENSION] = f->bar.hi / f->bar.scale;
     free(x);
     return 1;
 }
@@ -846,7 +873,7 @@ static int find_colours(film *f)
 /* Opens a page for n panels and, below them, the colours of a field; draws title and legend. */
 static int open_page(film *f, const char *path, int n)
 {
-    const double below = f->s->field ? BAR : 0;
+    const double below = has_colours(f->s->field) ? BAR : 0;
 
     if (f->s->field && !find_colours(f))
         return 0;
@@ -866,7 +893,7 @@ static int open_page(film *f, const char *path, int n)
     for (int k = 0; k < KINDS; k++)
         plot_put(&f->p, "<marker id=\"head%d\" orient=\"auto-start-reverse\" overflow=\"visible\">"
                  "<path d=\"%s\" fill=\"%s\"/></marker>\n", k,
-                 k == PULLED ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z",
+                 k == PULLED || k == PRESSURE ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z",
                  arrow[k].colour);
     plot_put(&f->p, "</defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
@@ -898,10 +925,10 @@ static void end_panel(film *f, plot_box b)
 /* Below the last panel, b, over the width of all. */
 static void draw_colours(film *f, plot_box b)
 {
-    const double left = f->left + LEFT;
+    const plot_box bar = { f->left + LEFT, b.y + b.h + UNDER + 4, b.x + b.w - f->left - LEFT, 16 };
 
-    plot_draw_bar(&f->p, (plot_box){ left, b.y + b.h + UNDER + 4, b.x + b.w - left, 16 }, &f->bar,
-                  f->range);
+    if (has_colours(f->s->field))
+        plot_draw_bar(&f->p, bar, &f->bar, f->range);
 }
 
 /* What stands over the blocks of a panel; the time begins at the same place in each frame. */
@@ -924,9 +951,9 @@ static void begin_turn(film *f, int frame)
     const int last = f->s->frames - 1, intervals = value_count(f) - 1;
 
     plot_put(&f->p, "<g%s>", frame ? " visibility=\"hidden\"" : "");
-    begin_animation(f, "visibility");
-    plot_put(&f->p, "calcMode=\"discrete\" values=\"hidden;visible;hidden\" "
-             "keyTimes=\"0;%.5f;%.5f\"/>\n", fmax(0, (frame - 0.5) / intervals),
+    plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
+             "repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
+             "keyTimes=\"0;%.5f;%.5f\"/>\n", f->seconds, fmax(0, (frame - 0.5) / intervals),
              frame == last ? 1 : (frame + 0.5) / intervals);
 }
 
@@ -965,8 +992,7 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
         const plot_box b = begin_panel(&f, 0);
         draw_blocks(&f, 0, 1);
         end_panel(&f, b);
-        if (s->field)
-            draw_colours(&f, b);
+        draw_colours(&f, b);
         for (int k = 0; k < s->frames && f.seconds > 0; k++) {
             begin_turn(&f, k);
             draw_state(&f, b, k);
@@ -998,7 +1024,7 @@ static double fair_scale(const scene *s, const bbm_model *m)
         const bbm_element *i = &m->element[e];
         double longest = 0, change = 0;
         for (int a = i->first; a < i->first + i->n; a++) {
-            const int b = next_vertex(m, a);
+            const int b = bbm_next_vertex(i, a);
             longest = fmax(longest, hypot(x[b][0] - x[a][0], x[b][1] - x[a][1]));
             change = fmax(change, hypot(d[b][0] - d[a][0], d[b][1] - d[a][1]));
         }
@@ -1074,7 +1100,7 @@ static void put_element_share(film *f, int frame, const bbm_element *e, const do
     }
     for (int v = e->first; v < e->first + parts; v++) {
         t[0] = sample_of(f, frame, v);
-        t[1] = sample_of(f, frame, next_vertex(f->m, v));
+        t[1] = sample_of(f, frame, bbm_next_vertex(e, v));
         put_share(f, t, level);
     }
 }
@@ -1110,7 +1136,8 @@ static void draw_lines(film *f, int frame, const char *stroke, writer *put)
 /* Bands, the lines of the mesh, the boundaries where they were and are. */
 static void draw_field(film *f, int frame)
 {
-    draw_bands(f, frame);
+    if (has_colours(f->s->field))
+        draw_bands(f, frame);
     draw_blocks(f, 1, 0);
     draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
                put_elements);
@@ -1133,16 +1160,19 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
             const double start = k ? m->node[i].y : m->node[i].x, moved = k ? r.v : r.u;
             f->at[v][k] = gone ? field_place(m, v, k) : times[0] * start + times[1] * moved;
         }
-        f->value[v] = gone ? NAN : field_of_node(shown, m, i);
+        f->value[v] = gone ? NAN : has_colours(shown->name) ? field_of_node(shown, m, i)
+                      : field_of_element(shown, m, m->vertex[v].element);
         finite &= gone || isfinite(r.u + r.v + f->value[v]);
     }
+    if (!has_colours(shown->name))
+        put_crosses(f, m);
     return finite;
 }
 
 /* A panel for each model: the first frame has the values of the other one. */
-static int draw_map(film *f, const char *path, const scene_map *map)
+static int draw_map(film *f, const char *path)
 {
-    const int panels = map->other ? 2 : 1;
+    const int panels = f->s->other ? 2 : 1;
     plot_box b = { 0 };
 
     if (!begin_film(f) || !open_page(f, path, panels))
@@ -1152,31 +1182,31 @@ static int draw_map(film *f, const char *path, const scene_map *map)
         draw_field(f, 1 - k);
         end_panel(f, b);
         draw_state(f, b, 1);
-        if (map->other)
-            plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", map->name[k]);
+        plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", f->s->name[k]);
     }
     draw_colours(f, b);
     return plot_close(&f->p);
 }
 
-int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
+int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
 {
-    const char *name = map->field ? map->field : "mises";
     scene_frame state[2] = { { .time = m->info.t }, { .time = m->info.t } };
-    scene s = { .title = map->title, .field = name, .frames = 2, .frame = state,
-                .limits = { map->limits[0], map->limits[1] } };
-    const field *shown = field_find(name);
+    const field *shown = field_find(choices->field);
+    scene s = *choices;
     film f = { .s = &s, .m = m };
     int done = 0;
 
+    s.frames = 2;
+    s.frame = state;
+    s.failed = 0;
     errno = ENOMEM;
     if (make_frame(&state[0], m) && make_frame(&state[1], m)) {
         errno = EDOM;
-        done = fill_frame(&state[0], map->other ? map->other : m, shown, (double[]){ 1, 0 })
+        done = fill_frame(&state[0], s.other ? s.other : m, shown, (double[]){ 1, 0 })
                && fill_frame(&state[1], m, shown, (double[]){ 0, 1 });
-        s.scale = map->scale == 0 && done ? find_scale(&s, m) : fmax(0, map->scale);
+        s.scale = s.scale == 0 && done ? find_scale(&s, m) : fmax(0, s.scale);
         fill_frame(&state[1], m, shown, (double[]){ 1, s.scale });
-        done = done && draw_map(&f, path, map);
+        done = done && draw_map(&f, path);
     }
     end_film(&f);
     drop_frame(&state[0]);

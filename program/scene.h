@@ -47,9 +47,14 @@ typedef struct {
     const char *title;
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
-    double scale;               /* -        of the displacements; 0: as they are                  */
-    const char *field;          /* a name of field.h: in its colours; NULL: blocks in tints       */
-    double limits[2];           /* of the colours; zeros: those of all values but the outermost   */
+    double scale;               /* -        of the displacements. 0: of a film, as they are; of a */
+                                /*          map, the largest is about a tenth of the model, and   */
+                                /*          less where an element or an edge would change too     */
+                                /*          much. < 0: a map does not show them                   */
+    const char *field;          /* a name of field.h; NULL: a film in tints                       */
+    double limits[2];           /* of its colours; zeros: those of all values but the outermost   */
+    const bbm_model *other;     /* beside it in a map, on the same mesh, in the same colours      */
+    const char *name[2];        /* then: of both                                                  */
     /* --- the recording --- */
     int    frames, calls, every, failed;
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */
@@ -64,18 +69,8 @@ void scene_free(scene *s);      /* the recording; the choices stay              
  * nothing to write. Of one frame the film is a picture that stands still. */
 int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
 
-typedef struct {                /* contours of a field over the present state                     */
-    const char *title;
-    const char *field;          /* a name of field.h; NULL: mises                                 */
-    double scale;               /* -        of the displacements; 0: the largest is about a tenth */
-                                /*          of the model, and less where an element or an edge    */
-                                /*          would change too much; < 0: they are not shown        */
-    double limits[2];           /* of the colours; zeros: those of the values                     */
-    const bbm_model *other;     /* beside it, on the same mesh and in the same colours; or NULL   */
-    const char *name[2];        /* then: of both                                                  */
-} scene_map;
-
-int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
+/* The present state, which need not be recorded, with contours of the field, or with crosses. */
+int  scene_write_map(const scene *s, const bbm_model *m, const char *path);
 
 /* A load along an edge from vertex a to b: a force [N/m], or those at the Gauss points, and a
  * pressure. */

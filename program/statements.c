@@ -213,6 +213,7 @@ static int read_output(model_reader *r)
                  f->name);
     if (!model_options(r, 0, LENGTH(o), o))
         return 0;
+    r->p->svg |= r->p->film;
     r->p->field = field_table[chosen].name;
     return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
            || model_blame(r, "colours from %g to %g, expected low below high", c[0], c[1]);
@@ -509,7 +510,7 @@ static const char *find_other(const char *word)
         { " support boundary fixed ", "see fix, fixblock" }, { " polygon ", "see block, grid" },
         { " time step steps solve run damping ", "see static, dynamic" },
         { " friction cohesion tension kn ks ", "see contact, joint" },
-        { " plot print history ", "see monitor, output" },
+        { " plot print history film field ", "see monitor, output" },
     };
     const size_t n = strlen(word);
 

@@ -418,7 +418,7 @@ START_TEST(a_film_has_the_colours_of_its_field_and_one_large_value_does_not_dim_
 
     ck_assert_int_eq(run_text("coloured", STEEL "repeat i 1 201\nblock b$i steel $(9*i) 0 $(9*i + 8) 0 $(9*i) 8\n"
                               "velocity b$i $(i + 9799*floor(i/201)) 0\nend\ndynamic dt 1e-4 steps 2\n"
-                              "output film svg field vx\n"), 0);
+                              "output film field vx\n"), 0);
     char *text = read_all("out/model/coloured/movie.svg");
     ck_assert_int_eq(find_bands(text, band), 10);
     for (const char *s = strstr(text, "<path fill=\"#"); n < 201; s = strstr(s + 1, "<path fill=\"#"), n++) {
@@ -449,6 +449,53 @@ START_TEST(the_colours_of_a_film_change_as_the_values_do)
     ck_assert_int_eq(s[8 * 57 - 1], '"');
     free(text);
     check_text("out/model/changing/movie.svg", ">u [m], from 0.000 to 1.500<");
+}
+END_TEST
+
+/* The ends of a path's first and last lines, in order; the number of its points. */
+static int find_ends(const char *s, point *first, point *last)
+{
+    const char *d = path_of(s);
+    point p = { 0, 0 };
+    int n = 0;
+
+    for (int new; next_point(&d, &p, &new); *last = p)
+        *first = n++ ? *first : p;
+    return n;
+}
+
+/* Of the k-th arrow of a stress: its angle, degrees, and its length with both heads, which are 1.6 widths long. */
+static double find_cross(const char *text, const char *marker, int k, double *length)
+{
+    point a, b;
+
+    for (text = strstr(text, "<clipPath"), text = text ? strstr(text, marker) : NULL; text && k >= 0; k--)
+        text = strstr(text + 1, "<path");
+    ck_assert(text && find_ends(text, &a, &b) == 2);
+    *length = hypot(b.x - a.x, b.y - a.y) + 2 * 1.6 * attribute(text, "stroke-width");
+    return fmod(atan2(a.y - b.y, b.x - a.x) * 180 / acos(-1) + 360, 180);
+}
+
+/* Of s in the direction of 30 degrees (s cos^2, s sin^2, s sin cos), of half of that as pressure, and of shear, in
+ * which tension is at 45 degrees and pressure across it. */
+START_TEST(crosses_have_the_directions_and_the_sizes_of_principal_stresses)
+{
+    double pull, half, push[2];
+
+    ck_assert_int_eq(run_text("crosses", STEEL "let c $(sqrt(3)/4)\nrepeat i 1 3\ngrid b$i steel $(3*i) 0 $(3*i + 2) 2 1 1\n"
+                              "end\nstress b1 0.75e6 0.25e6 $(1e6*c)\nstress b2 -0.375e6 -0.125e6 $(-0.5e6*c)\n"
+                              "stress b3 0 0 1e6\ndynamic dt 1e-9 steps 1\noutput svg field principal\n"), 0);
+    char *text = read_all("out/model/crosses/principal.svg");
+    ck_near(find_cross(text, "#cc3311\" marker", 0, &pull), 30, 180, 1e-3);
+    ck_near(find_cross(text, "#004488\" marker", 0, &push[0]), 30, 180, 1e-3);
+    ck_near(find_cross(text, "#cc3311\" marker", 1, &half), 45, 180, 1e-3);
+    ck_near(find_cross(text, "#004488\" marker", 1, &push[1]), 135, 180, 1e-3);
+    ck_near(push[0] / pull, 0.5, 1, 1e-2);
+    ck_near(half / pull, 1, 1, 1e-2);
+    ck_near(push[1] / pull, 1, 1, 1e-2);
+    free(text);
+    check_text("out/model/crosses/principal.svg", ">tension 1 MPa<");
+    check_text("out/model/crosses/principal.svg", ">pressure 1 MPa<");
 }
 END_TEST
 
@@ -489,18 +536,6 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
     ck_assert_int_eq(count("water", ">load 37.9 kN/m<"), 1);
 }
 END_TEST
-
-/* The ends of a path's first and last lines, in order; the number of its points. */
-static int find_ends(const char *s, point *first, point *last)
-{
-    const char *d = path_of(s);
-    point p = { 0, 0 };
-    int n = 0;
-
-    for (int new; next_point(&d, &p, &new); *last = p)
-        *first = n++ ? *first : p;
-    return n;
-}
 
 /* A square of 39 kN that is loaded above its left corner by as much again: the corners carry 58.5 and
  * 19.5 kN. Turned round it hangs from bonded contacts. The widest arrow has 6 pixels; two digits. */
@@ -612,7 +647,7 @@ START_TEST(each_field_is_drawn_under_its_name_with_its_unit_and_range)
     static const struct { const char *field, *said; int status; } shown[] = {
         { "u", ">u [m], ", 0 }, { "v", ">v [m], ", 0 }, { "rotation", ">rotation [rad], ", 0 },
         { "sxx", ">sxx [Pa], from ", 0 }, { "syy", ">syy [", 0 }, { "sxy", ">sxy [", 0 },
-        { "mises", ">von Mises stress [", 0 }, { "s1", ">s1 [", 0 }, { "s2", ">s2 [", 0 },
+        { "mises", ">von Mises stress [", 0 }, { "s1", ">s1 [", 0 }, { "s2", ">s2 [", 0 }, { "principal", ">tension ", 0 },
         { "vx", ">vx [m/s], ", 0 }, { "vy", ">vy [m/s], ", 0 }, { "spin", ">spin [rad/s], ", 0 },
         { "sxx low -2e6 high 3e6", ">sxx [MPa], from 0.007 to ", 0 }, { "u low 3", "colours from 3 to 0", 2 },
         { "u low 3 high 3", "colours from 3 to 3, expected low below high", 2 },
@@ -719,13 +754,14 @@ Suite *pictures_suite(void)
     tcase_add_loop_test(t, no_element_is_turned_over_by_magnified_displacements, 0, 2);
     tcase_add_loop_test(t, a_picture_says_its_title_and_the_time_that_it_shows, 0, 8);
     tcase_add_test(t, a_film_magnifies_displacements_if_it_is_asked_to);
+    tcase_add_test(t, crosses_have_the_directions_and_the_sizes_of_principal_stresses);
     tcase_add_test(t, a_film_has_the_colours_of_its_field_and_one_large_value_does_not_dim_them);
     tcase_add_loop_test(t, the_colours_of_a_film_change_as_the_values_do, 0, 2);
     tcase_add_loop_test(t, an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner, 0, 2);
     tcase_add_test(t, the_line_of_thrust_goes_through_the_points_where_forces_act);
     tcase_add_test(t, the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end);
     tcase_add_test(t, a_field_that_is_one_level_has_one_colour_and_large_forces_are_short);
-    tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit_and_range, 0, 15);
+    tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit_and_range, 0, 16);
     tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);
