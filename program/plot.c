@@ -181,20 +181,13 @@ static void power_text(char *text, size_t size, int exponent)
 
 /* ---------------------------------------------------------------------------------------- axes */
 
-/* m, N, s, J, Pa, alone or before a slash */
-static int takes_prefix(const char *unit)
-{
-    const size_t n = strcspn(unit, "/");
-
-    return (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
-}
-
 /* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
- * into the label. */
+ * into the label: a prefix for m, N, s, J, Pa, alone or before a slash. */
 static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 {
     static const char *const prefix[] = { "p", "n", "µ", "m", "", "k", "M", "G", "T" };
     const char *unit = q->unit ? q->unit : "", *name = q->name ? q->name : "";
+    const size_t n = strcspn(unit, "/");
     char power[48];
     int e = 0;
 
@@ -202,7 +195,8 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
         e = 3 * (int)floor(log10(largest) / 3);
     a->scale = pow(10, -e);
     power_text(power, sizeof power, e);
-    if (e && (!takes_prefix(unit) || e < -12 || e > 12))
+    const int takes = (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
+    if (e && (!takes || e < -12 || e > 12))
         snprintf(a->label, sizeof a->label, "%s [×%s%s%s]", name, power, *unit ? " " : "", unit);
     else if (*unit)
         snprintf(a->label, sizeof a->label, "%s [%s%s]", name, prefix[e / 3 + 4], unit);
@@ -403,13 +397,6 @@ static void draw_line(plot *p, const plot_series *s)
     plot_put(p, "\"/>\n");
 }
 
-static void draw_marks(plot *p, const plot_series *s)
-{
-    for (int i = 0; i < s->n; i++)
-        if (is_shown(s, i))
-            draw_mark(p, s->look, plot_pixel(&p->x, s->x[i]), plot_pixel(&p->y, s->y[i]));
-}
-
 static void begin_series(plot *p, const plot_chart *c, int k)
 {
     static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
@@ -454,8 +441,9 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
         begin_series(p, c, k);
         if (s->style != PLOT_MARKS)
             draw_line(p, s);
-        if (s->style >= PLOT_MARKS)
-            draw_marks(p, s);
+        for (int i = 0; i < s->n && s->style >= PLOT_MARKS; i++)
+            if (is_shown(s, i))
+                draw_mark(p, s->look, plot_pixel(&p->x, s->x[i]), plot_pixel(&p->y, s->y[i]));
         plot_put(p, "</g>\n");
     }
     draw_legend(p, (plot_legend){ b.x, b.y + b.h + 66, b.w, 0, 0 }, c);
@@ -506,24 +494,14 @@ plot_colour plot_value_colour(const plot_axis *bar, double value)
     return result;
 }
 
-/* The extremes, to about a hundredth of a band. */
-static void range_text(char *text, size_t size, const plot_axis *bar, const double range[2])
-{
-    const double unit = pow(10, floor(log10(bar->step) + 1e-9) - 2);
-    char end[2][TICK_TEXT];
-
-    for (int k = 0; k < 2; k++)
-        number_text(end[k], sizeof end[k], floor(range[k] * bar->scale / unit + 0.5) * unit, unit);
-    snprintf(text, size, "%s, from %s to %s", bar->label, end[0], end[1]);
-}
-
-/* The bands side by side, their levels as far as there is room, below them what they measure. */
+/* The bands side by side, their levels as far as there is room, below them what they measure and the
+ * extremes, to about a hundredth of a band. */
 void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2])
 {
     const int bands = plot_bands(bar);
-    const double w = b.w / bands;
+    const double w = b.w / bands, unit = pow(10, floor(log10(bar->step) + 1e-9) - 2);
     plot_axis levels = *bar;
-    char text[TICK_TEXT], whole[280];
+    char text[TICK_TEXT], end[2][TICK_TEXT], whole[280];
     double at;
 
     for (int k = 0; k < bands; k++) {
@@ -537,6 +515,8 @@ void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range
     spread_ticks(&levels);
     for (int i = 0; next_tick(&levels, &i, &at, text); )
         plot_text(p, at, b.y + b.h + 18, "text-anchor=\"middle\"", text);
-    range_text(whole, sizeof whole, bar, range);
+    for (int k = 0; k < 2; k++)
+        number_text(end[k], sizeof end[k], floor(range[k] * bar->scale / unit + 0.5) * unit, unit);
+    snprintf(whole, sizeof whole, "%s, from %s to %s", bar->label, end[0], end[1]);
     plot_text(p, b.x + b.w / 2, b.y + b.h + 40, "text-anchor=\"middle\"", whole);
 }

@@ -461,8 +461,8 @@ typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
  * the arrow ends there. Arrows of loads are as long as the force is large, and left out if that is
- * less than 2 pixels; those of contacts are as wide, those of stresses as long, and left out below a
- * twentieth. */
+ * less than 2 pixels; those of contacts are as wide, those of stresses as long, and left out below
+ * a twentieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
     double *most = &f->most[scale_of(kind)];
@@ -1156,10 +1156,8 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
         const int i = m->vertex[v].node, gone = field_is_gone(m, v);
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
-        for (int k = 0; k < 2; k++) {
-            const double start = k ? m->node[i].y : m->node[i].x, moved = k ? r.v : r.u;
-            f->at[v][k] = gone ? field_place(m, v, k) : times[0] * start + times[1] * moved;
-        }
+        f->at[v][0] = gone ? field_place(m, v, 0) : times[0] * m->node[i].x + times[1] * r.u;
+        f->at[v][1] = gone ? field_place(m, v, 1) : times[0] * m->node[i].y + times[1] * r.v;
         f->value[v] = gone ? NAN : has_colours(shown->name) ? field_of_node(shown, m, i)
                       : field_of_element(shown, m, m->vertex[v].element);
         finite &= gone || isfinite(r.u + r.v + f->value[v]);
