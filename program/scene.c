@@ -169,12 +169,10 @@ static void put_crosses(scene_frame *f, const bbm_model *m)
     }
 }
 
-static int copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
+static void copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
 {
     const field *shown = s->field ? field_find(s->field) : NULL;
 
-    if (!make_frame(f, m))
-        return 0;
     for (int v = 0; v < m->vertices; v++) {
         const int gone = field_is_gone(m, v);
         const double further = gone || s->scale <= 0 ? 0 : s->scale - 1;
@@ -188,7 +186,6 @@ static int copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
     for (int k = 0; k < m->contacts && !shown; k++)
         if (m->contact[k].state != BBM_OPEN)
             f->force[f->forces++] = force_of(f, m, &m->contact[k]);
-    return 1;
 }
 
 void scene_record(scene *s, const bbm_model *m)
@@ -202,11 +199,12 @@ void scene_record(scene *s, const bbm_model *m)
         s->frame = calloc(FRAMES, sizeof *s->frame);
         s->every = 1;
     }
-    s->failed |= !s->frame || !copy_frame(&f, s, m);
+    s->failed |= !s->frame || !make_frame(&f, m);
     if (s->failed) {
         drop_frame(&f);
         return;
     }
+    copy_frame(&f, s, m);
     thin_out(s);
     s->frame[s->frames++] = f;
 }
@@ -1133,18 +1131,6 @@ static void draw_lines(film *f, int frame, const char *stroke, writer *put)
     plot_put(&f->p, "\"/>\n");
 }
 
-/* Bands, the lines of the mesh, the boundaries where they were and are. */
-static void draw_field(film *f, int frame)
-{
-    if (has_colours(f->s->field))
-        draw_bands(f, frame);
-    draw_blocks(f, 1, 0);
-    draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
-               put_elements);
-    draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
-    draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
-}
-
 /* Places at the start and displacements, so many times each, and the values at nodes. Returns
  * whether all are finite. */
 static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
@@ -1167,7 +1153,8 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
     return finite;
 }
 
-/* A panel for each model: the first frame has the values of the other one. */
+/* A panel for each model, with bands, the lines of the mesh, the boundaries where they were and are.
+ * The first frame has the values of the other model. */
 static int draw_map(film *f, const char *path)
 {
     const int panels = f->s->other ? 2 : 1;
@@ -1177,7 +1164,13 @@ static int draw_map(film *f, const char *path)
         return 0;
     for (int k = 0; k < panels; k++) {
         b = begin_panel(f, k);
-        draw_field(f, 1 - k);
+        if (has_colours(f->s->field))
+            draw_bands(f, 1 - k);
+        draw_blocks(f, 1, 0);
+        draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
+                   put_elements);
+        draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
+        draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
         end_panel(f, b);
         draw_state(f, b, 1);
         plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", f->s->name[k]);
