@@ -21,10 +21,12 @@
  * unknowns, from the last one on. Their pivots are left on the diagonal. */
 void bbm_condense(int n, int rows, double W[n][n])
 {
-    for (int p = n - 1; p >= rows; p--)
+    for (int p = n - 1; p >= rows; p--) {
+        const double scale = 1 / W[p][p];
         for (int a = 0; a < p; a++)
             for (int b = 0; b < p; b++)
-                W[a][b] -= W[a][p] * W[p][b] / W[p][p];
+                W[a][b] -= W[a][p] * W[p][b] * scale;
+    }
 }
 
 /* The stiffness of a quadrilateral x = c + xi p + eta q, -1/2 <= xi, eta <= 1/2, against the
@@ -51,12 +53,13 @@ static void bending_stiffness(const bbm_element *e, const double p[2], const dou
     double E[3][3];
 
     bbm_elastic_matrix(&e->material, E);
-    for (int a = 0; a < 6; a++)
-        for (int b = 0; b < 6; b++)
-            for (int r = 0; r < 9; r++)
-                for (int x = 0; x < 2; x++)
-                    S[a][b] += 4 * tA / 12 * strain[x][r / 3][a] * E[r / 3][r % 3]
-                             * strain[x][r % 3][b];
+    for (int k = 0; k < 18; k++) {
+        const double *left = strain[k % 2][k / 6], *right = strain[k % 2][k / 2 % 3];
+        const double f = 4 * tA / 12 * E[k / 6][k / 2 % 3];
+        for (int a = 0; a < 6 && f != 0; a++)
+            for (int b = 0; b < 6 && left[a] != 0; b++)
+                S[a][b] += f * left[a] * right[b];
+    }
     bbm_condense(6, 2, S);
 }
 
