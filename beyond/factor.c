@@ -223,7 +223,8 @@ static void subtract_products(size_t n, const double *row, size_t m, const doubl
     x[1] -= sum[2] + sum[3];
 }
 
-/* x = K^-1 x for the pairs of rows from .. to-1, which no entry of K joins with others. */
+/* x = K^-1 x for the pairs of rows from .. to-1, which no entry of K joins with others. The second
+ * sweep goes through memory backwards only, which is faster where the factor is large. */
 void bbm_substitute(const bbm_factor *f, int from, int to, double *restrict x)
 {
     for (int i = from; i < to; i++) {
@@ -239,12 +240,12 @@ void bbm_substitute(const bbm_factor *f, int from, int to, double *restrict x)
         const bbm_part *last = f->part + f->first[i + 1] - 1;
         const double *d = f->A + place_in(last, i), *e = d + width(last);
         const double x1 = x[2 * i + 1] * e[1], x0 = (x[2 * i] - e[0] * x1) * d[0];
-        for (const bbm_part *p = f->part + f->first[i]; p <= last; p++) {
+        for (const bbm_part *p = last; p >= f->part + f->first[i]; p--) {
             const double *u = f->A + p->at, *v = u + width(p);
             double *restrict y = x + 2 * p->from;
-            for (size_t k = 0; k < width(p) - (p == last ? 2 : 0); k += 2) {
-                y[k] -= u[k] * x0 + v[k] * x1;
-                y[k + 1] -= u[k + 1] * x0 + v[k + 1] * x1;
+            for (size_t k = width(p) - (p == last ? 2 : 0); k > 0; k -= 2) {
+                y[k - 2] -= u[k - 2] * x0 + v[k - 2] * x1;
+                y[k - 1] -= u[k - 1] * x0 + v[k - 1] * x1;
             }
         }
         x[2 * i] = x0;
