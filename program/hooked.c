@@ -31,9 +31,11 @@ static int read_row(model_reader *r, char *line, model_place at)
         x[n++] = strtod(w, &end);
     if (n == 0 || (n == 1 && *end && !p->shakings))
         return 1;
-    if (*end || n < 2 || n > 3 || !isfinite(x[0] + x[1] + x[2])
-        || (p->shakings && x[0] <= p->shaking[p->shakings - 1].t))
-        return model_fail(r, at, "expected numbers TIME AX [AY], each time behind the one before");
+    if (*end || n < 2 || n > 3 || !isfinite(x[0] + x[1] + x[2]))
+        return model_fail(r, at, "expected two or three numbers, TIME AX [AY]; decimals need a point");
+    if (p->shakings && x[0] <= p->shaking[p->shakings - 1].t)
+        return model_fail(r, at, "time %g is not later than the %g before it", x[0],
+                          p->shaking[p->shakings - 1].t);
     return model_add(r, &p->shaking, &p->shakings, sizeof *p->shaking,
                      &(model_shaking){ x[0], { x[1], x[2] } });
 }

@@ -215,9 +215,13 @@ static void summarise(const model *p, const char *folder)
                ? "no step made more than %.1e of its energy beyond the work of loads\n"
                : "no step made energy beyond the work of loads\n", m->beyond->gain);
     bbm_energies(m, &e);
-    if (p->dynamic && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
+    if (m->beyond->restitution >= 0
+        && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
         printf("hits came with %.3g J in their normal velocities, %.0f %% of it was given back\n",
                m->beyond->hit[0], 100 * m->beyond->hit[1] / m->beyond->hit[0]);
+    for (int k = 0; k < p->bolts; k++)
+        if (p->bolt[k].k == 0)
+            printf("bolt %d holds no more since t = %.6g s\n", k + 1, p->bolt[k].until);
     printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);

@@ -339,7 +339,7 @@ static int read_let(model_reader *r)
     double x;
 
     if (other && model_look(r))
-        r->word[at] = (model_given){ other, other, 0 };
+        r->word[at] = (model_given){ other, "-d or --find", 0 };
     if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
     if (!r->round)

@@ -257,7 +257,10 @@ const char *model_hint(const char *word)
         c++;
     return strncmp(word, "//", 2) == 0 ? "; a comment begins with #"
          : strpbrk(word, "(*/^") ? "; arithmetic is $(...)"
-         : *c ? "; it has letters beyond ASCII: minus is -" : "";
+         : strstr(word, "\xe2\x88\x92") || strstr(word, "\xe2\x80\x93") ? "; minus is -"
+         : *c ? "; it has letters beyond ASCII"
+         : strchr(word, ',') && isdigit((unsigned char)strchr(word, ',')[1])
+           ? "; decimals need a point" : "";
 }
 
 /* ", from " and what the file has in place of a word of the statement, or "": the same. */
@@ -365,7 +368,7 @@ int model_whole(model_reader *r, const char *what, int least, int *n)
     errno = 0;
     const long value = strtol(word, &end, 10);
     if (*end != '\0' || end == word)
-        return wrong(r, "not a whole number:", word);
+        return wrong(r, "not a whole number in digits:", word);
     if (value < least)
         return model_blame(r, "%s is %ld, expected a whole number, %d or more", what, value, least);
     if (errno || value > INT_MAX / 2)

@@ -247,7 +247,8 @@ static void warn_of_bodies(const model *p, const char *path)
             for (int j = 0; j < i; j++)
                 compare(&s, path, i, j);
         if (s.alike > 1)
-            fprintf(stderr, "%s: warning: so have %d more pairs of blocks\n", path, s.alike - 1);
+            fprintf(stderr, "%s: warning: so it is with %d more pair%s of blocks\n", path,
+                    s.alike - 1, s.alike > 2 ? "s" : "");
         for (int b = 0; b < p->blocks; b++)
             held |= s.body[b].held;
         if (p->dynamic && held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))

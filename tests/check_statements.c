@@ -180,6 +180,8 @@ START_TEST(a_block_hangs_on_its_bolt)
     ck_near(cell("bolt", "history.csv", "", "top_v"), table[_i].v, W / K, _i == 3 ? 0.4 : 1e-3);
     check_text("out/model/bolt/bolts.csv", _i == 3 ? "BROKEN" : "HOLDS");
     check_text("out/model/bolt/contacts.svg", ">bolt<");
+    ck_assert_int_eq(shell("cd out/model; $OLDPWD/%s/bbm bolt.model > said", BUILD), 0);
+    ck_assert_int_eq(strstr(slurp("out/model/said"), "\nbolt 1 holds no more since t = 0.0") != NULL, _i == 3);
     check_text("out/model/bolt/mises.svg", ">bolt<");
 }
 END_TEST
@@ -393,7 +395,7 @@ static const struct { const char *text, *said; } doubtful[] = {
     { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\nfix set a.left\nfix set b.right\ngravity 0 -9.81\n"
       "contact friction 30\nstatic\n", "blocks 'b' and 'a' have nodes in the same places, but blocks are never bonded" },
     { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\ngrid c rock 4 0 6 1 4 2\nfix set a.left\nfix set c.right\n"
-      "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: so have 1 more pairs of blocks\n" },
+      "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: so it is with 1 more pair of blocks\n" },
 };
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
@@ -558,7 +560,7 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
     ck_assert_str_eq(slurp("out/model/err"), "out/model/let.model: 'f=20' of -d or --find, "
                      "expected NAME=VALUE with a name of a `let`, such as g, steps, twice\n");
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=1O 2> out/model/err", BUILD), 2);
-    ck_assert_str_eq(slurp("out/model/err"), "out/model/let.model:2: not a number: '1O', "
+    ck_assert_str_eq(slurp("out/model/err"), "out/model/let.model:2: not a number: '1O', from -d or --find, "
                                                    "expected: let NAME VALUE\n");
     ck_assert_int_eq(shell("%s/bbm - < out/model/let.model -o out/model/let 2> out/model/err | "
                            "grep -q -- '-: ?]g is 10'", BUILD), 0);
