@@ -315,8 +315,6 @@ static const struct { const char *call; double limit, within; } found[] = {
     { "topple.model -d k=1 -d phi=60 --find a 30 60", 45, 0.15 },      /* its springs sway */
     { "topple.model -d a=40 -d sway=1 --find phi 20 40", 29.9808, 0.05 },
     { "topple.model -d a=60 -d sway=1 --find phi 20 60", 35.9393, 0.05 },
-    { "arch.model -d steps=400 --find t 0.95 1.2", 1.061, 0.002 },
-    { "arch.model -d steps=400 --find phi 15 30", 19.2071, 0.02 },
     { "arch.model -d steps=400 -d t=1.07 --find phi 15 30", 21.5303, 0.02 },
     { "conveyor.model --find phi 5 20", 10, 0.015 },
     { "conveyor.model -d a=20 --find phi 10 40", 20, 0.03 },
