@@ -54,12 +54,23 @@ int model_read_record(model_reader *r, const char *path)
 
 /* ---------------------------------------------------------------------------------------- bolts */
 
+static bbm_vertex point_of(const bbm_model *m, const scene_end *e)
+{
+    bbm_vertex P = { .element = m->vertex[e->vertex[0]].element };
+
+    for (int k = 0; k < 3; k++) {
+        P.x += e->share[k] * m->vertex[e->vertex[k]].x;
+        P.y += e->share[k] * m->vertex[e->vertex[k]].y;
+    }
+    return P;
+}
+
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along)
 {
-    const bbm_vertex *P = &m->vertex[b->vertex[0]], *Q = &m->vertex[b->vertex[1]];
-    const double length = hypot(P->x - Q->x, P->y - Q->y);
+    const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
+    const double length = hypot(P.x - Q.x, P.y - Q.y);
 
-    *along = (bbm_direction){ (P->x - Q->x) / length, (P->y - Q->y) / length, length };
+    *along = (bbm_direction){ (P.x - Q.x) / length, (P.y - Q.y) / length, length };
     return b->k * (length - b->rest);
 }
 
@@ -73,12 +84,12 @@ static void list_gaps(bbm_model *m)
     bbm_list_edge_gaps(m);
     for (int k = 0; k < p->bolts; k++) {
         const scene_bolt *b = &p->bolt[k];
-        const bbm_vertex *P = &m->vertex[b->vertex[0]], *Q = &m->vertex[b->vertex[1]];
-        bbm_gap *g = bbm_add_gap(m, P->element, Q->element);
+        const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
+        bbm_gap *g = bbm_add_gap(m, P.element, Q.element);
         bbm_direction along;
         const double across = fmax(0, model_bolt_force(m, b, &along)) / along.length,
                      n[2] = { along.x, along.y };
-        bbm_bonding_gap(&m->element[g->i], P, &m->element[g->j], Q, 0, g);
+        bbm_bonding_gap(&m->element[g->i], &P, &m->element[g->j], &Q, 0, g);
         g->elastic = 1;
         for (int a = 0; a < 4; a++) {
             g->W[a / 2][a % 2] = (b->k - across) * n[a / 2] * n[a % 2] + across * (a % 3 == 0);

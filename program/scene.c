@@ -571,10 +571,15 @@ static void draw_bolts(film *f, int frame)
 {
     for (int k = 0; k < f->s->bolts; k++) {
         const scene_bolt *b = &f->s->bolt[k];
-        const point from = at(f, frame, b->vertex[0]), to = at(f, frame, b->vertex[1]);
+        point end[2] = { { 0, 0 } };
+        for (int a = 0; a < 6; a++) {
+            const point p = at(f, frame, b->end[a / 3].vertex[a % 3]);
+            end[a / 3].x += b->end[a / 3].share[a % 3] * p.x;
+            end[a / 3].y += b->end[a / 3].share[a % 3] * p.y;
+        }
         if (f->s->frame[frame].time < b->until)
-            plot_put(&f->p, "<path " BOLT " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
-                     to.y);
+            plot_put(&f->p, "<path " BOLT " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", end[0].x, end[0].y,
+                     end[1].x, end[1].y);
     }
 }
 

@@ -38,8 +38,13 @@ typedef struct {                /* what was recorded at one time                
     scene_force *force;         /*          [forces]                                              */
 } scene_frame;
 
-typedef struct {                /* a spring along the line between two vertices, by hooked.c      */
-    int    vertex[2], block[2];
+typedef struct {                /* a point of an element: the sum of share times vertex           */
+    int    block, vertex[3];
+    double share[3];
+} scene_end;
+
+typedef struct {                /* a spring along the line between two points, by hooked.c        */
+    scene_end end[2];
     double k, rest, strength, until;    /* N/m, m, N, s: when it broke, or INFINITY               */
 } scene_bolt;
 

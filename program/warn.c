@@ -109,7 +109,7 @@ static void measure(bodies *s)
         *(m->node[n].held ? &s->body[s->p->node_block[n]].held
                           : &s->body[s->p->node_block[n]].free) += 1;
     for (int k = 0; k < 2 * s->p->bolts; k++)       /* what a bolt holds is not said to fall */
-        s->body[s->p->bolt[k / 2].block[k % 2]].thrown = 1;
+        s->body[s->p->bolt[k / 2].end[k % 2].block].thrown = 1;
     for (int e = 0; e < m->edges; e++) {
         body *b = &s->body[m->element[m->edge[e].element].block];
         s->next[e] = b->edge;

@@ -199,6 +199,35 @@ START_TEST(a_bolt_holds_a_block_on_its_slope)
 }
 END_TEST
 
+/* Two bolts from within a block, also one of elements, to within a roof with a notch carry it by their
+ * distances from its centre; it turns by 1e-5. */
+START_TEST(a_bolt_ends_anywhere_in_a_block)
+{
+    static const char *const lump[] = { "block lump rock 0.5 0 1.5 0 1.5 1 0.5 1",
+                                        "grid lump rock 0.5 0 1.5 1 3 3" };
+    static const struct { const char *end, *said; } wrong[] = {
+        { "1 3.5", "no node there, the nearest is node" }, { "1 3.5 of roof", "no node there of block roof" },
+        { "0.4 5", "a bolt ends at one of several nodes or blocks there" }, { "0.4 6 of roof", "no node there" },
+        { "1.35 0.75", "a bolt without length or within an element" },
+    };
+    const double W = 2500 * 9.81;
+
+    for (size_t k = 0; k <= sizeof wrong / sizeof *wrong; k++) {
+        const int good = k == sizeof wrong / sizeof *wrong;
+        ck_assert_int_eq(run_printed("within",
+            ROCK "block roof rock 2 3 2 5 0 5 0 3 0.5 3 0.5 4 1.5 4 1.5 3\n%s\nfixblock roof\n"
+            "block cap rock 0 5 2 5 2 6 0 6\nfixblock cap\n"
+            "bolt at 0.75 0.8 at 0.75 4.5 stiffness 1e9\nbolt at 1.4 0.8 at %s stiffness 1e9\n"
+            "gravity 0 -9.81\ncontact friction 30\ndynamic dt 0.1 steps 100 velocity_factor 0\n",
+            lump[_i], good ? "1.4 4.9" : wrong[k].end), good ? 0 : 2);
+        if (!good)
+            check_text("out/model/within.err", wrong[k].said);
+    }
+    ck_relative(cell("within", "bolts.csv", "1,lump,roof,", "force"), W * 0.4 / 0.65, 1e-4);
+    ck_relative(cell("within", "bolts.csv", "2,lump,roof,", "force"), W * 0.25 / 0.65, 1e-4);
+}
+END_TEST
+
 START_TEST(contacts_and_reactions_carry_the_weight)
 {
     ck_assert_int_eq(run_text("stack",
@@ -732,6 +761,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 2);
+    tcase_add_loop_test(t, a_bolt_ends_anywhere_in_a_block, 0, 2);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
     tcase_add_loop_test(t, a_joint_carries_the_weight_of_its_block, 0, 4);
     tcase_add_test(t, the_two_joints_of_a_wedge_hold_it);
