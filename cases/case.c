@@ -249,7 +249,7 @@ int case_draw(case_results *r, int done)
 }
 
 /* The largest values of a field, and the largest difference at a grid point. */
-static void print_difference(const bbm_model *m, const bbm_model *fem, const scene_map *map)
+static void print_difference(const bbm_model *m, const bbm_model *fem, const scene *map)
 {
     const field *f = field_find(map->field);
     double most[3] = { 0 };
@@ -271,20 +271,20 @@ static void draw_maps(case_results *r, const case_experiment *e, const bbm_model
     bbm_model *fem = case_beyond_model(2);
 
     for (int k = 0; k < e->maps; k++)
-        case_draw(r, scene_write_map(m, case_path(r, e->map[k].file), &e->map[k].map));
+        case_draw(r, scene_write_map(&e->map[k].map, m, case_path(r, e->map[k].file)));
     if (!fem)
         return;
     e->solve(fem, e->run[0].variant, CELL_CROSSED, 2, 1000);
     printf("\n## With beyond/: the figures beside the constant-strain finite element, fem_*.svg\n\n"
            "| largest [m, Pa] | BBM | FEM | largest difference |\n|---|---|---|---|\n");
     for (int k = 0; k < e->maps && e->map[k].map.scale < 0; k++) {
-        scene_map both = e->map[k].map;
+        scene both = e->map[k].map;
         char file[40];
         both.other = fem;
         both.name[0] = "BBM, the paper's way";
         both.name[1] = "FEM: constant-strain triangles";
         snprintf(file, sizeof file, "fem_%s", e->map[k].file);
-        case_draw(r, scene_write_map(m, case_path(r, file), &both));
+        case_draw(r, scene_write_map(&both, m, case_path(r, file)));
         print_difference(m, fem, &both);
     }
     bbm_model_free(fem);

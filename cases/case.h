@@ -57,7 +57,7 @@ typedef struct {                    /* a solution of an experiment, alpha = 1000
     int beyond;                     /* with beyond/: quadrilaterals, as many as the triangles   */
     const char *summary;            /* of the others, which are the paper's way; the last: its  */
 } case_run;                         /* name in the summary                                      */
-typedef struct { const char *file; scene_map map; } case_map;
+typedef struct { const char *file; scene map; } case_map;
 /* A row of the summary: a value of a run, whose unit is one unit-th of SI's. */
 typedef struct { int run; const char *quantity; double x, y, unit; } case_point;
 

@@ -14,6 +14,7 @@ const field field_table[] = {
     { "mises", "von Mises stress", "Pa", FIELD_NODES | FIELD_ELEMENTS | FIELD_CELLS },
     { "s1", "s1", "Pa", FIELD_CELLS },
     { "s2", "s2", "Pa", FIELD_CELLS },
+    { FIELD_PRINCIPAL, "larger principal stress", "Pa", 0 },
     { "vx", "vx", "m/s", FIELD_MOVING },
     { "vy", "vy", "m/s", FIELD_MOVING },
     { "spin", "spin", "rad/s", FIELD_MOVING },
@@ -27,7 +28,8 @@ static double value(const field *f, const bbm_result *r, const double motion[4])
     const double *s = r->stress, middle = (s[0] + s[1]) / 2;
     const double radius = hypot((s[0] - s[1]) / 2, s[2]);
     const double all[] = { r->u, r->v, motion[0], s[0], s[1], s[2], r->mises, middle + radius,
-                           middle - radius, motion[1], motion[2], motion[3] };
+                           middle - radius, fabs(middle) + radius, motion[1], motion[2],
+                           motion[3] };
 
     return all[f - field_table];
 }

@@ -13,6 +13,8 @@ enum {                          /* where a field is written, as bits            
     FIELD_CELLS = 8             /* the cells of step_*.vtk                                      */
 };
 
+#define FIELD_PRINCIPAL "principal"     /* drawn as crosses                                     */
+
 typedef struct {
     const char *name, *label, *unit;    /* label: in a picture                                  */
     int files;

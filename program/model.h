@@ -50,6 +50,7 @@ typedef struct {
     char  *title;               /* or NULL */
     int    dynamic, settle;     /* quasi-static steps before t = 0 */
     int    every, vtk, svg;     /* every: 0, the end only */
+    int    film;                /* whether it has the colours of the field, too */
     const char *field;          /* of the picture, a name of field.h */
     double colours[2];          /* their range; zeros: that of the field */
     double scale;               /* by which it enlarges displacements; 0: as the picture chooses */

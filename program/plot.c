@@ -39,7 +39,7 @@ void plot_point(plot *p, const char *before, double x, double y)
     plot_put(p, "%s%.8g %.8g", before, floor(x * 100 + 0.5) / 100, floor(y * 100 + 0.5) / 100);
 }
 
-static void put_line(plot *p, const char *attributes, double x1, double y1, double x2, double y2)
+void plot_line(plot *p, const char *attributes, double x1, double y1, double x2, double y2)
 {
     plot_put(p, "<path %s d=\"", attributes);
     plot_point(p, "M", x1, y1);
@@ -181,20 +181,13 @@ static void power_text(char *text, size_t size, int exponent)
 
 /* ---------------------------------------------------------------------------------------- axes */
 
-/* m, N, s, J, Pa, alone or before a slash */
-static int takes_prefix(const char *unit)
-{
-    const size_t n = strcspn(unit, "/");
-
-    return (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
-}
-
 /* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
- * into the label. */
+ * into the label: a prefix for m, N, s, J, Pa, alone or before a slash. */
 static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 {
     static const char *const prefix[] = { "p", "n", "µ", "m", "", "k", "M", "G", "T" };
     const char *unit = q->unit ? q->unit : "", *name = q->name ? q->name : "";
+    const size_t n = strcspn(unit, "/");
     char power[48];
     int e = 0;
 
@@ -202,7 +195,8 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
         e = 3 * (int)floor(log10(largest) / 3);
     a->scale = pow(10, -e);
     power_text(power, sizeof power, e);
-    if (e && (!takes_prefix(unit) || e < -12 || e > 12))
+    const int takes = (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
+    if (e && (!takes || e < -12 || e > 12))
         snprintf(a->label, sizeof a->label, "%s [×%s%s%s]", name, power, *unit ? " " : "", unit);
     else if (*unit)
         snprintf(a->label, sizeof a->label, "%s [%s%s]", name, prefix[e / 3 + 4], unit);
@@ -285,10 +279,10 @@ static void draw_ticks(plot *p, const plot_axis *a, plot_box b, int upright, int
 
     for (int i = 0; next_tick(a, &i, &at, text); )
         if (upright) {
-            put_line(p, stroke, b.x, at, b.x + length, at);
+            plot_line(p, stroke, b.x, at, b.x + length, at);
             plot_text(p, b.x - 8, at + 5, "text-anchor=\"end\"", text);
         } else {
-            put_line(p, stroke, at, bottom, at, bottom - length);
+            plot_line(p, stroke, at, bottom, at, bottom - length);
             plot_text(p, at, bottom + 19, "text-anchor=\"middle\"", text);
         }
 }
@@ -403,13 +397,6 @@ static void draw_line(plot *p, const plot_series *s)
     plot_put(p, "\"/>\n");
 }
 
-static void draw_marks(plot *p, const plot_series *s)
-{
-    for (int i = 0; i < s->n; i++)
-        if (is_shown(s, i))
-            draw_mark(p, s->look, plot_pixel(&p->x, s->x[i]), plot_pixel(&p->y, s->y[i]));
-}
-
 static void begin_series(plot *p, const plot_chart *c, int k)
 {
     static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
@@ -432,7 +419,7 @@ static int draw_legend(plot *p, plot_legend l, const plot_chart *c)
         if (c->series[k].style == PLOT_BAND)
             plot_rectangle(p, (plot_box){ 4, -6, 40, 12 }, "");
         else if (c->series[k].style != PLOT_MARKS)
-            put_line(p, "", 4, 0, 44, 0);
+            plot_line(p, "", 4, 0, 44, 0);
         if (c->series[k].style >= PLOT_MARKS)
             draw_mark(p, c->series[k].look, 24, 0);
         plot_put(p, "</g></g>\n");
@@ -454,8 +441,9 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
         begin_series(p, c, k);
         if (s->style != PLOT_MARKS)
             draw_line(p, s);
-        if (s->style >= PLOT_MARKS)
-            draw_marks(p, s);
+        for (int i = 0; i < s->n && s->style >= PLOT_MARKS; i++)
+            if (is_shown(s, i))
+                draw_mark(p, s->look, plot_pixel(&p->x, s->x[i]), plot_pixel(&p->y, s->y[i]));
         plot_put(p, "</g>\n");
     }
     draw_legend(p, (plot_legend){ b.x, b.y + b.h + 66, b.w, 0, 0 }, c);
@@ -489,12 +477,14 @@ int plot_bands(const plot_axis *bar)
 }
 
 /* viridis */
-plot_colour plot_band_colour(double s)
+plot_colour plot_value_colour(const plot_axis *bar, double value)
 {
     static const int rgb[10][3] = {
         { 68, 1, 84 }, { 72, 40, 120 }, { 62, 74, 137 }, { 49, 104, 142 }, { 38, 130, 142 },
         { 31, 158, 137 }, { 53, 183, 121 }, { 109, 205, 89 }, { 180, 222, 44 }, { 253, 231, 37 } };
-    const int i = s >= 1 ? 8 : (int)(9 * s);
+    const double band = floor((value * bar->scale - bar->lo) / bar->step);
+    const double s = (fmax(0, fmin(band, plot_bands(bar) - 1)) + 0.5) / plot_bands(bar);
+    const int i = (int)(9 * s);
     unsigned c[3];
     plot_colour result;
 
@@ -504,38 +494,29 @@ plot_colour plot_band_colour(double s)
     return result;
 }
 
-/* The extremes, to about a hundredth of a band. */
-static void range_text(char *text, size_t size, const plot_axis *bar, const double range[2])
-{
-    const double unit = pow(10, floor(log10(bar->step) + 1e-9) - 2);
-    char end[2][TICK_TEXT];
-
-    for (int k = 0; k < 2; k++)
-        number_text(end[k], sizeof end[k], floor(range[k] * bar->scale / unit + 0.5) * unit, unit);
-    snprintf(text, size, "%s, from %s to %s", bar->label, end[0], end[1]);
-}
-
-/* The bands side by side, their levels as far as there is room, below them what they measure. */
+/* The bands side by side, their levels as far as there is room, below them what they measure and the
+ * extremes, to about a hundredth of a band. */
 void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2])
 {
-    const int bands = plot_bands(bar), first = (int)floor(bar->lo / bar->step + 0.5);
-    const double w = b.w / bands;
-    char text[TICK_TEXT], whole[280];
-    int skip = 1;
+    const int bands = plot_bands(bar);
+    const double w = b.w / bands, unit = pow(10, floor(log10(bar->step) + 1e-9) - 2);
+    plot_axis levels = *bar;
+    char text[TICK_TEXT], end[2][TICK_TEXT], whole[280];
+    double at;
 
     for (int k = 0; k < bands; k++) {
-        snprintf(text, sizeof text, "fill=\"%s\"", plot_band_colour((k + 0.5) / bands).text);
+        const double middle = (bar->lo + (k + 0.5) * bar->step) / bar->scale;
+        snprintf(text, sizeof text, "fill=\"%s\"", plot_value_colour(bar, middle).text);
         plot_rectangle(p, (plot_box){ b.x + k * w, b.y, w + (k < bands - 1), b.h }, text);
     }
     plot_rectangle(p, b, "fill=\"none\" stroke=\"#333333\"");
-    while (widest_tick(bar) + LETTER > skip * w && skip < bands)
-        skip += skip == 2 ? 3 : skip;           /* 1, 2, 5, 10 */
-    for (int k = 0; k <= bands; k++) {
-        if ((first + k) % skip)
-            continue;
-        number_text(text, sizeof text, (first + k) * bar->step, bar->step);
-        plot_text(p, b.x + k * w, b.y + b.h + 18, "text-anchor=\"middle\"", text);
-    }
-    range_text(whole, sizeof whole, bar, range);
+    levels.from = b.x;
+    levels.to = b.x + b.w;
+    spread_ticks(&levels);
+    for (int i = 0; next_tick(&levels, &i, &at, text); )
+        plot_text(p, at, b.y + b.h + 18, "text-anchor=\"middle\"", text);
+    for (int k = 0; k < 2; k++)
+        number_text(end[k], sizeof end[k], floor(range[k] * bar->scale / unit + 0.5) * unit, unit);
+    snprintf(whole, sizeof whole, "%s, from %s to %s", bar->label, end[0], end[1]);
     plot_text(p, b.x + b.w / 2, b.y + b.h + 40, "text-anchor=\"middle\"", whole);
 }

@@ -72,6 +72,7 @@ int    plot_open(plot *p, const char *path, double width, double height);   /* 1
 int    plot_close(plot *p);                         /* 1: complete, 0: nothing is there           */
 void   plot_put(plot *p, const char *format, ...);  /* SVG, as by printf                          */
 void   plot_point(plot *p, const char *before, double x, double y);         /* of a path          */
+void   plot_line(plot *p, const char *attributes, double x1, double y1, double x2, double y2);
 void   plot_rectangle(plot *p, plot_box b, const char *attributes);
 void   plot_text(plot *p, double x, double y, const char *attributes, const char *text);
 double plot_text_width(const char *text);           /* pixels, generous                           */
@@ -92,7 +93,7 @@ void   plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2]
 typedef struct { char text[8]; } plot_colour;
 plot_axis   plot_bar_axis(const plot_quantity *q, const double range[2]);
 int         plot_bands(const plot_axis *bar);
-plot_colour plot_band_colour(double s);             /* 0 <= s <= 1                                */
+plot_colour plot_value_colour(const plot_axis *bar, double value);  /* outside: of the last band  */
 void        plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2]);
 
 #endif

@@ -10,6 +10,10 @@
  * blocks apart: each block takes the tint whose nearest bearer is farthest. They are those of Okabe
  * and Ito, lightened, so that the colour-blind can tell them apart and arrows can be seen on them.
  *
+ * With a field each element has the colour of its value. The colours range over the values of all
+ * frames, but for a hundredth of these at each end: one corner or hit with a very large stress does
+ * not make all others alike.
+ *
  * A map is a scene of one frame, whose displacements may be magnified; in place of the tints it
  * paints one band between two levels after the other. In each triangle the value is linear, so that
  * the band's share of the triangle is the triangle cut by two straight lines; a larger polygon is
@@ -30,6 +34,8 @@
 enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
 enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMBOL, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
+/* One of so many values may lie beyond each end of the colours, and be larger than a cross. */
+enum { OUTSIDE = 100, LARGER = 20 };
 
 static const double nothing[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
@@ -37,19 +43,26 @@ static const double FAIR = 0.5;         /* of an element's width: how much an ed
 
 /* Arrows: the largest is so wide, in pixels; name, unit: in the legend, with the force between
  * them. Contacts have a head on both sides. */
-enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, KINDS };
+enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, PRESSURE, TENSION, KINDS };
 
 static const struct { const char *colour; double width; const char *name, *unit; } arrow[KINDS] = {
     [LOAD] = { "#aa2288", 4, "load", "N" }, [LINE_LOAD] = { "#aa2288", 3, "load", "N/m" },
     [LOCKED] = { "#004488", 6, "contact force", "N, locked" },
     [SLIDING] = { "#cc3311", 6, "contact force", "N, sliding" },
     [PULLED] = { "#117733", 6, "contact force", "N, pulling" },
+    [TENSION] = { "#cc3311", 2.6, "tension", "Pa" },
+    [PRESSURE] = { "#004488", 1.8, "pressure", "Pa" },
 };
 
 static int is_contact(int kind) { return kind >= LOCKED && kind <= PULLED; }
+static int is_stress(int kind) { return kind >= PRESSURE; }
+static int has_two_heads(int kind) { return is_contact(kind) || is_stress(kind); }
 
-/* All contacts have the scale of one kind. */
-static int scale_of(int kind) { return is_contact(kind) ? LOCKED : kind; }
+/* All contacts have the scale of one kind, and both stresses. */
+static int scale_of(int k) { return is_contact(k) ? LOCKED : is_stress(k) ? TENSION : k; }
+
+/* Crosses have none. */
+static int has_colours(const char *name) { return name && strcmp(name, FIELD_PRINCIPAL) != 0; }
 
 typedef scene_point point;
 
@@ -72,9 +85,11 @@ typedef struct {                        /* what the functions below draw with   
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
     double       most[KINDS];           /* the largest force of each kind, by scale_of            */
-    double       contact;               /* pixels of a contact's arrow                            */
+    double       length[KINDS];         /* its pixels                                             */
     int          seen[KINDS], supports[4];      /* of each kind of arrow; held in each way        */
     double       seconds;               /* of one pass; zero: nothing moves                       */
+    plot_axis    bar;                   /* of the colours of a field                              */
+    double       range[2];              /* of its values                                          */
 } film;
 
 /* ----------------------------------------------------------------------------------- recording */
@@ -83,6 +98,7 @@ static void drop_frame(const scene_frame *f)
 {
     free(f->at);
     free(f->force);
+    free(f->value);
 }
 
 void scene_free(scene *s)
@@ -90,7 +106,8 @@ void scene_free(scene *s)
     for (int k = 0; k < s->frames; k++)
         drop_frame(&s->frame[k]);
     free(s->frame);
-    *s = (scene){ .title = s->title, .bolts = s->bolts, .bolt = s->bolt, .scale = s->scale };
+    s->frame = NULL;
+    s->frames = s->calls = s->failed = 0;
 }
 
 /* Makes room for one more: the last frame only stays if its turn has come, and half of them go if
@@ -123,22 +140,51 @@ static scene_force force_of(const scene_frame *s, const bbm_model *m, const bbm_
                           { corner->block, m->edge[c->edge].block } };
 }
 
-/* `more`: what displacements are enlarged by, less 1. */
-static int copy_frame(scene_frame *f, const bbm_model *m, double more)
+static int make_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
-    f->force = malloc(((size_t)m->contacts + 1) * sizeof *f->force);
-    if (!f->at || !f->force)
-        return 0;
+    f->value = malloc((size_t)m->vertices * sizeof *f->value);
+    f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
+    return f->at && f->value && f->force;
+}
+
+/* The principal stresses of each element in their directions, at its mean point. */
+static void put_crosses(scene_frame *f, const bbm_model *m)
+{
+    f->forces = 0;
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
+        const double *s = e->stress, middle = (s[0] + s[1]) / 2;
+        const double radius = hypot(s[0] - middle, s[2]), angle = atan2(s[2], s[0] - middle) / 2;
+        point mean = { 0, 0 };
+        for (int v = e->first; v < e->first + e->n; v++) {
+            mean.x += f->at[v].x / e->n;
+            mean.y += f->at[v].y / e->n;
+        }
+        for (int k = 0; k < 2; k++) {
+            const double p = k ? middle - radius : middle + radius, a = angle + k * acos(0);
+            f->force[f->forces++] = (scene_force){ mean, { p * cos(a), p * sin(a) }, 0,
+                                                   p > 0 ? TENSION : PRESSURE, { e->block } };
+        }
+    }
+}
+
+static void copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
+{
+    const field *shown = s->field ? field_find(s->field) : NULL;
+
     for (int v = 0; v < m->vertices; v++) {
-        const double further = field_is_gone(m, v) ? 0 : more;
+        const int gone = field_is_gone(m, v);
+        const double further = gone || s->scale <= 0 ? 0 : s->scale - 1;
         f->at[v] = (point){ field_place(m, v, 0) + further * m->vertex[v].u,
                             field_place(m, v, 1) + further * m->vertex[v].v };
+        if (shown)
+            f->value[v] = gone ? NAN : field_of_element(shown, m, m->vertex[v].element);
     }
-    for (int k = 0; k < m->contacts; k++)
+    if (shown && !has_colours(s->field))
+        put_crosses(f, m);
+    for (int k = 0; k < m->contacts && !shown; k++)
         if (m->contact[k].state != BBM_OPEN)
             f->force[f->forces++] = force_of(f, m, &m->contact[k]);
-    return 1;
 }
 
 void scene_record(scene *s, const bbm_model *m)
@@ -152,11 +198,12 @@ void scene_record(scene *s, const bbm_model *m)
         s->frame = calloc(FRAMES, sizeof *s->frame);
         s->every = 1;
     }
-    s->failed |= !s->frame || !copy_frame(&f, m, s->scale > 0 ? s->scale - 1 : 0);
+    s->failed |= !s->frame || !make_frame(&f, m);
     if (s->failed) {
         drop_frame(&f);
         return;
     }
+    copy_frame(&f, s, m);
     thin_out(s);
     s->frame[s->frames++] = f;
 }
@@ -173,11 +220,6 @@ static point pixel(const film *f, point a)
 }
 
 static point at(const film *f, int frame, int v) { return pixel(f, position(f, frame, v)); }
-
-static int next_vertex(const bbm_model *m, int v)
-{
-    return bbm_next_vertex(&m->element[m->vertex[v].element], v);
-}
 
 /* Distance of two boxes, and a little of that of their centres. */
 static double distance(const body *a, const body *b)
@@ -259,6 +301,9 @@ static void find_normals(film *f)
     }
 }
 
+/* Writes what a block is like in a frame. */
+typedef void writer(film *f, int frame, const body *b);
+
 static void end_film(film *f)
 {
     free(f->body);
@@ -287,9 +332,10 @@ static void put_elements(film *f, int frame, const body *b)
 {
     for (int k = b->first; k < b->first + b->n; k++) {
         const int v = f->vertex[k];
+        const bbm_element *e = &f->m->element[f->m->vertex[v].element];
         const point a = at(f, frame, v);
-        plot_point(&f->p, v == f->m->element[f->m->vertex[v].element].first ? "M" : " ", a.x, a.y);
-        if (next_vertex(f->m, v) < v)
+        plot_point(&f->p, v == e->first ? "M" : " ", a.x, a.y);
+        if (bbm_next_vertex(e, v) < v)
             plot_put(&f->p, "z");
     }
 }
@@ -330,29 +376,62 @@ static int is_moving(const film *f, const body *b)
     return 0;
 }
 
-/* A block that does not move in the film is drawn with its elements. */
+/* What `put` writes for each frame. */
+static void animate(film *f, const char *attribute, const body *b, writer *put)
+{
+    const int last = f->s->frames - 1;
+
+    plot_put(&f->p, "<animate attributeName=\"%s\" dur=\"%.3gs\" repeatCount=\"indefinite\" "
+             "values=\"", attribute, f->seconds);
+    for (int i = 0; i < value_count(f); i++) {
+        plot_put(&f->p, i ? ";" : "");
+        put(f, i < last ? i : last, b);
+    }
+    plot_put(&f->p, "\"/>");
+}
+
+/* The colour of the block's first element. */
+static void put_colour(film *f, int frame, const body *b)
+{
+    plot_put(&f->p, "%s",
+             plot_value_colour(&f->bar, f->s->frame[frame].value[f->vertex[b->first]]).text);
+}
+
+/* What `put` draws of a block; fill: NULL, the colour of its first element. */
+static void put_shape(film *f, int frame, const body *b, const char *fill, double width,
+                      writer *put)
+{
+    plot_put(&f->p, "<path fill=\"%s", fill ? fill : "");
+    if (!fill)
+        put_colour(f, frame, b);
+    plot_put(&f->p, "\" stroke=\"#000000\" stroke-width=\"%g\" d=\"", width);
+    put(f, frame, b);
+    plot_put(&f->p, "\">");
+    if (is_moving(f, b))
+        animate(f, "d", b, put);
+    if (!fill && f->seconds > 0)
+        animate(f, "fill\" calcMode=\"discrete", b, put_colour);
+    plot_put(&f->p, "</path>\n");
+}
+
+/* A block that does not move in the film is drawn with its elements, and each one with those in the
+ * colours of a field. */
 static void draw_block(film *f, int frame, const body *b)
 {
     static const char *const tint[TINTS] = { "#f6cf8b", "#b3dcf5", "#8fd3bd", "#f7f0a6", "#e6c3d7",
                                              "#eba98f" };
-    const int moving = is_moving(f, b), last = f->s->frames - 1;
+    const int coloured = has_colours(f->s->field) && !b->held;
+    body e = { .first = b->first };
 
-    plot_put(&f->p, "<path fill=\"%s\" stroke=\"#000000\" stroke-width=\"1.3\" d=\"",
-             b->held ? "url(#held)" : tint[b->tint]);
-    put_outline(f, frame, b);
-    if (moving) {
-        plot_put(&f->p, "\"><animate attributeName=\"d\" dur=\"%.3gs\" "
-                 "repeatCount=\"indefinite\" values=\"", f->seconds);
-        for (int i = 0; i < value_count(f); i++) {
-            plot_put(&f->p, i ? ";" : "");
-            put_outline(f, i < last ? i : last, b);
-        }
-        plot_put(&f->p, "\"/></path>\n");
-    } else {
-        plot_put(&f->p, "\"/>\n<path fill=\"none\" stroke=\"#667788\" stroke-width=\"0.5\" d=\"");
-        put_elements(f, frame, b);
-        plot_put(&f->p, "\"/>\n");
+    for (int k = 0; k < b->n && coloured; k += e.n) {
+        e.first = b->first + k;
+        e.n = f->m->element[f->m->vertex[f->vertex[e.first]].element].n;
+        put_shape(f, frame, &e, NULL, 0.3, put_elements);
     }
+    put_shape(f, frame, b, coloured ? "none" : b->held ? "url(#held)" : tint[b->tint], 1.3,
+              put_outline);
+    if (!coloured && !is_moving(f, b))
+        put_shape(f, frame, b, "none", 0.3, put_elements);
 }
 
 /* All of them, or those that are held. */
@@ -371,24 +450,25 @@ typedef void visitor(film *f, int kind, point from, point size, double share);
 
 /* A force of a kind. `side`: outward normal, 0 if it starts at the point in any case; against it
  * the arrow ends there. Arrows of loads are as long as the force is large, and left out if that is
- * less than 2 pixels; those of contacts are as wide, and left out below a twentieth. */
+ * less than 2 pixels; those of contacts are as wide, those of stresses as long, and left out below
+ * a twentieth. */
 static void visit_force(film *f, int kind, point from, point force, point side, visitor *visit)
 {
     double *most = &f->most[scale_of(kind)];
-    const double size = hypot(force.x, force.y), share = size / *most;
-    const double pixels = is_contact(kind) ? f->contact / size : ARROW / *most;
-    const double before = is_contact(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
-    const point d = { pixels * force.x, pixels * force.y };
+    const double size = hypot(force.x, force.y), share = fmin(1, size / *most);
+    const double pixels = f->length[kind] * (is_contact(kind) ? 1 : share);
+    const double before = has_two_heads(kind) ? 0.5 : force.x * side.x + force.y * side.y < 0;
+    const point d = { pixels / size * force.x, pixels / size * force.y };
 
     if (!isfinite(size + from.x + from.y) || size == 0)
         return;
-    if (!visit)                         /* the largest is looked for */
+    if (!visit && !is_stress(kind))     /* the largest is looked for */
         *most = fmax(*most, size);
-    if (!visit || share < (is_contact(kind) ? 0.05 : 2.0 / ARROW))
+    if (!visit || share < (has_two_heads(kind) ? 0.05 : 2.0 / ARROW))
         return;
     f->seen[kind] = 1;
     from = (point){ from.x - before * d.x / f->scale, from.y - before * d.y / f->scale };
-    visit(f, kind, from, d, share);
+    visit(f, kind, from, d, is_stress(kind) ? 1 : share);
 }
 
 /* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points. */
@@ -435,7 +515,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
         visit_edge(f, frame, &l, &last, visit);
     for (int i = 0; i < g->forces; i++)
-        if (g->force[i].kind == kind)
+        if (g->force[i].kind == kind && !(is_stress(kind) && f->body[g->force[i].block[0]].held))
             visit_force(f, kind, g->force[i].at, g->force[i].force, (point){ 0, 0 }, visit);
 }
 
@@ -465,13 +545,14 @@ static void visit_supports(film *f, int frame, visitor *visit)
 /* From pixel a along d, with room for heads, which are 1.6 widths long. */
 static void put_shaft(film *f, int kind, point a, point d, double share)
 {
-    const double l = hypot(d.x, d.y), w = fmax(0.5, fmin(arrow[kind].width, l / 4) * share);
-    const double head = 1.6 * w / l, before = is_contact(kind) * head;
+    const double l = hypot(d.x, d.y), most = l / (is_stress(kind) ? 8 : 4);
+    const double w = fmax(0.5, fmin(arrow[kind].width, most) * share);
+    const double head = 1.6 * w / l, before = has_two_heads(kind) * head;
+    char style[40];
 
-    plot_put(&f->p, "<path stroke-width=\"%.2g\" d=\"", w);
-    plot_point(&f->p, "M", a.x + before * d.x, a.y + before * d.y);
-    plot_point(&f->p, "l", (1 - head - before) * d.x, (1 - head - before) * d.y);
-    plot_put(&f->p, "\"/>\n");
+    snprintf(style, sizeof style, "stroke-width=\"%.2g\"", w);
+    plot_line(&f->p, style, a.x + before * d.x, a.y + before * d.y, a.x + (1 - head) * d.x,
+              a.y + (1 - head) * d.y);
 }
 
 static void put_arrow(film *f, int kind, point from, point size, double share)
@@ -483,7 +564,7 @@ static void put_arrow(film *f, int kind, point from, point size, double share)
 static void begin_arrows(film *f, int kind)
 {
     plot_put(&f->p, "<g stroke=\"%s\" marker-end=\"url(#head%d)\"", arrow[kind].colour, kind);
-    plot_put(&f->p, is_contact(kind) ? " marker-start=\"url(#head%d)\">\n" : ">\n", kind);
+    plot_put(&f->p, has_two_heads(kind) ? " marker-start=\"url(#head%d)\">\n" : ">\n", kind);
 }
 
 /* A triangle or, in one direction, a roller, and the ground. */
@@ -556,8 +637,7 @@ static int draw_thrust(film *f, int frame)
             continue;
         const point from = pixel(f, (point){ x[0].x / N[0], x[0].y / N[0] });
         const point to = pixel(f, (point){ x[1].x / N[1], x[1].y / N[1] });
-        plot_put(&f->p, "<path " THRUST " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", from.x, from.y, to.x,
-                 to.y);
+        plot_line(&f->p, THRUST, from.x, from.y, to.x, to.y);
         any = 1;
     }
     free(b);
@@ -578,8 +658,7 @@ static void draw_bolts(film *f, int frame)
             end[a / 3].y += b->end[a / 3].share[a % 3] * p.y;
         }
         if (f->s->frame[frame].time < b->until)
-            plot_put(&f->p, "<path " BOLT " d=\"M%.2f %.2fL%.2f %.2f\"/>\n", end[0].x, end[0].y,
-                     end[1].x, end[1].y);
+            plot_line(&f->p, BOLT, end[0].x, end[0].y, end[1].x, end[1].y);
     }
 }
 
@@ -601,11 +680,12 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
 
     if (!f->seen[kind])
         return;
-    snprintf(text, sizeof text, "%s %.3g %s%s", arrow[kind].name, size / pow(1000, power),
-             prefix[power], arrow[kind].unit);
+    snprintf(text, sizeof text, "%s %.3g %s%s%s", arrow[kind].name, size / pow(1000, power),
+             prefix[power], arrow[kind].unit,
+             is_stress(kind) && f->range[1] > size ? " and more" : "");
     plot_begin_entry(&f->p, l, text);
     begin_arrows(f, kind);
-    put_shaft(f, kind, (point){ 0, 0 }, (point){ is_contact(kind) ? f->contact : ARROW, 0 }, 1);
+    put_shaft(f, kind, (point){ 0, 0 }, (point){ f->length[kind], 0 }, 1);
     plot_put(&f->p, "</g></g>\n");
 }
 
@@ -645,7 +725,7 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
         put_force_entry(f, &l, kind);
-    if (f->s->scale > 0) {
+    if (f->s->scale > 0 && f->s->scale != 1) {
         snprintf(text, sizeof text, "displacements × %.12g", f->s->scale);
         put_entry(f, &l, "", text);
     }
@@ -726,9 +806,12 @@ static void measure(film *f, int n)
     for (int i = 0; i < f->s->frames; i++)
         for (int kind = 0; kind < KINDS; kind++)
             visit_forces(f, i, kind, NULL);
-    f->thrust = f->s->frames == 1 && draw_thrust(f, 0);
+    f->thrust = f->s->frames == 1 && !f->s->field && draw_thrust(f, 0);
     for (int round = 0; round < 5; round++) {           /* the first one without arrows */
-        f->contact = fmax(12, fmin(ARROW, block_size(f) * f->scale));
+        const double element = sqrt(f->w * f->h / f->m->elements);
+        for (int kind = 0; kind < KINDS; kind++)
+            f->length[kind] = fmax(12, fmin(ARROW, is_contact(kind) ? block_size(f) * f->scale
+                                            : is_stress(kind) ? 0.6 * element : ARROW));
         find_window(f);
         for (int i = 0; i < f->s->frames && round > 0; i++) {
             visit_supports(f, i, widen_window);
@@ -742,9 +825,51 @@ static void measure(film *f, int n)
 /* Statics takes no time. */
 static int is_timed(const film *f) { return f->s->frame[f->s->frames - 1].time > 0; }
 
-/* Opens a page for n panels and, `below` them, something else; draws title and legend. */
-static int open_page(film *f, const char *path, int n, double below)
+static int by_size(const void *a, const void *b)
 {
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* Of all frames, in blocks that are free. Returns 0 and errno without memory. */
+static int find_colours(film *f)
+{
+    const field *shown = field_find(f->s->field);
+    const plot_quantity q = { .name = shown->label, .unit = shown->unit };
+    const double *limits = f->s->limits;
+    double *x = calloc((size_t)f->s->frames * (size_t)f->m->vertices, sizeof *x);
+    int n = 0;
+
+    errno = ENOMEM;
+    if (!x)
+        return 0;
+    for (int k = 0; k < f->s->frames * f->bodies; k++) {
+        const body *b = &f->body[k % f->bodies];
+        const double *value = f->s->frame[k / f->bodies].value;
+        for (int v = b->first; v < b->first + b->n && !b->held; v++)
+            if (isfinite(value[f->vertex[v]]))
+                x[n++] = value[f->vertex[v]];
+    }
+    n = n ? n : 1;
+    qsort(x, (size_t)n, sizeof *x, by_size);
+    f->range[0] = x[0];
+    f->range[1] = x[n - 1];
+    const int out = n / (has_colours(f->s->field) ? OUTSIDE : LARGER);
+    const double most[2] = { x[out], x[n - 1 - out] };
+    f->bar = plot_bar_axis(&q, limits[0] < limits[1] ? limits : most);
+    f->most[TENSION] = f->bar.hi / f->bar.scale;
+    free(x);
+    return 1;
+}
+
+/* Opens a page for n panels and, below them, the colours of a field; draws title and legend. */
+static int open_page(film *f, const char *path, int n)
+{
+    const double below = has_colours(f->s->field) ? BAR : 0;
+
+    if (f->s->field && !find_colours(f))
+        return 0;
     f->top = f->s->title ? 36 : 0;
     f->over = n > 1 || is_timed(f) ? OVER : 14;
     measure(f, n);
@@ -761,7 +886,7 @@ static int open_page(film *f, const char *path, int n, double below)
     for (int k = 0; k < KINDS; k++)
         plot_put(&f->p, "<marker id=\"head%d\" orient=\"auto-start-reverse\" overflow=\"visible\">"
                  "<path d=\"%s\" fill=\"%s\"/></marker>\n", k,
-                 k == PULLED ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z",
+                 k == PULLED || k == PRESSURE ? "M1.6 -1.3L0 0L1.6 1.3z" : "M0 -1.3L1.6 0L0 1.3z",
                  arrow[k].colour);
     plot_put(&f->p, "</defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
@@ -788,6 +913,15 @@ static void end_panel(film *f, plot_box b)
 {
     plot_put(&f->p, "</g>\n");
     plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
+}
+
+/* Below the last panel, b, over the width of all. */
+static void draw_colours(film *f, plot_box b)
+{
+    const plot_box bar = { f->left + LEFT, b.y + b.h + UNDER + 4, b.x + b.w - f->left - LEFT, 16 };
+
+    if (has_colours(f->s->field))
+        plot_draw_bar(&f->p, bar, &f->bar, f->range);
 }
 
 /* What stands over the blocks of a panel; the time begins at the same place in each frame. */
@@ -846,11 +980,12 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 
     if (s->frames > 1)
         f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
-    int done = begin_film(&f) && open_page(&f, path, 1, 0);
+    int done = begin_film(&f) && open_page(&f, path, 1);
     if (done) {
         const plot_box b = begin_panel(&f, 0);
         draw_blocks(&f, 0, 1);
         end_panel(&f, b);
+        draw_colours(&f, b);
         for (int k = 0; k < s->frames && f.seconds > 0; k++) {
             begin_turn(&f, k);
             draw_state(&f, b, k);
@@ -868,44 +1003,44 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 
 /* --------------------------------------------------------------------------------------- maps */
 
-typedef struct { double u, v, value; } nodal;
 typedef struct { double x, y, value; } sample;     /* pixels */
 
 /* By so much displacements may be magnified that no edge changes, in length or direction, by more
  * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which
  * is its least height. Before it turns over an edge changes by all of it. */
-static double fair_scale(const bbm_model *m, const nodal *n)
+static double fair_scale(const scene *s, const bbm_model *m)
 {
+    const point *x = s->frame[0].at, *d = s->frame[1].at;
     double scale = INFINITY;
 
     for (int e = 0; e < m->elements; e++) {
         const bbm_element *i = &m->element[e];
         double longest = 0, change = 0;
-        for (int v = i->first; v < i->first + i->n; v++) {
-            const int P = m->vertex[v].node, Q = m->vertex[next_vertex(m, v)].node;
-            const bbm_node *a = &m->node[P], *b = &m->node[Q];
-            longest = fmax(longest, hypot(b->x - a->x, b->y - a->y));
-            change = fmax(change, hypot(n[Q].u - n[P].u, n[Q].v - n[P].v));
+        for (int a = i->first; a < i->first + i->n; a++) {
+            const int b = bbm_next_vertex(i, a);
+            longest = fmax(longest, hypot(x[b].x - x[a].x, x[b].y - x[a].y));
+            change = fmax(change, hypot(d[b].x - d[a].x, d[b].y - d[a].y));
         }
         scale = fmin(scale, FAIR * (i->n == 3 ? 2 : 1) * i->A0 / longest / change);
     }
     return scale;
 }
 
-/* 1, 2 or 5 times a power of ten, 1 at least, by which displacements can be magnified. */
-static double find_scale(const bbm_model *m, const nodal *n)
+/* 1, 2 or 5 times a power of ten, 1 at least, by which the displacements d can be magnified. */
+static double find_scale(const scene *s, const bbm_model *m)
 {
+    const point *x = s->frame[0].at, *d = s->frame[1].at;
     double range[2][2], moved = 0;
 
     memcpy(range, nothing, sizeof nothing);
-    for (int i = 0; i < m->nodes; i++) {
-        plot_widen(range[0], m->node[i].x);
-        plot_widen(range[1], m->node[i].y);
-        moved = fmax(moved, hypot(n[i].u, n[i].v));
+    for (int v = 0; v < m->vertices; v++) {
+        plot_widen(range[0], x[v].x);
+        plot_widen(range[1], x[v].y);
+        moved = fmax(moved, hypot(d[v].x, d[v].y));
     }
     const double size = fmax(range[0][1] - range[0][0], range[1][1] - range[1][0]);
     double scale = moved > 1e-12 * size ? plot_nice(0.1 * size / moved) : 1;
-    while (scale > 1 && scale > fair_scale(m, n))
+    while (scale > 1 && scale > fair_scale(s, m))
         scale = plot_nice(scale / 2.2);
     return fmax(scale, 1);
 }
@@ -942,48 +1077,48 @@ static void put_share(film *f, const sample triangle[3], const double level[2])
     plot_put(&f->p, n >= 3 ? "z\n" : "");
 }
 
-static sample sample_of(const film *f, const nodal *n, int v)
+static sample sample_of(const film *f, int frame, int v)
 {
-    return (sample){ at(f, 1, v).x, at(f, 1, v).y, n[f->m->vertex[v].node].value };
+    return (sample){ at(f, 1, v).x, at(f, 1, v).y, f->s->frame[frame].value[v] };
 }
 
-static void put_element_share(film *f, const nodal *n, const bbm_element *e, const double level[2])
+static void put_element_share(film *f, int frame, const bbm_element *e, const double level[2])
 {
     const int parts = e->n == 3 ? 1 : e->n, end = e->first + e->n;
     sample t[3] = { { 0, 0, 0 } };
 
     for (int v = end - parts; v < end; v++) {           /* the mean point, or the third */
-        const sample a = sample_of(f, n, v);
+        const sample a = sample_of(f, frame, v);
         t[2] = (sample){ t[2].x + a.x / parts, t[2].y + a.y / parts, t[2].value + a.value / parts };
     }
     for (int v = e->first; v < e->first + parts; v++) {
-        t[0] = sample_of(f, n, v);
-        t[1] = sample_of(f, n, next_vertex(f->m, v));
+        t[0] = sample_of(f, frame, v);
+        t[1] = sample_of(f, frame, bbm_next_vertex(e, v));
         put_share(f, t, level);
     }
 }
 
-static void draw_bands(film *f, const nodal *n, const plot_axis *bar)
+/* The values of a frame. */
+static void draw_bands(film *f, int frame)
 {
+    const plot_axis *bar = &f->bar;
     const int bands = plot_bands(bar);
 
     for (int k = 0; k < bands; k++) {
-        const plot_colour fill = plot_band_colour((k + 0.5) / bands);
-        const double level[2] = {
-            k ? (bar->lo + k * bar->step) / bar->scale : -INFINITY,
-            k < bands - 1 ? (bar->lo + (k + 1) * bar->step) / bar->scale : INFINITY };
+        const double from = (bar->lo + k * bar->step) / bar->scale, step = bar->step / bar->scale;
+        const double level[2] = { k ? from : -INFINITY, k < bands - 1 ? from + step : INFINITY };
+        const plot_colour fill = plot_value_colour(bar, from + step / 2);
         plot_put(&f->p, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.6\" d=\"",
                  fill.text, fill.text);
         for (const bbm_element *e = f->m->element; e < f->m->element + f->m->elements; e++)
             if (!f->body[e->block].held)
-                put_element_share(f, n, e, level);
+                put_element_share(f, frame, e, level);
         plot_put(&f->p, "\"/>\n");
     }
 }
 
 /* Of all blocks what `put` draws of one. */
-static void draw_lines(film *f, int frame, const char *stroke,
-                       void (*put)(film *f, int frame, const body *b))
+static void draw_lines(film *f, int frame, const char *stroke, writer *put)
 {
     plot_put(&f->p, "<path fill=\"none\" %s d=\"", stroke);
     for (int b = 0; b < f->bodies; b++)
@@ -991,98 +1126,77 @@ static void draw_lines(film *f, int frame, const char *stroke,
     plot_put(&f->p, "\"/>\n");
 }
 
-/* Bands, the lines of the mesh, the boundaries where they were and are. */
-static void draw_field(film *f, const nodal *n, const plot_axis *bar)
-{
-    draw_bands(f, n, bar);
-    draw_blocks(f, 1, 0);
-    draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
-               put_elements);
-    draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
-    draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
-}
-
-/* A panel for each model, of the values n [models][nodes]. */
-static int write_field(film *f, const char *path, const nodal *n, const scene_map *map,
-                       const field *shown)
-{
-    const bbm_model *m = f->m;
-    const plot_quantity q = { .name = shown->label, .unit = shown->unit };
-    const int panels = map->other ? 2 : 1;
-    double range[2] = { INFINITY, -INFINITY };
-    plot_box b = { 0 };
-
-    if (!begin_film(f))
-        return 0;
-    for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        for (int k = 0; k < panels && !f->body[m->element[v->element].block].held; k++)
-            plot_widen(range, n[k * m->nodes + v->node].value);
-    if (range[0] > range[1])
-        range[0] = range[1] = 0;
-    if (!open_page(f, path, panels, BAR))
-        return 0;
-    const plot_axis bar = plot_bar_axis(&q, map->limits[0] < map->limits[1] ? map->limits : range);
-    for (int k = 0; k < panels; k++) {
-        b = begin_panel(f, k);
-        draw_field(f, n + k * m->nodes, &bar);
-        end_panel(f, b);
-        draw_state(f, b, 1);
-        if (map->other)
-            plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", map->name[k]);
-    }
-    const double left = f->left + LEFT;
-    plot_draw_bar(&f->p, (plot_box){ left, b.y + b.h + UNDER + 4, b.x + b.w - left, 16 }, &bar,
-                  range);
-    return plot_close(&f->p);
-}
-
-/* Whether all are finite. */
-static int find_values(const bbm_model *m, const field *shown, nodal *n)
+/* Places at the start and displacements, so many times each, and the values at nodes. Returns
+ * whether all are finite. */
+static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
+                      const double times[2])
 {
     int finite = 1;
 
-    for (int i = 0; i < m->nodes; i++) {
+    for (int v = 0; v < m->vertices; v++) {
+        const int i = m->vertex[v].node, gone = field_is_gone(m, v);
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
-        const int there = !field_is_gone(m, m->adjacent[m->adjacent_first[i]]);
-        n[i] = (nodal){ there * r.u, there * r.v, field_of_node(shown, m, i) };
-        finite &= isfinite(r.u + r.v + n[i].value);
+        f->at[v] = gone ? (point){ field_place(m, v, 0), field_place(m, v, 1) }
+                 : (point){ times[0] * m->node[i].x + times[1] * r.u,
+                            times[0] * m->node[i].y + times[1] * r.v };
+        f->value[v] = gone ? NAN : has_colours(shown->name) ? field_of_node(shown, m, i)
+                      : field_of_element(shown, m, m->vertex[v].element);
+        finite &= gone || isfinite(r.u + r.v + f->value[v]);
     }
+    if (!has_colours(shown->name))
+        put_crosses(f, m);
     return finite;
 }
 
-int scene_write_map(const bbm_model *m, const char *path, const scene_map *map)
+/* A panel for each model, with bands, the lines of the mesh, the boundaries where they were and are.
+ * The first frame has the values of the other model. */
+static int draw_map(film *f, const char *path)
 {
-    const field *shown = field_find(map->field ? map->field : "mises");
-    const size_t all = (size_t)m->vertices;
-    point *place = malloc(2 * all * sizeof *place);             /* as at the start, and magnified */
-    nodal *n = malloc(2 * (size_t)m->nodes * sizeof *n);
-    scene_frame state[2] = { { m->info.t, .at = place },
-                             { m->info.t, .at = place ? place + all : NULL } };
-    scene s = { .frames = 2, .frame = state };
+    const int panels = f->s->other ? 2 : 1;
+    plot_box b = { 0 };
+
+    if (!begin_film(f) || !open_page(f, path, panels))
+        return 0;
+    for (int k = 0; k < panels; k++) {
+        b = begin_panel(f, k);
+        if (has_colours(f->s->field))
+            draw_bands(f, 1 - k);
+        draw_blocks(f, 1, 0);
+        draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
+                   put_elements);
+        draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
+        draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
+        end_panel(f, b);
+        draw_state(f, b, 1);
+        plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", f->s->name[k]);
+    }
+    draw_colours(f, b);
+    return plot_close(&f->p);
+}
+
+int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
+{
+    scene_frame state[2] = { { .time = m->info.t }, { .time = m->info.t } };
+    const field *shown = field_find(choices->field);
+    scene s = *choices;
     film f = { .s = &s, .m = m };
-    char title[300];
     int done = 0;
 
+    s.frames = 2;
+    s.frame = state;
+    s.failed = 0;
     errno = ENOMEM;
-    if (place && n) {
-        const int finite = find_values(m, shown, n)
-                           && (!map->other || find_values(map->other, shown, n + m->nodes));
-        const double scale = map->scale < 0 ? 0 : map->scale > 0 ? map->scale : find_scale(m, n);
-        for (int v = 0; v < 2 * m->vertices; v++) {
-            const int k = v % m->vertices, i = m->vertex[k].node;
-            const double times = v < m->vertices ? 0 : scale;
-            place[v] = field_is_gone(m, k) ? (point){ field_place(m, k, 0), field_place(m, k, 1) }
-                     : (point){ m->node[i].x + times * n[i].u, m->node[i].y + times * n[i].v };
-        }
-        snprintf(title, sizeof title, "%s%sdisplacements × %.12g", map->title ? map->title : "",
-                 map->title ? ", " : "", scale);
-        s.title = scale == 0 || scale == 1 ? map->title : title;
+    if (make_frame(&state[0], m) && make_frame(&state[1], m)) {
         errno = EDOM;
-        done = finite && write_field(&f, path, n, map, shown);
+        done = fill_frame(&state[0], s.other ? s.other : m, shown, (double[]){ 1, 0 })
+               && fill_frame(&state[1], m, shown, (double[]){ 0, 1 });
+        s.scale = s.scale == 0 && done ? find_scale(&s, m) : fmax(0, s.scale);
+        fill_frame(&state[1], m, shown, (double[]){ 1, s.scale });
+        done = done && draw_map(&f, path);
     }
     end_film(&f);
-    free(place);
-    free(n);
+    drop_frame(&state[0]);
+    drop_frame(&state[1]);
     return done;
 }

@@ -15,7 +15,7 @@
  *
  * The film is one SVG that a browser plays over and over, a click stops it, the arrow keys step, a
  * bar shows and chooses the time; a viewer that cannot play shows the first frame. Supports, loads
- * and contact forces are drawn.
+ * and contact forces are drawn, these not where a field is.
  */
 #ifndef SCENE_H
 #define SCENE_H
@@ -36,6 +36,7 @@ typedef struct {                /* what was recorded at one time                
     int    forces;
     scene_point *at;            /* m        [vertices]                                            */
     scene_force *force;         /*          [forces]                                              */
+    double *value;              /*          [vertices] of the field; NaN: the block is gone       */
 } scene_frame;
 
 typedef struct {                /* a point of an element: the sum of share times vertex           */
@@ -53,7 +54,14 @@ typedef struct {
     const char *title;
     int    bolts;
     const scene_bolt *bolt;     /*          [bolts]                                               */
-    double scale;               /* -        of the displacements; 0: as they are                  */
+    double scale;               /* -        of the displacements. 0: of a film, as they are; of a */
+                                /*          map, the largest is about a tenth of the model, and   */
+                                /*          less where an element or an edge would change too     */
+                                /*          much. < 0: a map does not show them                   */
+    const char *field;          /* a name of field.h; NULL: a film in tints                       */
+    double limits[2];           /* of its colours; zeros: those of all values but the outermost   */
+    const bbm_model *other;     /* beside it in a map, on the same mesh, in the same colours      */
+    const char *name[2];        /* then: of both                                                  */
     /* --- the recording --- */
     int    frames, calls, every, failed;
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */
@@ -68,18 +76,8 @@ void scene_free(scene *s);      /* the recording; the choices stay              
  * nothing to write. Of one frame the film is a picture that stands still. */
 int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
 
-typedef struct {                /* contours of a field over the present state                     */
-    const char *title;
-    const char *field;          /* a name of field.h; NULL: mises                                 */
-    double scale;               /* -        of the displacements; 0: the largest is about a tenth */
-                                /*          of the model, and less where an element or an edge    */
-                                /*          would change too much; < 0: they are not shown        */
-    double limits[2];           /* of the colours; zeros: those of the values                     */
-    const bbm_model *other;     /* beside it, on the same mesh and in the same colours; or NULL   */
-    const char *name[2];        /* then: of both                                                  */
-} scene_map;
-
-int  scene_write_map(const bbm_model *m, const char *path, const scene_map *map);
+/* The present state, which need not be recorded, with contours of the field, or with crosses. */
+int  scene_write_map(const scene *s, const bbm_model *m, const char *path);
 
 /* A load along an edge from vertex a to b: a force [N/m], or those at the Gauss points, and a
  * pressure. */

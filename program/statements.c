@@ -202,6 +202,7 @@ static int read_output(model_reader *r)
     double *c = r->p->colours;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
+                   { .name = "film", .flag = &r->p->film },
                    CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
 
     for (const field *f = field_table; f->name; f++)
@@ -209,6 +210,7 @@ static int read_output(model_reader *r)
                  f->name);
     if (!model_options(r, 0, LENGTH(o), o))
         return 0;
+    r->p->svg |= r->p->film;
     r->p->field = field_table[chosen].name;
     return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
            || model_blame(r, "colours from %g to %g, expected low below high", c[0], c[1]);
@@ -455,7 +457,8 @@ static const struct kind {
     { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
       NOTHING_NEEDED, ONCE },
     { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, ONCE },
-    { "output", "output [every N] [vtk] [svg] [field NAME] [scale N] [low VALUE] [high VALUE]",
+    { "output", "output [every N] [vtk] [svg] [film] [field NAME] [scale N] [low VALUE] "
+                "[high VALUE]",
       read_output, NOTHING_NEEDED, ONCE },
     { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
@@ -495,7 +498,7 @@ static const char *find_other(const char *word)
         { " support boundary fixed ", "see fix, fixblock" }, { " polygon ", "see block, grid" },
         { " time step steps solve run damping ", "see static, dynamic" },
         { " friction cohesion tension kn ks ", "see contact, joint" },
-        { " plot print history ", "see monitor, output" },
+        { " plot print history film field ", "see monitor, output" },
     };
     const size_t n = strlen(word);
 

@@ -405,16 +405,16 @@ static void draw_history(write_results *w)
 static void draw_pictures(write_results *w)
 {
     const bbm_model *m = w->p->m;
-    scene_map map = { .title = w->p->title, .field = w->p->field,  /* a static one is magnified */
-                      .scale = w->p->scale > 0 ? w->p->scale : w->p->dynamic,
-                      .limits = { w->p->colours[0], w->p->colours[1] } };
+    scene map = w->film;
     char name[100];
 
     draw_now(w, "contacts.svg");
     if (w->p->dynamic && (w->film.frames > 0 || w->film.failed)) /* neither: the start has failed */
         note_picture(w, scene_write_movie(&w->film, m, path_of(w, "movie.svg")));
+    map.field = w->p->field;
+    map.scale = map.scale > 0 ? map.scale : w->p->dynamic;      /* a static one is magnified */
     snprintf(name, sizeof name, "%.90s.svg", map.field);
-    note_picture(w, scene_write_map(m, path_of(w, name), &map));
+    note_picture(w, scene_write_map(&map, m, path_of(w, name)));
     if (w->row > 0 && (w->p->dynamic || m->par.steps > 1))
         draw_history(w);
 }
@@ -560,7 +560,8 @@ int write_open(write_results *w)
     output_keep(&w->history);
     output_keep(&w->summary);
     w->film = (scene){ .title = w->p->title, .bolts = w->p->bolts, .bolt = w->p->bolt,
-                       .scale = w->p->scale };
+                       .scale = w->p->scale, .field = w->p->film ? w->p->field : NULL,
+                       .limits = { w->p->colours[0], w->p->colours[1] } };
     w->kept = calloc(ROWS * (MONITORS + MODEL_FOLLOWED * (size_t)w->p->monitors), sizeof *w->kept);
     return 1;
 }

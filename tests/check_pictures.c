@@ -399,6 +399,43 @@ START_TEST(a_film_magnifies_displacements_if_it_is_asked_to)
 }
 END_TEST
 
+/* The colours of the bar, band by band. */
+static int find_bands(const char *text, char band[][8])
+{
+    int n = 0;
+
+    for (const char *s = strstr(text, "<clipPath"); (s = strstr(s + 1, "<rect")) != NULL; )
+        if (has(s, "fill=\"#"))
+            snprintf(band[n++], 8, "%s", strstr(s, "fill=") + 6);
+    return n;
+}
+
+/* 200 blocks at 1, 2, ..., 200 m/s and one at 10 km/s fly for 1 ms: a hundredth of the ways is beyond the colours, which
+ * are from 0 to 0.2 m, or 2 m. The last of three frames is repeated. */
+#define FLYING STEEL "repeat i 1 201\nblock b$i steel $(9*i) 0 $(9*i + 8) 0 $(9*i) 8\nvelocity b$i $(i + 9799*floor(i/201)) 0\n" \
+    "end\ndynamic dt 5e-4 steps 2\noutput film field u"
+
+START_TEST(a_film_has_the_colours_of_its_field_and_one_large_value_does_not_dim_them)
+{
+    const int wide = _i ? 400 : 40;
+    char band[30][8];
+
+    ck_assert_int_eq(run_text("flying", _i ? FLYING " low 0 high 2\n" : FLYING "\n"), 0);
+    char *text = read_all("out/model/flying/movie.svg");
+    const char *s = text;
+    ck_assert_int_eq(find_bands(text, band), 10);
+    for (int i = 1; i <= 201; i++) {
+        s = strstr(strstr(s, "\"fill\" calcMode=\"discrete\""), "values=") + 8;
+        for (int k = 0; k < 9; k++) {
+            const int b = (k < 2 ? k : 2) * (i > 200 ? 10000 : i) / wide;
+            ck_assert_msg(strncmp(s + 8 * k, band[b < 9 ? b : 9], 7) == 0, "block %d: %.72s, band %d", i, s, b);
+        }
+    }
+    free(text);
+    check_text("out/model/flying/movie.svg", _i ? ">u [m], from 0.000 to 10.000<" : ">u [m], from 0.0000 to 10.0000<");
+}
+END_TEST
+
 /* How often something stands in a picture of a shipped model. */
 static int count(const char *model, const char *what)
 {
@@ -448,6 +485,34 @@ static int find_ends(const char *s, point *first, point *last)
         *first = n++ ? *first : p;
     return n;
 }
+
+/* Of s in the direction of 30 degrees (s cos^2, s sin^2, s sin cos), of half of that as pressure, and of shear, in
+ * which tension is at 45 degrees and pressure across it. The heads of an arrow are 1.6 widths long. */
+START_TEST(crosses_have_the_directions_and_the_sizes_of_principal_stresses)
+{
+    static const struct { const char *colour; int arrow; double angle, size; } cross[] = {
+        { "#cc3311\" m", 1, 30, 1 }, { "#004488\" m", 1, 30, 0.5 }, { "#cc3311\" m", 2, 45, 1 }, { "#004488\" m", 2, 135, 1 },
+    };
+    double length[4];
+
+    ck_assert_int_eq(run_text("crosses", STEEL "let c $(sqrt(3)/4)\nrepeat i 1 3\ngrid b$i steel $(3*i) 0 $(3*i + 2) 2 1 1\n"
+                              "end\nstress b1 0.75e6 0.25e6 $(1e6*c)\nstress b2 -0.375e6 -0.125e6 $(-0.5e6*c)\n"
+                              "stress b3 0 0 1e6\ndynamic dt 1e-9 steps 1\noutput svg field principal\n"), 0);
+    char *text = read_all("out/model/crosses/principal.svg");
+    for (int i = 0; i < 4; i++) {
+        const char *s = strstr(strstr(text, "<clipPath"), cross[i].colour);
+        point a, b;
+        for (int k = 0; k < cross[i].arrow; k++)
+            s = strstr(s + 1, "<path");
+        ck_assert_int_eq(find_ends(s, &a, &b), 2);
+        length[i] = hypot(b.x - a.x, b.y - a.y) + 2 * 1.6 * attribute(s, "stroke-width");
+        ck_near(fmod(atan2(a.y - b.y, b.x - a.x) * 180 / acos(-1) + 360, 180), cross[i].angle, 180, 1e-3);
+        ck_near(length[i] / length[0], cross[i].size, 1, 1e-2);
+    }
+    free(text);
+    check_text("out/model/crosses/principal.svg", ">tension 1 MPa<");
+}
+END_TEST
 
 /* A square of 39 kN that is loaded above its left corner by as much again: the corners carry 58.5 and
  * 19.5 kN. Turned round it hangs from bonded contacts. The widest arrow has 6 pixels; two digits. */
@@ -559,7 +624,7 @@ START_TEST(each_field_is_drawn_under_its_name_with_its_unit_and_range)
     static const struct { const char *field, *said; int status; } shown[] = {
         { "u", ">u [m], ", 0 }, { "v", ">v [m], ", 0 }, { "rotation", ">rotation [rad], ", 0 },
         { "sxx", ">sxx [Pa], from ", 0 }, { "syy", ">syy [", 0 }, { "sxy", ">sxy [", 0 },
-        { "mises", ">von Mises stress [", 0 }, { "s1", ">s1 [", 0 }, { "s2", ">s2 [", 0 },
+        { "mises", ">von Mises stress [", 0 }, { "s1", ">s1 [", 0 }, { "s2", ">s2 [", 0 }, { "principal", ">tension ", 0 },
         { "vx", ">vx [m/s], ", 0 }, { "vy", ">vy [m/s], ", 0 }, { "spin", ">spin [rad/s], ", 0 },
         { "sxx low -2e6 high 3e6", ">sxx [MPa], from 0.007 to ", 0 }, { "u low 3", "colours from 3 to 0", 2 },
         { "u low 3 high 3", "colours from 3 to 3, expected low below high", 2 },
@@ -666,11 +731,13 @@ Suite *pictures_suite(void)
     tcase_add_loop_test(t, no_element_is_turned_over_by_magnified_displacements, 0, 2);
     tcase_add_loop_test(t, a_picture_says_its_title_and_the_time_that_it_shows, 0, 8);
     tcase_add_test(t, a_film_magnifies_displacements_if_it_is_asked_to);
+    tcase_add_loop_test(t, a_film_has_the_colours_of_its_field_and_one_large_value_does_not_dim_them, 0, 2);
+    tcase_add_test(t, crosses_have_the_directions_and_the_sizes_of_principal_stresses);
     tcase_add_loop_test(t, an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner, 0, 2);
     tcase_add_test(t, the_line_of_thrust_goes_through_the_points_where_forces_act);
     tcase_add_test(t, the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end);
     tcase_add_test(t, a_field_that_is_one_level_has_one_colour_and_large_forces_are_short);
-    tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit_and_range, 0, 15);
+    tcase_add_loop_test(t, each_field_is_drawn_under_its_name_with_its_unit_and_range, 0, 16);
     tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);

@@ -180,6 +180,7 @@ START_TEST(a_block_hangs_on_its_bolt)
     ck_near(cell("bolt", "history.csv", "", "top_v"), table[_i].v, W / K, _i == 3 ? 0.4 : 1e-3);
     check_text("out/model/bolt/bolts.csv", _i == 3 ? "BROKEN" : "HOLDS");
     check_text("out/model/bolt/contacts.svg", ">bolt<");
+    check_text("out/model/bolt/mises.svg", ">bolt<");
 }
 END_TEST
 
