@@ -226,19 +226,7 @@ static int is_there(const model_reader *r, const selection *w, const model_node 
     return n->x >= x[0] - d && n->x <= x[2] + d && n->y >= x[1] - d && n->y <= x[3] + d;
 }
 
-/* A set, or all nodes of a block. */
-static int choose_set(model_reader *r, selection *w)
-{
-    w->found = model_known(r, &r->set_of);
-    if (w->found >= r->sets)
-        w->block = w->found - r->sets;
-    else if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
-        return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
-                              "of curves or points, expected one");
-    return w->found >= 0;
-}
-
-/* The words of WHERE. */
+/* The words of WHERE; a set may be all nodes of a block. */
 static int read_selection(model_reader *r, selection *w)
 {
     static const struct { const char *word; int numbers; } kind[] = {
@@ -255,10 +243,14 @@ static int read_selection(model_reader *r, selection *w)
                               "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
     if (!model_numbers(r, kind[w->kind].numbers, w->x))
         return 0;
-    if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of)) < 0)
+    const model_table *of = w->kind == BY_NODE ? &r->node_of : &r->set_of;
+    if (kind[w->kind].numbers == 0 && (w->found = model_known(r, of)) < 0)
         return 0;
-    if (w->kind == BY_SET && !choose_set(r, w))
-        return 0;
+    if (w->kind == BY_SET && w->found >= r->sets)
+        w->block = w->found - r->sets;
+    else if (w->kind == BY_SET && r->set[w->found].dimensions & (r->set[w->found].dimensions - 1))
+        return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
+                              "of curves or points, expected one");
     if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
         return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
                            w->x[0], w->x[1], w->x[2], w->x[3]);

@@ -547,7 +547,8 @@ int write_open(write_results *w)
     if (!open_folder(w) || !empty_folder(w)
         || !open_file(w, &w->history, path_of(w, "history.csv"))
         || !open_file(w, &w->summary, path_of(w, "summary.csv"))) {
-        output_drop(&w->history);
+        output_note(&w->history, 0);
+        output_close(&w->history);
         return leave_folder(w);
     }
     fprintf(w->history.file, "step,t");
