@@ -226,19 +226,7 @@ static int is_there(const model_reader *r, const selection *w, const model_node 
     return n->x >= x[0] - d && n->x <= x[2] + d && n->y >= x[1] - d && n->y <= x[3] + d;
 }
 
-/* A set, or all nodes of a block. */
-static int choose_set(model_reader *r, selection *w)
-{
-    w->found = model_known(r, &r->set_of);
-    if (w->found >= r->sets)
-        w->block = w->found - r->sets;
-    else if (w->found >= 0 && (r->set[w->found].dimensions & (r->set[w->found].dimensions - 1)))
-        return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
-                              "of curves or points, expected one");
-    return w->found >= 0;
-}
-
-/* The words of WHERE. */
+/* The words of WHERE; a set may be all nodes of a block. */
 static int read_selection(model_reader *r, selection *w)
 {
     static const struct { const char *word; int numbers; } kind[] = {
@@ -255,10 +243,14 @@ static int read_selection(model_reader *r, selection *w)
                               "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
     if (!model_numbers(r, kind[w->kind].numbers, w->x))
         return 0;
-    if (w->kind == BY_NODE && (w->found = model_known(r, &r->node_of)) < 0)
+    const model_table *of = w->kind == BY_NODE ? &r->node_of : &r->set_of;
+    if (kind[w->kind].numbers == 0 && (w->found = model_known(r, of)) < 0)
         return 0;
-    if (w->kind == BY_SET && !choose_set(r, w))
-        return 0;
+    if (w->kind == BY_SET && w->found >= r->sets)
+        w->block = w->found - r->sets;
+    else if (w->kind == BY_SET && r->set[w->found].dimensions & (r->set[w->found].dimensions - 1))
+        return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
+                              "of curves or points, expected one");
     if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
         return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
                            w->x[0], w->x[1], w->x[2], w->x[3]);
@@ -277,29 +269,35 @@ static int blame_nowhere(model_reader *r, const selection *w)
                        r->node[n].id, r->node[n].x, r->node[n].y);
 }
 
-/* WHERE: the nodes that it names, at least one, in r->chosen_node. `nearest`: at X Y is the
- * nearest node, however far. */
+/* WHERE: the nodes that it names in r->chosen_node. `nearest`: at X Y is the nearest node, however
+ * far. */
+static int read_where(model_reader *r, int nearest, selection *w)
+{
+    r->chosen = r->file_nodes = 0;
+    r->wheres++;
+    if (!read_selection(r, w))
+        return 0;
+    if (w->kind == BY_NODE)
+        choose(r, w, w->found);
+    else if (w->kind == BY_SET && w->found < r->sets)
+        for (int k = 0; k < r->set[w->found].n; k++)
+            choose(r, w, r->set[w->found].node[k]);
+    else if (w->kind == BY_AT && nearest)
+        choose_nearest(r, w);
+    else
+        for (int n = 0; n < r->nodes; n++)
+            if (w->kind == BY_SET ? find_copy(r, w->found - r->sets, n) >= 0
+                                  : is_there(r, w, &r->node[n]))
+                choose(r, w, n);
+    return 1;
+}
+
+/* The same, of one node at least. */
 static int where(model_reader *r, int nearest)
 {
     selection w;
 
-    r->chosen = r->file_nodes = 0;
-    r->wheres++;
-    if (!read_selection(r, &w))
-        return 0;
-    if (w.kind == BY_NODE)
-        choose(r, &w, w.found);
-    else if (w.kind == BY_SET && w.found < r->sets)
-        for (int k = 0; k < r->set[w.found].n; k++)
-            choose(r, &w, r->set[w.found].node[k]);
-    else if (w.kind == BY_AT && nearest)
-        choose_nearest(r, &w);
-    else
-        for (int n = 0; n < r->nodes; n++)
-            if (w.kind == BY_SET ? find_copy(r, w.found - r->sets, n) >= 0
-                                 : is_there(r, &w, &r->node[n]))
-                choose(r, &w, n);
-    return r->chosen > 0 ? 1 : blame_nowhere(r, &w);
+    return read_where(r, nearest, &w) && (r->chosen > 0 || blame_nowhere(r, &w));
 }
 
 /* --------------------------------------------------------------- statements that need the model */
@@ -515,7 +513,65 @@ int model_monitors(model_reader *r)
     return model_add(r, &p->monitor, &p->monitors, sizeof m, &m);
 }
 
-/* Between a vertex of the one node that each WHERE names and another one. */
+/* The shares of the corners of a triangle in the point. Returns 1 if that is in it or as near as
+ * rounding, -1: in one that runs clockwise, else 0. */
+static int find_shares(const bbm_model *m, const double at[2], scene_end *e)
+{
+    const bbm_vertex *p = &m->vertex[e->vertex[0]], *q = &m->vertex[e->vertex[1]],
+                     *r = &m->vertex[e->vertex[2]];
+    const double x = at[0] - m->origin[0] - p->x, y = at[1] - m->origin[1] - p->y,
+                 area = (q->x - p->x) * (r->y - p->y) - (r->x - p->x) * (q->y - p->y);
+
+    e->share[1] = (x * (r->y - p->y) - y * (r->x - p->x)) / area;
+    e->share[2] = (y * (q->x - p->x) - x * (q->y - p->y)) / area;
+    e->share[0] = 1 - e->share[1] - e->share[2];
+    const double least = fmin(e->share[0], fmin(e->share[1], e->share[2]));
+    return area > 0 ? least > -NEAR : -(least > NEAR);
+}
+
+/* In how many blocks, or whether in this one, the point lies: it becomes an end. The triangles at
+ * the first corner of a polygon that is not convex count against each other. */
+static int find_end(const bbm_model *m, int block, const double at[2], scene_end *end)
+{
+    int found = 0;
+
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
+        scene_end here = { 0 };
+        int inside = 0;
+        for (int k = e->first + 1; k < e->first + e->n - 1; k++) {
+            scene_end next = { e->block, { e->first, k, k + 1 }, { 0 } };
+            const int in = find_shares(m, at, &next);
+            here = in > 0 ? next : here;
+            inside += in;
+        }
+        if (inside > 0 && (block < 0 || block == e->block)) {
+            found += !found || end->block != e->block;
+            *end = here;
+        }
+    }
+    return found;
+}
+
+/* The end of a bolt: a node, or else a place in an element. */
+static int read_end(model_reader *r, scene_end *end)
+{
+    const bbm_model *m = r->p->m;
+    selection w;
+
+    if (!read_where(r, 0, &w))
+        return 0;
+    const int found = r->chosen || w.kind != BY_AT ? r->chosen : find_end(m, w.block, w.x, end);
+    if (found > 1)
+        return model_blame(r, "a bolt ends at one of several nodes or blocks there, expected: "
+                              "at X Y of BLOCK");
+    if (r->chosen) {
+        const int v = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
+        *end = (scene_end){ m->element[m->vertex[v].element].block, { v, v, v }, { 1, 0, 0 } };
+    }
+    return found > 0 || blame_nowhere(r, &w);
+}
+
+/* A spring between two points. */
 int model_bolts(model_reader *r)
 {
     const bbm_model *m = r->p->m;
@@ -525,20 +581,11 @@ int model_bolts(model_reader *r)
     model_option o[] = { NORMAL("stiffness", &b.k), ABOVE_ZERO("strength", &b.strength),
                          FROM_ZERO("pretension", &pretension) };
 
-    for (int end = 0; end < 2; end++) {
-        if (!where(r, 0))
-            return 0;
-        if (r->chosen > 1)
-            return model_blame(r, "a bolt ends at one of %d nodes there, expected: at X Y of BLOCK",
-                               r->chosen);
-        b.block[end] = r->p->node_block[r->chosen_node[0]];
-        b.vertex[end] = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
-    }
-    if (!model_options(r, 1, LENGTH(o), o))
+    if (!read_end(r, &b.end[0]) || !read_end(r, &b.end[1]) || !model_options(r, 1, LENGTH(o), o))
         return 0;
     model_bolt_force(m, &b, &along);
     if (!(along.length > r->margin)
-        || m->vertex[b.vertex[0]].element == m->vertex[b.vertex[1]].element)
+        || m->vertex[b.end[0].vertex[0]].element == m->vertex[b.end[1].vertex[0]].element)
         return model_blame(r, "a bolt without length or within an element, expected two places");
     b.rest = along.length - pretension / b.k;
     return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);

@@ -9,6 +9,7 @@ int scene_edge_load(const bbm_model *m, int k, scene_line *l)
     const bbm_edge_load *e = &m->beyond->edge_load[k];
     *l = (scene_line){ .a = e->a, .b = bbm_next_vertex(&m->element[m->vertex[e->a].element], e->a),
                        .loads = e->weight > 0 ? BBM_GAUSS : 1,
-                       .q = e->weight > 0 ? e->q : &e->f, .pressure = e->pressure };
+                       .q = e->weight > 0 ? e->q : &e->f, .pressure = e->pressure,
+                       .level = e->level + m->origin[1], .weight = e->weight };
     return 1;
 }

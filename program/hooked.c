@@ -31,11 +31,10 @@ static int read_row(model_reader *r, char *line, model_place at)
         x[n++] = strtod(w, &end);
     if (n == 0 || (n == 1 && *end && !p->shakings))
         return 1;
-    if (*end || n < 2 || n > 3 || !isfinite(x[0] + x[1] + x[2]))
-        return model_fail(r, at, "expected two or three numbers, TIME AX [AY]; decimals need a point");
-    if (p->shakings && x[0] <= p->shaking[p->shakings - 1].t)
-        return model_fail(r, at, "time %g is not later than the %g before it", x[0],
-                          p->shaking[p->shakings - 1].t);
+    if (*end || n < 2 || n > 3 || !isfinite(x[0] + x[1] + x[2])
+        || (p->shakings && x[0] <= p->shaking[p->shakings - 1].t))
+        return model_fail(r, at, "expected two or three numbers, TIME AX [AY], each time later than "
+                          "the one before; decimals need a point");
     return model_add(r, &p->shaking, &p->shakings, sizeof *p->shaking,
                      &(model_shaking){ x[0], { x[1], x[2] } });
 }
@@ -56,12 +55,23 @@ int model_read_record(model_reader *r, const char *path)
 
 /* ---------------------------------------------------------------------------------------- bolts */
 
+static bbm_vertex point_of(const bbm_model *m, const scene_end *e)
+{
+    bbm_vertex P = { .element = m->vertex[e->vertex[0]].element };
+
+    for (int k = 0; k < 3; k++) {
+        P.x += e->share[k] * m->vertex[e->vertex[k]].x;
+        P.y += e->share[k] * m->vertex[e->vertex[k]].y;
+    }
+    return P;
+}
+
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along)
 {
-    const bbm_vertex *P = &m->vertex[b->vertex[0]], *Q = &m->vertex[b->vertex[1]];
-    const double length = hypot(P->x - Q->x, P->y - Q->y);
+    const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
+    const double length = hypot(P.x - Q.x, P.y - Q.y);
 
-    *along = (bbm_direction){ (P->x - Q->x) / length, (P->y - Q->y) / length, length };
+    *along = (bbm_direction){ (P.x - Q.x) / length, (P.y - Q.y) / length, length };
     return b->k * (length - b->rest);
 }
 
@@ -75,12 +85,12 @@ static void list_gaps(bbm_model *m)
     bbm_list_edge_gaps(m);
     for (int k = 0; k < p->bolts; k++) {
         const scene_bolt *b = &p->bolt[k];
-        const bbm_vertex *P = &m->vertex[b->vertex[0]], *Q = &m->vertex[b->vertex[1]];
-        bbm_gap *g = bbm_add_gap(m, P->element, Q->element);
+        const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
+        bbm_gap *g = bbm_add_gap(m, P.element, Q.element);
         bbm_direction along;
         const double across = fmax(0, model_bolt_force(m, b, &along)) / along.length,
                      n[2] = { along.x, along.y };
-        bbm_bonding_gap(&m->element[g->i], P, &m->element[g->j], Q, 0, g);
+        bbm_bonding_gap(&m->element[g->i], &P, &m->element[g->j], &Q, 0, g);
         g->elastic = 1;
         for (int a = 0; a < 4; a++) {
             g->W[a / 2][a % 2] = (b->k - across) * n[a / 2] * n[a % 2] + across * (a % 3 == 0);

@@ -339,17 +339,6 @@ static void catch_signals(void)
             signal(caught[k], SIG_IGN);
 }
 
-/* --check: how many contacts touch at the start; those are closed in statics. */
-static bbm_status count_contacts(bbm_model *m, int *touching)
-{
-    m->h = INFINITY;
-    bbm_foresee_step(m);
-    const bbm_status status = bbm_detect_contacts(m, &(int){ 0 });
-    for (int k = 0; k < m->scratch->contacts && !status; k++)
-        *touching += m->scratch->contact[k].state != BBM_OPEN;
-    return status;
-}
-
 /* What the model is, block by block, and a picture of it. */
 static int check(model *p, const arguments *a)
 {
@@ -357,8 +346,12 @@ static int check(model *p, const arguments *a)
     const bbm_parameters *par = &m->par;
     write_results w = { .p = p, .source = a->model, .folder = a->folder };
     int touching = 0;
-    const bbm_status status = count_contacts(m, &touching);
 
+    m->h = INFINITY;                                    /* contacts that touch are closed in statics */
+    bbm_foresee_step(m);
+    const bbm_status status = bbm_detect_contacts(m, &(int){ 0 });
+    for (int k = 0; k < m->scratch->contacts && !status; k++)
+        touching += m->scratch->contact[k].state != BBM_OPEN;
     if (status)
         return fprintf(stderr, "%s: %s\n", a->model, bbm_status_text(status)), 1;
     warn_before(p, a->model);

@@ -336,25 +336,6 @@ static void read_section(mesh *m)
                    m->section, m->entries, m->announced);
 }
 
-static void read_sections(mesh *m)
-{
-    for (const char *word; !m->r->p->status && *(word = look_word(m)); ) {
-        if (word[0] != '$')
-            model_fail(m->r, m->at, "'%.60s', expected a section like $Nodes", word);
-        m->section[0] = '\0';
-        strncat(m->section, word + 1, sizeof m->section - 1);
-        if (!m->version && strcmp(m->section, "MeshFormat") != 0)
-            wrong(m, word, "$MeshFormat as the first section");
-        read_section(m);
-    }
-    if (m->done != 3)
-        model_fail(m->r, m->at, "the file ends without $%s, expected one",
-                   m->done & 1 ? "Elements" : "Nodes");
-    if (m->r->elements == 0)
-        model_fail(m->r, m->at, "no triangle or quadrilateral, expected a mesh of surfaces: "
-                   "gmsh -2");
-}
-
 int model_read_mesh(model_reader *r, const char *path, model_place statement)
 {
     mesh m = { .r = r, .at = { .file = path, .line = 1 }, .statement = statement, .line = 1 };
@@ -364,6 +345,19 @@ int model_read_mesh(model_reader *r, const char *path, model_place statement)
     if (!m.text)
         return 0;
     m.end = m.text + size;
-    read_sections(&m);
+    for (const char *word; !r->p->status && *(word = look_word(&m)); ) {
+        if (word[0] != '$')
+            model_fail(r, m.at, "'%.60s', expected a section like $Nodes", word);
+        m.section[0] = '\0';
+        strncat(m.section, word + 1, sizeof m.section - 1);
+        if (!m.version && strcmp(m.section, "MeshFormat") != 0)
+            wrong(&m, word, "$MeshFormat as the first section");
+        read_section(&m);
+    }
+    if (m.done != 3)
+        model_fail(r, m.at, "the file ends without $%s, expected one",
+                   m.done & 1 ? "Elements" : "Nodes");
+    if (r->elements == 0)
+        model_fail(r, m.at, "no triangle or quadrilateral, expected a mesh of surfaces: gmsh -2");
     return !r->p->status;
 }

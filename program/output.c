@@ -52,19 +52,6 @@ int output_keep(output *o)
     return !o->why;
 }
 
-/* A device has no temporary file to remove. */
-void output_drop(output *o)
-{
-    const int why = errno;
-
-    if (o->file) {
-        fclose(o->file);
-        remove(o->temporary);
-    }
-    o->file = NULL;
-    errno = why;
-}
-
 /* Replaces a file of that name. */
 static int give_name(const char *from, const char *to)
 {

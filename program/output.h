@@ -3,8 +3,7 @@
  *     output_open         begins PATH as PATH.N.tmp, N the number of this process: two runs share
  *                         no file
  *     output_keep         what is written so far is worth keeping
- *     output_close        gives it its name
- *     output_drop         gives it up
+ *     output_close        gives it its name, or, after an error that was noted, gives it up
  *
  * What fails leaves the reason in errno and nothing on the disk, but what is to be kept. What
  * systems do differently with files is here.
@@ -28,7 +27,6 @@ int    output_open(output *o, const char *path);    /* 1, or 0 */
 int    output_note(output *o, int good);    /* whether all was good so far; the first error stays */
 int    output_keep(output *o);                      /* 1, or 0 */
 int    output_close(output *o);             /* 1: the complete file stands under its name; 0 */
-void   output_drop(output *o);
 int    output_make_folder(const char *path);        /* 1: it is there; 0 (EEXIST: as no folder) */
 int    output_is_temporary(const char *ending); /* behind the name to be: whether it is .N.tmp */
 FILE  *output_lock(const char *path);           /* NULL (EBUSY: another process has it) */

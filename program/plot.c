@@ -342,12 +342,11 @@ static void chart_axes(plot *p, plot_box box, const plot_chart *c)
 
     for (int k = 0; k < c->count; k++) {
         const plot_series *s = &c->series[k];
-        for (int i = 0; i < s->n; i++) {
-            if (!is_shown(s, i))
-                continue;
-            plot_widen(x, s->x[i]);
-            plot_widen(y, s->y[i]);
-        }
+        for (int i = 0; i < s->n; i++)
+            if (is_shown(s, i)) {
+                plot_widen(x, s->x[i]);
+                plot_widen(y, s->y[i]);
+            }
     }
     p->x = make_axis(&c->x, x, fmax(2, box.w / 90));
     p->y = make_axis(&c->y, y, fmax(2, box.h / 70));

@@ -179,11 +179,13 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
 {
     FILE *f = path == r->path && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     char *text = NULL;
-    int n = 0;
+    size_t n = 0;
 
-    for (int c = 0; f && c != EOF && n < LARGEST && !r->p->status; ) {
-        c = getc(f);
-        model_add(r, &text, &n, 1, &(char){ c == EOF ? '\0' : (char)c });
+    int more = f != NULL;
+    for (size_t room = 1 << 12; more; room *= 2) {
+        text = resize(r, text, room + 1, 1);
+        n += text ? fread(text + n, 1, room - n, f) : 0;
+        more = n == room && n < LARGEST;
     }
     const int why = errno;
     if (!f || ferror(f))
@@ -192,7 +194,9 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
     if (f && f != stdin)
         fclose(f);
-    *size = (size_t)n - 1;
+    *size = n;
+    if (!r->p->status)
+        text[n] = '\0';
     return r->p->status ? NULL : text;
 }
 

@@ -110,34 +110,20 @@ void scene_free(scene *s)
     s->frames = s->calls = s->failed = 0;
 }
 
-/* Makes room for one more: the last frame only stays if its turn has come, and half of them go if
- * all have come. */
+/* Makes room for one more: frames whose turn has not come go. That is the last one alone, or half of
+ * them, if the turn of all had come. */
 static void thin_out(scene *s)
 {
-    int kept = s->frames;
+    int kept = 0;
 
-    if (kept && s->frame[kept - 1].call % s->every)
-        drop_frame(&s->frame[--kept]);
-    if (kept == FRAMES) {
+    if (s->frames == FRAMES && s->frame[FRAMES - 1].call % s->every == 0)
         s->every *= 2;
-        kept = 0;
-        for (int k = 0; k < FRAMES; k++)
-            if (s->frame[k].call % s->every)
-                drop_frame(&s->frame[k]);
-            else
-                s->frame[kept++] = s->frame[k];
-    }
+    for (int k = 0; k < s->frames; k++)
+        if (s->frame[k].call % s->every)
+            drop_frame(&s->frame[k]);
+        else
+            s->frame[kept++] = s->frame[k];
     s->frames = kept;
-}
-
-static scene_force force_of(const scene_frame *s, const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_edge *corner = &m->edge[c->corner];
-    double f[2];
-
-    field_contact_force(m, c, c->N, c->T, f);
-    return (scene_force){ s->at[corner->a], { f[0], f[1] }, c->N, c->N < 0 ? PULLED : (int)c->state,
-                          { corner->block, m->edge[c->edge].block } };
 }
 
 static int make_frame(scene_frame *f, const bbm_model *m)
@@ -182,9 +168,15 @@ static void copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
     }
     if (shown && !has_colours(s->field))
         put_crosses(f, m);
-    for (int k = 0; k < m->contacts && !shown; k++)
-        if (m->contact[k].state != BBM_OPEN)
-            f->force[f->forces++] = force_of(f, m, &m->contact[k]);
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts && !shown; c++) {
+        const bbm_edge *corner = &m->edge[c->corner];
+        double force[2];
+        field_contact_force(m, c, c->N, c->T, force);
+        if (c->state != BBM_OPEN)
+            f->force[f->forces++] = (scene_force){ f->at[corner->a], { force[0], force[1] }, c->N,
+                                                   c->N < 0 ? PULLED : (int)c->state,
+                                                   { corner->block, m->edge[c->edge].block } };
+    }
 }
 
 void scene_record(scene *s, const bbm_model *m)
@@ -249,21 +241,9 @@ static int choose_tint(const film *f, int b)
     return best;
 }
 
-/* Held: each of its vertices, in both directions, where it was. */
-static void add_vertex(film *f, body *b, int v)
-{
-    const point x = position(f, 0, v);
-    const bbm_node *i = &f->m->node[f->m->vertex[v].node];
-
-    b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0
-               && !field_is_gone(f->m, v);
-    b->n++;
-    plot_widen(b->box[0], x.x);
-    plot_widen(b->box[1], x.y);
-}
-
-/* Block by block, which are numbered from 0, in the order of their elements; those that are gone in
- * the first frame are held and have no vertices. */
+/* Block by block, which are numbered from 0, in the order of their elements. Held: each of its
+ * vertices, in both directions, where it was. Those that are gone in the first frame are held and
+ * have no vertices. */
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
@@ -271,11 +251,17 @@ static void find_bodies(film *f)
     for (int n = 0; n < m->vertices; f->bodies++) {
         body *b = &f->body[f->bodies];
         *b = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
-        for (int v = 0; v < m->vertices; v++)
-            if (m->element[m->vertex[v].element].block == f->bodies) {
-                f->vertex[n++] = v;
-                add_vertex(f, b, v);
-            }
+        for (int v = 0; v < m->vertices; v++) {
+            const bbm_node *i = &m->node[m->vertex[v].node];
+            if (m->element[m->vertex[v].element].block != f->bodies)
+                continue;
+            f->vertex[n++] = v;
+            b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0
+                       && !field_is_gone(m, v);
+            plot_widen(b->box[0], position(f, 0, v).x);
+            plot_widen(b->box[1], position(f, 0, v).y);
+        }
+        b->n = n - b->first;
         const int gone = b->box[0][0] == b->box[0][1] && b->box[1][0] == b->box[1][1];
         f->held |= b->held && !gone;
         if (gone)
@@ -477,10 +463,11 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
     const double length = hypot(b.x - a.x, b.y - a.y);
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
-    const int varies = l->loads > 1, n = varies ? l->loads : (int)fmax(1, length * f->scale / 16);
+    const int wet = l->weight > 0, varies = l->loads > 1 && !wet;
+    const int n = varies ? l->loads : (int)fmax(1, length * f->scale / 16);
 
     for (int i = 0; i < n; i++) {
-        const double *q = l->q[varies ? i : 0];
+        const double *q = wet ? (double [2]){ 0, 0 } : l->q[varies ? i : 0];
         double s = (i + 0.5) / n, weight;
         if (varies)
             bbm_gauss_point(i, &s, &weight);
@@ -488,8 +475,8 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
         if (visit && hypot(x.x - last->x, x.y - last->y) * f->scale < 10)
             continue;
         *last = x;
-        visit_force(f, LINE_LOAD, x, (point){ q[0] - l->pressure * side.x,
-                                              q[1] - l->pressure * side.y }, side, visit);
+        const double p = l->pressure + l->weight * fmax(0, l->level - x.y);
+        visit_force(f, LINE_LOAD, x, (point){ q[0] - p * side.x, q[1] - p * side.y }, side, visit);
     }
 }
 
@@ -508,8 +495,8 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     }
     for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++) {
         const bbm_line_load *l = &m->line_load[i];
-        visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f, 0 },
-                   &last, visit);
+        visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f,
+                                              0, 0, 0 }, &last, visit);
     }
     scene_line l;
     for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
@@ -651,9 +638,14 @@ static void draw_bolts(film *f, int frame)
 {
     for (int k = 0; k < f->s->bolts; k++) {
         const scene_bolt *b = &f->s->bolt[k];
-        const point from = at(f, frame, b->vertex[0]), to = at(f, frame, b->vertex[1]);
+        point end[2] = { { 0, 0 } };
+        for (int a = 0; a < 6; a++) {
+            const point p = at(f, frame, b->end[a / 3].vertex[a % 3]);
+            end[a / 3].x += b->end[a / 3].share[a % 3] * p.x;
+            end[a / 3].y += b->end[a / 3].share[a % 3] * p.y;
+        }
         if (f->s->frame[frame].time < b->until)
-            plot_line(&f->p, BOLT, from.x, from.y, to.x, to.y);
+            plot_line(&f->p, BOLT, end[0].x, end[0].y, end[1].x, end[1].y);
     }
 }
 
@@ -687,14 +679,12 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
 /* How far the film is: full at its last frame. The whole of it takes the clicks. */
 static void put_bar(film *f, plot_box b)
 {
-    const double end = (f->s->frames - 1.0) / (value_count(f) - 1);
-
     plot_rectangle(&f->p, b, "id=\"bar\" fill=\"#dddddd\" style=\"touch-action: none\"");
     plot_put(&f->p, "<g fill=\"#0072b2\" pointer-events=\"none\">"
              "<rect x=\"%.1f\" y=\"%.1f\" height=\"%g\"><animate attributeName=\"width\" "
              "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"0;%.1f;%.1f\" "
              "keyTimes=\"0;%.5f;1\"/></rect></g>\n",
-             b.x, b.y, b.h, f->seconds, b.w, b.w, end);
+             b.x, b.y, b.h, f->seconds, b.w, b.w, (f->s->frames - 1.0) / (value_count(f) - 1));
 }
 
 /* Returns the number of rows. */
@@ -784,10 +774,9 @@ static double block_size(const film *f)
     double sum = 0;
     int n = 0;
 
-    for (int b = 0; b < f->bodies; b++)
-        if (!f->body[b].held) {
-            const body *k = &f->body[b];
-            sum += fmin(k->box[0][1] - k->box[0][0], k->box[1][1] - k->box[1][0]);
+    for (const body *b = f->body; b < f->body + f->bodies; b++)
+        if (!b->held) {
+            sum += fmin(b->box[0][1] - b->box[0][0], b->box[1][1] - b->box[1][0]);
             n++;
         }
     return n ? sum / n : INFINITY;
@@ -839,13 +828,10 @@ static int find_colours(film *f)
     errno = ENOMEM;
     if (!x)
         return 0;
-    for (int k = 0; k < f->s->frames * f->bodies; k++) {
-        const body *b = &f->body[k % f->bodies];
-        const double *value = f->s->frame[k / f->bodies].value;
-        for (int v = b->first; v < b->first + b->n && !b->held; v++)
-            if (isfinite(value[f->vertex[v]]))
-                x[n++] = value[f->vertex[v]];
-    }
+    for (const scene_frame *g = f->s->frame; g < f->s->frame + f->s->frames; g++)
+        for (int v = 0; v < f->m->vertices; v++)
+            if (isfinite(g->value[v]) && !f->body[f->m->element[f->m->vertex[v].element].block].held)
+                x[n++] = g->value[v];
     n = n ? n : 1;
     qsort(x, (size_t)n, sizeof *x, by_size);
     f->range[0] = x[0];

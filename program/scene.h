@@ -39,8 +39,13 @@ typedef struct {                /* what was recorded at one time                
     double *value;              /*          [vertices] of the field; NaN: the block is gone       */
 } scene_frame;
 
-typedef struct {                /* a spring along the line between two vertices, by hooked.c      */
-    int    vertex[2], block[2];
+typedef struct {                /* a point of an element: the sum of share times vertex           */
+    int    block, vertex[3];
+    double share[3];
+} scene_end;
+
+typedef struct {                /* a spring along the line between two points, by hooked.c        */
+    scene_end end[2];
     double k, rest, strength, until;    /* N/m, m, N, s: when it broke, or INFINITY               */
 } scene_bolt;
 
@@ -75,11 +80,11 @@ int  scene_write_movie(const scene *s, const bbm_model *m, const char *path);
 int  scene_write_map(const scene *s, const bbm_model *m, const char *path);
 
 /* A load along an edge from vertex a to b: a force [N/m], or those at the Gauss points, and a
- * pressure. */
+ * pressure; of water, which has weight [N/m^2], those at the Gauss points are all of it. */
 typedef struct {
     int a, b, loads;
     const double (*q)[2];
-    double pressure;
+    double pressure, level, weight;
 } scene_line;
 
 /* edge_load.c: load k of those that are given for an edge; 0: there are no more. */

@@ -123,7 +123,8 @@ void model_next_stage(model *p)
     for (int n = 0; n < m->nodes; n++)
         change_node(m, n, &s->node[n]);
     for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
-        if ((field_is_gone(m, b->vertex[0]) || field_is_gone(m, b->vertex[1])) && b->k > 0)
+        if (b->k > 0 && (field_is_gone(m, b->end[0].vertex[0])
+                         || field_is_gone(m, b->end[1].vertex[0])))
             b->k = 0, b->until = m->info.t;
     for (int k = 0; k < m->gaps; k++)
         if (m->gap[k].j < 0 || field_is_gone(m, m->element[m->gap[k].i].first))

@@ -109,7 +109,7 @@ static void measure(bodies *s)
         *(m->node[n].held ? &s->body[s->p->node_block[n]].held
                           : &s->body[s->p->node_block[n]].free) += 1;
     for (int k = 0; k < 2 * s->p->bolts; k++)       /* what a bolt holds is not said to fall */
-        s->body[s->p->bolt[k / 2].block[k % 2]].thrown = 1;
+        s->body[s->p->bolt[k / 2].end[k % 2].block].thrown = 1;
     for (int e = 0; e < m->edges; e++) {
         body *b = &s->body[m->element[m->edge[e].element].block];
         s->next[e] = b->edge;
@@ -247,8 +247,7 @@ static void warn_of_bodies(const model *p, const char *path)
             for (int j = 0; j < i; j++)
                 compare(&s, path, i, j);
         if (s.alike > 1)
-            fprintf(stderr, "%s: warning: so it is with %d more pair%s of blocks\n", path,
-                    s.alike - 1, s.alike > 2 ? "s" : "");
+            fprintf(stderr, "%s: warning: in all %d pairs of blocks have this\n", path, s.alike);
         for (int b = 0; b < p->blocks; b++)
             held |= s.body[b].held;
         if (p->dynamic && held && (m->par.gravity[0] != 0 || m->par.gravity[1] != 0))

@@ -147,8 +147,8 @@ static void put_bolts(FILE *f, const write_results *w)
 
     fprintf(f, "bolt,block_1,block_2,force,state\n");
     for (const scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
-        fprintf(f, "%d,%s,%s,%.15g,%s\n", (int)(b - p->bolt) + 1, p->block[b->block[0]],
-                p->block[b->block[1]], model_bolt_force(p->m, b, &(bbm_direction){ 0 }),
+        fprintf(f, "%d,%s,%s,%.15g,%s\n", (int)(b - p->bolt) + 1, p->block[b->end[0].block],
+                p->block[b->end[1].block], model_bolt_force(p->m, b, &(bbm_direction){ 0 }),
                 b->until < INFINITY ? "BROKEN" : "HOLDS");
 }
 
@@ -169,17 +169,6 @@ static void keep(const write_results *w, int first, int n, const double x[])
         double *to = &column(w, first + k)[w->row];
         *to = first + k == PASSES && more ? fmax(*to, x[k]) : x[k];
     }
-}
-
-/* Every second row goes; of passes the larger number stays. */
-static void halve(write_results *w)
-{
-    for (int k = 0; k < MONITORS + MODEL_FOLLOWED * w->p->monitors && w->kept; k++)
-        for (int r = 1; r <= ROWS / 2; r++) {
-            const double *x = &column(w, k)[2 * r];
-            column(w, k)[r] = k == PASSES ? fmax(x[-1], x[0]) : x[0];
-        }
-    w->halved++;
 }
 
 static void put_history(const write_results *w)
@@ -547,7 +536,8 @@ int write_open(write_results *w)
     if (!open_folder(w) || !empty_folder(w)
         || !open_file(w, &w->history, path_of(w, "history.csv"))
         || !open_file(w, &w->summary, path_of(w, "summary.csv"))) {
-        output_drop(&w->history);
+        output_note(&w->history, 0);
+        output_close(&w->history);
         return leave_folder(w);
     }
     fprintf(w->history.file, "step,t");
@@ -572,8 +562,14 @@ void write_step(write_results *w, int step)
     const model *p = w->p;
 
     w->step = step;
-    if (step > (ROWS - 1) << w->halved)
-        halve(w);
+    if (step > (ROWS - 1) << w->halved) {   /* every second row goes; of passes the larger stays */
+        for (int k = 0; k < MONITORS + MODEL_FOLLOWED * p->monitors && w->kept; k++)
+            for (int r = 1; r <= ROWS / 2; r++) {
+                const double *x = &column(w, k)[2 * r];
+                column(w, k)[r] = k == PASSES ? fmax(x[-1], x[0]) : x[0];
+            }
+        w->halved++;
+    }
     w->row = step ? 1 + (step - 1) / (1 << w->halved) : 0;
     put_history(w);
     put_summary(w);

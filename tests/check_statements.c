@@ -202,6 +202,35 @@ START_TEST(a_bolt_holds_a_block_on_its_slope)
 }
 END_TEST
 
+/* Two bolts from within a block, also one of elements, to within a roof with a notch carry it by their
+ * distances from its centre; it turns by 1e-5. */
+START_TEST(a_bolt_ends_anywhere_in_a_block)
+{
+    static const char *const lump[] = { "block lump rock 0.5 0 1.5 0 1.5 1 0.5 1",
+                                        "grid lump rock 0.5 0 1.5 1 3 3" };
+    static const struct { const char *end, *said; } wrong[] = {
+        { "1 3.5", "no node there, the nearest is node" }, { "1 3.5 of roof", "no node there of block roof" },
+        { "0.4 5", "a bolt ends at one of several nodes or blocks there" }, { "0.4 6 of roof", "no node there" },
+        { "1.35 0.75", "a bolt without length or within an element" },
+    };
+    const double W = 2500 * 9.81;
+
+    for (size_t k = 0; k <= sizeof wrong / sizeof *wrong; k++) {
+        const int good = k == sizeof wrong / sizeof *wrong;
+        ck_assert_int_eq(run_printed("within",
+            ROCK "block roof rock 2 3 2 5 0 5 0 3 0.5 3 0.5 4 1.5 4 1.5 3\n%s\nfixblock roof\n"
+            "block cap rock 0 5 2 5 2 6 0 6\nfixblock cap\n"
+            "bolt at 0.75 0.8 at 0.75 4.5 stiffness 1e9\nbolt at 1.4 0.8 at %s stiffness 1e9\n"
+            "gravity 0 -9.81\ncontact friction 30\ndynamic dt 0.1 steps 100 velocity_factor 0\n",
+            lump[_i], good ? "1.4 4.9" : wrong[k].end), good ? 0 : 2);
+        if (!good)
+            check_text("out/model/within.err", wrong[k].said);
+    }
+    ck_relative(cell("within", "bolts.csv", "1,lump,roof,", "force"), W * 0.4 / 0.65, 1e-4);
+    ck_relative(cell("within", "bolts.csv", "2,lump,roof,", "force"), W * 0.25 / 0.65, 1e-4);
+}
+END_TEST
+
 START_TEST(contacts_and_reactions_carry_the_weight)
 {
     ck_assert_int_eq(run_text("stack",
@@ -393,7 +422,7 @@ static const struct { const char *text, *said; } doubtful[] = {
     { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\nfix set a.left\nfix set b.right\ngravity 0 -9.81\n"
       "contact friction 30\nstatic\n", "blocks 'b' and 'a' have nodes in the same places, but blocks are never bonded" },
     { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\ngrid c rock 4 0 6 1 4 2\nfix set a.left\nfix set c.right\n"
-      "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: so it is with 1 more pair of blocks\n" },
+      "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: in all 2 pairs of blocks have this\n" },
 };
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
@@ -733,6 +762,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 2);
+    tcase_add_loop_test(t, a_bolt_ends_anywhere_in_a_block, 0, 2);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
     tcase_add_loop_test(t, a_joint_carries_the_weight_of_its_block, 0, 4);
     tcase_add_test(t, the_two_joints_of_a_wedge_hold_it);
