@@ -457,18 +457,19 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
     visit(f, kind, from, d, is_stress(kind) ? 1 : share);
 }
 
-/* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points. */
+/* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points; of
+ * water, what presses there. To be measured (visit NULL), at both ends. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
     const double length = hypot(b.x - a.x, b.y - a.y);
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
     const int wet = l->weight > 0, varies = l->loads > 1 && !wet;
-    const int n = varies ? l->loads : (int)fmax(1, length * f->scale / 16);
+    const int n = varies ? l->loads : visit ? (int)fmax(1, length * f->scale / 16) : 2;
 
     for (int i = 0; i < n; i++) {
         const double *q = wet ? (double [2]){ 0, 0 } : l->q[varies ? i : 0];
-        double s = (i + 0.5) / n, weight;
+        double s = visit ? (i + 0.5) / n : i, weight;
         if (varies)
             bbm_gauss_point(i, &s, &weight);
         const point x = { a.x + s * (b.x - a.x), a.y + s * (b.y - a.y) };
@@ -1118,7 +1119,7 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
         const int i = m->vertex[v].node, gone = field_is_gone(m, v);
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
-        f->at[v] = gone ? (point){ field_place(m, v, 0), field_place(m, v, 1) }
+        f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0), times[0] * field_place(m, v, 1) }
                  : (point){ times[0] * m->node[i].x + times[1] * r.u,
                             times[0] * m->node[i].y + times[1] * r.v };
         f->value[v] = gone ? NAN : has_colours(shown->name) ? field_of_node(shown, m, i)
