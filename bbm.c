@@ -444,16 +444,6 @@ void bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
         m->F[6 * j + a] += s->Fj[a];
 }
 
-/* Adds those of the element k that shares the corner of a contact. */
-void bbm_add_partner(bbm_model *m, int i, int j, int k, bbm_submatrices *s)
-{
-    bbm_matrix_add(m->K, k, i, s->Kki);
-    bbm_matrix_add(m->K, k, j, s->Kkj);
-    bbm_matrix_add(m->K, k, k, s->Kkk);
-    for (int a = 0; a < 6; a++)
-        m->F[6 * k + a] += s->Fk[a];
-}
-
 static void assemble_element(bbm_model *m, int i)
 {
     bbm_submatrix s = { { { 0 } }, { 0 } };

@@ -296,8 +296,13 @@ void bbm_assemble_contacts(bbm_model *m)
         else
             add_friction(m, c, v, &s);
         bbm_add_submatrices(m, i, j, &s);
-        if (partner != i)
-            bbm_add_partner(m, i, j, partner, &s);
+        if (partner == i)
+            continue;
+        bbm_matrix_add(m->K, partner, i, s.Kki);
+        bbm_matrix_add(m->K, partner, j, s.Kkj);
+        bbm_matrix_add(m->K, partner, partner, s.Kkk);
+        for (int a = 0; a < 6; a++)
+            m->F[6 * partner + a] += s.Fk[a];
     }
 }
 

@@ -296,8 +296,8 @@ void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               
 void       bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (60)-(62)    */
 void       bbm_spring_submatrices(double p, const bbm_spring *v, bbm_submatrices *s);   /* (58), */
                                                                                 /* (63), (64)   */
-void       bbm_friction_submatrices(const bbm_spring *v, double Fr,
-                                    bbm_submatrices *s);                        /* (65)-(69)    */
+void       bbm_friction_submatrices(const bbm_spring *v, double Fr, bbm_submatrices *s);
+                                                                                /* (65)-(69)    */
 double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
@@ -322,7 +322,6 @@ void       bbm_list_gaps(bbm_model *m);
 void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W);
 void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
-void       bbm_add_partner(bbm_model *m, int i, int j, int k, bbm_submatrices *s);
 void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
 void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[]);
 bbm_status bbm_begin_step(bbm_model *m);

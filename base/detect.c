@@ -627,7 +627,6 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
 {
     const bbm_touch t = bbm_touch_of(m, c);
     const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3, *Q1 = bbm_partner_of(m, c->corner);
-    const int k = Q1->element;
     const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
     const double x1 = (P1->x + Q1->x) / 2, y1 = (P1->y + Q1->y) / 2;
     const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
@@ -635,7 +634,7 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
     double u1[2], v1[2], u2[2], u3[2], u0[2];
 
     bbm_move(m, t.i, Di, P1->x, P1->y, u1);
-    bbm_move(m, &m->element[k], &m->D[6 * k], Q1->x, Q1->y, v1);
+    bbm_move(m, &m->element[Q1->element], &m->D[6 * Q1->element], Q1->x, Q1->y, v1);
     bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
     bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
     bbm_move(m, t.j, Dj, x0, y0, u0);
