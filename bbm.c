@@ -458,7 +458,7 @@ static void assemble_element(bbm_model *m, int i)
 
 static void assemble_gap(bbm_model *m, const bbm_gap *g)
 {
-    bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+    bbm_submatrices s = { .Fi = { 0 } };
 
     bbm_bonding_submatrices(g, &s);
     bbm_add_submatrices(m, g->i, g->j, &s);

@@ -58,7 +58,7 @@ enum { FRICTION_PASSES = 100 };
  * and the terms of second order are dropped: d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. */
+ * In e and g a hook has T and the points p1, p2, p3 of another moment of the step; h is a hook's. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
@@ -73,12 +73,15 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
         n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
         n->g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
                    + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
+        n->h[a] = 0;
     }
 }
 
-/* A spring p over d = d0 + e.D_i + g.D_j: Pi = p/2 d^2, Eq. (51)   ->   Eq. (58), (63):
- *     K_ii += p e e^T,  K_ij += p e g^T,  K_jj += p g g^T,  F_i -= p d0 e,  F_j -= p d0 g. */
-static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
+/* A spring p, normal or shear, over d = d0 + e.D_i + g.D_j: Pi = p/2 d^2, Eq. (51)   ->
+ * Eq. (58)-(59), (58a-f), (63), (64):
+ *     K_ii += p e e^T,  K_ij += p e g^T,  K_jj += p g g^T,  F_i -= p d0 e,  F_j -= p d0 g,
+ * and the same with h of a third element k, which the paper does not have. */
+void bbm_spring_submatrices(double p, const bbm_spring *v, bbm_submatrices *s)
 {
     for (int a = 0; a < 6; a++) {
         for (int b = 0; b < 6; b++) {
@@ -89,17 +92,13 @@ static void add_spring(double p, const bbm_spring *v, bbm_submatrices *s)
         s->Fi[a] -= p * v->d * v->e[a];
         s->Fj[a] -= p * v->d * v->g[a];
     }
-}
-
-/* Pi_n = p_n/2 d_n^2, Eq. (51)   ->   Eq. (58)-(59), (58a-f). Deviation: d_n counts from `rest`,
- * which is 0 in the paper; see bbm_contact. */
-void bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s)
-{
-    bbm_spring n;
-
-    bbm_normal_vectors(c, &n);
-    n.d -= c->rest;
-    add_spring(p_n, &n, s);
+    for (int a = 0; a < 36; a++) {
+        s->Kki[a / 6][a % 6] += p * v->h[a / 6] * v->e[a % 6];
+        s->Kkj[a / 6][a % 6] += p * v->h[a / 6] * v->g[a % 6];
+        s->Kkk[a / 6][a % 6] += p * v->h[a / 6] * v->h[a % 6];
+    }
+    for (int a = 0; a < 6; a++)
+        s->Fk[a] -= p * v->d * v->h[a];
 }
 
 /* ---------------------------------------------------------------------- 3.7.2 Shear submatrices */
@@ -127,30 +126,20 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
         s->e[a] = T1[0][a] * mx + T1[1][a] * my;
         s->g[a] = -T0[0][a] * mx - T0[1][a] * my
                 + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
+        s->h[a] = 0;
     }
-}
-
-/* Pi_s = p_s/2 d_s^2, Eq. (51)   ->   Eq. (63), (64). */
-void bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s, bbm_submatrices *s)
-{
-    bbm_spring v;
-
-    bbm_shear_vectors(c, anchor, &v);
-    add_spring(p_s, &v, s);
 }
 
 /* --------------------------------------------------------------------- 3.8 Friction submatrices */
 
 /* The friction force Fr of Eq. (65), positive when P1 slips towards P3, is a load on both sides:
- * F_i -= Fr e, F_j -= Fr g, Eq. (66)-(69). */
-void bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr, bbm_submatrices *s)
+ * F_i -= Fr e, F_j -= Fr g, Eq. (66)-(69), with e and g of the shear spring. */
+void bbm_friction_submatrices(const bbm_spring *v, double Fr, bbm_submatrices *s)
 {
-    bbm_spring v;
-
-    bbm_shear_vectors(c, anchor, &v);
     for (int a = 0; a < 6; a++) {
-        s->Fi[a] -= Fr * v.e[a];
-        s->Fj[a] -= Fr * v.g[a];
+        s->Fi[a] -= Fr * v->e[a];
+        s->Fj[a] -= Fr * v->g[a];
+        s->Fk[a] -= Fr * v->h[a];
     }
 }
 
@@ -252,58 +241,88 @@ static int is_strengthless(const bbm_contact *c, double N)
  * adds. While the N are still changing one may be negative. Its friction is, too: each N then
  * depends linearly on the last. A strong joint may stay in tension, so it has its strength instead.
  */
-static void add_friction(bbm_model *m, bbm_contact *c, const bbm_touch *t, bbm_submatrices *s)
+static void add_friction(bbm_model *m, bbm_contact *c, const bbm_spring v[2], bbm_submatrices *s)
 {
     const double N = c->N_of_friction, strength = bbm_shear_strength(&c->strength, N);
     const double friction = c->sign * (is_strong(c) ? strength : N * c->strength.tan_phi);
 
     c->friction_in_K = m->hook->friction && !is_strengthless(c, N)
-                    && m->hook->friction(m, c, t, s);
+                    && m->hook->friction(m, c, v, s);
     if (!c->friction_in_K)
-        bbm_friction_submatrices(t, c->anchor, friction, s);
+        bbm_friction_submatrices(&v[1], friction, s);
+}
+
+/* The vectors of the step of a contact, for d_n and for d_s from an anchor. All are linear in P1:
+ * those of a corner halfway between the vertices of two elements are the means for both alone. */
+void bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2])
+{
+    const bbm_vertex *Q1 = bbm_partner_of(m, c->corner);
+    bbm_touch t = bbm_touch_of(m, c);
+    bbm_spring other[2];
+
+    bbm_normal_vectors(&t, &v[0]);
+    bbm_shear_vectors(&t, anchor, &v[1]);
+    if (Q1 == t.P1)
+        return;
+    t.i = &m->element[Q1->element];
+    t.P1 = Q1;
+    bbm_normal_vectors(&t, &other[0]);
+    bbm_shear_vectors(&t, anchor, &other[1]);
+    for (int k = 0; k < 2; k++) {
+        v[k].d = (v[k].d + other[k].d) / 2;
+        for (int a = 0; a < 6; a++) {
+            v[k].e[a] /= 2;
+            v[k].g[a] = (v[k].g[a] + other[k].g[a]) / 2;
+            v[k].h[a] = other[k].e[a] / 2;
+        }
+    }
 }
 
 /* Adds the closed contacts to K and F. LOCK: the normal and the shear spring, Eq. (58) and (63).
- * SLIDE: the normal spring and friction, Eq. (65), (69). */
+ * SLIDE: the normal spring and friction, Eq. (65), (69). Deviation: d_n counts from `rest`, which
+ * is 0 in the paper; see bbm_contact. */
 void bbm_assemble_contacts(bbm_model *m)
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
-        const bbm_touch t = bbm_touch_of(m, c);
-        bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+        const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
+        const int partner = bbm_partner_of(m, c->corner)->element;
+        bbm_submatrices s = { .Fi = { 0 } };
+        bbm_spring v[2];
         if (c->state == BBM_OPEN)
             continue;
-        bbm_normal_submatrices(&t, m->par.p_n, &s);
+        bbm_contact_vectors(m, c, c->anchor, v);
+        v[0].d -= c->rest;
+        bbm_spring_submatrices(m->par.p_n, &v[0], &s);
         if (c->state == BBM_LOCK)
-            bbm_shear_submatrices(&t, c->anchor, c->time_left * m->par.p_s, &s);
+            bbm_spring_submatrices(c->time_left * m->par.p_s, &v[1], &s);
         else
-            add_friction(m, c, &t, &s);
-        bbm_add_submatrices(m, bbm_element_of(m, c->corner), bbm_element_of(m, c->edge), &s);
+            add_friction(m, c, v, &s);
+        bbm_add_submatrices(m, i, j, &s);
+        if (partner == i)
+            continue;
+        bbm_matrix_add(m->K, partner, i, s.Kki);
+        bbm_matrix_add(m->K, partner, j, s.Kkj);
+        bbm_matrix_add(m->K, partner, partner, s.Kkk);
+        for (int a = 0; a < 6; a++)
+            m->F[6 * partner + a] += s.Fk[a];
     }
 }
 
 /* ------------------------------------------------------------- the open-close iteration: forces */
 
-/* The vectors of the step of a contact, for d_n and for d_s from an anchor. */
-void bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2])
-{
-    const bbm_touch t = bbm_touch_of(m, c);
-
-    bbm_normal_vectors(&t, &v[0]);
-    bbm_shear_vectors(&t, anchor, &v[1]);
-}
-
-/* d_n and d_s, from an anchor, by these: d = d0 + e.D_i + g.D_j, Eq. (57), (61). */
+/* d_n and d_s, from an anchor, by the vectors of the step: d = d0 + e.D_i + g.D_j, Eq. (57), (61). */
 static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
+    const double *Dk = &m->D[6 * bbm_partner_of(m, c->corner)->element];
     bbm_spring v[2];
 
     bbm_contact_vectors(m, c, anchor, v);
     for (int k = 0; k < 2; k++) {
         d[k] = v[k].d;
         for (int a = 0; a < 6; a++)
-            d[k] += v[k].e[a] * Di[a] + v[k].g[a] * Dj[a];
+            d[k] += v[k].e[a] * Di[a] + v[k].g[a] * Dj[a] + v[k].h[a] * Dk[a];
     }
 }
 

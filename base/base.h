@@ -22,8 +22,12 @@ struct bbm_bond {               /* an internal edge: two bonding springs        
     int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j      */
 };
 
-/* What two elements add to K and F; K_ji = K_ij^T. */
-typedef struct { double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6]; } bbm_submatrices;
+/* What two elements add to K and F; K_ji = K_ij^T. k: of a contact whose corner two elements share,
+ * the other one; in the paper there is none. */
+typedef struct {
+    double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6];
+    double Kki[6][6], Kkj[6][6], Kkk[6][6], Fk[6];
+} bbm_submatrices;
 
 typedef struct {                /* of a hook: the force in a gap besides that of its spring     */
     double f[2];                /* N        in the paper 0                                      */
@@ -117,10 +121,10 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
 typedef struct {                /* what the formulas of 3.7 take                                */
     const bbm_element *i, *j;
     const bbm_vertex *P1, *P2, *P3;
-    double rest;                /* m        see bbm_contact; 0: the paper                       */
 } bbm_touch;
 
-typedef struct { double d, e[6], g[6]; } bbm_spring;            /* length d + e.D_i + g.D_j     */
+typedef struct { double d, e[6], g[6], h[6]; } bbm_spring;      /* length d + e.D_i + g.D_j;    */
+                                                                /* of a shared corner + h.D_k   */
 
 /* The most passes that change states or renew the vectors of the step, and detections in one part.
  * */
@@ -182,7 +186,8 @@ struct bbm_hooks {
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
-    int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_touch *t, bbm_submatrices *s);
+    int (*shares)(const bbm_model *m, int corner);          /* two elements share it            */
+    int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_spring v[2], bbm_submatrices *s);
                                                             /* 1: added for the N of the solution */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
@@ -223,12 +228,20 @@ static inline const double *bbm_D_of(const bbm_model *m, int edge)
     return &m->D[6 * m->edge[edge].element];
 }
 
+/* The vertex at a corner of the element k that shares it; in the paper there is none, and it is the
+ * corner's own. */
+static inline const bbm_vertex *bbm_partner_of(const bbm_model *m, int corner)
+{
+    return m->hook->shares && m->hook->shares(m, corner) ? bbm_end_of(m, m->edge[corner].before)
+                                                         : bbm_start_of(m, corner);
+}
+
 /* The elements and points of a contact. */
 static inline bbm_touch bbm_touch_of(const bbm_model *m, const bbm_contact *c)
 {
     return (bbm_touch){ &m->element[bbm_element_of(m, c->corner)],
                         &m->element[bbm_element_of(m, c->edge)], bbm_start_of(m, c->corner),
-                        bbm_end_of(m, c->edge), bbm_start_of(m, c->edge), c->rest };
+                        bbm_end_of(m, c->edge), bbm_start_of(m, c->edge) };
 }
 
 /* Displacement of the point (x, y) by D: u = T D, or a hook's. */
@@ -280,12 +293,11 @@ void       bbm_keep_contacts(bbm_model *m);                     /* the step's be
 
 /* contact.c: 3.7 and 3.8 */
 void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               /* (52)-(57)    */
-void       bbm_normal_submatrices(const bbm_touch *c, double p_n, bbm_submatrices *s);  /* (58) */
 void       bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (60)-(62)    */
-void       bbm_shear_submatrices(const bbm_touch *c, double anchor, double p_s,
-                                 bbm_submatrices *s);                           /* (63), (64)   */
-void       bbm_friction_submatrices(const bbm_touch *c, double anchor, double Fr,
-                                    bbm_submatrices *s);                        /* (65)-(69)    */
+void       bbm_spring_submatrices(double p, const bbm_spring *v, bbm_submatrices *s);   /* (58), */
+                                                                                /* (63), (64)   */
+void       bbm_friction_submatrices(const bbm_spring *v, double Fr, bbm_submatrices *s);
+                                                                                /* (65)-(69)    */
 double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
@@ -323,8 +335,8 @@ bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, 
 
 /* What is not symmetric in K: K += u v^T. */
 typedef struct {
-    int    row[2];              /* places of two block rows, all others of u and v are 0        */
-    double u[2][6], v[2][6];
+    int    row[3];              /* places of block rows, all others of u and v are 0            */
+    double u[3][6], v[3][6];
 } bbm_term;
 
 struct bbm_matrix {

@@ -304,15 +304,17 @@ double bbm_allowed_depth(const bbm_model *m, int c, int e)
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
 
-typedef struct {                /* of P1 on an edge, m                                          */
+typedef struct {                /* of P1 on an edge, m; a shared corner is halfway              */
     double d, s, beyond;        /* distance; way along the edge from P3; how far beyond an end  */
 } projection;
 
 static projection project(const bbm_model *m, int corner, int e)
 {
-    const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, e);
+    const bbm_vertex *P = bbm_start_of(m, corner), *Q = bbm_partner_of(m, corner);
+    const bbm_vertex *a = bbm_start_of(m, e);
     const bbm_direction t = m->edge[e].along;
-    const double x = P->x - a->x, y = P->y - a->y, s = x * t.x + y * t.y;
+    const double x = (P->x + Q->x) / 2 - a->x, y = (P->y + Q->y) / 2 - a->y;
+    const double s = x * t.x + y * t.y;
 
     return (projection){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
 }
@@ -624,20 +626,23 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const bbm_touch t = bbm_touch_of(m, c);
-    const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3;
+    const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3, *Q1 = bbm_partner_of(m, c->corner);
     const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
+    const double x1 = (P1->x + Q1->x) / 2, y1 = (P1->y + Q1->y) / 2;
     const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
     const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    double u1[2], u2[2], u3[2], u0[2];
+    double u1[2], v1[2], u2[2], u3[2], u0[2];
 
     bbm_move(m, t.i, Di, P1->x, P1->y, u1);
+    bbm_move(m, &m->element[Q1->element], &m->D[6 * Q1->element], Q1->x, Q1->y, v1);
     bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
     bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
     bbm_move(m, t.j, Dj, x0, y0, u0);
     const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
-    const double px = P1->x - P2->x + u1[0] - u2[0], py = P1->y - P2->y + u1[1] - u2[1];
+    const double ux = (u1[0] + v1[0]) / 2, uy = (u1[1] + v1[1]) / 2;
+    const double px = x1 - P2->x + ux - u2[0], py = y1 - P2->y + uy - u2[1];
     d[0] = (x * py - y * px) / l;
-    d[1] = ((P1->x - x0 + u1[0] - u0[0]) * x + (P1->y - y0 + u1[1] - u0[1]) * y) / l;
+    d[1] = ((x1 - x0 + ux - u0[0]) * x + (y1 - y0 + uy - u0[1]) * y) / l;
 }
 
 /* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as

@@ -148,14 +148,15 @@ bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
 bbm_status bbm_lay_out_matrix(bbm_model *m)
 {
     const int contacts = m->scratch ? m->scratch->contacts : 0;
-    int (*link)[2] = calloc((size_t)(contacts + m->gaps) + 1, sizeof *link), n = 0;
+    int (*link)[2] = calloc((size_t)(2 * contacts + m->gaps) + 1, sizeof *link), n = 0;
     bbm_matrix *K;
 
     if (!link)
         return BBM_NO_MEMORY;
-    for (; n < contacts; n++) {
-        link[n][0] = bbm_element_of(m, m->scratch->contact[n].corner);
-        link[n][1] = bbm_element_of(m, m->scratch->contact[n].edge);
+    for (; n < 2 * contacts; n++) {
+        const bbm_contact *c = &m->scratch->contact[n / 2];
+        link[n][0] = n % 2 ? bbm_element_of(m, c->corner) : bbm_partner_of(m, c->corner)->element;
+        link[n][1] = bbm_element_of(m, c->edge);
     }
     for (int g = 0; g < m->gaps; g++) {
         link[n][0] = m->gap[g].i;

@@ -136,6 +136,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .listed = listed,
         .find_pairs = bbm_find_near_pairs,
         .strength = bbm_joint_strength,
+        .shares = bbm_shares_corner,
         .friction = bbm_put_friction_in_K,
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,

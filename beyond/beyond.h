@@ -129,6 +129,7 @@ void       bbm_condense(int n, int rows, double W[n][n]);
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
 void       bbm_list_edge_gaps(bbm_model *m);
+int        bbm_shares_corner(const bbm_model *m, int corner);
 
 /* multipliers.c */
 void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
@@ -138,7 +139,7 @@ void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */
 bbm_status bbm_lay_out_sliding(bbm_model *m);
-int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
+int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v[2],
                                  bbm_submatrices *s);
 
 /* sweep.c */

@@ -42,12 +42,13 @@
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
 {
     const double *Vi = of[bbm_element_of(m, c->corner)].V, *Vj = of[bbm_element_of(m, c->edge)].V;
+    const double *Vk = of[bbm_partner_of(m, c->corner)->element].V;
     double velocity = 0;
     bbm_spring v[2];
 
     bbm_contact_vectors(m, c, c->anchor, v);
     for (int a = 0; a < 6; a++)
-        velocity += v[0].e[a] * Vi[a] + v[0].g[a] * Vj[a];
+        velocity += v[0].e[a] * Vi[a] + v[0].g[a] * Vj[a] + v[0].h[a] * Vk[a];
     return velocity;
 }
 
@@ -92,6 +93,7 @@ static void take_back(bbm_model *m)
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
         const int i = 6 * bbm_element_of(m, c->corner), j = 6 * bbm_element_of(m, c->edge);
+        const int partner = 6 * bbm_partner_of(m, c->corner)->element;
         const double T = c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N)
                        : c->T;
         bbm_spring v[2];
@@ -99,6 +101,7 @@ static void take_back(bbm_model *m)
         for (int a = 0; a < 6 && isfinite(m->scratch->contact[k].rest); a++) {
             m->load[i + a] += T * v[1].e[a] - c->N * v[0].e[a];
             m->load[j + a] += T * v[1].g[a] - c->N * v[0].g[a];
+            m->load[partner + a] += T * v[1].h[a] - c->N * v[0].h[a];
         }
     }
 }

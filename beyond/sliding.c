@@ -49,15 +49,16 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
     int count = 0;
 
     for (const bbm_term *t = K->term; t < K->term + K->terms; t++) {
-        const int i = 6 * t->row[0], j = 6 * t->row[1];
+        const int i = 6 * t->row[0], j = 6 * t->row[1], k = 6 * t->row[2];
         double vx = 0;
         if (t->row[0] < K->from || t->row[0] >= K->to)
             continue;
         for (int a = 0; a < 6; a++)
-            vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a];
+            vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a] + t->v[2][a] * x[k + a];
         for (int a = 0; a < 6; a++) {
             y[i + a] += t->u[0][a] * vx;
             y[j + a] += t->u[1][a] * vx;
+            y[k + a] += t->u[2][a] * vx;
         }
         count++;
     }
@@ -175,27 +176,27 @@ static bbm_status solve(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     return status;
 }
 
-/* Adds the friction of a sliding contact for the N of the solution; 0: there is none. */
-int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_touch *t,
+/* Adds the friction of a sliding contact for the N of the solution; 0: there is none. The length of
+ * v[0], its normal spring, counts from `rest`. */
+int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v[2],
                           bbm_submatrices *f)
 {
     const double p = -c->sign * c->strength.tan_phi * m->par.p_n;
     bbm_term *k = &m->K->term[m->K->terms];
-    bbm_spring n, s;
 
     if (p == 0)
         return 0;
-    bbm_normal_vectors(t, &n);
-    bbm_shear_vectors(t, c->anchor, &s);
-    bbm_friction_submatrices(t, c->anchor, p * (n.d - t->rest)
-                             + c->sign * c->strength.shear, f);
-    k->row[0] = m->K->place[m->edge[c->corner].element];
-    k->row[1] = m->K->place[m->edge[c->edge].element];
+    bbm_friction_submatrices(&v[1], p * v[0].d + c->sign * c->strength.shear, f);
+    k->row[0] = m->K->place[bbm_element_of(m, c->corner)];
+    k->row[1] = m->K->place[bbm_element_of(m, c->edge)];
+    k->row[2] = m->K->place[bbm_partner_of(m, c->corner)->element];
     for (int a = 0; a < 6; a++) {
-        k->u[0][a] = p * s.e[a];
-        k->u[1][a] = p * s.g[a];
-        k->v[0][a] = n.e[a];
-        k->v[1][a] = n.g[a];
+        k->u[0][a] = p * v[1].e[a];
+        k->u[1][a] = p * v[1].g[a];
+        k->u[2][a] = p * v[1].h[a];
+        k->v[0][a] = v[0].e[a];
+        k->v[1][a] = v[0].g[a];
+        k->v[2][a] = v[0].h[a];
     }
     m->K->terms++;
     return 1;

@@ -190,7 +190,7 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
     bbm_model *m = make_twins(ratio);
     bbm_element unit = m->element[0];
     double W[2][2][2];
-    bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+    bbm_submatrices s = { .Fi = { 0 } };
     bbm_gap end[2];
     double own[2][2][2], K[6][6];
 

@@ -449,6 +449,121 @@ START_TEST(closed_contacts_hold_the_energy_of_their_springs)
 }
 END_TEST
 
+/* A block of two quadrilaterals lies on a table with its two corners and the node between them. Both
+ * carry half of what they weigh, whichever of them that corner belongs to. */
+START_TEST(a_contact_between_two_quadrilaterals_presses_both_alike)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.faces = 1;
+    m->par.dt = _i ? INFINITY : m->par.dt;
+    add_table(m, 0);
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .w = 2, .h = 1, .nx = 2 });
+    settle(m, _i ? 5 : 100);
+    ck_assert_int_eq(m->info.contacts, 3);
+    for (int k = 0; k < 2; k++) {
+        ck_relative(m->element[e + k].stress[1], -DENSITY * GRAVITY / 2, 1e-4);
+        ck_relative(vertex_of(m, e, 0)->v, vertex_of(m, e + 1, 1)->v, 1e-6);
+    }
+}
+END_TEST
+
+/* Where D moves the vertices at a node of a vertex to, in the mean; `way` times. */
+static void moved_node(const bbm_model *m, const double *D, double way, const bbm_vertex *of, double p[2])
+{
+    const int first = m->adjacent_first[of->node], n = m->adjacent_first[of->node + 1] - first;
+
+    p[0] = p[1] = 0;
+    for (int k = first; k < first + n; k++) {
+        const bbm_vertex *v = &m->vertex[m->adjacent[k]];
+        const bbm_element *e = &m->element[v->element];
+        const double X = v->x - e->x, Y = v->y - e->y, *d = D + 6 * v->element;
+        p[0] += (v->x + way * (d[0] - d[2] * Y + d[3] * X + d[5] * Y / 2)) / n;
+        p[1] += (v->y + way * (d[1] + d[2] * X + d[4] * Y + d[5] * X / 2)) / n;
+    }
+}
+
+/* The energy of a locked contact's springs 3 and 2 with the linear distances of (57), (61). */
+static double touch_energy(const bbm_model *m, const bbm_contact *c, const double *D)
+{
+    double p[3][3][2], S[3];
+
+    for (int w = 0; w < 3; w++) {
+        moved_node(m, D, w - 1, corner_vertex(m, c), p[w][0]);
+        moved_node(m, D, w - 1, end_of(m, c->edge), p[w][1]);
+        moved_node(m, D, w - 1, start_of(m, c->edge), p[w][2]);
+        S[w] = (p[w][1][0] - p[w][0][0]) * (p[w][2][1] - p[w][0][1])
+             - (p[w][2][0] - p[w][0][0]) * (p[w][1][1] - p[w][0][1]);
+    }
+    const double x = p[1][2][0] - p[1][1][0], y = p[1][2][1] - p[1][1][1], l = hypot(x, y), r = c->anchor;
+    const double d_n = (S[1] + (S[2] - S[0]) / 2) / l - c->rest;
+    const double u = p[2][0][0] - (1 - r) * p[2][2][0] - r * p[2][1][0];
+    const double v = p[2][0][1] - (1 - r) * p[2][2][1] - r * p[2][1][1];
+    return 3 * d_n * d_n / 2 + 2 * pow((u * x + v * y) / l, 2) / 2;
+}
+
+static double touches_energy(const bbm_model *m, const double *D)
+{
+    double sum = 0;
+
+    for (int k = 0; k < m->scratch->contacts; k++)
+        sum += touch_energy(m, &m->scratch->contact[k], D);
+    return sum;
+}
+
+/* The same block, its bond torn apart: P1 of the contact in the middle is halfway between. */
+START_TEST(the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy)
+{
+    bbm_model *m = weightless_blocks();
+    double D[18] = { 0 }, column[18] = { 0 }, unit[18] = { 0 };
+    unsigned seed = 3;
+    int n;
+
+    m->par.faces = 1;
+    set_springs(m, 3, 2);
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .w = 2, .h = 1, .nx = 2 });
+    start_step(m, &n);
+    ck_assert_int_eq(n, 3);
+    ck_ok(bbm_lay_out_matrix(m), m);
+    for (bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++) {
+        v->x += random_number(&seed) / 10;
+        v->y += random_number(&seed) / 10;
+    }
+    for (int i = 0; i < 3; i++)
+        bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
+    for (bbm_contact *c = m->scratch->contact; c < m->scratch->contact + 3; c++) {
+        c->state = BBM_LOCK;
+        c->rest = -0.1;
+    }
+    bbm_matrix_clear(m->K);
+    memset(m->F, 0, sizeof D);
+    bbm_assemble_contacts(m);
+    m->K->from = 0, m->K->to = 3;
+    for (int b = 0; b < 18; b++) {
+        const double F = m->F[b];
+        unit[6 * m->K->place[b / 6] + b % 6] = 1;
+        bbm_multiply(m->K, unit, column);
+        unit[6 * m->K->place[b / 6] + b % 6] = 0;
+        for (int a = 0; a < 18; a++) {
+            double sum = 0;
+            for (int k = 0; k < 4; k++) {
+                D[a] += k / 2 ? -1 : 1;
+                D[b] += k % 2 ? -1 : 1;
+                sum += (k == 0 || k == 3 ? 1 : -1) * touches_energy(m, D) / 4;
+                D[a] = D[b] = 0;
+            }
+            ck_near(column[6 * m->K->place[a / 6] + a % 6], sum, 100, 1e-12);
+        }
+        D[b] = 1;
+        const double up = touches_energy(m, D);
+        D[b] = -1;
+        ck_near(F, (touches_energy(m, D) - up) / 2, 100, 1e-12);
+        D[b] = 0;
+    }
+}
+END_TEST
+
 Suite *beyond_suite(void)
 {
     Suite *s = suite_create("beyond");
@@ -464,7 +579,9 @@ Suite *beyond_suite(void)
         { distorted_quadrilaterals_pass_the_patch_test_however_they_are_bonded, 3 },
         { the_edge_submatrices_are_derivatives_of_the_edge_energy, 1 },
         { the_moment_of_a_rectangle_is_that_of_a_beam, 1 },
-        { a_turning_body_feels_no_moment_in_its_bonds, 2 });
+        { a_turning_body_feels_no_moment_in_its_bonds, 2 },
+        { a_contact_between_two_quadrilaterals_presses_both_alike, 2 },
+        { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 1 });
     add_case(s, "energies",
         { the_work_of_the_loads_is_twice_the_energy_of_elements_and_springs, 8 },
         { fixed_points_away_from_their_walls_hold_the_energy_of_their_springs, 1 },

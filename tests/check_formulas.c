@@ -117,7 +117,7 @@ typedef struct {                /* what the energies depend on */
     bbm_node wall;
     double f[7][2];             /* coefficients of a load */
     bbm_touch touch;            /* P1 of i, P2 and P3 of j */
-    double anchor;
+    double anchor, rest;
 } source;
 
 typedef struct { const source *s; const double *D; } moved;
@@ -502,7 +502,7 @@ static double fixed_energy(const double D[], const source *s)
 /* (37) is (27), (28) without a second element. */
 static void add_fixed_point(const body *b, int P, const bbm_node *W, double k, bbm_submatrix *s)
 {
-    bbm_submatrices both = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+    bbm_submatrices both = { .Fi = { 0 } };
     bbm_gap gap = { .i = 0, .j = -1 };
     bbm_vertex at = b->v[P];
 
@@ -698,7 +698,7 @@ static source make_encounter(body *i, body *j, int which)
     make_body(j, &SHAPES[which % 2], -1.5, 0.25, &seed);
     return (source){            /* P3 comes before P2 */
         .i = i, .j = j, .k = 3, .anchor = 0.375,
-        .touch = { &i->e, &j->e, &i->v[which % 3], &j->v[1], &j->v[0], 0.125 },
+        .touch = { &i->e, &j->e, &i->v[which % 3], &j->v[1], &j->v[0] }, .rest = 0.125,
     };
 }
 
@@ -752,7 +752,7 @@ static double slip(const source *s, const double D[UNKNOWNS])
 
 static double normal_energy(const double D[], const source *s)
 {
-    return s->k / 2 * pow(normal_distance(s, D) - s->touch.rest, 2);
+    return s->k / 2 * pow(normal_distance(s, D) - s->rest, 2);
 }
 
 static double shear_energy(const double D[], const source *s)
@@ -762,22 +762,27 @@ static double shear_energy(const double D[], const source *s)
 
 START_TEST(the_normal_submatrices_are_derivatives_of_the_normal_springs_energy)
 {
+    bbm_spring n;
     body i, j;
     const source s = make_encounter(&i, &j, _i);
     bbm_submatrices sub = pair_of_ones();
 
-    bbm_normal_submatrices(&s.touch, s.k, &sub);
+    bbm_normal_vectors(&s.touch, &n);
+    n.d -= s.rest;
+    bbm_spring_submatrices(s.k, &n, &sub);
     check_submatrices(normal_energy, &s, &sub);
 }
 END_TEST
 
 START_TEST(the_shear_submatrices_are_derivatives_of_the_shear_springs_energy)
 {
+    bbm_spring v;
     body i, j;
     const source s = make_encounter(&i, &j, _i);
     bbm_submatrices sub = pair_of_ones();
 
-    bbm_shear_submatrices(&s.touch, s.anchor, s.k, &sub);
+    bbm_shear_vectors(&s.touch, s.anchor, &v);
+    bbm_spring_submatrices(s.k, &v, &sub);
     check_submatrices(shear_energy, &s, &sub);
 }
 END_TEST
@@ -799,7 +804,7 @@ static bbm_touch place_on_plate(body *i, body *j, double x, double y)
 
     make_polygon(i, 3, wedge);
     make_polygon(j, 4, plate);
-    return (bbm_touch){ &i->e, &j->e, &i->v[0], &j->v[1], &j->v[0], 0 };
+    return (bbm_touch){ &i->e, &j->e, &i->v[0], &j->v[1], &j->v[0] };
 }
 
 START_TEST(the_normal_distance_is_negative_inside_and_the_slip_positive_towards_P3)
@@ -972,11 +977,13 @@ static double friction_energy(const double D[], const source *s)
 
 START_TEST(the_friction_submatrices_are_derivatives_of_the_work_against_friction)
 {
+    bbm_spring v;
     body i, j;
     const source s = make_encounter(&i, &j, _i);
     bbm_submatrices sub = pair_of_ones();
 
-    bbm_friction_submatrices(&s.touch, s.anchor, s.k, &sub);
+    bbm_shear_vectors(&s.touch, s.anchor, &v);
+    bbm_friction_submatrices(&v, s.k, &sub);
     check_submatrices(friction_energy, &s, &sub);
 }
 END_TEST
@@ -985,11 +992,13 @@ END_TEST
  * right. */
 START_TEST(friction_opposes_the_slip_on_both_sides)
 {
-    bbm_submatrices s = { { { 0 } }, { { 0 } }, { { 0 } }, { 0 }, { 0 } };
+    bbm_submatrices s = { .Fi = { 0 } };
+    bbm_spring v;
     body i, j;
     const bbm_touch touch = place_on_plate(&i, &j, 0.5, 0);
 
-    bbm_friction_submatrices(&touch, 0.5, 2, &s);
+    bbm_shear_vectors(&touch, 0.5, &v);
+    bbm_friction_submatrices(&v, 2, &s);
     ck_near(s.Fi[0], -2, 1, ROUNDING);
     ck_near(s.Fj[0], 2, 1, ROUNDING);
     ck_near(s.Fi[1], 0, 1, ROUNDING);

@@ -82,6 +82,46 @@ START_TEST(blocks_that_hit_keep_their_momentum)
 }
 END_TEST
 
+/* Momentum, and angular momentum about the origin. */
+static void momentum_of(const bbm_model *m, double P[3])
+{
+    P[0] = P[1] = P[2] = 0;
+    for (int i = 0; i < m->elements; i++) {
+        bbm_element e = m->element[i];
+        double TT[6][6], p[3] = { 0 };
+        bbm_element_geometry(&e, &m->vertex[e.first]);
+        bbm_mode_integral(&e, TT);
+        for (int a = 0; a < 18; a++)
+            p[a / 6] += bbm_mass_per_area(&e) * TT[a / 6][a % 6] * e.V[a % 6];
+        P[0] += p[0];
+        P[1] += p[1];
+        P[2] += p[2] + e.x * p[1] - e.y * p[0];
+    }
+}
+
+/* A block of two quadrilaterals comes down on a free one, and the node between them hits, too. The
+ * direction of a contact's force in a step is right to what is 1e-5 of the angular momentum. */
+START_TEST(a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum)
+{
+    bbm_model *m = hard_blocks(_i / 2.0, 0);
+    double before[3], after[3];
+
+    m->par.gravity[1] = 0;
+    m->par.faces = 1;
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -3, .y = -1, .w = 5, .h = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.7, .y = 0.01, .w = 2, .h = 1, .nx = 2 });
+    set_velocity(m, e, 1, -5);
+    set_velocity(m, e + 1, 1, -5);
+    momentum_of(m, before);
+    run_steps(m, 30);
+    momentum_of(m, after);
+    ck_assert(m->beyond->hit[0] > 0);
+    for (int a = 0; a < 3; a++)
+        ck_near(after[a], before[a], 5 * 5000, a == 2 ? 1e-5 : 1e-9);
+    ck_assert(m->beyond->gain < 1e-9);
+}
+END_TEST
+
 /* A step of full length never settles. */
 static bbm_pass refuse_long(bbm_model *m, bbm_pass next)
 {
@@ -150,6 +190,7 @@ Suite *impact_suite(void)
         { a_block_rebounds_at_the_velocity_asked_for_whatever_the_step, 27 },
         { a_rocking_block_loses_what_housner_says, 3 },
         { blocks_that_hit_keep_their_momentum, 3 },
+        { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 3 },
         { what_a_support_moves_evenly_moves_evenly, 2 },
         { a_support_that_swings_pulls_with_mass_times_acceleration, 1 });
     return s;

@@ -204,7 +204,7 @@ START_TEST(with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_ex
     for (int seed = 0; seed < 20; seed++) {
         const bbm_vertex *P1 = &m->vertex[a->first], *P2 = &m->vertex[b->first + 1], *P3 = &m->vertex[b->first];
         const double anchor = 0.3, l = hypot(P3->x - P2->x, P3->y - P2->y);
-        const bbm_touch c = { a, b, P1, P2, P3, 0 };
+        const bbm_touch c = { a, b, P1, P2, P3 };
         bbm_spring n, s;
         double p1[2], p2[2], p3[2], p0[2], d[2];
         some_motion(seed, m->D);

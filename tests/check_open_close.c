@@ -293,7 +293,7 @@ START_TEST(a_base_needs_no_multipliers_in_dynamics)
     m->par.velocity_factor = _i == 3 ? 0 : m->par.velocity_factor;
     m->par.dt = _i == 1 ? INFINITY : m->par.dt;
     m->beyond->multiplier_rounds = 2;
-    run_steps(m, 20);
+    run_steps(m, 30);
     ck_assert_int_eq(m->info.passes, _i ? 3 : 1);
 }
 END_TEST
