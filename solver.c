@@ -370,11 +370,10 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
         return status;
     info->residual = 0;
     for (int c = 0; c < K->components; c++) {
-        bbm_pcg_info one = { .element = -1 };
+        bbm_pcg_info one = { 0 };
         K->from = K->start[c];
         K->to = K->start[c + 1];
         const bbm_status s = solve_component(K, F, D, K->forces[c], pcg, &one);
-        info->element = status ? info->element : one.element;
         status = status ? status : s;
         info->iterations = one.iterations > info->iterations ? one.iterations : info->iterations;
         info->residual = one.residual <= info->residual ? info->residual : one.residual;

@@ -304,11 +304,10 @@ static bbm_status place_line_loads(bbm_model *m)
     for (int l = 0; l < m->line_loads; l++) {
         bbm_line_load *load = &m->line_load[l];
         int found = 0;
-        for (int e = 0; e < m->edges && !found; e++) {
-            const int a = m->edge[e].a, b = m->edge[e].b;
-            const int back = m->vertex[b].node == load->node[0];
-            load->a = back ? b : a;
-            load->b = back ? a : b;
+        for (int k = 0; k < 2 * m->edges && !found; k++) {
+            const bbm_edge *e = &m->edge[k / 2];
+            load->a = k % 2 ? e->b : e->a;
+            load->b = k % 2 ? e->a : e->b;
             found = m->vertex[load->a].node == load->node[0]
                  && m->vertex[load->b].node == load->node[1];
         }

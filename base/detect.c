@@ -769,7 +769,6 @@ void bbm_keep_contacts(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
     bbm_contact *last = m->contact;
-    const int last_contacts = m->contacts;
 
     find_directions(m);
     for (int i = 0; i < m->elements; i++)
@@ -785,6 +784,6 @@ void bbm_keep_contacts(bbm_model *m)
     m->contact = w->contact;
     m->contacts = w->contacts;
     w->contact = last;
-    w->contacts = last_contacts;
+    w->contacts = 0;
     w->is_listed = 0;
 }

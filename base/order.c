@@ -34,9 +34,6 @@ int bbm_compare_pairs(const void *a, const void *b)
 /* Sorts both ends of all links by the row and then by the neighbour, and drops what comes twice. */
 static bbm_status graph_new(graph *g, int n, int links, int (*link)[2])
 {
-    for (int k = 0; k < 2 * links; k++)
-        if (link[k / 2][k % 2] < 0 || link[k / 2][k % 2] >= n)
-            return BBM_BAD_INDEX;
     g->n = n;
     g->first = calloc(2 * (size_t)n + 1, sizeof *g->first);
     g->end = calloc(2 * (size_t)links + 1, sizeof *g->end);
@@ -46,6 +43,8 @@ static bbm_status graph_new(graph *g, int n, int links, int (*link)[2])
     for (int k = 0; k < 2 * links; k++) {
         g->end[k][0] = link[k / 2][k % 2];
         g->end[k][1] = link[k / 2][1 - k % 2];
+        if (g->end[k][0] < 0 || g->end[k][0] >= n)
+            return BBM_BAD_INDEX;
     }
     qsort(g->end, 2 * (size_t)links, sizeof *g->end, bbm_compare_pairs);
     int count = 0;

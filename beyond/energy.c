@@ -38,43 +38,40 @@ double bbm_inertia_form(const bbm_element *e, const double V[6])
     return bbm_mass_per_area(e) * sum;
 }
 
-/* Kinetic energy of the present geometry, with the velocity before its factor. */
-static double kinetic_energy(const bbm_model *m, const bbm_element *e)
+/* The energies of element i of the present geometry, at the start (0) or the end of a step (1).
+ * Kinetic: with the velocity before its factor. Elastic: 1/2 t A0 s.E^-1 s with Hooke's law (7) and
+ * s the stress, where steps are exact on the starting area:
+ * s.E^-1 s = (sx^2 + sy^2 - 2 nu sx sy + 2 (1 + nu) sxy^2)/E. */
+static bbm_energy energy_of(const bbm_model *m, int i, int when)
 {
     const double factor = m->info.step > 0 || m->info.t > 0 ? m->par.velocity_factor : 1;
+    const bbm_element *e = &m->element[i];
+    const bbm_material *of = &e->material;
+    const double *s = e->stress;
     bbm_element now = *e;
     double V[6];
 
     bbm_element_geometry(&now, &m->vertex[e->first]);
     for (int a = 0; a < 6; a++)
         V[a] = factor > 0 ? e->V[a] / factor : 2 / m->h * e->D[a];
-    return bbm_inertia_form(&now, V) / 2;
-}
-
-/* 1/2 t A0 s.E^-1 s with Hooke's law (7) and s the stress, where steps are exact on the starting
- * area: s.E^-1 s = (sx^2 + sy^2 - 2 nu sx sy + 2 (1 + nu) sxy^2)/E. */
-static double elastic_energy(const bbm_model *m, const bbm_element *e)
-{
-    const bbm_material *of = &e->material;
-    const double *s = e->stress;
-    bbm_element now = *e;
-
-    bbm_element_geometry(&now, &m->vertex[e->first]);
     const double share = e->middle ? now.A / e->A0 : 1;
-    return of->thickness * e->A0 * share * share / (2 * of->E)
+    const double elastic = of->thickness * e->A0 * share * share / (2 * of->E)
          * (s[0] * s[0] + s[1] * s[1] - 2 * of->nu * s[0] * s[1] + 2 * (1 + of->nu) * s[2] * s[2]);
+    return (bbm_energy){ bbm_inertia_form(&now, V) / 2, elastic,
+                         m->beyond->account[i].springs[when] };
 }
+
+static double sum_of(bbm_energy e) { return e.kinetic + e.elastic + e.springs; }
 
 /* The energies after the last step; none before bbm_prepare. */
 void bbm_energies(const bbm_model *m, bbm_energy *energy)
 {
     *energy = (bbm_energy){ 0, 0, 0 };
-    if (!m->K)
-        return;
-    for (int i = 0; i < m->elements; i++) {
-        energy->kinetic += kinetic_energy(m, &m->element[i]);
-        energy->elastic += elastic_energy(m, &m->element[i]);
-        energy->springs += m->beyond->account[i].springs[0];
+    for (int i = 0; i < m->elements && m->K; i++) {
+        const bbm_energy e = energy_of(m, i, 0);
+        energy->kinetic += e.kinetic;
+        energy->elastic += e.elastic;
+        energy->springs += e.springs;
     }
 }
 
@@ -134,14 +131,11 @@ static void add_work(bbm_account *a, double work)
 /* Adds an element, its loads and its springs to the account of its component. */
 static void add_element(const bbm_model *m, const bbm_model *end, int i, bbm_account *a)
 {
-    const bbm_element *e = &m->element[i], *f = &end->element[i];
-    const double *F = &m->F[6 * i], *load = &m->load[6 * i];
-    const bbm_account *own = &m->beyond->account[i];
-    const double before = kinetic_energy(m, e) + elastic_energy(m, e) + own->springs[0];
+    const double *F = &m->F[6 * i], *load = &m->load[6 * i], before = sum_of(energy_of(m, i, 0));
+    const double lever = hypot(m->element[i].x, m->element[i].y);
 
-    a->gain += kinetic_energy(end, f) + elastic_energy(end, f) + own->springs[1] - before;
-    a->there += before
-              + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * hypot(e->x, e->y);
+    a->gain += sum_of(energy_of(end, i, 1)) - before;
+    a->there += before + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
     for (int n = 0; n < 6; n++)
         add_work(a, load[n] * m->D[6 * i + n]);
 }

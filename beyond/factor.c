@@ -41,10 +41,11 @@ static bbm_status add_part(bbm_factor *f, search *s, int j)
     return bbm_append(NULL, (void **)&f->part, &s->parts, sizeof column, &column, NULL);
 }
 
-/* The parts of row i. */
+/* The parts of row i: its columns in the order of the walk, sorted, then those side by side as one
+ * part. */
 static bbm_status find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
 {
-    int n = s->parts, last = i;
+    int n = s->parts;
     bbm_status status = add_part(f, s, i);
 
     f->first[i] = n;
@@ -53,11 +54,7 @@ static bbm_status find_parts(bbm_factor *f, search *s, int i, int (*entry)[2])
         for (int j = entry[k][0] + entry[k][1] - i; s->seen[j] != i && !status; j = s->parent[j]) {
             s->parent[j] = s->parent[j] < 0 ? i : s->parent[j];
             s->seen[j] = i;
-            if (j == last + 1)
-                f->part[s->parts - 1].to++;
-            else
-                status = add_part(f, s, j);
-            last = j;
+            status = add_part(f, s, j);
         }
     if (status)
         return status;

@@ -20,11 +20,9 @@
 /* The end of an edge, or of its whole straight side: the corner that starts it, or ends it. */
 static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
 {
-    if (!ends)
-        return whole ? m->edge[edge].side : edge;
-    edge = m->edge[edge].after;
+    edge = ends ? m->edge[edge].after : edge;
     while (whole && m->edge[edge].side != edge)
-        edge = m->edge[edge].after;
+        edge = ends ? m->edge[edge].after : m->edge[edge].before;
     return edge;
 }
 

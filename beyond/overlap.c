@@ -214,10 +214,11 @@ static double depth_in_block(const bbm_model *m, point P, int edge, double allow
     return all.winding > 0 && sqrt(all.distance2) > allowed ? sqrt(all.distance2) : 0;
 }
 
-/* How deep the deepest of n contacts between blocks i and j is that is closed or has opened inside;
- * -1: there is none. */
-static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int i, int j)
+/* How deep the deepest of n contacts between the blocks of two edges is that is closed or has
+ * opened inside; -1: there is none. */
+static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int e, int f)
 {
+    const int i = m->edge[e].block, j = m->edge[f].block;
     double depth = -1;
 
     for (; n > 0; n--, c++) {
@@ -263,46 +264,50 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
  * Else 0, and where it is on its way out. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    const int own = m->edge[corner].block, other = m->edge[edge].block;
     int nearest = edge;
     const double depth = depth_behind(m, corner, edge, &nearest);
 
     return depth == 0 || moves_out(m, corner, nearest)
-        || depth_between(m, m->contact, m->contacts, own, other) >= 0 ? 0 : depth;
+        || depth_between(m, m->contact, m->contacts, corner, edge) >= 0 ? 0 : depth;
+}
+
+/* Refuses a step before which, or a solution by which, a corner has passed the edge; end: the model
+ * in which it lies, at the start or at the end of the step. */
+static bbm_status refuse(bbm_model *m, const bbm_model *end, int corner, int edge, double depth)
+{
+    const bbm_vertex *P = bbm_start_of(end, corner);
+    const int before = end == m;
+
+    return bbm_fail(m, before ? BBM_BLOCKS_OVERLAP : BBM_STEP_TOO_LONG, "step %d: a corner of "
+                    "block %d %s into block %d at (%g, %g), %.2g m deep; a smaller dt%s",
+                    m->info.step + 1, m->edge[corner].block, before ? "passed" : "passes",
+                    m->edge[edge].block, P->x + m->origin[0], P->y + m->origin[1], depth,
+                    before ? ", or stiffer contacts and materials help" : " helps");
+}
+
+/* Refuses a step at whose start a corner has passed an edge that the sweep has met. */
+bbm_status bbm_check_passed(bbm_model *m)
+{
+    const int corner = m->beyond->passed[0], edge = m->beyond->passed[1];
+
+    return corner < 0 ? BBM_OK
+         : refuse(m, m, corner, edge, bbm_depth_passed(m, corner, edge));
 }
 
 /* Refuses a solution that lets a corner pass: its contact is not closed, nor was it, and it ends
  * deeper in the block of the edge than the contacts of the two blocks. */
 bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
 {
-    const bbm_contact *c = m->scratch->contact;
+    const bbm_contact *list = m->scratch->contact;
     const int n = m->scratch->contacts;
 
-    for (int k = 0; k < n; k++) {
-        const int own = m->edge[c[k].corner].block, other = m->edge[c[k].edge].block;
-        const bbm_vertex *P = bbm_start_of(end, c[k].corner);
-        int nearest = c[k].edge;
-        if (c[k].state != BBM_OPEN || c[k].d_n >= 0 || c[k].was_closed || c[k].inside)
+    for (const bbm_contact *c = list; c < list + n; c++) {
+        int nearest = c->edge;
+        if (c->state != BBM_OPEN || c->d_n >= 0 || c->was_closed || c->inside)
             continue;
-        const double depth = depth_behind(end, c[k].corner, c[k].edge, &nearest);
-        if (depth > DEEPER * fmax(0, depth_between(m, c, n, own, other)))
-            return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: a corner of block %d passes into block "
-                            "%d at (%g, %g), %.2g m deep; a smaller dt helps", m->info.step + 1,
-                            own, other, P->x + m->origin[0], P->y + m->origin[1], depth);
+        const double depth = depth_behind(end, c->corner, c->edge, &nearest);
+        if (depth > DEEPER * fmax(0, depth_between(m, list, n, c->corner, c->edge)))
+            return refuse(m, end, c->corner, c->edge, depth);
     }
     return BBM_OK;
-}
-
-/* Refuses a step that starts so. */
-bbm_status bbm_check_passed(bbm_model *m)
-{
-    const int corner = m->beyond->passed[0], edge = m->beyond->passed[1];
-
-    if (corner < 0)
-        return BBM_OK;
-    const bbm_vertex *P = &m->vertex[m->edge[corner].a];
-    return bbm_fail(m, BBM_BLOCKS_OVERLAP, "step %d: a corner of block %d passed into block %d at "
-                    "(%g, %g), %.2g m deep; a smaller dt, or stiffer contacts and materials help",
-                    m->info.step + 1, m->edge[corner].block, m->edge[edge].block,
-                    P->x + m->origin[0], P->y + m->origin[1], bbm_depth_passed(m, corner, edge));
 }

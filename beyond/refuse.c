@@ -93,10 +93,9 @@ bbm_status bbm_check_solution(bbm_model *m)
         for (int a = 2; a < 6; a++)
             if (!(fabs(m->D[6 * i + a]) < (a == 2 ? turn : most)))
                 far = i;
-    if (far < 0 && pcg->residual <= UNSOLVED)
-        return BBM_OK;
     if (far < 0)
-        return bbm_fail(m, BBM_NOT_CONVERGED, "step %d, residual %.2g: the stiffnesses of "
+        return pcg->residual <= UNSOLVED ? BBM_OK
+             : bbm_fail(m, BBM_NOT_CONVERGED, "step %d, residual %.2g: the stiffnesses of "
                         "materials, bonds and contacts are too far apart", m->info.step + 1,
                         pcg->residual);
     const double *D = &m->D[6 * far], strain = fmax(fmax(fabs(D[3]), fabs(D[4])), fabs(D[5]));
