@@ -88,17 +88,14 @@ void bbm_spring_submatrices(double p, const bbm_spring *v, bbm_submatrices *s)
             s->Kii[a][b] += p * v->e[a] * v->e[b];
             s->Kij[a][b] += p * v->e[a] * v->g[b];
             s->Kjj[a][b] += p * v->g[a] * v->g[b];
+            s->Kki[a][b] += p * v->h[a] * v->e[b];
+            s->Kkj[a][b] += p * v->h[a] * v->g[b];
+            s->Kkk[a][b] += p * v->h[a] * v->h[b];
         }
         s->Fi[a] -= p * v->d * v->e[a];
         s->Fj[a] -= p * v->d * v->g[a];
-    }
-    for (int a = 0; a < 36; a++) {
-        s->Kki[a / 6][a % 6] += p * v->h[a / 6] * v->e[a % 6];
-        s->Kkj[a / 6][a % 6] += p * v->h[a / 6] * v->g[a % 6];
-        s->Kkk[a / 6][a % 6] += p * v->h[a / 6] * v->h[a % 6];
-    }
-    for (int a = 0; a < 6; a++)
         s->Fk[a] -= p * v->d * v->h[a];
+    }
 }
 
 /* ---------------------------------------------------------------------- 3.7.2 Shear submatrices */

@@ -335,8 +335,9 @@ bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, 
 
 /* What is not symmetric in K: K += u v^T. */
 typedef struct {
-    int    row[3];              /* places of block rows, all others of u and v are 0            */
-    double u[3][6], v[3][6];
+    int    row[3];              /* places of the rows of i, j and k                             */
+    double p;                   /* u = p (e, g, h) of the shear spring                          */
+    bbm_spring s, n;            /* v = (e, g, h) of the normal one                              */
 } bbm_term;
 
 struct bbm_matrix {

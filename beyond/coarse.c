@@ -145,29 +145,21 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *
     }
 }
 
-static bbm_status allocate(const bbm_matrix *K, size_t corners, coarse_space *c)
+static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
+                          const long long *place, coarse_space *c)
 {
-    const size_t n = (size_t)c->n, rows = (size_t)K->n + 1;
+    const size_t corners = (size_t)first[K->n], rows = (size_t)K->n + 1;
 
+    c->n = nodes;
     c->start = calloc(2 * rows + corners, sizeof *c->start);
     c->P = calloc(corners, sizeof *c->P + sizeof *c->at);
-    c->x = calloc(2 * n + 6 * rows, sizeof *c->x);
+    c->x = calloc(2 * (size_t)nodes + 6 * rows, sizeof *c->x);
     if (!c->start || !c->P || !c->x)
         return BBM_NO_MEMORY;
     c->at = (double (*)[2])(c->P + corners);
     c->first = c->start + rows;
     c->node = c->first + rows;
-    c->z = c->x + 2 * n;
-    return BBM_OK;
-}
-
-static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
-                          const long long *place, coarse_space *c)
-{
-    c->n = nodes;
-    bbm_status status = allocate(K, (size_t)first[K->n], c);
-    if (status)
-        return status;
+    c->z = c->x + 2 * nodes;
     for (int i = 0; i < K->n; i++) {
         const int *from = first + K->caller[i];
         c->first[i + 1] = c->first[i] + from[1] - from[0];
@@ -176,7 +168,7 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
     const int entries = list_entries(K, c, NULL);
     int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
     long long (*key)[KEYS] = calloc((size_t)nodes, sizeof *key);
-    status = BBM_NO_MEMORY;
+    bbm_status status = BBM_NO_MEMORY;
     if (entry && key) {
         list_entries(K, c, entry);
         number_nodes(K, c, place, entries, entry, key, entry[entries]);
@@ -327,17 +319,6 @@ static void make_coarse(bbm_matrix *K)
     bbm_factor_make(&c->Kc);
 }
 
-/* x = P^T z for the rows in hand. */
-static void restrict_to_nodes(const bbm_matrix *K, const coarse_space *c)
-{
-    const int from = c->start[K->from], to = c->start[K->to];
-
-    memset(c->x + 2 * from, 0, 2 * (size_t)(to - from) * sizeof *c->x);
-    for (int i = K->from; i < K->to; i++)
-        for (int a = c->first[i]; a < c->first[i + 1]; a++)
-            add_to_node(&c->P[a], &c->z[6 * i], &c->x[2 * c->node[a]]);
-}
-
 /* z = P x for the rows in hand. */
 static void interpolate(const bbm_matrix *K, const coarse_space *c)
 {
@@ -361,11 +342,15 @@ static void interpolate(const bbm_matrix *K, const coarse_space *c)
 static void correct(const bbm_matrix *K, const double *y, double *f)
 {
     const coarse_space *c = K->extra;
+    const int from = c->start[K->from], to = c->start[K->to];
 
     memset(c->z + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *c->z);
+    memset(c->x + 2 * from, 0, 2 * (size_t)(to - from) * sizeof *c->x);
     bbm_add_upper(K, y, c->z);
-    restrict_to_nodes(K, c);
-    bbm_substitute(&c->Kc, c->start[K->from], c->start[K->to], c->x);
+    for (int i = K->from; i < K->to; i++)
+        for (int a = c->first[i]; a < c->first[i + 1]; a++)
+            add_to_node(&c->P[a], &c->z[6 * i], &c->x[2 * c->node[a]]);
+    bbm_substitute(&c->Kc, from, to, c->x);
     interpolate(K, c);
     bbm_add_lower(K, c->z, f);
 }

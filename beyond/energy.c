@@ -75,19 +75,9 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
     }
 }
 
-/* What the springs of a contact hold; friction holds what its shear spring would, see
- * bbm_store_contacts. */
-static double contact_energy(const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_parameters *p = &m->par;
-    const double T = c->state == BBM_SLIDE ? bbm_shear_strength(&c->strength, c->N) : c->T;
-
-    return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * p->p_n) + T * T / (2 * p->p_s);
-}
-
 /* Notes at each element the energy of its springs, at the start (0) or the end of a step (1): of
  * bonds and fixed points as they are listed, and of contacts. A spring counts at one of its
- * elements. */
+ * elements; friction holds what its shear spring would, see bbm_store_contacts. */
 void bbm_note_springs(bbm_model *m, int when)
 {
     const bbm_contact *c = m->scratch->contact;
@@ -101,8 +91,11 @@ void bbm_note_springs(bbm_model *m, int when)
             a[g->i].springs[when] += g->d0[r] / 2
                     * (g->own.f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]);
     }
-    for (int k = 0; k < m->scratch->contacts; k++)
-        a[bbm_element_of(m, c[k].corner)].springs[when] += contact_energy(m, &c[k]);
+    for (; c < m->scratch->contact + m->scratch->contacts; c++) {
+        const double T = c->state == BBM_SLIDE ? bbm_shear_strength(&c->strength, c->N) : c->T;
+        a[bbm_element_of(m, c->corner)].springs[when] += c->state == BBM_OPEN ? 0
+            : c->N * c->N / (2 * m->par.p_n) + T * T / (2 * m->par.p_s);
+    }
 }
 
 /* The model at the end of the step, before it moves: a second one, which shares all with the first

@@ -54,11 +54,11 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
         if (t->row[0] < K->from || t->row[0] >= K->to)
             continue;
         for (int a = 0; a < 6; a++)
-            vx += t->v[0][a] * x[i + a] + t->v[1][a] * x[j + a] + t->v[2][a] * x[k + a];
+            vx += t->n.e[a] * x[i + a] + t->n.g[a] * x[j + a] + t->n.h[a] * x[k + a];
         for (int a = 0; a < 6; a++) {
-            y[i + a] += t->u[0][a] * vx;
-            y[j + a] += t->u[1][a] * vx;
-            y[k + a] += t->u[2][a] * vx;
+            y[i + a] += t->p * t->s.e[a] * vx;
+            y[j + a] += t->p * t->s.g[a] * vx;
+            y[k + a] += t->p * t->s.h[a] * vx;
         }
         count++;
     }
@@ -182,23 +182,15 @@ int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v
                           bbm_submatrices *f)
 {
     const double p = -c->sign * c->strength.tan_phi * m->par.p_n;
-    bbm_term *k = &m->K->term[m->K->terms];
+    const int *place = m->K->place;
 
     if (p == 0)
         return 0;
     bbm_friction_submatrices(&v[1], p * v[0].d + c->sign * c->strength.shear, f);
-    k->row[0] = m->K->place[bbm_element_of(m, c->corner)];
-    k->row[1] = m->K->place[bbm_element_of(m, c->edge)];
-    k->row[2] = m->K->place[bbm_partner_of(m, c->corner)->element];
-    for (int a = 0; a < 6; a++) {
-        k->u[0][a] = p * v[1].e[a];
-        k->u[1][a] = p * v[1].g[a];
-        k->u[2][a] = p * v[1].h[a];
-        k->v[0][a] = v[0].e[a];
-        k->v[1][a] = v[0].g[a];
-        k->v[2][a] = v[0].h[a];
-    }
-    m->K->terms++;
+    m->K->term[m->K->terms++] = (bbm_term){
+        { place[bbm_element_of(m, c->corner)], place[bbm_element_of(m, c->edge)],
+          place[bbm_partner_of(m, c->corner)->element] }, p, v[1], v[0]
+    };
     return 1;
 }
 

@@ -302,17 +302,6 @@ static size_t copy_state(const bbm_model *m, char *to, int back)
     return bytes;
 }
 
-/* Makes the model what it was, but for its message; `list`, its contacts, is the model's again. */
-static void restore(bbm_model *m, const bbm_model *from, char *was, bbm_contact *list)
-{
-    copy_state(m, was, 1);
-    free(m->scratch->contact);
-    m->scratch->contact = list;
-    m->scratch->contacts = from->contacts;
-    bbm_keep_contacts(m);
-    m->info = from->info;
-}
-
 /* A static step that failed where blocks touch is tried in steps from rest. What fails leaves the
  * model as it was. */
 static bbm_status settle(bbm_model *m)
@@ -338,7 +327,12 @@ static bbm_status settle(bbm_model *m)
         if (!status)
             m->message[0] = '\0';
         else {
-            restore(m, &from, was, list);
+            copy_state(m, was, 1);              /* what it was, but for its message */
+            free(m->scratch->contact);
+            m->scratch->contact = list;
+            m->scratch->contacts = from.contacts;
+            bbm_keep_contacts(m);
+            m->info = from.info;
             list = NULL;
         }
     }
