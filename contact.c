@@ -58,7 +58,7 @@ enum { FRICTION_PASSES = 100 };
  * and the terms of second order are dropped: d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * In e and g a hook has T and the points p1, p2, p3 of another moment of the step; h is a hook's. */
+ * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. h is its own. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
@@ -88,14 +88,17 @@ void bbm_spring_submatrices(double p, const bbm_spring *v, bbm_submatrices *s)
             s->Kii[a][b] += p * v->e[a] * v->e[b];
             s->Kij[a][b] += p * v->e[a] * v->g[b];
             s->Kjj[a][b] += p * v->g[a] * v->g[b];
-            s->Kki[a][b] += p * v->h[a] * v->e[b];
-            s->Kkj[a][b] += p * v->h[a] * v->g[b];
-            s->Kkk[a][b] += p * v->h[a] * v->h[b];
         }
         s->Fi[a] -= p * v->d * v->e[a];
         s->Fj[a] -= p * v->d * v->g[a];
-        s->Fk[a] -= p * v->d * v->h[a];
     }
+    for (int a = 0; a < 36; a++) {
+        s->Kki[a / 6][a % 6] += p * v->h[a / 6] * v->e[a % 6];
+        s->Kkj[a / 6][a % 6] += p * v->h[a / 6] * v->g[a % 6];
+        s->Kkk[a / 6][a % 6] += p * v->h[a / 6] * v->h[a % 6];
+    }
+    for (int a = 0; a < 6; a++)
+        s->Fk[a] -= p * v->d * v->h[a];
 }
 
 /* ---------------------------------------------------------------------- 3.7.2 Shear submatrices */
@@ -308,7 +311,7 @@ void bbm_assemble_contacts(bbm_model *m)
 
 /* ------------------------------------------------------------- the open-close iteration: forces */
 
-/* d_n and d_s, from an anchor, by the vectors of the step: d = d0 + e.D_i + g.D_j, Eq. (57), (61). */
+/* d_n and d_s, from an anchor, by these vectors: d = d0 + e.D_i + g.D_j, Eq. (57), (61). */
 static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);

@@ -517,16 +517,6 @@ static void drop_duplicates(bbm_model *m)
     w->pairs = kept;
 }
 
-/* The index of another line on which P and an end Q of its edge can enter each other, if both are
- * convex corners and the line is in the list; else -1. In a notch Q both edges hold P at once. */
-static int find_entrance(const bbm_model *m, pair p, int end, meeting kind)
-{
-    const pair other = meet(m, p, end, kind);
-    const int Q = end ? m->edge[p.edge].after : p.edge;
-
-    return is_convex(m, Q) && !coincide(m, p.edge, other.edge) ? find_pair(m, other) : -1;
-}
-
 /* ----------------------------------------------- detection: what carries over from step to step */
 
 /* The closed contact of the last step that lives on in p: the same; one of the same corner with
@@ -562,7 +552,9 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A projection beyond the end
- * of the edge is off it, but not in a notch, where it lies inside the block. */
+ * of the edge is off it, but not in a notch, where it lies inside the block. An entrance is another
+ * line of the list on which P and an end Q of its edge can enter each other, if both are convex
+ * corners. In a notch Q both edges hold P at once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
@@ -583,8 +575,12 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->was_closed = c->state != BBM_OPEN;
     c->beyond_end = f.beyond > touch
                  && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
-    for (int k = 0; k < 4; k++)
-        c->entrance[k] = find_entrance(m, p, k / 2, k % 2 ? FLUSH : NEXT);
+    for (int k = 0; k < 4; k++) {
+        const pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
+        const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
+        c->entrance[k] = is_convex(m, Q) && !coincide(m, p.edge, other.edge) ? find_pair(m, other)
+                                                                             : -1;
+    }
     c->has_left = has_left(m, c);
 }
 

@@ -191,23 +191,18 @@ static void turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
     }
 }
 
-/* Whether a bond is one of the whole edge of two quadrilaterals; every other one is the paper's. */
-static int has_moment(const bbm_model *m, int i, int j)
-{
-    return m->beyond->bonding == BBM_MOMENT && m->element[i].n == 4 && m->element[j].n == 4;
-}
-
-/* Whether two elements, which such a bond joins, share a corner of their block. It does not hold
+/* Whether two elements, which a bond with a moment joins, share a corner of their block. It does not hold
  * their vertices there together. So the corner is halfway between them, and what acts on it acts on
  * both: on one alone, it would go round through the middle of the bond and strain both. */
 int bbm_shares_corner(const bbm_model *m, int corner)
 {
     const int P = m->edge[corner].a, Q = m->edge[m->edge[corner].before].b;
 
-    return m->vertex[Q].edge == -1 - P
-        && has_moment(m, m->vertex[P].element, m->vertex[Q].element);
+    return m->vertex[Q].edge == -1 - P && m->beyond->bonding == BBM_MOMENT
+        && m->element[m->vertex[P].element].n == 4 && m->element[m->vertex[Q].element].n == 4;
 }
 
+/* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. */
 static void list_bond(bbm_model *m, const bbm_bond *b)
 {
     const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
@@ -215,7 +210,7 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
     bbm_gap end[2];
     double M[2][2];
 
-    if (!has_moment(m, b->i, b->j)) {
+    if (m->beyond->bonding == BBM_VERTICES || i->n != 4 || j->n != 4) {
         bbm_list_bond(m, b);
         return;
     }

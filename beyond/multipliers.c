@@ -60,24 +60,17 @@ void bbm_start_multipliers(bbm_model *m)
     recall_states(m, 0);
 }
 
-/* Whether there is a bond, or a fixed point of an element that is not held at all its vertices. One
- * that is, a base, needs no multipliers: its springs are as stiff as the contacts on it. */
-static int needs_multipliers(const bbm_model *m)
+/* The contacts have settled: f += W d, in F, too, as often as was asked for. Returns which solution
+ * follows. In dynamics it takes a bond, or a fixed point of an element that is not held at all its
+ * vertices: one that is, a base, has springs as stiff as the contacts on it. */
+bbm_pass bbm_take_over(bbm_model *m)
 {
     int needed = bbm_is_static(m);
+    double d[2];
 
     for (int g = 0; g < m->gaps && !needed; g++)
         needed = m->gap[g].j >= 0 || !bbm_is_held_all_round(m, &m->element[m->gap[g].i]);
-    return needed;
-}
-
-/* The contacts have settled: f += W d, in F, too, as often as was asked for. Returns which solution
- * follows. */
-bbm_pass bbm_take_over(bbm_model *m)
-{
-    double d[2];
-
-    if (m->scratch->round >= m->beyond->multiplier_rounds || !needs_multipliers(m))
+    if (m->scratch->round >= m->beyond->multiplier_rounds || !needed)
         return BBM_PASS_DONE;
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
