@@ -33,8 +33,8 @@ static int read_row(model_reader *r, char *line, model_place at)
         return 1;
     if (*end || n < 2 || n > 3 || !isfinite(x[0] + x[1] + x[2])
         || (p->shakings && x[0] <= p->shaking[p->shakings - 1].t))
-        return model_fail(r, at, "expected two or three numbers, TIME AX [AY], each time later than "
-                          "the one before; decimals need a point");
+        return model_fail(r, at, "expected two or three numbers, TIME AX [AY], each time later "
+                          "than the one before; decimals need a point");
     return model_add(r, &p->shaking, &p->shakings, sizeof *p->shaking,
                      &(model_shaking){ x[0], { x[1], x[2] } });
 }

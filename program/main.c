@@ -347,7 +347,7 @@ static int check(model *p, const arguments *a)
     write_results w = { .p = p, .source = a->model, .folder = a->folder };
     int touching = 0;
 
-    m->h = INFINITY;                                    /* contacts that touch are closed in statics */
+    m->h = INFINITY;                            /* contacts that touch are closed in statics */
     bbm_foresee_step(m);
     const bbm_status status = bbm_detect_contacts(m, &(int){ 0 });
     for (int k = 0; k < m->scratch->contacts && !status; k++)

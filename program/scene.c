@@ -1119,7 +1119,8 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
         const int i = m->vertex[v].node, gone = field_is_gone(m, v);
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
-        f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0), times[0] * field_place(m, v, 1) }
+        f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0),
+                                   times[0] * field_place(m, v, 1) }
                  : (point){ times[0] * m->node[i].x + times[1] * r.u,
                             times[0] * m->node[i].y + times[1] * r.v };
         f->value[v] = gone ? NAN : has_colours(shown->name) ? field_of_node(shown, m, i)
