@@ -58,7 +58,8 @@ enum { FRICTION_PASSES = 100 };
  * and the terms of second order are dropped: d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. h is its own. */
+ * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. For h see
+ * bbm_contact_vectors. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
@@ -252,8 +253,9 @@ static void add_friction(bbm_model *m, bbm_contact *c, const bbm_spring v[2], bb
         bbm_friction_submatrices(&v[1], friction, s);
 }
 
-/* The vectors of the step of a contact, for d_n and for d_s from an anchor. All are linear in P1:
- * those of a corner halfway between the vertices of two elements are the means for both alone. */
+/* The vectors of a contact for d_n, and for d_s from an anchor. Beyond the paper, a corner may lie
+ * halfway between the vertices of two elements, see the hook `shares`. Its vectors are the means of
+ * those for one vertex and for the other. */
 void bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2])
 {
     const bbm_vertex *Q1 = bbm_partner_of(m, c->corner);

@@ -191,10 +191,10 @@ static void turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
     }
 }
 
-/* Whether two elements, which a bond with a moment joins, share a corner of their block. It does
- * not hold their vertices there together. So the corner is halfway between them, and what acts on
- * it acts on both: on one alone, it would go round through the middle of the bond and strain both.
- */
+/* Whether two elements, which a bond with a moment joins, share a corner of their block. The bond
+ * does not hold their vertices there together. The corner is halfway between the two vertices, and
+ * half of a force on it acts on each. If all of it acted on one element, the bond would carry half
+ * of it to the other at its middle, and that would strain both. */
 int bbm_shares_corner(const bbm_model *m, int corner)
 {
     const int P = m->edge[corner].a, Q = m->edge[m->edge[corner].before].b;

@@ -338,12 +338,11 @@ static void put_outline(film *f, int frame, const body *b)
             e = edge[e].after;
         if (first < 0 || edge[e].after < first)
             continue;
-        e = first;
-        do {
+        do {                                            /* e is the last one */
+            e = edge[e].after;
             const point a = at(f, frame, edge[e].a);
             plot_point(&f->p, e == first ? "M" : " ", a.x, a.y);
-            e = edge[e].after;
-        } while (e != first);
+        } while (edge[e].after != first);
         plot_put(&f->p, "z");
     }
 }
@@ -458,7 +457,8 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
 }
 
 /* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points; of
- * water, what presses there. To be measured (visit NULL), at both ends. */
+ * water, what presses there, or if displacements are magnified, at the height of the first frame. To
+ * be measured (visit NULL), at both ends. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
@@ -466,6 +466,7 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
     const int wet = l->weight > 0, varies = l->loads > 1 && !wet;
     const int n = varies ? l->loads : visit ? (int)fmax(1, length * f->scale / 16) : 2;
+    const point *still = f->s->frame[f->s->scale > 0 ? 0 : frame].at;
 
     for (int i = 0; i < n; i++) {
         const double *q = wet ? (double [2]){ 0, 0 } : l->q[varies ? i : 0];
@@ -476,7 +477,8 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
         if (visit && hypot(x.x - last->x, x.y - last->y) * f->scale < 10)
             continue;
         *last = x;
-        const double p = l->pressure + l->weight * fmax(0, l->level - x.y);
+        const double y = (1 - s) * still[l->a].y + s * still[l->b].y;
+        const double p = l->pressure + l->weight * fmax(0, l->level - y);
         visit_force(f, LINE_LOAD, x, (point){ q[0] - p * side.x, q[1] - p * side.y }, side, visit);
     }
 }
@@ -822,7 +824,6 @@ static int find_colours(film *f)
 {
     const field *shown = field_find(f->s->field);
     const plot_quantity q = { .name = shown->label, .unit = shown->unit };
-    const double *limits = f->s->limits;
     double *x = calloc((size_t)f->s->frames * (size_t)f->m->vertices, sizeof *x);
     int n = 0;
 
@@ -839,7 +840,7 @@ static int find_colours(film *f)
     f->range[1] = x[n - 1];
     const int out = n / (has_colours(f->s->field) ? OUTSIDE : LARGER);
     const double most[2] = { x[out], x[n - 1 - out] };
-    f->bar = plot_bar_axis(&q, limits[0] < limits[1] ? limits : most);
+    f->bar = plot_bar_axis(&q, f->s->limits[0] < f->s->limits[1] ? f->s->limits : most);
     f->most[TENSION] = f->bar.hi / f->bar.scale;
     free(x);
     return 1;

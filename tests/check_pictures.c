@@ -722,9 +722,10 @@ END_TEST
 START_TEST(water_is_drawn_as_it_presses)
 {
     ck_assert_int_eq(run_printed("wet", "material r E 1e9 nu 0.2 density 2500\nblock b r 0 %d 1 %d 1 %d 0 %d\n"
-                                 "fix box 0 0 1 9\ngravity 0 -9.81\nwater box 0 0 0 9 %d\nstatic\noutput svg\n",
-                                 _i, _i, _i + 3, _i + 3, _i + 2), 0);
+                                 "fix box 0 %d 1 %d\ngravity 0 -9.81\nwater box 0 0 0 9 %d\nstatic\noutput svg\n",
+                                 _i, _i, _i + 3, _i + 3, _i + 3, _i + 3, _i + 2), 0);
     check_text("out/model/wet/contacts.svg", ">load 19.6 kN/m<");
+    check_text("out/model/wet/mises.svg", ">load 19.6 kN/m<");
 }
 END_TEST
 
