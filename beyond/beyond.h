@@ -86,6 +86,7 @@ extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, double x, double y);
+bbm_status bbm_matrix_slopes(bbm_matrix *K, int i, double Q[4][4]);
 
 /* factor.c */
 typedef struct { int from, to; size_t at; } bbm_part;  /* columns, in pairs; its first entry in A */
@@ -103,6 +104,7 @@ void       bbm_factor_make(const bbm_factor *f);
 void       bbm_substitute(const bbm_factor *f, int from, int to, double *x);
 
 /* interpolation.c */
+void       bbm_slopes(const double D[6], double Q[4][4]);
 bbm_linear bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a);
 int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);
 bbm_status bbm_lay_out_coarse(bbm_model *m);

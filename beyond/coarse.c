@@ -9,7 +9,8 @@
  * coarse grid, where corners tied together by bonds are one node, and correct between the two
  * sweeps of SSOR in the whole space of its displacements at once. P takes the displacements of the
  * nodes to the unknowns of the elements, six rows and two columns for each corner; Kc = P^T K P is
- * the stiffness on the coarse grid, with all fixed points, contacts and inertia in it. With w = 1,
+ * the stiffness on the coarse grid, with all fixed points, contacts and inertia in it. Where T is
+ * taken in the middle of a step that turns, so is P (bbm_slopes). With w = 1,
  *
  *     (D + L) y = r                    sweep forward; it leaves the residual r - K y = -L^T y
  *     z = y - P Kc^-1 P^T L^T y        its correction
@@ -62,6 +63,7 @@ typedef struct {
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
     bbm_linear *P;              /* as node                                                      */
     double (*at)[2];            /* as node: from the row's centroid                             */
+    double (*Q)[4][4];          /* [rows]   unknowns 2 to 5 of the slopes ux, uy, vx, vy        */
     bbm_factor Kc;              /* then its factor                                              */
     double *x;                  /* [2 n]     a vector                                           */
     double *z;                  /* [6 rows]  a vector                                           */
@@ -153,8 +155,9 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
     c->n = nodes;
     c->start = calloc(2 * rows + corners, sizeof *c->start);
     c->P = calloc(corners, sizeof *c->P + sizeof *c->at);
+    c->Q = calloc(rows, sizeof *c->Q);
     c->x = calloc(2 * (size_t)nodes + 6 * rows, sizeof *c->x);
-    if (!c->start || !c->P || !c->x)
+    if (!c->start || !c->P || !c->Q || !c->x)
         return BBM_NO_MEMORY;
     c->at = (double (*)[2])(c->P + corners);
     c->first = c->start + rows;
@@ -164,6 +167,7 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
         const int *from = first + K->caller[i];
         c->first[i + 1] = c->first[i] + from[1] - from[0];
         memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
+        bbm_slopes((double [6]){ 0 }, c->Q[i]);
     }
     const int entries = list_entries(K, c, NULL);
     int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
@@ -187,6 +191,7 @@ static void coarse_free(void *extra)
         return;
     free(c->start);
     free(c->P);
+    free(c->Q);
     free(c->x);
     bbm_factor_free(&c->Kc);
     free(c);
@@ -218,9 +223,7 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
 }
 
 /* The displacement (u, v) of the k-th node of block row i alone displaces the row by f (u, v), f
- * linear in x and y: with ux = u f_x and so on, u0 = u f, v0 = v f, r0 = (vx - uy)/2, ex = ux,
- * ey = vy, gxy = uy + vx are its unknowns, P (u, v). (x, y) [m]: where the node lies. Both are
- * taken from the element's centroid. */
+ * linear in x and y. (x, y) [m]: where the node lies. Both are taken from the element's centroid. */
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, double x, double y)
 {
     const coarse_space *c = K->extra;
@@ -234,13 +237,52 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, dou
     return BBM_OK;
 }
 
+/* The unknowns r0, ex, ey, gxy of block row i are Q times the slopes ux, uy, vx, vy of a linear
+ * displacement; u0 and v0 are its values at the element's centroid. Until then Q is that of (2). */
+bbm_status bbm_matrix_slopes(bbm_matrix *K, int i, double Q[4][4])
+{
+    const coarse_space *c = K->extra;
+
+    if (!c || i < 0 || i >= K->n)
+        return BBM_BAD_INDEX;
+    memcpy(c->Q[K->place[i]], Q, sizeof *c->Q);
+    K->ready = 0;
+    return BBM_OK;
+}
+
 /* ---------------------------------------------------------------------------- Kc and its factor */
 
-/* x += P^T z, one node and one row. */
-static void add_to_node(const bbm_linear *P, const double z[6], double x[2])
+/* x += the share of one node in y, the forces on values and slopes of one row. */
+static void add_to_node(const bbm_linear *P, const double y[6], double x[2])
 {
-    x[0] += P->f * z[0] + P->fx * z[3] + P->fy * (z[5] - z[2] / 2);
-    x[1] += P->f * z[1] + P->fy * z[4] + P->fx * (z[5] + z[2] / 2);
+    x[0] += P->f * y[0] + P->fx * y[2] + P->fy * y[3];
+    x[1] += P->f * y[1] + P->fx * y[4] + P->fy * y[5];
+}
+
+/* y: the forces on values and slopes that are z on the unknowns; only the slopes need Q^T. */
+static void take_to_slopes(double Q[4][4], const double z[6], double y[6])
+{
+    for (int b = 0; b < 4; b++)
+        y[2 + b] = Q[0][b] * z[2] + Q[1][b] * z[3] + Q[2][b] * z[4] + Q[3][b] * z[5];
+    y[0] = z[0];
+    y[1] = z[1];
+}
+
+/* The block B of rows i and j for values and slopes. */
+static void take_block(double Qi[4][4], double B[6][6], double Qj[4][4], double W[6][6])
+{
+    double V[6][6], y[6];
+
+    for (int a = 0; a < 6; a++) {
+        take_to_slopes(Qj, B[a], y);
+        for (int b = 0; b < 6; b++)
+            V[b][a] = y[b];
+    }
+    for (int b = 0; b < 6; b++) {
+        take_to_slopes(Qi, V[b], y);
+        for (int a = 0; a < 6; a++)
+            W[a][b] = y[a];
+    }
 }
 
 /* Y = s B P, by columns. */
@@ -291,7 +333,7 @@ static int find_rest(const coarse_space *c, int a, const int side[2], bbm_linear
 static void make_coarse(bbm_matrix *K)
 {
     const coarse_space *c = K->extra;
-    double Y[2][6], W[2][6];
+    double B[6][6], Y[2][6], W[2][6];
     int p[2], q[2];
     bbm_linear Z;
 
@@ -301,11 +343,12 @@ static void make_coarse(bbm_matrix *K)
             const int D = k == K->first[i + 1], j = D ? i : i - K->back[k];
             const int side = find_side(c, i, j, p);
             find_side(c, j, i, q);
+            take_block(c->Q[i], D ? K->D[i] : K->L[k], c->Q[j], B);
             for (int b = c->first[j]; b < c->first[j + 1]; b++) {
                 const int common = side > 6 && find_rest(c, b, q, &Z);
-                multiply(1, D ? K->D[i] : K->L[k], &c->P[b], Y);
+                multiply(1, B, &c->P[b], Y);
                 if (side > 6)
-                    multiply(-1, K->L[k], &Z, W);
+                    multiply(-1, B, &Z, W);
                 for (int a = c->first[i]; a < (D ? b + 1 : c->first[i + 1]); a++) {
                     if (side == 6 ? c->node[a] != c->node[b]
                                   : side > 6 && !find_rest(c, a, p, &Z) && !common)
@@ -323,18 +366,21 @@ static void make_coarse(bbm_matrix *K)
 static void interpolate(const bbm_matrix *K, const coarse_space *c)
 {
     for (int i = K->from; i < K->to; i++) {
-        double *z = &c->z[6 * i];
+        double *z = &c->z[6 * i], s[4] = { 0 };
         memset(z, 0, 6 * sizeof *z);
         for (int a = c->first[i]; a < c->first[i + 1]; a++) {
             const bbm_linear *P = &c->P[a];
             const double *x = &c->x[2 * c->node[a]];
             z[0] += P->f * x[0];
             z[1] += P->f * x[1];
-            z[2] += (P->fx * x[1] - P->fy * x[0]) / 2;
-            z[3] += P->fx * x[0];
-            z[4] += P->fy * x[1];
-            z[5] += P->fx * x[1] + P->fy * x[0];
+            s[0] += P->fx * x[0];
+            s[1] += P->fy * x[0];
+            s[2] += P->fx * x[1];
+            s[3] += P->fy * x[1];
         }
+        for (int a = 0; a < 4; a++)
+            for (int b = 0; b < 4; b++)
+                z[2 + a] += c->Q[i][a][b] * s[b];
     }
 }
 
@@ -343,13 +389,16 @@ static void correct(const bbm_matrix *K, const double *y, double *f)
 {
     const coarse_space *c = K->extra;
     const int from = c->start[K->from], to = c->start[K->to];
+    double s[6];
 
     memset(c->z + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *c->z);
     memset(c->x + 2 * from, 0, 2 * (size_t)(to - from) * sizeof *c->x);
     bbm_add_upper(K, y, c->z);
-    for (int i = K->from; i < K->to; i++)
+    for (int i = K->from; i < K->to; i++) {
+        take_to_slopes(c->Q[i], &c->z[6 * i], s);
         for (int a = c->first[i]; a < c->first[i + 1]; a++)
-            add_to_node(&c->P[a], &c->z[6 * i], &c->x[2 * c->node[a]]);
+            add_to_node(&c->P[a], s, &c->x[2 * c->node[a]]);
+    }
     bbm_substitute(&c->Kc, from, to, c->x);
     interpolate(K, c);
     bbm_add_lower(K, c->z, f);

@@ -19,12 +19,35 @@
  * alpha. They remain far fewer than those of SSOR alone.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "beyond.h"
 
 /* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured,
  * with blocks of 2 to 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
+
+/* The unknowns r0, ex, ey, gxy of a linear displacement are Q times its slopes ux, uy, vx, vy. With T
+ * of (2), where D = 0, they are (vx - uy)/2, ux, vy and uy + vx. With T_m of rotation.c for an
+ * element that moves by D, with t = tan(r0/2) and q = 1/(1 + t^2), the slopes of unknowns r, e are
+ *
+ *     G = r (2 t/r0) J (1 + R(r0) (1 + e(D)))/2 + (1 + t J) e,
+ *
+ * and the product q (1 - t J) G has the skew part r (2 t/r0) q (1 + (ex + ey)/4) J, and as its
+ * symmetric part e and r (t/r0) q [-gxy/2 - t ex, (ex - ey - t gxy)/2; ..., gxy/2 - t ey]. */
+void bbm_slopes(const double D[6], double Q[4][4])
+{
+    const double t = tan(D[2] / 2), q = 1 / (1 + t * t), f = D[2] == 0 ? 1 : 2 * t / D[2];
+    const double skew = 1 / (2 * f * (1 + (D[3] + D[4]) / 4)), share = f * q / 2;
+    const double turn[4] = { -t * skew, -skew, skew, -t * skew };
+    const double of_turn[3] = { share * (-D[5] / 2 - t * D[3]), share * (D[5] / 2 - t * D[4]),
+                                share * (D[3] - D[4] - t * D[5]) };
+    const double strain[3][4] = { { q, 0, t * q, 0 }, { 0, -t * q, 0, q }, { -t * q, q, q, t * q } };
+
+    memcpy(Q[0], turn, sizeof turn);
+    for (int a = 0; a < 12; a++)
+        Q[1 + a / 4][a % 4] = strain[a / 4][a % 4] - of_turn[a / 4] * turn[a % 4];
+}
 
 /* What the displacement of corner a alone does to the element, its P: of the
  * displacements linear in x, y the one nearest to the means of the corners' over the n sides, by
@@ -139,8 +162,15 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
  * are refused, which does no harm. */
 void bbm_interpolate_elements(bbm_model *m)
 {
+    double Q[4][4];
+
     if (!m->K->extra || m->K->ready || m->par.pcg.method != &bbm_two_level)
         return;
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_middle *middle = m->element[i].middle;
+        bbm_slopes(middle ? middle->D : (double [6]){ 0 }, Q);
+        (void)bbm_matrix_slopes(m->K, i, Q);
+    }
     for (int k = 0; k < m->vertices; k++) {
         const bbm_vertex *v = &m->vertex[k];
         const bbm_element *e = &m->element[v->element];

@@ -14,23 +14,28 @@ typedef struct {                /* a coarse space: P takes all its unknowns to a
     int nodes, first[MOST + 1], node[MOST_CORNERS], joined;
     long long place[4 * MOST_CORNERS];
     double P[MOST_6][4 * MOST_CORNERS];         /* twice, for a test that doubles the nodes */
+    double Q[MOST][4][4];
 } dense_coarse;
 
 /* P of the displacement f (u, v), f linear in x and y. */
-static void unknowns(bbm_linear f, double P[6][2])
+static void unknowns(bbm_linear f, double Q[4][4], double P[6][2])
 {
-    const double matrix[6][2] = { { f.f, 0 },  { 0, f.f },  { -f.fy / 2, f.fx / 2 },
-                                  { f.fx, 0 }, { 0, f.fy }, { f.fy, f.fx } };
+    const double values[2][2] = { { f.f, 0 }, { 0, f.f } };
 
-    memcpy(P, matrix, sizeof matrix);
+    memcpy(P, values, sizeof values);
+    for (int a = 0; a < 8; a++)
+        P[2 + a / 2][a % 2] = Q[a / 2][a % 2 * 2] * f.fx + Q[a / 2][a % 2 * 2 + 1] * f.fy;
 }
 
+/* All nodes of a row come one after the other: each has the Q of a turn by 0.2 or another one. */
 static void random_unknowns(dense_coarse *c, int i, int node, unsigned *seed)
 {
     const double f = random_entry(seed), fx = random_entry(seed), fy = random_entry(seed);
+    const double D[6] = { 0, 0, i % 3 * 0.2, 0.1 * (i % 5), -0.1, 0.3 };
     double P[6][2];
 
-    unknowns((bbm_linear){ f, fx, fy }, P);
+    bbm_slopes(D, c->Q[i]);
+    unknowns((bbm_linear){ f, fx, fy }, c->Q[i], P);
     for (int a = 0; a < 12; a++)
         c->P[6 * i + a / 2][2 * node + a % 2] = P[a / 2][a % 2];
 }
@@ -42,13 +47,19 @@ static void hang(dense_system *s, dense_coarse *c)
             c->place[c->node[k]] = bbm_component_of(s->K, i) * BBM_PLACES
                                    + 7919 * (c->node[k] / (c->joined + 1)) % 1024;
     ck_assert_int_eq(bbm_matrix_coarse(s->K, c->nodes, c->first, c->node, c->place), BBM_OK);
-    for (int i = 0; i < s->n; i++)
+    for (int i = 0; i < s->n; i++) {
+        double (*Q)[4] = c->Q[i];
+        const double det = Q[1][0] * Q[2][1] - Q[1][1] * Q[2][0];
+        ck_assert_int_eq(bbm_matrix_slopes(s->K, i, Q), BBM_OK);
         for (int k = c->first[i]; k < c->first[i + 1]; k++) {
-            const int u = 2 * c->node[k], v = u + 1;
-            const bbm_linear P = { c->P[6 * i][u], c->P[6 * i + 3][u], c->P[6 * i + 4][v] };
+            const int u = 2 * c->node[k];
+            const double ex = c->P[6 * i + 3][u], ey = c->P[6 * i + 4][u];
+            const bbm_linear P = { c->P[6 * i][u], (Q[2][1] * ex - Q[1][1] * ey) / det,
+                                   (Q[1][0] * ey - Q[2][0] * ex) / det };
 
             ck_assert_int_eq(bbm_matrix_interpolate(s->K, i, k - c->first[i], P, 0, 0), BBM_OK);
         }
+    }
 }
 
 /* Row i hangs on the nodes i/2 and i/2 + 2, of whose order only the solver knows; every fifth row
@@ -190,6 +201,7 @@ START_TEST(coarse_displacements_that_move_nothing_change_no_iterate)
     thrice->nodes = 3 * c->nodes;
     for (int i = 0; i < s->n; i++) {
         thrice->first[i + 1] = 3 * c->first[i + 1];
+        memcpy(thrice->Q[i], c->Q[i], sizeof c->Q[i]);
         for (int k = thrice->first[i]; k < thrice->first[i + 1]; k++) {
             thrice->node[k] = 3 * c->node[k / 3] + k % 3;
             for (int a = 0; a < 12; a++)
@@ -355,6 +367,7 @@ static dense_system *join(dense_system *const s[2], dense_coarse *const c[2], co
             const int node = from->node[from->first[i] + m];
 
             d->node[d->first[k] + m] = 2 * node + whose[k];
+            memcpy(d->Q[k], from->Q[i], sizeof d->Q[k]);
             for (int a = 0; a < 12; a++)
                 d->P[6 * k + a / 2][4 * node + 2 * whose[k] + a % 2] =
                     from->P[6 * i + a / 2][2 * node + a % 2];
@@ -502,11 +515,11 @@ static size_t strip_bytes(int triangles)
 }
 
 /* Each node of the strip has two rows of Kc that begin two nodes before it, of 6 entries; P of a
- * triangle's corners takes 72 bytes, their places and a vector of its unknowns 48 each, all that is
- * numbered, listed and measured on the way 260. Nodes across a common side, 3 apart, would take 44 more. */
+ * triangle's corners takes 72 bytes, their places and a vector of its unknowns 48 each, its slopes 128,
+ * all that is numbered, listed and measured on the way 260. Nodes across a common side, 3 apart, would take 44 more. */
 START_TEST(kc_has_room_for_corners_of_one_element_and_no_others)
 {
-    ck_assert_uint_le(strip_bytes(200) - strip_bytes(100), 100 * (96 + 72 + 96 + 260));
+    ck_assert_uint_le(strip_bytes(200) - strip_bytes(100), 100 * (96 + 72 + 96 + 128 + 260));
 }
 END_TEST
 
@@ -726,22 +739,30 @@ static void corners(int n, bbm_element *e, bbm_vertex v[5])
     bbm_element_geometry(e, v);
 }
 
+/* With T of (2), or T_m of a step in which the element turns by 0.5. */
 START_TEST(linear_displacements_of_the_corners_are_those_of_the_element)
 {
     static const double D[6] = { 0.3, -0.7, 0.2, 1.1, -0.4, 0.9 };
-    const int n = 3 + _i;
-    double sum[6] = { 0 }, T[2][6], P[6][2];
+    const int n = 3 + _i % 3;
+    double sum[6] = { 0 }, T[2][6], P[6][2], Q[4][4], at[2];
+    bbm_model *m = beyond_model();
+    bbm_middle middle = { .motion = _i < 3 ? NULL : bbm_find_motion(m) };
     bbm_vertex v[5];
     bbm_element e;
 
     corners(n, &e, v);
+    for (int a = 0; a < 6 && _i >= 3; a++)
+        middle.D[a] = 0.1 * (a + 3);
+    e.middle = _i < 3 ? NULL : &middle;
+    bbm_slopes(middle.D, Q);
     for (int a = 0; a < n; a++) {
-        bbm_mode_matrix(&e, v[a].x, v[a].y, T);
-        unknowns(bbm_interpolation(&e, v, a), P);
+        bbm_step_point(&e, v[a].x, v[a].y, T, at);
+        unknowns(bbm_interpolation(&e, v, a), Q, P);
         for (int i = 0; i < 6; i++)
             sum[i] += P[i][0] * inner_product(6, T[0], D) + P[i][1] * inner_product(6, T[1], D);
     }
     assert_same(6, sum, D, ROUNDING);
+    release(m);
 }
 END_TEST
 
@@ -750,14 +771,15 @@ END_TEST
 START_TEST(interpolation_is_the_nearest_linear_displacement)
 {
     const int n = 3 + _i;
-    double u[5][2], D[6] = { 0 }, sum[6] = { 0 }, T[2][6], P[6][2];
+    double u[5][2], D[6] = { 0 }, sum[6] = { 0 }, T[2][6], P[6][2], Q[4][4];
     unsigned seed = 48;
     bbm_vertex v[5];
     bbm_element e;
 
     corners(n, &e, v);
+    bbm_slopes(D, Q);
     for (int a = 0; a < n; a++) {
-        unknowns(bbm_interpolation(&e, v, a), P);
+        unknowns(bbm_interpolation(&e, v, a), Q, P);
         for (int k = 0; k < 2; k++) {
             u[a][k] = random_entry(&seed);
             for (int i = 0; i < 6; i++)
@@ -799,7 +821,7 @@ Suite *coarse_suite(void)
         { corners_that_a_bond_ties_together_are_one_coarse_node, 1 },
         { one_level_is_used_where_two_do_not_pay, 6 });
     add_case(s, "interpolation",
-        { linear_displacements_of_the_corners_are_those_of_the_element, 3 },
+        { linear_displacements_of_the_corners_are_those_of_the_element, 6 },
         { interpolation_is_the_nearest_linear_displacement, 3 });
     return s;
 }
