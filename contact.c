@@ -488,16 +488,15 @@ static int change_states(bbm_model *m)
     return changes;
 }
 
-/* Notes the states of this pass, and which way each contact slides, also as one number, a hash
- * (FNV-1a). It takes no negative numbers, whose hashes collide. If an earlier pass had the same
- * states, the iteration cycles, unless that was the last pass: then only T of the step was new. */
+/* Notes the states of this pass, and which way each contact slides, as one number, a hash (FNV-1a).
+ * It takes no negative numbers, whose hashes collide. If an earlier pass had the same states, the
+ * iteration cycles, unless that was the last pass: then only T of the step was new. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;
 
-    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         const int direction = c->state == BBM_SLIDE && c->sign < 0 ? -1 : 1;
-        c->settled[w->round < 2 ? w->round : 2] = (bbm_settled){ c->state, c->sign, c->time_left };
         hash = (hash ^ (uint64_t)(3 + direction * (int)c->state)) * 1099511628211u;
     }
     for (int p = 0; p < w->passes; p++)
@@ -531,13 +530,11 @@ bbm_pass bbm_open_close(bbm_model *m)
 
 /* When the model has moved: the anchor of a sliding contact follows, so that a shear spring would
  * carry the friction force. It has slid by as much as the anchor moved. A joint that has opened, or
- * slid against a shear strength, is broken. What has opened or closed goes on in another way. */
+ * slid against a shear strength, is broken. */
 static void store_contact(bbm_model *m, bbm_contact *c)
 {
     const double strength = bbm_shear_strength(&c->strength, c->N);
 
-    if (c->was_closed != (c->state != BBM_OPEN))
-        memset(c->settled, 0, sizeof c->settled);
     if (c->state == BBM_SLIDE) {
         c->T = c->sign * strength;
         c->slip += fabs(c->d_s - c->T / m->par.p_s);

@@ -73,11 +73,6 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    contact;             /* where those of the corner a begin in model.contact           */
 };
 
-typedef struct {                /* what a contact settled on in a round of multipliers          */
-    bbm_contact_state state;
-    double sign, time_left;     /* see bbm_contact; time_left 0: on nothing yet                 */
-} bbm_settled;
-
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
     /* --- identity: two boundary edges. P1 starts `corner`; P3 starts `edge`, P2 ends it --- */
     int    corner, edge;
@@ -93,7 +88,6 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double slip;                /* m        how far it has slid in all steps since it closed    */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
-    bbm_settled settled[3];     /* in each round of the last step; later rounds share the last  */
     int    hit;                 /* a hook has given it an impulse in place of its spring's      */
     /* --- of the step --- */
     bbm_strength strength;
@@ -140,7 +134,6 @@ struct bbm_contact_scratch {
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- contact.c: the iteration --- */
-    int round;                  /* of multipliers, in this step                                 */
     int passes, friction_passes;
     int one_until;              /* before this pass one contact alone changes its state in each */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */

@@ -23,7 +23,6 @@
  * the blocks.
  */
 #include <stdlib.h>
-#include <string.h>
 
 #include "base.h"
 
@@ -379,8 +378,8 @@ static int goes_on_in(const bbm_model *m, int corner, int e, int f)
 }
 
 /* Edges that may stand for one: itself; those of its straight side; and those of other blocks that
- * it goes on from. EVEN_OPEN: itself, and its contact need not be closed. */
-typedef enum { EVEN_OPEN, ITSELF, SIDE, LINE } family;
+ * it goes on from. */
+typedef enum { ITSELF, SIDE, LINE } family;
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge, or else
  * another one of the edge's family, or NULL. */
@@ -390,7 +389,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
 
     for (int k = m->edge[corner].contact; k < m->contacts && m->contact[k].corner == corner; k++) {
         const bbm_contact *c = &m->contact[k];
-        if (c->state == BBM_OPEN && !c->inside && of != EVEN_OPEN)
+        if (c->state == BBM_OPEN && !c->inside)
             continue;
         if (c->edge == edge)
             return c;
@@ -561,11 +560,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     const projection f = project(m, p.corner, p.edge);
     const double touch = touch_between(m, p.corner, p.edge);
 
-    const bbm_contact *last = find_closed(m, p.corner, p.edge, EVEN_OPEN);
-
     *c = old ? *old : (bbm_contact){ 0 };
-    if (last && !old)
-        memcpy(c->settled, last->settled, sizeof c->settled);
     c->carried = old && old->corner == p.corner && old->edge == p.edge;
     c->touches = !old && m->info.step == 0 && m->info.t == 0
               && fmax(fabs(f.d), f.beyond) <= touch;

@@ -49,7 +49,8 @@ struct bbm_beyond {
     bbm_bonding  bonding;       /* bending.c                                                    */
     bbm_rotation rotation;      /* rotation.c                                                   */
     double cohesion, tension;   /* Pa       joints.c: of unbroken joints                        */
-    int multiplier_rounds;      /* multipliers.c: further solutions of a step; 0: the paper     */
+    int multiplier_rounds;      /* multipliers.c: further solutions of a static step; 0: paper  */
+    int round;                  /* of them, in this step                                        */
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */
     double shake_omega;         /* 1/s      */
     double reach;               /* -        statics.c: how far blocks may part in a static step */
@@ -85,8 +86,8 @@ typedef struct { double f, fx, fy; } bbm_linear;    /* f(x, y) at the centroid, 
 extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place);
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, double x, double y);
-bbm_status bbm_matrix_slopes(bbm_matrix *K, int i, double Q[4][4]);
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double Q[4][4], bbm_linear f,
+                                  double x, double y);
 
 /* factor.c */
 typedef struct { int from, to; size_t at; } bbm_part;  /* columns, in pairs; its first entry in A */

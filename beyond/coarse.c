@@ -167,7 +167,6 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
         const int *from = first + K->caller[i];
         c->first[i + 1] = c->first[i] + from[1] - from[0];
         memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
-        bbm_slopes((double [6]){ 0 }, c->Q[i]);
     }
     const int entries = list_entries(K, c, NULL);
     int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
@@ -223,8 +222,10 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
 }
 
 /* The displacement (u, v) of the k-th node of block row i alone displaces the row by f (u, v), f
- * linear in x and y. (x, y) [m]: where the node lies. Both are taken from the element's centroid. */
-bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, double x, double y)
+ * linear in x and y; (x, y) [m]: where the node lies. Both are taken from the element's centroid.
+ * u0 and v0 are the values there, the other unknowns Q times the slopes ux, uy, vx, vy. */
+bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double Q[4][4], bbm_linear f,
+                                  double x, double y)
 {
     const coarse_space *c = K->extra;
     const int *first = c && i >= 0 && i < K->n ? &c->first[K->place[i]] : NULL;
@@ -233,18 +234,6 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, bbm_linear f, dou
         return BBM_BAD_INDEX;
     c->P[first[0] + k] = f;
     memcpy(c->at[first[0] + k], (double [2]){ x, y }, sizeof *c->at);
-    K->ready = 0;
-    return BBM_OK;
-}
-
-/* The unknowns r0, ex, ey, gxy of block row i are Q times the slopes ux, uy, vx, vy of a linear
- * displacement; u0 and v0 are its values at the element's centroid. Until then Q is that of (2). */
-bbm_status bbm_matrix_slopes(bbm_matrix *K, int i, double Q[4][4])
-{
-    const coarse_space *c = K->extra;
-
-    if (!c || i < 0 || i >= K->n)
-        return BBM_BAD_INDEX;
     memcpy(c->Q[K->place[i]], Q, sizeof *c->Q);
     K->ready = 0;
     return BBM_OK;
@@ -268,20 +257,15 @@ static void take_to_slopes(double Q[4][4], const double z[6], double y[6])
     y[1] = z[1];
 }
 
-/* The block B of rows i and j for values and slopes. */
-static void take_block(double Qi[4][4], double B[6][6], double Qj[4][4], double W[6][6])
+/* W = (B Q)^T, the block B of two rows for values and slopes of the second. */
+static void take_block(double B[6][6], double Q[4][4], double W[6][6])
 {
-    double V[6][6], y[6];
+    double y[6];
 
     for (int a = 0; a < 6; a++) {
-        take_to_slopes(Qj, B[a], y);
+        take_to_slopes(Q, B[a], y);
         for (int b = 0; b < 6; b++)
-            V[b][a] = y[b];
-    }
-    for (int b = 0; b < 6; b++) {
-        take_to_slopes(Qi, V[b], y);
-        for (int a = 0; a < 6; a++)
-            W[a][b] = y[a];
+            W[b][a] = y[b];
     }
 }
 
@@ -333,7 +317,7 @@ static int find_rest(const coarse_space *c, int a, const int side[2], bbm_linear
 static void make_coarse(bbm_matrix *K)
 {
     const coarse_space *c = K->extra;
-    double B[6][6], Y[2][6], W[2][6];
+    double V[6][6], B[6][6], Y[2][6], W[2][6];
     int p[2], q[2];
     bbm_linear Z;
 
@@ -343,7 +327,8 @@ static void make_coarse(bbm_matrix *K)
             const int D = k == K->first[i + 1], j = D ? i : i - K->back[k];
             const int side = find_side(c, i, j, p);
             find_side(c, j, i, q);
-            take_block(c->Q[i], D ? K->D[i] : K->L[k], c->Q[j], B);
+            take_block(D ? K->D[i] : K->L[k], c->Q[j], V);
+            take_block(V, c->Q[i], B);
             for (int b = c->first[j]; b < c->first[j + 1]; b++) {
                 const int common = side > 6 && find_rest(c, b, q, &Z);
                 multiply(1, B, &c->P[b], Y);

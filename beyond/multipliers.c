@@ -7,8 +7,9 @@
  * Optimization, 1969; the paper names it for contacts). K stays, and so does all that was made of
  * it.
  *
- * In statics multipliers go on from step to step. In dynamics each step starts them from zero:
- * kept, they would be an integral controller, and in short steps unstable (doc/beyond.md).
+ * They go on from step to step of statics. In dynamics they would be an integral controller, and in
+ * short steps unstable (doc/beyond.md): there bonds are springs alone, and a larger alpha makes
+ * them stiffer.
  */
 #include "beyond.h"
 
@@ -25,53 +26,23 @@ void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
     }
 }
 
-/* Begins a round of a dynamic step with the states in which contacts settled in that round of the
- * last step; the passes judge them. Bonds are softer before multipliers take over, so that other
- * contacts slide or are closed in each round, and in each step the same. Returns whether a state is
- * new. */
-static int recall_states(bbm_model *m, int round)
-{
-    bbm_contact_scratch *w = m->scratch;
-    int changed = 0;
-
-    w->round = round;
-    w->passes = w->one_until = 0;
-    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
-        const bbm_settled *s = &c->settled[round < 2 ? round : 2];
-        if ((s->state == c->state && s->sign == c->sign) || s->time_left == 0
-            || bbm_is_static(m) || c->has_left || (c->beyond_end && !c->was_closed))
-            continue;
-        if (c->state == BBM_OPEN) {
-            c->anchor = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
-            c->time_left = s->time_left;
-        }
-        c->state = s->state;
-        c->sign = s->sign;
-        changed = 1;
-    }
-    return changed;
-}
-
 void bbm_start_multipliers(bbm_model *m)
 {
     for (int k = 0; k < m->gaps; k++)
         for (int r = 0; r < 2; r++)
             m->gap[k].own.f[r] = bbm_is_static(m) ? m->gap[k].own.f_before[r] : 0;
-    recall_states(m, 0);
+    m->beyond->round = 0;
 }
 
 /* The contacts have settled: f += W d, in F, too, as often as was asked for. Returns which solution
- * follows. In dynamics it takes a bond, or a fixed point of an element that is not held at all its
- * vertices: one that is, a base, has springs as stiff as the contacts on it. */
+ * follows. */
 bbm_pass bbm_take_over(bbm_model *m)
 {
-    int needed = bbm_is_static(m);
     double d[2];
 
-    for (int g = 0; g < m->gaps && !needed; g++)
-        needed = m->gap[g].j >= 0 || !bbm_is_held_all_round(m, &m->element[m->gap[g].i]);
-    if (m->scratch->round >= m->beyond->multiplier_rounds || !needed)
+    if (!bbm_is_static(m) || m->beyond->round++ >= m->beyond->multiplier_rounds)
         return BBM_PASS_DONE;
+    m->scratch->passes = m->scratch->one_until = 0;
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         bbm_gap_length(m, g, d);
@@ -84,7 +55,7 @@ bbm_pass bbm_take_over(bbm_model *m)
             }
         }
     }
-    return recall_states(m, m->scratch->round + 1) ? BBM_PASS_AGAIN : BBM_PASS_SAME_K;
+    return BBM_PASS_SAME_K;
 }
 
 /* At the end of a step. */

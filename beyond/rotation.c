@@ -28,15 +28,15 @@
 
 #include "beyond.h"
 
-/* TURN [rad^2]  turn of an element times the error of that turn below which T_m holds: points are
- *               right to this times their lever, and a bonded block that spins by 0.2 rad a step
- *               keeps its energy to 1e-9 of it
+/* TURN [rad^2]  turn of an element times the error of that turn, times sqrt(alpha), below which T_m
+ *               holds: bonds, of stiffness alpha, are wrong by that share of their lever, and a
+ *               bonded block that spins by 0.2 rad a step keeps its energy to 1e-9 of it
  * SHARE [-]     force of a contact that comes from T_m of another D, against the largest one on
  *               its elements: what it makes of energy is this share of the energy of the
  *               contact's spring
  * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is
  *               1e-5 of that */
-#define TURN 1e-8
+#define TURN 1e-7
 #define SHARE 3e-6
 #define DIRECTION 1e-4
 
@@ -135,7 +135,7 @@ static double turn_off(const bbm_model *m, int i)
 /* Whether that is more than can be left. */
 static int is_off(const bbm_model *m, int i)
 {
-    return turn_off(m, i) * (fabs(m->D[6 * i + 2]) + turn_off(m, i)) > TURN;
+    return turn_off(m, i) * (fabs(m->D[6 * i + 2]) + turn_off(m, i)) > TURN / sqrt(m->par.alpha);
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong

@@ -65,10 +65,9 @@ void case_print_parameters(const bbm_model *m)
 void case_print_augmented(const bbm_model *m)
 {
     if (m)
-        printf("\nwith beyond/: %d quadrilaterals, edge bonds with a moment, two rounds of "
-               "multipliers, two levels (%d iterations)%s\n", m->elements,
-               m->info.pcg.iterations, isinf(m->par.dt) ? "" : ", T of the middle of the step, "
-               "exact rotation");
+        printf("\nwith beyond/: %d quadrilaterals, edge bonds with a moment, %s, two levels "
+               "(%d iterations)\n", m->elements, isinf(m->par.dt) ? "two rounds of multipliers"
+               : "alpha = 1e4, T of the middle of the step, exact rotation", m->info.pcg.iterations);
 }
 
 /* --------------------------------------------------------------------------------------- meshes */

@@ -73,9 +73,9 @@ static int before_solution(const bbm_model *m, void *context)
 {
     const bbm_contact_scratch *w = m->scratch;
     page *g = context;
-    const int more = w->round > g->rounds;
+    const int round = m->beyond->round, more = round > g->rounds;
 
-    g->rounds = w->round;
+    g->rounds = round;
     note_look(g, w->contact, w->contacts, w->friction_passes ? PAGE_FRICTION
               : more ? PAGE_SAME_K : w->passes ? PAGE_JUDGED : PAGE_LISTED);
     return clock() - g->began > (clock_t)LIMIT * CLOCKS_PER_SEC;

@@ -681,7 +681,7 @@ int model_read(const char *path, int lets, char *const let[], model *p)
         model_out_of_memory(&r);
     } else {
         p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
-        p->m->beyond->multiplier_rounds = 2;
+        p->m->par.alpha = p->m->beyond->multiplier_rounds = -1;
         p->m->beyond->bonding = BBM_MOMENT;
         p->m->par.faces = 1;
         p->m->par.pcg.method = &bbm_two_level;

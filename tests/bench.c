@@ -391,7 +391,6 @@ static void add_slider(bbm_model *m, double stiffness)
 {
     m->par.p_n = stiffness, m->par.p_s = stiffness / 2.5;
     m->par.pcg.tolerance = 1e-12;
-    m->beyond->multiplier_rounds = 2;
     case_add_grid(m, &(case_grid){ .nx = 40, .ny = 4, .x = -10, .y = -1, .w = 20, .h = 2 });
     for (int n = 0; n < m->nodes; n++)
         bbm_fix_node(m, n, BBM_XY, 0, 0);
@@ -423,6 +422,7 @@ static void print_steps(void)
         double t[TURNS], solutions = 0, iterations = 0;
         bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
         m->par.gravity[1] = -9.81;
+        m->par.alpha = 1e4;
         m->par.dt = 0.01;
         m->par.velocity_factor = 0;
         run[k].add(m, run[k].size);

@@ -225,25 +225,27 @@ END_TEST
 
 /* --------------------------------------------------------------------------------------------- bonded blocks spin */
 
-static const struct { double w; int triangles; bbm_bonding bonding; int augment; } SPINS[] = {
-    { 1, 0, BBM_MOMENT, 2 },  { 5, 0, BBM_MOMENT, 2 },   { 20, 0, BBM_MOMENT, 2 },   { 20, 0, BBM_MOMENT, 0 },
-    { 5, 1, BBM_VERTICES, 2 }, { 20, 1, BBM_VERTICES, 0 }, { 20, 0, BBM_VERTICES, 2 },
+static const struct { double w; int triangles; bbm_bonding bonding; double alpha; } SPINS[] = {
+    { 1, 0, BBM_MOMENT, 100 },  { 5, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 1e4 },
+    { 5, 1, BBM_VERTICES, 1e4 }, { 20, 1, BBM_VERTICES, 100 }, { 20, 0, BBM_VERTICES, 1e4 },
 };
 
-/* Its equations take no more iterations than those of a block at rest, up to 9; with a
- * coarse space at the start of the step those of triangles would be 76 and 103. A free block of 3 x 3 cells that flies, spins by up to 0.2 rad a step, and is under a pressure all round, or not. In the
+/* A free block of 3 x 3 cells that flies, spins by up to 0.2 rad a step, and is under a pressure all round, or not. In the
  * first steps it is strained by the centrifugal force and the pressure, and swings; from then on it keeps its energy.
  * Springs and elements hold no more than that stress asks for, twice that in a swing: rho w^2 R^2 with R = 0.7, along
  * two axes, squared over 2 E; the springs 2.5/alpha of it. A spring that turns by w dt in a step pulls as it lies at its end
- * and loses (w dt)^2 of its energy. A pressure that balances itself does no work but on those strains. */
+ * and loses (w dt)^2 of its energy. A pressure that balances itself does no work but on those strains. K D is rounded, by forces of
+ * eps times the stiffness and the way of a step, some ten in all, which do work along it. Equations take no
+ * more iterations than those of a block at rest; with a coarse space of the step's start triangles take 70 and more. */
 START_TEST(a_bonded_block_that_spins_keeps_its_energy)
 {
     for (int pressed = 0; pressed < 2; pressed++) {
         bbm_model *m = new_solid(1e10, 0.01);
         const double w = SPINS[_i].w, stress = 2500 * w * w * 0.5 + pressed * 1e4, elastic = stress * stress / 1e10;
+        const double way = 0.01 * (hypot(2, 1) + 0.7 * w), rounding = 10 * 2.2e-16 * SPINS[_i].alpha * 1e10 * way * way;
         bbm_energy e;
         add_box(m, 0, &(box){ 0, 0, 1, 1, 0, 3, 3, SPINS[_i].triangles });
-        m->beyond->multiplier_rounds = SPINS[_i].augment;
+        m->par.alpha = SPINS[_i].alpha;
         m->beyond->bonding = SPINS[_i].bonding;
         ck_ok(bbm_prepare(m), m);
         for (int edge = 0; edge < m->edges && pressed; edge++)
@@ -255,10 +257,10 @@ START_TEST(a_bonded_block_that_spins_keeps_its_energy)
         run_steps(m, 100);
         bbm_energies(m, &e);
         ck_assert_int_le(m->info.iterations, 20 * m->info.passes);
-        ck_near(start, before, 4 * elastic, 1);
-        ck_near(sum_of(m) - m->beyond->work, before, before + 1e8 * w * w * 1e-4 * e.springs, 1e-6);
+        ck_near(start, before, 4 * elastic + 50 * rounding, 1);
+        ck_near(sum_of(m) - m->beyond->work, before, before + 1e8 * w * w * 1e-4 * e.springs + 1e8 * rounding, 1e-6);
         ck_near(m->beyond->work, 0, 4 * elastic, 1);
-        ck_assert(e.elastic < 4 * elastic && e.springs < 4 * 0.025 * elastic);
+        ck_assert(e.elastic < 4 * elastic && e.springs < 4 * 2.5 / m->par.alpha * elastic);
         ck_assert_msg(m->beyond->gain < 1e-6, "gain %g", m->beyond->gain);
         release(m);
     }
@@ -267,16 +269,17 @@ END_TEST
 
 /* ------------------------------------------------------------------------------ steps of every length, and the net */
 
-/* A block of one square or of bonded cells, fixed or thrown, in steps from 1e-2 to 1e-7 s with multipliers: what it has
- * is at most what it got. Kept from step to step they made 1e29 J of nothing at 3e-4 s. */
-START_TEST(multipliers_make_no_energy_in_steps_of_any_length)
+/* A block of one square or of bonded cells, fixed or thrown, in steps from 1e-2 to 1e-7 s: what it has is at most what it
+ * got. Multipliers that are kept from step to step, as in statics, make 1e29 J of nothing at 3e-4 s. */
+START_TEST(bonds_make_no_energy_in_steps_of_any_length)
 {
     const int fixed = _i % 2, kind = _i / 2 % 3;
 
     for (double dt = 1e-2; dt > 0.9e-7; dt /= sqrt(10)) {
         bbm_model *m = new_solid(1e9, dt);
         add_box(m, 0, &(box){ 0, 0, 10, 10, 0, kind ? 3 : 1, kind ? 3 : 1, kind == 2 });
-        m->beyond->multiplier_rounds = _i < 6 ? 2 : 5;
+        m->beyond->multiplier_rounds = 2;
+        m->par.alpha = _i < 6 ? 100 : 1e5;
         m->par.gravity[1] = fixed ? -9.81 : 0;
         if (fixed)
             hold_block(m, 0);
@@ -555,7 +558,7 @@ Suite *motion_suite(void)
         { the_vectors_are_off_when_an_element_turns_further_than_they_did, 1 },
         { with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths, 1 },
         { a_bonded_block_that_spins_keeps_its_energy, COUNT(SPINS) },
-        { multipliers_make_no_energy_in_steps_of_any_length, 12 },
+        { bonds_make_no_energy_in_steps_of_any_length, 12 },
         { the_balance_of_a_step_is_what_it_says, 3 },
         { a_step_that_makes_energy_is_cut_and_then_refused, 1 },
         { a_step_is_judged_whole_and_each_body_by_itself, 2 },

@@ -64,7 +64,6 @@ START_TEST(the_ledger_and_the_library_agree)
     scene_ledger l;
 
     scene_make(100 + 2 * (uint64_t)_i, SCENE_BONDED, &s);
-    s.multiplier_rounds = 0;
     s.bonding = _i ? BBM_VERTICES : BBM_MOMENT;
     ck_ok(scene_build(&s, &m), m);
     for (int k = 0; k < 20; k++)

@@ -383,7 +383,7 @@ static void choose_parameters(test_scene *s, uint64_t *r)
     s->par.gravity[1] = -9.81;
     s->par.alpha = pick(r, alpha, 3);
     s->bonding = one_of(r, 2) ? BBM_VERTICES : BBM_MOMENT;
-    s->multiplier_rounds = one_of(r, 4) ? 0 : 2;
+    s->par.alpha *= one_of(r, 4) ? 1 : 100;
     s->par.pcg.tolerance = 1e-13;
     s->par.steps = 100 + one_of(r, 200);
 }
@@ -532,7 +532,6 @@ bbm_status scene_build(const test_scene *s, bbm_model **m)
     (*m)->beyond->bonding = s->bonding;
     (*m)->beyond->cohesion = s->cohesion;
     (*m)->beyond->tension = s->tension;
-    (*m)->beyond->multiplier_rounds = s->multiplier_rounds;
     for (int k = 0; k < s->blocks; k++)
         add_block(*m, k, &s->block[k]);
     return bbm_prepare(*m);

@@ -34,7 +34,6 @@ typedef struct {
     bbm_parameters par;         /* with par.steps: how many are of interest                                     */
     bbm_bonding bonding;
     double cohesion, tension;   /* Pa       of unbroken joints                                                  */
-    int multiplier_rounds;
     int blocks;
     scene_block block[SCENE_BLOCKS];
 } test_scene;

@@ -38,8 +38,8 @@ static void print_scene(const test_scene *s)
 
 static void print_name(const test_scene *s)
 {
-    printf("seed %llu %s (p_n %g, dt %g, friction %g%s): ", (unsigned long long)s->seed, scene_name(s->kind), s->par.p_n,
-           s->par.dt, s->par.friction, s->multiplier_rounds ? ", augmented" : "");
+    printf("seed %llu %s (p_n %g, dt %g, friction %g): ", (unsigned long long)s->seed, scene_name(s->kind), s->par.p_n,
+           s->par.dt, s->par.friction);
 }
 
 static void report(const test_scene *s, const scene_trial *f, tally *t)

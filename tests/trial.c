@@ -64,15 +64,13 @@ static int is_isolated(const test_scene *s)
     return !fixed;
 }
 
-/* What the step gained, as a share of what was there at its start. The springs that rounds of multipliers make are a
- * little stiffer or softer when contacts open or close: a hundredth of what they hold. */
+/* What the step gained, as a share of what was there at its start. */
 static double gain_of(const bbm_model *m, const scene_memory *before, const scene_ledger *start, const scene_ledger *end)
 {
     double size;
     const double work = scene_work(m, before, &size);
     const double had = start->kinetic + start->elastic + start->springs;
-    const double kept = m->beyond->multiplier_rounds > 0 && m->bonds > 0 ? 1e-2 * end->springs : 0;
-    const double all = end->kinetic + end->elastic + end->springs - had - work, gain = all > 0 ? beyond(all, kept) : all;
+    const double gain = end->kinetic + end->elastic + end->springs - had - work;
 
     return had + size > 0 ? gain / (had + size) : gain;
 }
