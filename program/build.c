@@ -13,7 +13,7 @@
 
 /* What the file leaves out. The contacts are as stiff as the softest material of a block that is not
  * fixed, for a fixed one is often given an E that only says "rigid". In dynamics, where multipliers
- * have no part, bonds are as stiff as they are in statics after one round. */
+ * have no part, bonds are as stiff as is possible without many more passes in fast motions. */
 static void set_defaults(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
@@ -22,7 +22,7 @@ static void set_defaults(model_reader *r)
 
     r->p->augmented = *rounds > 0;
     *rounds = *rounds < 0 ? 2 : *rounds;
-    p->alpha = p->alpha > 0 ? p->alpha : r->p->dynamic ? 1e4 : 100;
+    p->alpha = p->alpha > 0 ? p->alpha : r->p->dynamic ? 1000 : 100;
     for (int e = 0; e < r->elements; e++) {
         const bbm_material *m = &r->p->m->element[e].material;
         for (int k = r->block[r->element[e].block].fixed; k < 2; k++)

@@ -422,7 +422,7 @@ static void print_steps(void)
         double t[TURNS], solutions = 0, iterations = 0;
         bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
         m->par.gravity[1] = -9.81;
-        m->par.alpha = 1e4;
+        m->par.alpha = 1000;
         m->par.dt = 0.01;
         m->par.velocity_factor = 0;
         run[k].add(m, run[k].size);

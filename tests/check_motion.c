@@ -226,8 +226,8 @@ END_TEST
 /* --------------------------------------------------------------------------------------------- bonded blocks spin */
 
 static const struct { double w; int triangles; bbm_bonding bonding; double alpha; } SPINS[] = {
-    { 1, 0, BBM_MOMENT, 100 },  { 5, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 1e4 },
-    { 5, 1, BBM_VERTICES, 1e4 }, { 20, 1, BBM_VERTICES, 100 }, { 20, 0, BBM_VERTICES, 1e4 },
+    { 1, 0, BBM_MOMENT, 100 },  { 5, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 1e3 },
+    { 5, 1, BBM_VERTICES, 1e3 }, { 20, 1, BBM_VERTICES, 100 }, { 20, 0, BBM_VERTICES, 1e3 },
 };
 
 /* A free block of 3 x 3 cells that flies, spins by up to 0.2 rad a step, and is under a pressure all round, or not. In the
