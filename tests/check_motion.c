@@ -223,6 +223,47 @@ START_TEST(with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_ex
 }
 END_TEST
 
+/* The same for contacts of quadrilaterals that share their corners; one without such corners has the vectors of the paper,
+ * up to rounding. */
+START_TEST(the_springs_of_contacts_at_shared_corners_have_their_exact_lengths)
+{
+    bbm_model *m = weightless_blocks();
+    int n, shared = 0;
+
+    m->par.faces = 1;
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -1.6, .y = -1, .w = 3, .h = 1, .nx = 3 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .w = 2, .h = 1, .nx = 2 });
+    add_rectangle(m, 2, ROCK, (rectangle){ .x = 5, .y = -1, .w = 2, .h = 1 });
+    add_rectangle(m, 3, ROCK, (rectangle){ .x = 5.3, .w = 1, .h = 1 });
+    start_step(m, &n);
+    for (int seed = 0; seed < 20; seed++) {
+        for (int i = 0; i < m->elements; i++)
+            some_motion(seed + 100 * i, &m->D[6 * i]);
+        bbm_set_middle(m);
+        for (const bbm_contact *c = m->scratch->contact; c < m->scratch->contact + n; c++) {
+            bbm_spring v[2], other[2];
+            double d[2];
+            bbm_contact_vectors(m, c, 0.3, v);
+            bbm_end_distances(m, c, 0.3, d);
+            for (int k = 0; k < 2; k++)
+                ck_near(bbm_length_of(&v[k], c->parts, c->element, m->D), d[k], 1, 1e-13);
+            shared += c->parts == BBM_PARTS;
+            if (c->parts > 2)
+                continue;
+            bbm_shared_vectors(m, c, 0.3, other);
+            for (int k = 0; k < 2; k++) {
+                ck_near(other[k].d, v[k].d, 1, 1e-13);
+                for (int a = 0; a < 6; a++) {
+                    ck_near(other[k].e[a], v[k].e[a], 1, 1e-13);
+                    ck_near(other[k].g[a], v[k].g[a], 1, 1e-13);
+                }
+            }
+        }
+    }
+    ck_assert_int_ge(shared, 20);
+}
+END_TEST
+
 /* --------------------------------------------------------------------------------------------- bonded blocks spin */
 
 static const struct { double w; int triangles; bbm_bonding bonding; int augment; } SPINS[] = {
@@ -552,6 +593,7 @@ Suite *motion_suite(void)
         { the_matrix_of_the_middle_moves_points_exactly, 1 },
         { the_vectors_are_off_when_an_element_turns_further_than_they_did, 1 },
         { with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths, 1 },
+        { the_springs_of_contacts_at_shared_corners_have_their_exact_lengths, 1 },
         { a_bonded_block_that_spins_keeps_its_energy, COUNT(SPINS) },
         { multipliers_make_no_energy_in_steps_of_any_length, 12 },
         { the_balance_of_a_step_is_what_it_says, 3 },
