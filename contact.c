@@ -63,16 +63,16 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
     const double x3 = c->P3->x, y3 = c->P3->y, l = hypot(x3 - x2, y3 - y2);
-    double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2];
+    double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2], *e = n->v[0], *g = n->v[1];
 
     n->d = ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) / l;
     bbm_step_point(c->i, x1, y1, T1, p1);
     bbm_step_point(c->j, x2, y2, T2, p2);
     bbm_step_point(c->j, x3, y3, T3, p3);
     for (int a = 0; a < 6; a++) {
-        n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
-        n->g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
-                   + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
+        e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
+        g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
+                + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
     }
 }
 
@@ -107,6 +107,7 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
     const double l = hypot(P3->x - P2->x, P3->y - P2->y), turns = c->i->middle ? 1 : 0;
     double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
+    double *e = s->v[0], *g = s->v[1];
 
     s->d = ((P1->x - x0) * (P3->x - P2->x) + (P1->y - y0) * (P3->y - P2->y)) / l;
     bbm_step_point(c->i, P1->x, P1->y, T1, p1);
@@ -116,9 +117,9 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
     const double ax = turns * (p1[0] - p0[0]) / l, ay = turns * (p1[1] - p0[1]) / l;
     for (int a = 0; a < 6; a++) {
-        s->e[a] = T1[0][a] * mx + T1[1][a] * my;
-        s->g[a] = -T0[0][a] * mx - T0[1][a] * my
-                + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
+        e[a] = T1[0][a] * mx + T1[1][a] * my;
+        g[a] = -T0[0][a] * mx - T0[1][a] * my
+             + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
     }
 }
 
@@ -273,16 +274,15 @@ void bbm_assemble_contacts(bbm_model *m)
         v[0].d -= c->rest;
         const double T = c->state == BBM_LOCK ? p_s * v[1].d : find_friction(m, c, v);
         for (int a = 0; a < c->parts; a++) {
-            const double *n = bbm_part_of(&v[0], a), *s = bbm_part_of(&v[1], a);
             double F[6] = { 0 };
             for (int b = a; b < c->parts; b++) {
                 double K[6][6] = { { 0 } };
-                bbm_spring_submatrix(m->par.p_n, n, bbm_part_of(&v[0], b), K);
-                bbm_spring_submatrix(p_s, s, bbm_part_of(&v[1], b), K);
+                bbm_spring_submatrix(m->par.p_n, v[0].v[a], v[0].v[b], K);
+                bbm_spring_submatrix(p_s, v[1].v[a], v[1].v[b], K);
                 bbm_matrix_add(m->K, c->element[a], c->element[b], K);
             }
-            bbm_force_submatrix(m->par.p_n * v[0].d, n, F);
-            bbm_force_submatrix(T, s, F);
+            bbm_force_submatrix(m->par.p_n * v[0].d, v[0].v[a], F);
+            bbm_force_submatrix(T, v[1].v[a], F);
             for (int x = 0; x < 6; x++)
                 m->F[6 * c->element[a] + x] += F[x];
         }
@@ -294,12 +294,13 @@ void bbm_assemble_contacts(bbm_model *m)
 /* The length of a spring: d0 + e.D_i + g.D_j, Eq. (57), (61). row: which D each vector has. */
 double bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D)
 {
+    const double *e = v->v[0], *g = v->v[1], *Di = &D[6 * row[0]], *Dj = &D[6 * row[1]];
     double length = v->d;
 
     for (int a = 0; a < 6; a++) {
-        double sum = 0;
-        for (int i = 0; i < parts; i++)
-            sum += bbm_part_of(v, i)[a] * D[6 * row[i] + a];
+        double sum = e[a] * Di[a] + g[a] * Dj[a];
+        for (int k = 2; k < parts; k++)
+            sum += v->v[k][a] * D[6 * row[k] + a];
         length += sum;
     }
     return length;

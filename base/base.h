@@ -125,7 +125,7 @@ typedef struct {                /* what the formulas of 3.7 take                
 } bbm_touch;
 
 typedef struct {                /* of a contact: its length is d + e.D_i + g.D_j                */
-    double d, e[6], g[6], h[BBM_PARTS - 2][6];  /* and h.D of each further element              */
+    double d, v[BBM_PARTS][6];  /* e, g; and beyond the paper one for each further element      */
 } bbm_spring;
 
 /* The most passes that change states or renew the vectors of the step, and detections in one part.
@@ -242,11 +242,6 @@ static inline void bbm_point_at(const bbm_model *m, int v, double at[2])
     at[1] = (P->y + Q->y) / 2;
 }
 
-static inline const double *bbm_part_of(const bbm_spring *v, int part)
-{
-    return part == 0 ? v->e : part == 1 ? v->g : v->h[part - 2];
-}
-
 /* Displacement of the point (x, y) by D: u = T D, or a hook's. */
 static inline void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x,
                             double y, double u[2])
@@ -338,8 +333,8 @@ bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, 
 /* What is not symmetric in K: K += u v^T. */
 typedef struct {
     int    parts, row[BBM_PARTS];               /* places of the rows of the elements           */
-    double p;                   /* u = p (e, g, h) of the shear spring                          */
-    bbm_spring s, n;            /* v = (e, g, h) of the normal one, its d is 0                  */
+    double p;                   /* u = p v of the shear spring                                  */
+    bbm_spring s, n;            /* v of the normal one, whose d is 0                            */
 } bbm_term;
 
 struct bbm_matrix {

@@ -215,6 +215,8 @@ static void move_point(const bbm_model *m, int v, double u[2])
     double w[2];
 
     bbm_move(m, &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
+    if (P == Q)
+        return;
     bbm_move(m, &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
     u[0] = (u[0] + w[0]) / 2;
     u[1] = (u[1] + w[1]) / 2;

@@ -235,7 +235,7 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
     memset(v, 0, 2 * sizeof *v);
     v[0].d = (X * y1 - Y * x1) / l;
     v[1].d = ((x1 + weight[2] * X) * X + (y1 + weight[2] * Y) * Y) / l;
-    for (int k = 0, more = 0; k < 3; k++) {
+    for (int k = 0, more = 2; k < 3; k++) {
         const double *p2 = p[(k + 1) % 3], *p3 = p[(k + 2) % 3];
         const int shared = bbm_partner_of(m, P[k]) != P[k];
         for (int n = 0; n < 8; n++) {                   /* of each distance, vertex, direction */
@@ -243,7 +243,7 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
             const double a = p[0][b] - p[2][b] - r * (p[1][b] - p[2][b]);
             const double q = (n < 4 ? b ? p3[0] - p2[0] : p2[1] - p3[1]
                               : weight[k] * (p[2][b] - p[1][b]) + turn[k] * a) / l;
-            double *part = other && shared ? v[n / 4].h[more] : k > 0 ? v[n / 4].g : v[n / 4].e;
+            double *part = v[n / 4].v[other && shared ? more : k > 0];
             for (int i = 0; i < 6; i++)
                 part[i] += T[k][other][b][i] * q / 2;
         }

@@ -97,8 +97,8 @@ static void take_back(bbm_model *m)
         bbm_spring v[2];
         bbm_contact_vectors(m, c, c->anchor, v);
         for (int i = 0; i < 6 * c->parts && isfinite(m->scratch->contact[k].rest); i++)
-            m->load[6 * c->element[i / 6] + i % 6] += T * bbm_part_of(&v[1], i / 6)[i % 6]
-                                                    - c->N * bbm_part_of(&v[0], i / 6)[i % 6];
+            m->load[6 * c->element[i / 6] + i % 6] += T * v[1].v[i / 6][i % 6]
+                                                    - c->N * v[0].v[i / 6][i % 6];
     }
 }
 

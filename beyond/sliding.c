@@ -52,8 +52,9 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
         if (t->row[0] < K->from || t->row[0] >= K->to)
             continue;
         const double vx = bbm_length_of(&t->n, t->parts, t->row, x);
-        for (int i = 0; i < 6 * t->parts; i++)
-            y[6 * t->row[i / 6] + i % 6] += t->p * bbm_part_of(&t->s, i / 6)[i % 6] * vx;
+        for (int i = 0; i < t->parts; i++)
+            for (int a = 0; a < 6; a++)
+                y[6 * t->row[i] + a] += t->p * t->s.v[i][a] * vx;
         count++;
     }
     return count;

@@ -217,8 +217,8 @@ START_TEST(with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_ex
         exact_motion(b, m->D + 6, P3->x, P3->y, p3);
         exact_motion(b, m->D + 6, P3->x + anchor * (P2->x - P3->x), P3->y + anchor * (P2->y - P3->y), p0);
         products(p1, p2, p3, p0, d);
-        ck_near(n.d + sum_row(n.e, m->D) + sum_row(n.g, m->D + 6), d[0] / l, 1, 1e-13);
-        ck_near(s.d + sum_row(s.e, m->D) + sum_row(s.g, m->D + 6), d[1] / l, 1, 1e-13);
+        ck_near(n.d + sum_row(n.v[0], m->D) + sum_row(n.v[1], m->D + 6), d[0] / l, 1, 1e-13);
+        ck_near(s.d + sum_row(s.v[0], m->D) + sum_row(s.v[1], m->D + 6), d[1] / l, 1, 1e-13);
     }
 }
 END_TEST
@@ -254,8 +254,8 @@ START_TEST(the_springs_of_contacts_at_shared_corners_have_their_exact_lengths)
             for (int k = 0; k < 2; k++) {
                 ck_near(other[k].d, v[k].d, 1, 1e-13);
                 for (int a = 0; a < 6; a++) {
-                    ck_near(other[k].e[a], v[k].e[a], 1, 1e-13);
-                    ck_near(other[k].g[a], v[k].g[a], 1, 1e-13);
+                    ck_near(other[k].v[0][a], v[k].v[0][a], 1, 1e-13);
+                    ck_near(other[k].v[1][a], v[k].v[1][a], 1, 1e-13);
                 }
             }
         }
