@@ -188,12 +188,11 @@ struct bbm_hooks {
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
-    int (*partner)(const bbm_model *m, int v);              /* a vertex halfway to which a force
-                                                               on v acts; v itself: there is none */
+    int (*partner)(const bbm_model *m, int v);              /* that shares its corner; v: none  */
     void (*vectors)(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2]);
-                                                            /* of a contact with such points     */
+                                                            /* where a point is such a corner   */
     double (*friction)(bbm_model *m, const bbm_contact *c, const bbm_spring v[2]);
-                                            /* puts it in K, for the N of the solution; the load */
+                                        /* puts it in K for the N of the solution; returns Fr */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */

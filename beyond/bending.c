@@ -209,13 +209,13 @@ int bbm_find_partner(const bbm_model *m, int v)
 
 /* The vectors of a contact some of whose points P1, P2, P3 are shared. Each point moves by u, the
  * mean of what T D moves its two vertices by, or one and the same. With P1 - P0 = P1 - r P2 - (1 -
- * r) P3, r the anchor, a = (P1 - P0)/l and m = (P3 - P2)/l as in bbm_shear_vectors
+ * r) P3, r the anchor, a = (P1 - P0)/l and m = (P3 - P2)/l, as in bbm_shear_vectors
  *
  *     d = d0 + q1.u1 + q2.u2 + q3.u3,
  *     d_n: q1 = (y2 - y3, x3 - x2)/l,   q2 = (y3 - y1, x1 - x3)/l,   q3 = (y1 - y2, x2 - x1)/l,
  *     d_s: q1 = m,                      q2 = -r m - a,               q3 = (r - 1) m + a,
  *
- * and an element gets T^T q/2 of each vertex. */
+ * all points in q those of the moment of T, and an element gets T^T q/2 of each vertex. */
 void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2])
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
