@@ -85,9 +85,9 @@ void bbm_spring_submatrix(double p, const double v[6], const double w[6], double
             K[a][b] += p * v[a] * w[b];
 }
 
-/* The force f of a contact at D = 0 is a load on both sides: F_i -= f e, F_j -= f g. Of a spring it
- * is p d0, Eq. (59), (64). The friction force Fr of Eq. (65), positive when P1 slips towards P3, has
- * the e and g of the shear spring, Eq. (66)-(69). */
+/* The force f of a contact at D = 0 is a load on both sides: F_i -= f e, F_j -= f g. A spring has
+ * f = p d0, Eq. (59), (64). The friction force Fr of Eq. (65), positive when P1 slips towards P3,
+ * has the e and g of the shear spring, Eq. (66)-(69). */
 void bbm_force_submatrix(double f, const double v[6], double F[6])
 {
     for (int a = 0; a < 6; a++)
@@ -123,7 +123,7 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     }
 }
 
-/* ---------------------------------------------------------------------------------- 3.8 Friction */
+/* --------------------------------------------------------------------------------- 3.8 Friction */
 
 double bbm_tangent(double degrees) { return tan(degrees * acos(-1) / 180); }
 
