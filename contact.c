@@ -58,48 +58,40 @@ enum { FRICTION_PASSES = 100 };
  * and the terms of second order are dropped: d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
- * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. For h see
- * bbm_contact_vectors. */
+ * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. */
 void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 {
     const double x1 = c->P1->x, y1 = c->P1->y, x2 = c->P2->x, y2 = c->P2->y;
     const double x3 = c->P3->x, y3 = c->P3->y, l = hypot(x3 - x2, y3 - y2);
-    double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2];
+    double T1[2][6], T2[2][6], T3[2][6], p1[2], p2[2], p3[2], *e = n->v[0], *g = n->v[1];
 
     n->d = ((x2 - x1) * (y3 - y1) - (x3 - x1) * (y2 - y1)) / l;
     bbm_step_point(c->i, x1, y1, T1, p1);
     bbm_step_point(c->j, x2, y2, T2, p2);
     bbm_step_point(c->j, x3, y3, T3, p3);
     for (int a = 0; a < 6; a++) {
-        n->e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
-        n->g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
-                   + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
-        n->h[a] = 0;
+        e[a] = (T1[0][a] * (p2[1] - p3[1]) + T1[1][a] * (p3[0] - p2[0])) / l;
+        g[a] = (T2[0][a] * (p3[1] - p1[1]) + T2[1][a] * (p1[0] - p3[0])
+                + T3[0][a] * (p1[1] - p2[1]) + T3[1][a] * (p2[0] - p1[0])) / l;
     }
 }
 
 /* A spring p, normal or shear, over d = d0 + e.D_i + g.D_j: Pi = p/2 d^2, Eq. (51)   ->
- * Eq. (58)-(59), (58a-f), (63), (64):
- *     K_ii += p e e^T,  K_ij += p e g^T,  K_jj += p g g^T,  F_i -= p d0 e,  F_j -= p d0 g,
- * and the same with h of a third element k, which the paper does not have. */
-void bbm_spring_submatrices(double p, const bbm_spring *v, bbm_submatrices *s)
+ * Eq. (58), (58a-f), (63): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T. v and w: e or g. */
+void bbm_spring_submatrix(double p, const double v[6], const double w[6], double K[6][6])
 {
-    for (int a = 0; a < 6; a++) {
-        for (int b = 0; b < 6; b++) {
-            s->Kii[a][b] += p * v->e[a] * v->e[b];
-            s->Kij[a][b] += p * v->e[a] * v->g[b];
-            s->Kjj[a][b] += p * v->g[a] * v->g[b];
-        }
-        s->Fi[a] -= p * v->d * v->e[a];
-        s->Fj[a] -= p * v->d * v->g[a];
-    }
-    for (int a = 0; a < 36; a++) {
-        s->Kki[a / 6][a % 6] += p * v->h[a / 6] * v->e[a % 6];
-        s->Kkj[a / 6][a % 6] += p * v->h[a / 6] * v->g[a % 6];
-        s->Kkk[a / 6][a % 6] += p * v->h[a / 6] * v->h[a % 6];
-    }
     for (int a = 0; a < 6; a++)
-        s->Fk[a] -= p * v->d * v->h[a];
+        for (int b = 0; b < 6; b++)
+            K[a][b] += p * v[a] * w[b];
+}
+
+/* The force f of a contact at D = 0 is a load on both sides: F_i -= f e, F_j -= f g. A spring has
+ * f = p d0, Eq. (59), (64). The friction force Fr of Eq. (65), positive when P1 slips towards P3,
+ * has the e and g of the shear spring, Eq. (66)-(69). */
+void bbm_force_submatrix(double f, const double v[6], double F[6])
+{
+    for (int a = 0; a < 6; a++)
+        F[a] -= f * v[a];
 }
 
 /* ---------------------------------------------------------------------- 3.7.2 Shear submatrices */
@@ -115,6 +107,7 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
     const double l = hypot(P3->x - P2->x, P3->y - P2->y), turns = c->i->middle ? 1 : 0;
     double T1[2][6], T0[2][6], T2[2][6], T3[2][6], p1[2], p0[2], p2[2], p3[2];
+    double *e = s->v[0], *g = s->v[1];
 
     s->d = ((P1->x - x0) * (P3->x - P2->x) + (P1->y - y0) * (P3->y - P2->y)) / l;
     bbm_step_point(c->i, P1->x, P1->y, T1, p1);
@@ -124,25 +117,13 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
     const double mx = (p3[0] - p2[0]) / l, my = (p3[1] - p2[1]) / l;
     const double ax = turns * (p1[0] - p0[0]) / l, ay = turns * (p1[1] - p0[1]) / l;
     for (int a = 0; a < 6; a++) {
-        s->e[a] = T1[0][a] * mx + T1[1][a] * my;
-        s->g[a] = -T0[0][a] * mx - T0[1][a] * my
-                + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
-        s->h[a] = 0;
+        e[a] = T1[0][a] * mx + T1[1][a] * my;
+        g[a] = -T0[0][a] * mx - T0[1][a] * my
+             + (T3[0][a] - T2[0][a]) * ax + (T3[1][a] - T2[1][a]) * ay;
     }
 }
 
-/* --------------------------------------------------------------------- 3.8 Friction submatrices */
-
-/* The friction force Fr of Eq. (65), positive when P1 slips towards P3, is a load on both sides:
- * F_i -= Fr e, F_j -= Fr g, Eq. (66)-(69), with e and g of the shear spring. */
-void bbm_friction_submatrices(const bbm_spring *v, double Fr, bbm_submatrices *s)
-{
-    for (int a = 0; a < 6; a++) {
-        s->Fi[a] -= Fr * v->e[a];
-        s->Fj[a] -= Fr * v->g[a];
-        s->Fk[a] -= Fr * v->h[a];
-    }
-}
+/* --------------------------------------------------------------------------------- 3.8 Friction */
 
 double bbm_tangent(double degrees) { return tan(degrees * acos(-1) / 180); }
 
@@ -187,6 +168,19 @@ static int is_strong(const bbm_contact *c)
     return c->strength.shear > 0 || c->strength.tension > 0;
 }
 
+/* The elements of a contact: i and j, and those that share P1, P2 or P3 with them. */
+static void find_elements(const bbm_model *m, bbm_contact *c)
+{
+    const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
+
+    c->element[0] = bbm_element_of(m, c->corner);
+    c->element[1] = bbm_element_of(m, c->edge);
+    c->parts = 2;
+    for (int k = 0; k < 3; k++)
+        if (bbm_partner_of(m, P[k]) != P[k])
+            c->element[c->parts++] = m->vertex[bbm_partner_of(m, P[k])].element;
+}
+
 /* The state with which a contact begins the step: that of its last step. But one that touches when
  * the run begins is closed: what lies flush is so under load. In dynamics it is open where P can
  * come in over several lines of a corner, unless its joint has a strength: its way shows over which
@@ -197,6 +191,7 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     int lines = 0;
 
+    find_elements(m, c);
     c->time_left = 1;
     c->N_of_friction = c->N;
     c->closings = 0;
@@ -238,94 +233,87 @@ static int is_strengthless(const bbm_contact *c, double N)
     return is_strong(c) && bbm_shear_strength(&c->strength, N) == 0;
 }
 
-/* Friction of a sliding contact as a load, Eq. (65), (69), with N_of_friction for N, or what a hook
- * adds. While the N are still changing one may be negative. Its friction is, too: each N then
- * depends linearly on the last. A strong joint may stay in tension, so it has its strength instead.
- */
-static void add_friction(bbm_model *m, bbm_contact *c, const bbm_spring v[2], bbm_submatrices *s)
+/* Friction of a sliding contact, Eq. (65), with N_of_friction for N, or what a hook says. While the
+ * N are still changing one may be negative. Its friction is, too: each N then depends linearly on
+ * the last. A strong joint may stay in tension, so it has its strength instead. */
+static double find_friction(bbm_model *m, bbm_contact *c, const bbm_spring v[2])
 {
     const double N = c->N_of_friction, strength = bbm_shear_strength(&c->strength, N);
-    const double friction = c->sign * (is_strong(c) ? strength : N * c->strength.tan_phi);
 
-    c->friction_in_K = m->hook->friction && !is_strengthless(c, N)
-                    && m->hook->friction(m, c, v, s);
-    if (!c->friction_in_K)
-        bbm_friction_submatrices(&v[1], friction, s);
+    c->friction_in_K = m->hook->friction && !is_strengthless(c, N);
+    return c->friction_in_K ? m->hook->friction(m, c, v)
+         : c->sign * (is_strong(c) ? strength : N * c->strength.tan_phi);
 }
 
-/* The vectors of a contact for d_n, and for d_s from an anchor. Beyond the paper, a corner may lie
- * halfway between the vertices of two elements, see the hook `shares`. Its vectors are the means of
- * those for one vertex and for the other. */
+/* The vectors of a contact for d_n, and for d_s from an anchor. */
 void bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2])
 {
-    const bbm_vertex *Q1 = bbm_partner_of(m, c->corner);
-    bbm_touch t = bbm_touch_of(m, c);
-    bbm_spring other[2];
+    const bbm_touch t = { &m->element[c->element[0]], &m->element[c->element[1]],
+                          bbm_start_of(m, c->corner), bbm_end_of(m, c->edge),
+                          bbm_start_of(m, c->edge) };
 
-    bbm_normal_vectors(&t, &v[0]);
-    bbm_shear_vectors(&t, anchor, &v[1]);
-    if (Q1 == t.P1)
-        return;
-    t.i = &m->element[Q1->element];
-    t.P1 = Q1;
-    bbm_normal_vectors(&t, &other[0]);
-    bbm_shear_vectors(&t, anchor, &other[1]);
-    for (int k = 0; k < 2; k++) {
-        v[k].d = (v[k].d + other[k].d) / 2;
-        for (int a = 0; a < 6; a++) {
-            v[k].e[a] /= 2;
-            v[k].g[a] = (v[k].g[a] + other[k].g[a]) / 2;
-            v[k].h[a] = other[k].e[a] / 2;
-        }
-    }
+    if (c->parts == 2) {
+        bbm_normal_vectors(&t, &v[0]);
+        bbm_shear_vectors(&t, anchor, &v[1]);
+    } else
+        m->hook->vectors(m, c, anchor, v);
 }
 
-/* Adds the closed contacts to K and F. LOCK: the normal and the shear spring, Eq. (58) and (63).
- * SLIDE: the normal spring and friction, Eq. (65), (69). Deviation: d_n counts from `rest`, which
- * is 0 in the paper; see bbm_contact. */
+/* Adds the closed contacts to K and F: K_ij for each two elements, and each with itself. LOCK: the
+ * normal and the shear spring, Eq. (58) and (63). SLIDE: the normal spring and friction, Eq. (65),
+ * (69). Deviation: d_n counts from `rest`, which is 0 in the paper; see bbm_contact. */
 void bbm_assemble_contacts(bbm_model *m)
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
-        const int i = bbm_element_of(m, c->corner), j = bbm_element_of(m, c->edge);
-        const int partner = bbm_partner_of(m, c->corner)->element;
-        bbm_submatrices s = { .Fi = { 0 } };
+        const double p_s = c->state == BBM_LOCK ? c->time_left * m->par.p_s : 0;
         bbm_spring v[2];
         if (c->state == BBM_OPEN)
             continue;
         bbm_contact_vectors(m, c, c->anchor, v);
         v[0].d -= c->rest;
-        bbm_spring_submatrices(m->par.p_n, &v[0], &s);
-        if (c->state == BBM_LOCK)
-            bbm_spring_submatrices(c->time_left * m->par.p_s, &v[1], &s);
-        else
-            add_friction(m, c, v, &s);
-        bbm_add_submatrices(m, i, j, &s);
-        if (partner == i)
-            continue;
-        bbm_matrix_add(m->K, partner, i, s.Kki);
-        bbm_matrix_add(m->K, partner, j, s.Kkj);
-        bbm_matrix_add(m->K, partner, partner, s.Kkk);
-        for (int a = 0; a < 6; a++)
-            m->F[6 * partner + a] += s.Fk[a];
+        const double T = c->state == BBM_LOCK ? p_s * v[1].d : find_friction(m, c, v);
+        for (int a = 0; a < c->parts; a++) {
+            double F[6] = { 0 };
+            for (int b = a; b < c->parts; b++) {
+                double K[6][6] = { { 0 } };
+                bbm_spring_submatrix(m->par.p_n, v[0].v[a], v[0].v[b], K);
+                bbm_spring_submatrix(p_s, v[1].v[a], v[1].v[b], K);
+                bbm_matrix_add(m->K, c->element[a], c->element[b], K);
+            }
+            bbm_force_submatrix(m->par.p_n * v[0].d, v[0].v[a], F);
+            bbm_force_submatrix(T, v[1].v[a], F);
+            for (int x = 0; x < 6; x++)
+                m->F[6 * c->element[a] + x] += F[x];
+        }
     }
 }
 
 /* ------------------------------------------------------------- the open-close iteration: forces */
 
-/* d_n and d_s, from an anchor, by these vectors: d = d0 + e.D_i + g.D_j, Eq. (57), (61). */
+/* The length of a spring: d0 + e.D_i + g.D_j, Eq. (57), (61). row: which D each vector has. */
+double bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D)
+{
+    const double *e = v->v[0], *g = v->v[1], *Di = &D[6 * row[0]], *Dj = &D[6 * row[1]];
+    double length = v->d;
+
+    for (int a = 0; a < 6; a++) {
+        double sum = e[a] * Di[a] + g[a] * Dj[a];
+        for (int k = 2; k < parts; k++)
+            sum += v->v[k][a] * D[6 * row[k] + a];
+        length += sum;
+    }
+    return length;
+}
+
+/* d_n and d_s, from an anchor, by these vectors. */
 static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
-    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
-    const double *Dk = &m->D[6 * bbm_partner_of(m, c->corner)->element];
     bbm_spring v[2];
 
     bbm_contact_vectors(m, c, anchor, v);
-    for (int k = 0; k < 2; k++) {
-        d[k] = v[k].d;
-        for (int a = 0; a < 6; a++)
-            d[k] += v[k].e[a] * Di[a] + v[k].g[a] * Dj[a] + v[k].h[a] * Dk[a];
-    }
+    for (int k = 0; k < 2; k++)
+        d[k] = bbm_length_of(&v[k], c->parts, c->element, m->D);
 }
 
 /* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
@@ -354,12 +342,6 @@ static void measure(const bbm_model *m, bbm_contact *c)
         c->N_of_friction = c->N;
 }
 
-/* The entry of `force` for the component of K to which an element belongs. */
-static double *force_around(const bbm_model *m, int element)
-{
-    return &m->scratch->force[bbm_component_of(m->K, element)];
-}
-
 /* The force tolerance of each contact: a share of the largest force in its component of K. That is
  * the force on an element, inertia included, or in a contact. The solver's residual, and with it
  * the error of every N, is small against this force alone. What the spring makes of the rounding of
@@ -370,13 +352,13 @@ static void find_tolerances(const bbm_model *m)
 
     memcpy(w->force, m->K->forces, (size_t)m->K->components * sizeof *w->force);
     for (int k = 0; k < w->contacts; k++) {
-        double *most = force_around(m, bbm_element_of(m, w->contact[k].corner));
+        double *most = &w->force[bbm_component_of(m->K, w->contact[k].element[0])];
         *most = fmax(*most, fabs(w->contact[k].N));
     }
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        const double force = *force_around(m, bbm_element_of(m, c->corner));
+        const double force = w->force[bbm_component_of(m->K, c->element[0])];
         const double digits = m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y)) * DIGITS;
         c->force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
     }

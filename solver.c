@@ -270,8 +270,7 @@ static int invert(double w, double D[6][6], double B[6][6])
 
 /* Checks K, F and the parameters, then inverts the diagonal blocks. If one is not positive
  * definite, info->element is its row. Further solutions with the same K find this done. */
-static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
-                             bbm_pcg_info *info)
+static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     if (!(pcg->omega > 0 && pcg->omega < 2) || !(pcg->tolerance > 0 && pcg->tolerance < 1)
         || pcg->iterations < 1)

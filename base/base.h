@@ -22,11 +22,8 @@ struct bbm_bond {               /* an internal edge: two bonding springs        
     int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j      */
 };
 
-/* What two elements add to K and F; K_ji = K_ij^T. k: of a contact whose corner two elements share,
- * the other one; in the paper there is none. */
-typedef struct {
+typedef struct {                /* what two elements add to K and F; K_ji = K_ij^T              */
     double Kii[6][6], Kij[6][6], Kjj[6][6], Fi[6], Fj[6];
-    double Kki[6][6], Kkj[6][6], Kkk[6][6], Fk[6];
 } bbm_submatrices;
 
 typedef struct {                /* of a hook: the force in a gap besides that of its spring     */
@@ -52,6 +49,9 @@ struct bbm_line_load {          /* a load along a boundary edge                 
 };
 
 /* --------------------------------------------------------------------- the data of 3.7 and 3.8 */
+
+/* The most elements of a contact: i, j and, beyond the paper, others that share P1, P2 or P3. */
+enum { BBM_PARTS = 5 };
 
 typedef struct {                /* Mohr and Coulomb: abs(T) <= N tan_phi + shear, -N <= tension */
     double tan_phi;             /* -        of the friction angle                               */
@@ -91,6 +91,7 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     int    hit;                 /* a hook has given it an impulse in place of its spring's      */
     /* --- of the step --- */
     bbm_strength strength;
+    int    parts, element[BBM_PARTS];           /* i, j, and in the paper no more               */
     /* --- of the step, by detect.c --- */
     int    carried;             /* the last step had it, with this edge                         */
     int    touches;             /* P1 lies on the edge when the run begins                      */
@@ -117,8 +118,9 @@ typedef struct {                /* what the formulas of 3.7 take                
     const bbm_vertex *P1, *P2, *P3;
 } bbm_touch;
 
-typedef struct { double d, e[6], g[6], h[6]; } bbm_spring;      /* length d + e.D_i + g.D_j;    */
-                                                                /* of a shared corner + h.D_k   */
+typedef struct {                /* of a contact: its length is d + e.D_i + g.D_j                */
+    double d, v[BBM_PARTS][6];  /* e, g; and beyond the paper one for each further element      */
+} bbm_spring;
 
 /* The most passes that change states or renew the vectors of the step, and detections in one part.
  * */
@@ -179,9 +181,11 @@ struct bbm_hooks {
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
     void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
     /* --- open-close --- */
-    int (*shares)(const bbm_model *m, int corner);          /* two elements share it            */
-    int (*friction)(bbm_model *m, const bbm_contact *c, const bbm_spring v[2], bbm_submatrices *s);
-                                                            /* 1: added for the N of the solution */
+    int (*partner)(const bbm_model *m, int v);              /* that shares its corner; v: none  */
+    void (*vectors)(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2]);
+                                                            /* where a point is such a corner   */
+    double (*friction)(bbm_model *m, const bbm_contact *c, const bbm_spring v[2]);
+                                        /* puts it in K for the N of the solution; returns Fr */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */
@@ -215,26 +219,19 @@ static inline const bbm_vertex *bbm_end_of(const bbm_model *m, int edge)
 
 static inline int bbm_element_of(const bbm_model *m, int edge) { return m->edge[edge].element; }
 
-/* D of the element of a boundary edge. */
-static inline const double *bbm_D_of(const bbm_model *m, int edge)
+/* The vertex that shares a corner of the boundary with v; in the paper none does, and it is v. */
+static inline int bbm_partner_of(const bbm_model *m, int v)
 {
-    return &m->D[6 * m->edge[edge].element];
+    return m->hook->partner ? m->hook->partner(m, v) : v;
 }
 
-/* The vertex at a corner of the element k that shares it; in the paper there is none, and it is the
- * corner's own. */
-static inline const bbm_vertex *bbm_partner_of(const bbm_model *m, int corner)
+/* The point of the boundary at v: v, or halfway between the two that share it. */
+static inline void bbm_point_at(const bbm_model *m, int v, double at[2])
 {
-    return m->hook->shares && m->hook->shares(m, corner) ? bbm_end_of(m, m->edge[corner].before)
-                                                         : bbm_start_of(m, corner);
-}
+    const bbm_vertex *P = &m->vertex[v], *Q = &m->vertex[bbm_partner_of(m, v)];
 
-/* The elements and points of a contact. */
-static inline bbm_touch bbm_touch_of(const bbm_model *m, const bbm_contact *c)
-{
-    return (bbm_touch){ &m->element[bbm_element_of(m, c->corner)],
-                        &m->element[bbm_element_of(m, c->edge)], bbm_start_of(m, c->corner),
-                        bbm_end_of(m, c->edge), bbm_start_of(m, c->edge) };
+    at[0] = (P->x + Q->x) / 2;
+    at[1] = (P->y + Q->y) / 2;
 }
 
 /* Displacement of the point (x, y) by D: u = T D, or a hook's. */
@@ -287,17 +284,16 @@ void       bbm_keep_contacts(bbm_model *m);                     /* the step's be
 /* contact.c: 3.7 and 3.8 */
 void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               /* (52)-(57)    */
 void       bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (60)-(62)    */
-void       bbm_spring_submatrices(double p, const bbm_spring *v, bbm_submatrices *s);   /* (58), */
-                                                                                /* (63), (64)   */
-void       bbm_friction_submatrices(const bbm_spring *v, double Fr, bbm_submatrices *s);
-                                                                                /* (65)-(69)    */
+void       bbm_spring_submatrix(double p, const double v[6], const double w[6], double K[6][6]);
+                                                                                /* (58), (63)   */
+void       bbm_force_submatrix(double f, const double v[6], double F[6]);       /* (59)-(69)    */
 double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
-void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor,
-                               bbm_spring v[2]);
+double     bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D);
+void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2]);
 bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 
@@ -328,9 +324,9 @@ bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, 
 
 /* What is not symmetric in K: K += u v^T. */
 typedef struct {
-    int    row[3];              /* places of the rows of i, j and k                             */
-    double p;                   /* u = p (e, g, h) of the shear spring                          */
-    bbm_spring s, n;            /* v = (e, g, h) of the normal one                              */
+    int    parts, row[BBM_PARTS];               /* places of the rows of the elements           */
+    double p;                   /* u = p v of the shear spring                                  */
+    bbm_spring s, n;            /* v of the normal one, whose d is 0                            */
 } bbm_term;
 
 struct bbm_matrix {

@@ -289,8 +289,7 @@ static bbm_status connect_elements(bbm_model *m)
                          : bbm_next_vertex(&m->element[m->vertex[w].element], w);
         m->vertex[v].edge = partners == 0 ? m->edges : -1 - across;
         if (partners == 0)
-            m->edge[m->edges++] = (bbm_edge){ .element = i, .a = v, .b = next,
-                                              .block = block };
+            m->edge[m->edges++] = (bbm_edge){ .element = i, .a = v, .b = next, .block = block };
         else if (v < w)
             m->bond[m->bonds++] = (bbm_bond){ i, m->vertex[w].element, { v, next },
                                               { across, w } };

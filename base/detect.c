@@ -93,8 +93,10 @@ static int coincide(const bbm_model *m, int e, int f)
 static void find_directions(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++) {
-        const bbm_vertex *a = bbm_start_of(m, e), *b = bbm_end_of(m, e);
-        const double x = b->x - a->x, y = b->y - a->y, l = hypot(x, y);
+        double a[2], b[2];
+        bbm_point_at(m, m->edge[e].a, a);
+        bbm_point_at(m, m->edge[e].b, b);
+        const double x = b[0] - a[0], y = b[1] - a[1], l = hypot(x, y);
         m->edge[e].along = (bbm_direction){ x / l, y / l, l };
     }
 }
@@ -205,19 +207,25 @@ void bbm_foresee_step(bbm_model *m)
     m->scratch->is_listed = 0;
 }
 
-/* How far the vertex that starts edge e moves by D. */
-static void move_start(const bbm_model *m, int e, double u[2])
+/* How far the point of the boundary at v moves by D. */
+static void move_point(const bbm_model *m, int v, double u[2])
 {
-    const bbm_vertex *p = bbm_start_of(m, e);
+    const bbm_vertex *P = &m->vertex[v], *Q = &m->vertex[bbm_partner_of(m, v)];
+    double w[2];
 
-    bbm_move(m, &m->element[p->element], &m->D[6 * p->element], p->x, p->y, u);
+    bbm_move(m, &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
+    if (P == Q)
+        return;
+    bbm_move(m, &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
+    u[0] = (u[0] + w[0]) / 2;
+    u[1] = (u[1] + w[1]) / 2;
 }
 
 static double way_of(const bbm_model *m, int e)
 {
     double u[2];
 
-    move_start(m, e, u);
+    move_point(m, m->edge[e].a, u);
     return hypot(u[0], u[1]);
 }
 
@@ -226,8 +234,8 @@ static double slip_between(const bbm_model *m, int P, int Q, bbm_direction t)
 {
     double u[2], v[2];
 
-    move_start(m, P, u);
-    move_start(m, Q, v);
+    move_point(m, m->edge[P].a, u);
+    move_point(m, m->edge[Q].a, v);
     return fabs((u[0] - v[0]) * t.x + (u[1] - v[1]) * t.y);
 }
 
@@ -303,17 +311,18 @@ double bbm_allowed_depth(const bbm_model *m, int c, int e)
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
 
-typedef struct {                /* of P1 on an edge, m; a shared corner is halfway              */
+typedef struct {                /* of P1 on an edge, m                                          */
     double d, s, beyond;        /* distance; way along the edge from P3; how far beyond an end  */
 } projection;
 
 static projection project(const bbm_model *m, int corner, int e)
 {
-    const bbm_vertex *P = bbm_start_of(m, corner), *Q = bbm_partner_of(m, corner);
-    const bbm_vertex *a = bbm_start_of(m, e);
     const bbm_direction t = m->edge[e].along;
-    const double x = (P->x + Q->x) / 2 - a->x, y = (P->y + Q->y) / 2 - a->y;
-    const double s = x * t.x + y * t.y;
+    double P[2], a[2];
+
+    bbm_point_at(m, m->edge[corner].a, P);
+    bbm_point_at(m, m->edge[e].a, a);
+    const double x = P[0] - a[0], y = P[1] - a[1], s = x * t.x + y * t.y;
 
     return (projection){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
 }
@@ -562,14 +571,12 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 
     *c = old ? *old : (bbm_contact){ 0 };
     c->carried = old && old->corner == p.corner && old->edge == p.edge;
-    c->touches = !old && m->info.step == 0 && m->info.t == 0
-              && fmax(fabs(f.d), f.beyond) <= touch;
+    c->touches = !old && m->info.step == 0 && m->info.t == 0 && fmax(fabs(f.d), f.beyond) <= touch;
     c->corner = p.corner;
     c->edge = p.edge;
     c->d_n0 = f.d;
     c->was_closed = c->state != BBM_OPEN;
-    c->beyond_end = f.beyond > touch
-                 && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
+    c->beyond_end = f.beyond > touch && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
     for (int k = 0; k < 4; k++) {
         const pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
@@ -616,24 +623,27 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
  * start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
-    const bbm_touch t = bbm_touch_of(m, c);
-    const bbm_vertex *P1 = t.P1, *P2 = t.P2, *P3 = t.P3, *Q1 = bbm_partner_of(m, c->corner);
-    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
-    const double x1 = (P1->x + Q1->x) / 2, y1 = (P1->y + Q1->y) / 2;
-    const double x0 = P3->x + anchor * (P2->x - P3->x), y0 = P3->y + anchor * (P2->y - P3->y);
-    const double l = hypot(P3->x - P2->x, P3->y - P2->y);
-    double u1[2], v1[2], u2[2], u3[2], u0[2];
+    const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
+    const int j = c->element[1];
+    double at[4][2], u[4][2], x[2], p[2], s[2];
 
-    bbm_move(m, t.i, Di, P1->x, P1->y, u1);
-    bbm_move(m, &m->element[Q1->element], &m->D[6 * Q1->element], Q1->x, Q1->y, v1);
-    bbm_move(m, t.j, Dj, P2->x, P2->y, u2);
-    bbm_move(m, t.j, Dj, P3->x, P3->y, u3);
-    bbm_move(m, t.j, Dj, x0, y0, u0);
-    const double x = P3->x - P2->x + u3[0] - u2[0], y = P3->y - P2->y + u3[1] - u2[1];
-    const double ux = (u1[0] + v1[0]) / 2, uy = (u1[1] + v1[1]) / 2;
-    const double px = x1 - P2->x + ux - u2[0], py = y1 - P2->y + uy - u2[1];
-    d[0] = (x * py - y * px) / l;
-    d[1] = ((x1 - x0 + ux - u0[0]) * x + (y1 - y0 + uy - u0[1]) * y) / l;
+    for (int k = 0; k < 3; k++) {
+        bbm_point_at(m, P[k], at[k]);
+        move_point(m, P[k], u[k]);
+    }
+    for (int a = 0; a < 2; a++) {
+        at[3][a] = at[2][a] + anchor * (at[1][a] - at[2][a]);
+        u[3][a] = u[2][a] + anchor * (u[1][a] - u[2][a]);
+    }
+    if (c->parts == 2)
+        bbm_move(m, &m->element[j], &m->D[6 * j], at[3][0], at[3][1], u[3]);
+    for (int a = 0; a < 2; a++) {
+        x[a] = at[2][a] - at[1][a] + u[2][a] - u[1][a];
+        p[a] = at[0][a] - at[1][a] + u[0][a] - u[1][a];
+        s[a] = at[0][a] - at[3][a] + u[0][a] - u[3][a];
+    }
+    d[0] = (x[0] * p[1] - x[1] * p[0]) / m->edge[c->edge].along.length;
+    d[1] = (s[0] * x[0] + s[1] * x[1]) / m->edge[c->edge].along.length;
 }
 
 /* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
@@ -650,9 +660,9 @@ static double crossed_at(const bbm_model *m, const bbm_contact *c)
 /* Whether the corner, as it is turned at the end of the step, can enter there. */
 static int enters_at_end(const bbm_model *m, const bbm_contact *c)
 {
-    const double *Di = bbm_D_of(m, c->corner), *Dj = bbm_D_of(m, c->edge);
+    const double turn = m->D[6 * c->element[0] + 2] - m->D[6 * c->element[1] + 2];
 
-    return can_enter(m, c->corner, c->edge, Di[2] - Dj[2], PARALLEL);
+    return can_enter(m, c->corner, c->edge, turn, PARALLEL);
 }
 
 /* Whether the projection of P is on the edge at the fraction t of the step. */
@@ -691,8 +701,7 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return r->d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->d_n0) >= 0
-            && enters_at_end(m, r);
+        return r->d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->d_n0) >= 0 && enters_at_end(m, r);
     if (fabs(later) > TIE || r->was_closed != c->was_closed)
         return (fabs(later) > TIE ? later > 0 : r->was_closed) && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);

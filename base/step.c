@@ -143,20 +143,24 @@ bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
 
 /* ------------------------------------------------------------------- K for the contacts in hand */
 
-/* Lays out K: a submatrix for each element, each gap between two of them and each contact, Eq. (5).
- * Without memory the old one stays. */
+/* Lays out K: a submatrix for each element, each gap between two of them and each two elements of a
+ * contact, Eq. (5). Without memory the old one stays. */
 bbm_status bbm_lay_out_matrix(bbm_model *m)
 {
     const int contacts = m->scratch ? m->scratch->contacts : 0;
-    int (*link)[2] = calloc((size_t)(2 * contacts + m->gaps) + 1, sizeof *link), n = 0;
+    const int most = contacts * (BBM_PARTS * (BBM_PARTS - 1) / 2) + m->gaps;
+    int (*link)[2] = calloc((size_t)most + 1, sizeof *link), n = 0;
     bbm_matrix *K;
 
     if (!link)
         return BBM_NO_MEMORY;
-    for (; n < 2 * contacts; n++) {
-        const bbm_contact *c = &m->scratch->contact[n / 2];
-        link[n][0] = n % 2 ? bbm_element_of(m, c->corner) : bbm_partner_of(m, c->corner)->element;
-        link[n][1] = bbm_element_of(m, c->edge);
+    for (int k = 0; k < contacts; k++) {
+        const bbm_contact *c = &m->scratch->contact[k];
+        for (int j = 1; j < c->parts; j++)
+            for (int i = 0; i < j; i++, n++) {
+                link[n][0] = c->element[i];
+                link[n][1] = c->element[j];
+            }
     }
     for (int g = 0; g < m->gaps; g++) {
         link[n][0] = m->gap[g].i;

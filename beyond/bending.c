@@ -191,16 +191,64 @@ static void turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
     }
 }
 
-/* Whether two elements, which a bond with a moment joins, share a corner of their block. The bond
- * does not hold their vertices there together. The corner is halfway between the two vertices, and
- * half of a force on it acts on each. If all of it acted on one element, the bond would carry half
- * of it to the other at its middle, and that would strain both. */
-int bbm_shares_corner(const bbm_model *m, int corner)
-{
-    const int P = m->edge[corner].a, Q = m->edge[m->edge[corner].before].b;
+/* ----------------------------------------------------------------- contacts of shared corners */
 
-    return m->vertex[Q].edge == -1 - P && m->beyond->bonding == BBM_MOMENT
-        && m->element[m->vertex[P].element].n == 4 && m->element[m->vertex[Q].element].n == 4;
+/* The vertex that shares a corner of the boundary with v: two elements meet there, and a bond with
+ * a moment joins them. The bond does not hold their vertices there together. The corner is halfway
+ * between the two, and half of a force on it acts on each. If all of it acted on one element, the
+ * bond would carry half of it to the other at its middle, and that would strain both. */
+int bbm_find_partner(const bbm_model *m, int v)
+{
+    const int starts = m->vertex[v].edge >= 0;
+    const int Q = starts ? m->edge[m->edge[m->vertex[v].edge].before].b : -1 - m->vertex[v].edge;
+
+    return (starts ? m->vertex[Q].edge == -1 - v : m->vertex[Q].edge >= 0)
+        && m->beyond->bonding == BBM_MOMENT && m->element[m->vertex[v].element].n == 4
+        && m->element[m->vertex[Q].element].n == 4 ? Q : v;
+}
+
+/* The vectors of a contact some of whose points P1, P2, P3 are shared. Each point moves by u, the
+ * mean of what T D moves its two vertices by, or one and the same. With P1 - P0 = P1 - r P2 - (1 -
+ * r) P3, r the anchor, a = (P1 - P0)/l and m = (P3 - P2)/l, as in bbm_shear_vectors
+ *
+ *     d = d0 + q1.u1 + q2.u2 + q3.u3,
+ *     d_n: q1 = (y2 - y3, x3 - x2)/l,   q2 = (y3 - y1, x1 - x3)/l,   q3 = (y1 - y2, x2 - x1)/l,
+ *     d_s: q1 = m,                      q2 = -r m - a,               q3 = (r - 1) m + a,
+ *
+ * all points in q those of the moment of T, and an element gets T^T q/2 of each vertex. */
+void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2])
+{
+    const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
+    const double turns = m->element[m->vertex[P[0]].element].middle ? 1 : 0;
+    const double weight[3] = { 1, -r, r - 1 }, turn[3] = { 0, -turns, turns };
+    double T[3][2][2][6], x[3][2], p[3][2] = { { 0 } }, at[2];
+
+    for (int k = 0; k < 6; k++) {
+        const bbm_vertex *V = &m->vertex[k % 2 ? bbm_partner_of(m, P[k / 2]) : P[k / 2]];
+        bbm_step_point(&m->element[V->element], V->x, V->y, T[k / 2][k % 2], at);
+        p[k / 2][0] += at[0] / 2;
+        p[k / 2][1] += at[1] / 2;
+        bbm_point_at(m, P[k / 2], x[k / 2]);
+    }
+    const double X = x[2][0] - x[1][0], Y = x[2][1] - x[1][1], l = hypot(X, Y);
+    const double x1 = x[0][0] - x[1][0], y1 = x[0][1] - x[1][1];
+    memset(v, 0, 2 * sizeof *v);
+    v[0].d = (X * y1 - Y * x1) / l;
+    v[1].d = ((x1 + weight[2] * X) * X + (y1 + weight[2] * Y) * Y) / l;
+    for (int k = 0, more = 2; k < 3; k++) {
+        const double *p2 = p[(k + 1) % 3], *p3 = p[(k + 2) % 3];
+        const int shared = bbm_partner_of(m, P[k]) != P[k];
+        for (int n = 0; n < 8; n++) {                   /* of each distance, vertex, direction */
+            const int b = n % 2, other = n / 2 % 2;
+            const double a = p[0][b] - p[2][b] - r * (p[1][b] - p[2][b]);
+            const double q = (n < 4 ? b ? p3[0] - p2[0] : p2[1] - p3[1]
+                              : weight[k] * (p[2][b] - p[1][b]) + turn[k] * a) / l;
+            double *part = v[n / 4].v[other && shared ? more : k > 0];
+            for (int i = 0; i < 6; i++)
+                part[i] += T[k][other][b][i] * q / 2;
+        }
+        more += shared;
+    }
 }
 
 /* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. */

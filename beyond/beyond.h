@@ -132,7 +132,8 @@ void       bbm_condense(int n, int rows, double W[n][n]);
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
 void       bbm_list_edge_gaps(bbm_model *m);
-int        bbm_shares_corner(const bbm_model *m, int corner);
+int        bbm_find_partner(const bbm_model *m, int v);
+void       bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2]);
 
 /* multipliers.c */
 void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
@@ -142,8 +143,7 @@ void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */
 bbm_status bbm_lay_out_sliding(bbm_model *m);
-int        bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v[2],
-                                 bbm_submatrices *s);
+double     bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v[2]);
 
 /* sweep.c */
 typedef struct {                /* around an edge or element, m                                 */

@@ -392,10 +392,8 @@ static void correct(const bbm_matrix *K, const double *y, double *f)
 /* Without a coarse space, or where it does not pay, the paper's method. */
 static void choose(const bbm_matrix *K, bbm_pcg *pcg)
 {
-    if (K->extra)
-        pcg->omega = 1;
-    else
-        pcg->method = NULL;
+    pcg->omega = K->extra ? 1 : pcg->omega;
+    pcg->method = K->extra ? pcg->method : NULL;
 }
 
 const bbm_method bbm_two_level = { choose, make_coarse, correct };

@@ -121,18 +121,6 @@ static void add_work(bbm_account *a, double work)
     a->there += fabs(work);
 }
 
-/* Adds an element, its loads and its springs to the account of its component. */
-static void add_element(const bbm_model *m, const bbm_model *end, int i, bbm_account *a)
-{
-    const double *F = &m->F[6 * i], *load = &m->load[6 * i], before = sum_of(energy_of(m, i, 0));
-    const double lever = hypot(m->element[i].x, m->element[i].y);
-
-    a->gain += sum_of(energy_of(end, i, 1)) - before;
-    a->there += before + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
-    for (int n = 0; n < 6; n++)
-        add_work(a, load[n] * m->D[6 * i + n]);
-}
-
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
  * touch, are near or are bonded. In statics, and where velocities are not kept, nothing is
  * there. */
@@ -145,8 +133,16 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     bbm_note_springs(&now, 1);
     for (int c = 0; c < m->elements; c++)
         b->account[c].gain = b->account[c].there = b->account[c].work = 0;
-    for (int i = 0; i < m->elements; i++)
-        add_element(m, end, i, &b->account[bbm_component_of(m->K, i)]);
+    for (int i = 0; i < m->elements; i++) {
+        bbm_account *of = &b->account[bbm_component_of(m->K, i)];
+        const double *F = &m->F[6 * i], *load = &m->load[6 * i];
+        const double before = sum_of(energy_of(m, i, 0));
+        const double lever = hypot(m->element[i].x, m->element[i].y);
+        of->gain += sum_of(energy_of(end, i, 1)) - before;
+        of->there += before + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
+        for (int a = 0; a < 6; a++)
+            add_work(of, load[a] * m->D[6 * i + a]);
+    }
     for (int n = 0; n < m->nodes; n++) {
         const int i = m->vertex[m->adjacent[m->adjacent_first[n]]].element;
         bbm_account *of = &b->account[bbm_component_of(m->K, i)];

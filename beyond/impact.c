@@ -41,15 +41,15 @@
 /* The normal velocity of P1, where elements move as those of `of`. */
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
 {
-    const double *Vi = of[bbm_element_of(m, c->corner)].V, *Vj = of[bbm_element_of(m, c->edge)].V;
-    const double *Vk = of[bbm_partner_of(m, c->corner)->element].V;
-    double velocity = 0;
+    const int row[BBM_PARTS] = { 0, 1, 2, 3, 4 };
+    double V[BBM_PARTS][6];
     bbm_spring v[2];
 
     bbm_contact_vectors(m, c, c->anchor, v);
-    for (int a = 0; a < 6; a++)
-        velocity += v[0].e[a] * Vi[a] + v[0].g[a] * Vj[a] + v[0].h[a] * Vk[a];
-    return velocity;
+    v[0].d = 0;
+    for (int i = 0; i < c->parts; i++)
+        memcpy(V[i], of[c->element[i]].V, sizeof V[i]);
+    return bbm_length_of(&v[0], c->parts, row, V[0]);
 }
 
 static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->was_closed; }
@@ -92,17 +92,13 @@ static void take_back(bbm_model *m)
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
-        const int i = 6 * bbm_element_of(m, c->corner), j = 6 * bbm_element_of(m, c->edge);
-        const int partner = 6 * bbm_partner_of(m, c->corner)->element;
         const double T = c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N)
                        : c->T;
         bbm_spring v[2];
         bbm_contact_vectors(m, c, c->anchor, v);
-        for (int a = 0; a < 6 && isfinite(m->scratch->contact[k].rest); a++) {
-            m->load[i + a] += T * v[1].e[a] - c->N * v[0].e[a];
-            m->load[j + a] += T * v[1].g[a] - c->N * v[0].g[a];
-            m->load[partner + a] += T * v[1].h[a] - c->N * v[0].h[a];
-        }
+        for (int i = 0; i < 6 * c->parts && isfinite(m->scratch->contact[k].rest); i++)
+            m->load[6 * c->element[i / 6] + i % 6] += T * v[1].v[i / 6][i % 6]
+                                                    - c->N * v[0].v[i / 6][i % 6];
     }
 }
 
@@ -272,8 +268,7 @@ static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
-        const double mobile = mobility(m, bbm_element_of(m, c->corner))
-                            + mobility(m, bbm_element_of(m, c->edge));
+        const double mobile = mobility(m, c->element[0]) + mobility(m, c->element[1]);
         if (!has_closed(c) || mobile == 0)
             continue;
         const double came = 2 / m->h * approach(step, c);

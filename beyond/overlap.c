@@ -195,8 +195,7 @@ static void take_edge(const bbm_model *m, int e, point P, place *at)
  * that is more than `allowed`; else 0. The outer boundary goes round what is inside once, and so
  * does that of a hole, the other way. Outside the one that the edge belongs to, or near it, the
  * others need not be asked. */
-static double depth_in_block(const bbm_model *m, point P, int edge, double allowed,
-                             int *nearest)
+static double depth_in_block(const bbm_model *m, point P, int edge, double allowed, int *nearest)
 {
     place own = { .distance2 = INFINITY }, all = own;
     int e = edge;
@@ -290,8 +289,7 @@ bbm_status bbm_check_passed(bbm_model *m)
 {
     const int corner = m->beyond->passed[0], edge = m->beyond->passed[1];
 
-    return corner < 0 ? BBM_OK
-         : refuse(m, m, corner, edge, bbm_depth_passed(m, corner, edge));
+    return corner < 0 ? BBM_OK : refuse(m, m, corner, edge, bbm_depth_passed(m, corner, edge));
 }
 
 /* Refuses a solution that lets a corner pass: its contact is not closed, nor was it, and it ends

@@ -57,8 +57,8 @@ int bbm_contact_turns_over(const bbm_model *m)
     int over = 0;
 
     for (int k = 0; k < m->scratch->contacts && bbm_motion_of(m); k++)
-        over |= c[k].state != BBM_OPEN && !(fabs(bbm_D_of(m, c[k].corner)[2]) <= FAR_TURN
-                                            && fabs(bbm_D_of(m, c[k].edge)[2]) <= FAR_TURN);
+        for (int i = 0; i < c[k].parts; i++)
+            over |= c[k].state != BBM_OPEN && !(fabs(m->D[6 * c[k].element[i] + 2]) <= FAR_TURN);
     return over;
 }
 
@@ -73,9 +73,10 @@ static int curving_element(const bbm_model *m)
         const double size = bbm_size_at(m, &c[k]);
         const double along = bbm_way_along(m, c[k].corner, c[k].edge) + c[k].past[0];
         const double way = hypot(c[k].d_n - c[k].d_n0, along);
-        const double ri = fabs(bbm_D_of(m, c[k].corner)[2]), rj = fabs(bbm_D_of(m, c[k].edge)[2]);
+        const double ri = fabs(m->D[6 * c[k].element[0] + 2]);
+        const double rj = fabs(m->D[6 * c[k].element[1] + 2]);
         if (c[k].state == BBM_OPEN && way * (ri + rj) / 8 > CURVE * size)
-            far = bbm_element_of(m, ri > rj ? c[k].corner : c[k].edge);
+            far = c[k].element[ri <= rj];
     }
     return far;
 }

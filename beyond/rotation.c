@@ -139,25 +139,25 @@ static int is_off(const bbm_model *m, int i)
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
- * by more than a share of the largest one on its two elements, or in direction, or an open contact
+ * by more than a share of the largest one on its elements, or in direction, or an open contact
  * on the wrong side. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
+    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     int off = 0;
-    const bbm_contact *list = m->scratch->contact;
 
-    for (int k = 0; k < m->scratch->contacts && !off; k++) {
-        const bbm_contact *c = &list[k];
-        const int i = m->edge[c->corner].element, j = m->edge[c->edge].element;
-        const double Fi = hypot(m->F[6 * i], m->F[6 * i + 1]);
-        const double Fj = hypot(m->F[6 * j], m->F[6 * j + 1]);
-        const double bound = fmax(share * fmax(fabs(c->N), fmax(Fi, Fj)), c->force_tolerance);
-        double d[2];
+    for (; c < end && !off; c++) {
+        double d[2], force = fabs(c->N);
         if (c->state == BBM_OPEN)
             continue;
+        for (int k = 0; k < c->parts; k++) {
+            const int i = c->element[k];
+            off |= bbm_motion_of(m) && turn_off(m, i) > DIRECTION;
+            force = fmax(force, hypot(m->F[6 * i], m->F[6 * i + 1]));
+        }
+        const double bound = fmax(share * force, c->force_tolerance);
         bbm_end_distances(m, c, c->anchor, d);
-        off = (bbm_motion_of(m) && fmax(turn_off(m, i), turn_off(m, j)) > DIRECTION)
-           || m->par.p_n * fabs(d[0] - c->d_n) > bound
+        off = off || m->par.p_n * fabs(d[0] - c->d_n) > bound
            || (m->par.p_s * fabs(c->time_left * d[1] - c->d_s) > bound && c->state == BBM_LOCK);
     }
     return off;

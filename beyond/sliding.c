@@ -49,17 +49,12 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
     int count = 0;
 
     for (const bbm_term *t = K->term; t < K->term + K->terms; t++) {
-        const int i = 6 * t->row[0], j = 6 * t->row[1], k = 6 * t->row[2];
-        double vx = 0;
         if (t->row[0] < K->from || t->row[0] >= K->to)
             continue;
-        for (int a = 0; a < 6; a++)
-            vx += t->n.e[a] * x[i + a] + t->n.g[a] * x[j + a] + t->n.h[a] * x[k + a];
-        for (int a = 0; a < 6; a++) {
-            y[i + a] += t->p * t->s.e[a] * vx;
-            y[j + a] += t->p * t->s.g[a] * vx;
-            y[k + a] += t->p * t->s.h[a] * vx;
-        }
+        const double vx = bbm_length_of(&t->n, t->parts, t->row, x);
+        for (int i = 0; i < t->parts; i++)
+            for (int a = 0; a < 6; a++)
+                y[6 * t->row[i] + a] += t->p * t->s.v[i][a] * vx;
         count++;
     }
     return count;
@@ -176,22 +171,19 @@ static bbm_status solve(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
     return status;
 }
 
-/* Adds the friction of a sliding contact for the N of the solution; 0: there is none. The length of
- * v[0], its normal spring, counts from `rest`. */
-int bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v[2],
-                          bbm_submatrices *f)
+/* Puts the friction of a sliding contact into K, for the N of the solution; returns the load, what
+ * it is at D = 0. The length of v[0], its normal spring, counts from `rest`. */
+double bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v[2])
 {
     const double p = -c->sign * c->strength.tan_phi * m->par.p_n;
-    const int *place = m->K->place;
+    bbm_term t = { c->parts, { 0 }, p, v[1], v[0] };
 
-    if (p == 0)
-        return 0;
-    bbm_friction_submatrices(&v[1], p * v[0].d + c->sign * c->strength.shear, f);
-    m->K->term[m->K->terms++] = (bbm_term){
-        { place[bbm_element_of(m, c->corner)], place[bbm_element_of(m, c->edge)],
-          place[bbm_partner_of(m, c->corner)->element] }, p, v[1], v[0]
-    };
-    return 1;
+    t.n.d = 0;
+    for (int i = 0; i < c->parts; i++)
+        t.row[i] = m->K->place[c->element[i]];
+    if (p != 0)
+        m->K->term[m->K->terms++] = t;
+    return p * v[0].d + c->sign * c->strength.shear;
 }
 
 /* Room for the friction of all contacts of a new K. */

@@ -91,8 +91,7 @@ bbm_status bbm_check_supports(bbm_model *m)
         return BBM_OK;
     m->blamed[0] = loose;
     return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
-                    e[loose].block, loose, e[loose].x + m->origin[0],
-                    e[loose].y + m->origin[1]);
+                    e[loose].block, loose, e[loose].x + m->origin[0], e[loose].y + m->origin[1]);
 }
 
 /* Whether every body of a prepared model is held, by itself or through contacts. */
@@ -165,17 +164,6 @@ bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end)
                     m->info.step + 1, m->edge[worst.corner].block, m->edge[worst.edge].block, most);
 }
 
-/* How two blocks part at a contact: along the edge without much of a turn, or else away from it. */
-static const char *find_how(const bbm_model *from, const bbm_model *m, const bbm_contact *c)
-{
-    const bbm_direction t = m->edge[c->edge].along;
-    double u[2], turn;
-
-    find_parting(from, m, c, u, &turn);
-    const double across = fmax(fabs(u[0] * t.y - u[1] * t.x), fabs(turn) * bbm_size_at(m, c));
-    return fabs(u[0] * t.x + u[1] * t.y) > across ? "slides on" : "lifts off";
-}
-
 static double way_of(const bbm_model *from, const bbm_model *m, int i)
 {
     const double *a = from->element[i].sum, *b = m->element[i].sum;
@@ -183,29 +171,24 @@ static double way_of(const bbm_model *from, const bbm_model *m, int i)
     return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-/* Says which two blocks have parted; the first is the one that has gone further. */
+/* Says which two blocks have parted, the one first that has gone further; and how: along the edge
+ * without much of a turn, or else away from it. */
 static bbm_status blame(bbm_model *m, const bbm_model *from, const bbm_contact *c)
 {
-    const int p[2] = { m->edge[c->corner].element, m->edge[c->edge].element };
-    const int k = way_of(from, m, p[1]) > way_of(from, m, p[0]);
-    const int i = m->blamed[0] = p[k], j = m->blamed[1] = p[!k];
+    const bbm_direction t = m->edge[c->edge].along;
+    const int k = way_of(from, m, c->element[1]) > way_of(from, m, c->element[0]);
+    const int i = m->blamed[0] = c->element[k], j = m->blamed[1] = c->element[!k];
+    double u[2], turn;
 
+    find_parting(from, m, c, u, &turn);
+    const double across = fmax(fabs(u[0] * t.y - u[1] * t.x), fabs(turn) * bbm_size_at(m, c));
     return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d (element %d) %s block %d (element "
                     "%d), and goes on", from->info.step + 1, m->element[i].block, i,
-                    find_how(from, m, c), m->element[j].block, j);
+                    fabs(u[0] * t.x + u[1] * t.y) > across ? "slides on" : "lifts off",
+                    m->element[j].block, j);
 }
 
 /* ------------------------------------------------------------------------ steps from rest */
-
-/* The time in which the lightest element swings on a contact spring. */
-static double find_swing(const bbm_model *m)
-{
-    double least = INFINITY;
-
-    for (int i = 0; i < m->elements; i++)
-        least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
-    return sqrt(2 * least / m->par.p_n);
-}
 
 /* The largest force of inertia in a step from rest, 2 M D/h^2, against the largest force. */
 static double find_imbalance(const bbm_model *m, double h)
@@ -242,14 +225,18 @@ static int is_final(bbm_status s) { return !s || s == BBM_NO_MEMORY || s == BBM_
 
 /* Steps from rest, each as long as it settles without that blocks part far in it, until statics
  * finds an equilibrium from where they are, nothing lacks balance, or blocks have parted. A length
- * that failed, or after which statics did, is not tried again for some steps. */
+ * that failed, or after which statics did, is not tried again for some steps. Lengths begin from
+ * the time in which the lightest element swings on a contact spring. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
-    const double swing = find_swing(m);
-    double h = LONG * swing, failed = INFINITY, tried = 0, parted = 0, lacks = 1;
+    double failed = INFINITY, tried = 0, parted = 0, lacks = 1, least = INFINITY;
     bbm_contact worst = { .edge = -1 };
     bbm_status status = BBM_OPEN_CLOSE;
 
+    for (int i = 0; i < m->elements; i++)
+        least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
+    const double swing = sqrt(2 * least / m->par.p_n);
+    double h = LONG * swing;
     while (h > swing / LONG && !bbm_is_spent(m)) {
         m->h = h;
         status = bbm_try_step(m);

@@ -465,6 +465,36 @@ START_TEST(a_contact_between_two_quadrilaterals_presses_both_alike)
 }
 END_TEST
 
+/* An equal block of nx x ny quadrilaterals lies on one that is held below, nodes on nodes: what is
+ * symmetric is so in the lower block, too, and of two columns each carries its own. */
+static const struct { int nx, ny, is_static; double friction; } PILES[] = {
+    { 2, 1, 1, 30 }, { 2, 1, 0, 30 }, { 2, 1, 0, 0 }, { 3, 2, 1, 30 }, { 3, 2, 0, 0 },
+};
+
+START_TEST(a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides)
+{
+    const int nx = PILES[_i].nx, ny = PILES[_i].ny;
+    bbm_model *m = new_blocks();
+
+    m->par.faces = 1;
+    m->par.friction = PILES[_i].friction;
+    m->par.dt = PILES[_i].is_static ? INFINITY : m->par.dt;
+    const int e = add_rectangle(m, 0, ROCK, (rectangle){ .w = nx, .h = ny, .nx = nx, .ny = ny });
+    add_rectangle(m, 1, ROCK, (rectangle){ .y = ny, .w = nx, .h = ny, .nx = nx, .ny = ny });
+    for (int n = 0; n <= nx; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    settle(m, PILES[_i].is_static ? 5 : 200);
+    ck_assert_int_eq(m->info.contacts, nx + 1);
+    for (int k = 0; k < nx * ny; k++) {
+        const double *s = m->element[e + k].stress;
+        const double *mirrored = m->element[e + k / nx * nx + nx - 1 - k % nx].stress;
+        const double weight = DENSITY * GRAVITY * (2 * ny - k / nx - 0.5);
+        ck_near(s[1], mirrored[1], weight, 1e-4);
+        ck_near(s[1], -weight, weight, nx == 2 ? 1e-3 : 0.2);   /* of three the middle one has more */
+    }
+}
+END_TEST
+
 /* Where D moves the vertices at a node of a vertex to, in the mean; `way` times. */
 static void moved_node(const bbm_model *m, const double *D, double way, const bbm_vertex *of, double p[2])
 {
@@ -508,41 +538,47 @@ static double touches_energy(const bbm_model *m, const double *D)
     return sum;
 }
 
-/* The same block, its bond torn apart: P1 of the contact in the middle is halfway between. */
+/* The same block on a table, or on three quadrilaterals; all bonds are torn apart. P1 of the contact
+ * in the middle is halfway between, and on quadrilaterals the ends of its edge are, too. */
 START_TEST(the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy)
 {
+    enum { MOST = 5 * 6 };
     bbm_model *m = weightless_blocks();
-    double D[18] = { 0 }, column[18] = { 0 }, unit[18] = { 0 };
+    double D[MOST] = { 0 }, column[MOST] = { 0 }, unit[MOST] = { 0 };
     unsigned seed = 3;
     int n;
 
     m->par.faces = 1;
     set_springs(m, 3, 2);
-    add_table(m, 0);
+    if (_i == 0)
+        add_table(m, 0);
+    else
+        add_rectangle(m, 0, ROCK, (rectangle){ .x = -1.6, .y = -1, .w = 3, .h = 1, .nx = 3 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .w = 2, .h = 1, .nx = 2 });
     start_step(m, &n);
     ck_assert_int_eq(n, 3);
+    ck_assert_int_eq(m->scratch->contact[1].parts, _i == 0 ? 3 : BBM_PARTS);
     ck_ok(bbm_lay_out_matrix(m), m);
     for (bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++) {
         v->x += random_number(&seed) / 10;
         v->y += random_number(&seed) / 10;
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     for (bbm_contact *c = m->scratch->contact; c < m->scratch->contact + 3; c++) {
         c->state = BBM_LOCK;
         c->rest = -0.1;
     }
     bbm_matrix_clear(m->K);
-    memset(m->F, 0, sizeof D);
+    memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
     bbm_assemble_contacts(m);
-    m->K->from = 0, m->K->to = 3;
-    for (int b = 0; b < 18; b++) {
+    m->K->from = 0, m->K->to = m->elements;
+    for (int b = 0; b < 6 * m->elements; b++) {
         const double F = m->F[b];
         unit[6 * m->K->place[b / 6] + b % 6] = 1;
         bbm_multiply(m->K, unit, column);
         unit[6 * m->K->place[b / 6] + b % 6] = 0;
-        for (int a = 0; a < 18; a++) {
+        for (int a = 0; a < 6 * m->elements; a++) {
             double sum = 0;
             for (int k = 0; k < 4; k++) {
                 D[a] += k / 2 ? -1 : 1;
@@ -578,7 +614,8 @@ Suite *beyond_suite(void)
         { the_moment_of_a_rectangle_is_that_of_a_beam, 1 },
         { a_turning_body_feels_no_moment_in_its_bonds, 2 },
         { a_contact_between_two_quadrilaterals_presses_both_alike, 2 },
-        { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 1 });
+        { a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides, COUNT(PILES) },
+        { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 2 });
     add_case(s, "energies",
         { the_work_of_the_loads_is_twice_the_energy_of_elements_and_springs, 8 },
         { fixed_points_away_from_their_walls_hold_the_energy_of_their_springs, 1 },

@@ -99,16 +99,16 @@ static void momentum_of(const bbm_model *m, double P[3])
     }
 }
 
-/* A block of two quadrilaterals comes down on a free one, and the node between them hits, too. The
- * direction of a contact's force in a step is right to what is 1e-5 of the angular momentum. */
+/* A block of two quadrilaterals comes down on a free one, of one or of five, and the node between
+ * them hits, too. The direction of a contact's force in a step is right to what is 1e-5 of the angular momentum. */
 START_TEST(a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum)
 {
-    bbm_model *m = hard_blocks(_i / 2.0, 0);
+    bbm_model *m = hard_blocks(_i < 3 ? _i / 2.0 : 0.5, 0);
     double before[3], after[3];
 
     m->par.gravity[1] = 0;
     m->par.faces = 1;
-    add_rectangle(m, 0, ROCK, (rectangle){ .x = -3, .y = -1, .w = 5, .h = 1 });
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -3, .y = -1, .w = 5, .h = 1, .nx = _i < 3 ? 1 : 5 });
     const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.7, .y = 0.01, .w = 2, .h = 1, .nx = 2 });
     set_velocity(m, e, 1, -5);
     set_velocity(m, e + 1, 1, -5);
@@ -190,7 +190,7 @@ Suite *impact_suite(void)
         { a_block_rebounds_at_the_velocity_asked_for_whatever_the_step, 27 },
         { a_rocking_block_loses_what_housner_says, 3 },
         { blocks_that_hit_keep_their_momentum, 3 },
-        { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 3 },
+        { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 4 },
         { what_a_support_moves_evenly_moves_evenly, 2 },
         { a_support_that_swings_pulls_with_mass_times_acceleration, 1 });
     return s;

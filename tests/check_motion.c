@@ -217,9 +217,50 @@ START_TEST(with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_ex
         exact_motion(b, m->D + 6, P3->x, P3->y, p3);
         exact_motion(b, m->D + 6, P3->x + anchor * (P2->x - P3->x), P3->y + anchor * (P2->y - P3->y), p0);
         products(p1, p2, p3, p0, d);
-        ck_near(n.d + sum_row(n.e, m->D) + sum_row(n.g, m->D + 6), d[0] / l, 1, 1e-13);
-        ck_near(s.d + sum_row(s.e, m->D) + sum_row(s.g, m->D + 6), d[1] / l, 1, 1e-13);
+        ck_near(n.d + sum_row(n.v[0], m->D) + sum_row(n.v[1], m->D + 6), d[0] / l, 1, 1e-13);
+        ck_near(s.d + sum_row(s.v[0], m->D) + sum_row(s.v[1], m->D + 6), d[1] / l, 1, 1e-13);
     }
+}
+END_TEST
+
+/* The same for contacts of quadrilaterals that share their corners; one without such corners has the vectors of the paper,
+ * up to rounding. */
+START_TEST(the_springs_of_contacts_at_shared_corners_have_their_exact_lengths)
+{
+    bbm_model *m = weightless_blocks();
+    int n, shared = 0;
+
+    m->par.faces = 1;
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -1.6, .y = -1, .w = 3, .h = 1, .nx = 3 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .w = 2, .h = 1, .nx = 2 });
+    add_rectangle(m, 2, ROCK, (rectangle){ .x = 5, .y = -1, .w = 2, .h = 1 });
+    add_rectangle(m, 3, ROCK, (rectangle){ .x = 5.3, .w = 1, .h = 1 });
+    start_step(m, &n);
+    for (int seed = 0; seed < 20; seed++) {
+        for (int i = 0; i < m->elements; i++)
+            some_motion(seed + 100 * i, &m->D[6 * i]);
+        bbm_set_middle(m);
+        for (const bbm_contact *c = m->scratch->contact; c < m->scratch->contact + n; c++) {
+            bbm_spring v[2], other[2];
+            double d[2];
+            bbm_contact_vectors(m, c, 0.3, v);
+            bbm_end_distances(m, c, 0.3, d);
+            for (int k = 0; k < 2; k++)
+                ck_near(bbm_length_of(&v[k], c->parts, c->element, m->D), d[k], 1, 1e-13);
+            shared += c->parts == BBM_PARTS;
+            if (c->parts > 2)
+                continue;
+            bbm_shared_vectors(m, c, 0.3, other);
+            for (int k = 0; k < 2; k++) {
+                ck_near(other[k].d, v[k].d, 1, 1e-13);
+                for (int a = 0; a < 6; a++) {
+                    ck_near(other[k].v[0][a], v[k].v[0][a], 1, 1e-13);
+                    ck_near(other[k].v[1][a], v[k].v[1][a], 1, 1e-13);
+                }
+            }
+        }
+    }
+    ck_assert_int_ge(shared, 20);
 }
 END_TEST
 
@@ -557,6 +598,7 @@ Suite *motion_suite(void)
         { the_matrix_of_the_middle_moves_points_exactly, 1 },
         { the_vectors_are_off_when_an_element_turns_further_than_they_did, 1 },
         { with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths, 1 },
+        { the_springs_of_contacts_at_shared_corners_have_their_exact_lengths, 1 },
         { a_bonded_block_that_spins_keeps_its_energy, COUNT(SPINS) },
         { bonds_make_no_energy_in_steps_of_any_length, 12 },
         { the_balance_of_a_step_is_what_it_says, 3 },

@@ -218,10 +218,10 @@ START_TEST(a_matrix_that_is_not_symmetric_is_solved_or_refused)
     run_steps(m, 1);
     get_block(m->K, 0, 0, B);
     bbm_term *t = &m->K->term[0];
-    *t = (bbm_term){ .p = 1, .n = { .e = { 1 } } };
+    *t = (bbm_term){ .parts = 1, .p = 1, .n = { .v = { { 1 } } } };
     for (int a = 0; a < 6; a++) {
         const double change[] = { 0.5, -1, NAN, INFINITY };
-        t->s.e[a] = change[_i] * (_i < 2 || a == 0 ? B[a][0] : 0);
+        t->s.v[0][a] = change[_i] * (_i < 2 || a == 0 ? B[a][0] : 0);
     }
     m->K->terms = 1;
     const bbm_status status = bbm_solve(m->K, m->F, D, &m->par.pcg, &info);
