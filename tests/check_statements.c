@@ -423,6 +423,8 @@ static const struct { const char *text, *said; } doubtful[] = {
       "contact friction 30\nstatic\n", "blocks 'b' and 'a' have nodes in the same places, but blocks are never bonded" },
     { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\ngrid c rock 4 0 6 1 4 2\nfix set a.left\nfix set c.right\n"
       "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: in all 2 pairs of blocks have this\n" },
+    { ROCK "block b rock 0 0 1 0 1 1 0 1\nfix node 1\nfix node 2\ngravity 0 -9.81\nbond augment 1\ndynamic dt 0.01 steps 9\n",
+      "warning: bond augment has no part in dynamics, where a larger alpha makes bonds stiffer\n" },
 };
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
@@ -434,6 +436,19 @@ START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
                   "%s", said);
     const char *same = strstr(said, "same places");
     ck_assert(!same || !strstr(same + 1, "same places"));
+}
+END_TEST
+
+/* Of both kinds of steps, to the last byte. */
+START_TEST(bonds_are_as_stiff_as_the_document_says_unless_the_file_does)
+{
+    static const char *const how[][2] = { { "static", "bond alpha 100 augment 2" },
+                                          { "dynamic dt 0.01 steps 9", "bond alpha 1000" } };
+
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(run_printed(k ? "said" : "silent", ROCK "grid a rock 0 0 2 1 4 2\nfix set a.left\n"
+                                     "gravity 0 -9.81\n%s\n%s\n", how[_i][0], k ? how[_i][1] : ""), 0);
+    ck_assert_int_eq(shell("cmp out/model/said/nodes.csv out/model/silent/nodes.csv"), 0);
 }
 END_TEST
 
@@ -771,6 +786,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, COUNT(found));
     tcase_add_test(t, what_has_no_limit_is_said);
     tcase_add_loop_test(t, what_is_hardly_meant_is_a_warning_and_said_once, 0, COUNT(doubtful));
+    tcase_add_loop_test(t, bonds_are_as_stiff_as_the_document_says_unless_the_file_does, 0, 2);
     tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
