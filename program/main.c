@@ -61,15 +61,12 @@ static int name_folder(arguments *a, const char *given)
 /* NAME LOW HIGH; 0: they are not. */
 static int read_find(arguments *a, char *word[])
 {
-    char *end[2] = { "?", "?" };
+    char rest;
 
-    if (!word[0] || !word[1] || !word[2])
-        return 0;
     a->find = word[0];
-    a->low = strtod(word[1], &end[0]);
-    a->high = strtod(word[2], &end[1]);
-    return *word[1] && *word[2] && !*end[0] && !*end[1] && isfinite(a->low) && isfinite(a->high)
-           && a->low != a->high;
+    return word[0] && word[1] && word[2] && sscanf(word[1], "%lf%c", &a->low, &rest) == 1
+           && sscanf(word[2], "%lf%c", &a->high, &rest) == 1 && isfinite(a->low)
+           && isfinite(a->high) && a->low != a->high;
 }
 
 /* The options may stand before and after the model; behind `--` a name may begin with a dash. */
