@@ -50,7 +50,7 @@ int model_fail(model_reader *r, model_place at, const char *format, ...)
 int model_note(model_reader *r, const char *format, ...)
 {
     const model_place at = { r->s->at.file, r->s->at.line, NULL };
-    char *note = model_text(r, sizeof r->p->message);
+    char *note = model_keep(r, sizeof r->p->message, 1);
     va_list args;
 
     if (!note)
@@ -122,15 +122,13 @@ void *model_keep(model_reader *r, int n, size_t size)
     return array ? memset(array, 0, room * size) : NULL;
 }
 
-char *model_text(model_reader *r, size_t size) { return model_keep(r, (int)size, 1); }
-
 char *model_print(model_reader *r, const char *format, ...)
 {
     va_list args, again;
 
     va_start(args, format);
     va_copy(again, args);
-    char *text = model_text(r, (size_t)vsnprintf(NULL, 0, format, args));
+    char *text = model_keep(r, vsnprintf(NULL, 0, format, args), 1);
     if (text)
         vsprintf(text, format, again);
     va_end(again);
@@ -264,6 +262,8 @@ const char *model_hint(const char *word)
     while (*c > 0 && *c < 127)
         c++;
     return strncmp(word, "//", 2) == 0 ? "; a comment begins with #"
+         : strcmp(word, "midpoints") == 0
+           ? ": bonded in the middles of their sides alone elements can turn against each other"
          : strpbrk(word, "(*/^") ? "; arithmetic is $(...)"
          : strstr(word, "\xe2\x88\x92") || strstr(word, "\xe2\x80\x93") ? "; minus is -"
          : *c ? "; it has letters beyond ASCII"
@@ -456,7 +456,7 @@ int model_choice(model_reader *r, const char *choices, int *n)
         if (strncmp(c, word, length) == 0 && (c[length] == '|' || c[length] == '\0'))
             return 1;
     }
-    return word ? model_blame(r, "'%.60s', expected one of %s", word, choices) : 0;
+    return word && model_blame(r, "'%.60s', expected one of %s%s", word, choices, model_hint(word));
 }
 
 static int in_range(model_reader *r, const model_option *o)

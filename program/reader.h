@@ -103,7 +103,6 @@ const char *model_hint(const char *word);               /* what it may mean; or 
 /* One more item at the end of an array of `count`; 0: no memory. */
 int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
 void *model_keep(model_reader *r, int n, size_t size);          /* zeros, and one more; or NULL */
-char *model_text(model_reader *r, size_t size);                 /* of so many letters, as well */
 char *model_print(model_reader *r, const char *format, ...);    /* as by printf; or NULL */
 /* A file that the statement in hand names, with a 0 behind it; or NULL. */
 char *model_load(model_reader *r, const char *path, size_t *size);

@@ -699,6 +699,7 @@ static int draw_legend(film *f, double x, double y, double room)
 {
     plot_legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
+    const int stress = f->s->field && strcmp(field_find(f->s->field)->unit, "Pa") == 0;
     char text[60];
 
     if (f->held)
@@ -717,6 +718,8 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
         put_force_entry(f, &l, kind);
+    if (stress && f->bodies == f->m->elements)
+        put_entry(f, &l, "", "stress: mean of each block");
     if (f->s->scale > 0 && f->s->scale != 1) {
         snprintf(text, sizeof text, "displacements × %.12g", f->s->scale);
         put_entry(f, &l, "", text);
@@ -773,30 +776,22 @@ static void find_window(film *f)
     }
 }
 
-/* The mean size of the blocks that can move, m. */
-static double block_size(const film *f)
-{
-    double sum = 0;
-    int n = 0;
-
-    for (const body *b = f->body; b < f->body + f->bodies; b++)
-        if (!b->held) {
-            sum += fmin(b->box[0][1] - b->box[0][0], b->box[1][1] - b->box[1][0]);
-            n++;
-        }
-    return n ? sum / n : INFINITY;
-}
-
 /* Window and scale. How long an arrow is in metres depends on the scale of the panel, and that on
- * the window, which holds all arrows: by repetition. Those of contacts are not longer than
- * blocks. */
+ * the window, which holds all arrows: by repetition. Those of contacts are not longer than the
+ * mean of the blocks that can move. */
 static void measure(film *f, int n)
 {
+    double sizes = 0, blocks = 0;               /* their mean is NaN, and no bound, of none */
+
+    for (const body *b = f->body; b < f->body + f->bodies; b++) {
+        blocks += !b->held;
+        sizes += b->held ? 0 : fmin(b->box[0][1] - b->box[0][0], b->box[1][1] - b->box[1][0]);
+    }
     f->thrust = f->s->frames == 1 && !f->s->field && draw_thrust(f, 0);
     for (int round = 0; round < 5; round++) {   /* without arrows, the largest force; then with */
         const double element = sqrt(f->w * f->h / f->m->elements);
         for (int kind = 0; kind < KINDS; kind++)
-            f->length[kind] = fmax(12, fmin(ARROW, is_contact(kind) ? block_size(f) * f->scale
+            f->length[kind] = fmax(12, fmin(ARROW, is_contact(kind) ? sizes / blocks * f->scale
                                             : is_stress(kind) ? 0.6 * element : ARROW));
         find_window(f);
         for (int i = 0; i < f->s->frames; i++) {

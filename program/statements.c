@@ -141,12 +141,11 @@ static int read_dynamic(model_reader *r)
 
     p->velocity_factor = 1;
     r->p->dynamic = 1;
-    r->p->ramp = -1;
     if (!model_options(r, 2, LENGTH(o), o))
         return 0;
     if (o[2].seen && o[3].seen)
         return model_blame(r, "velocity_factor and damping, which are the same, expected one");
-    r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
+    r->p->ramp = o[5].seen ? r->p->ramp : p->dt * p->steps;
     return 1;
 }
 
@@ -158,15 +157,9 @@ static int read_bond(model_reader *r)
                          COUNT("augment", &b->multiplier_rounds, 0),
                          CHOICE("at", &kind, "vertices|moment|auto") };
 
-    for (int k = 1; k < r->s->n; k++)
-        if (strcmp(r->word[r->s->first + k].text, "midpoints") == 0)
-            return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in "
-                                  "the middles of their sides alone elements can turn against "
-                                  "each other");
-    if (!model_options(r, 0, LENGTH(o), o))
-        return 0;
+    const int good = model_options(r, 0, LENGTH(o), o);
     b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
-    return 1;
+    return good;
 }
 
 static int read_pcg(model_reader *r)
@@ -179,20 +172,18 @@ static int read_pcg(model_reader *r)
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 
-    if (!model_options(r, 0, LENGTH(o), o))
-        return 0;
+    const int good = model_options(r, 0, LENGTH(o), o);
     p->method = coarse == 0 ? &bbm_two_level : NULL;
-    return 1;
+    return good;
 }
 
 static int read_rotation(model_reader *r)
 {
     int kind;
+    const int good = model_choice(r, "exact|linear", &kind);
 
-    if (!model_choice(r, "exact|linear", &kind))
-        return 0;
     r->p->m->beyond->rotation = kind == 0 ? BBM_EXACT : BBM_LINEAR;
-    return 1;
+    return good;
 }
 
 static int read_output(model_reader *r)
