@@ -167,18 +167,15 @@ static void print_table(case_results *r, const slide s[], const variant v[], int
 /* Fig. 25: u of P, and v in a scale in which it can be seen. */
 static void draw_figure(case_results *r, const slide s[], const variant v[])
 {
-    enum { N = STEPS + 1, MARKS = 21 };
+    enum { N = STEPS + 1, MARKS = 21, EACH = STEPS / (MARKS - 1) };
     double t[N], exact[N], some[2][MARKS];
     plot p;
 
     for (int i = 0; i < N; i++) {
         t[i] = i * DT;
         exact[i] = theory(t[i]);
-    }
-    for (int i = 0; i < MARKS; i++) {
-        const int step = i * STEPS / (MARKS - 1);
-        some[0][i] = t[step];
-        some[1][i] = s[0].at[2][step];
+        some[0][i / EACH] = t[i / EACH * EACH];
+        some[1][i / EACH] = s[0].at[2][i / EACH * EACH];
     }
     const plot_series way[] = {
         { .name = "u = F t²/(2 m)", .n = N, .x = t, .y = exact, .look = 1 },

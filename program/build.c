@@ -269,7 +269,8 @@ static int blame_nowhere(model_reader *r, const selection *w)
                *name = w->block >= 0 ? r->block[w->block].name : "";
 
     if (n < 0)
-        return model_blame(r, "no node there%s%.60s, expected a place that names one", of, name);
+        return model_blame(r, "no node there%s%.60s%s, expected a place that names one", of, name,
+                           w->block >= 0 && r->p->gone[w->block] ? ", which is removed" : "");
     return model_blame(r, "no node there%s%.60s, the nearest is node %.60s at %.9g %.9g", of, name,
                        r->node[n].id, r->node[n].x, r->node[n].y);
 }
@@ -312,7 +313,7 @@ static int where(model_reader *r, int nearest)
 int model_fix(model_reader *r)
 {
     double by[2] = { 0, 0 };
-    int x = 0, y = 0;
+    int x = 0, y = 0, held = 0;
     model *p = r->p;
 
     if (!where(r, 0))
@@ -332,11 +333,13 @@ int model_fix(model_reader *r)
                 return model_blame(r, "node %.60s is displaced by %g in %s here, by %g in another "
                                       "statement, expected one of them", p->node[n], by[a],
                                    o[a].name, at->wall[a]);
+        held |= at->held & directions;
         p->moving |= by[0] != 0 || by[1] != 0;
         bbm_fix_node(p->m, n, directions, by[0], by[1]);
         at->held &= ends ? ~directions : BBM_XY;
     }
-    return 1;
+    return !ends || held
+           || model_blame(r, "nothing is fixed there in that direction, expected a support");
 }
 
 /* The number of vertices at a library node. */
@@ -588,6 +591,9 @@ int model_bolts(model_reader *r)
 
     if (!read_end(r, &b.end[0]) || !read_end(r, &b.end[1]) || !model_options(r, 1, LENGTH(o), o))
         return 0;
+    if (pretension > b.strength)
+        return model_blame(r, "a pretension of %g N breaks the bolt, expected at most its "
+                           "strength, %g N", pretension, b.strength);
     model_bolt_force(m, &b, &along);
     if (!(along.length > r->margin)
         || m->vertex[b.end[0].vertex[0]].element == m->vertex[b.end[1].vertex[0]].element)

@@ -44,7 +44,7 @@ int model_read_record(model_reader *r, const char *path)
     model_place at = { path, 1, NULL };
     size_t size;
 
-    for (char *line = model_load(r, path, r->s->at, &size), *next; line; line = next, at.line++) {
+    for (char *line = model_load(r, path, &size), *next; line; line = next, at.line++) {
         if ((next = strchr(line, '\n')) != NULL)
             *next++ = '\0';
         if (!read_row(r, line, at))

@@ -61,15 +61,12 @@ static int name_folder(arguments *a, const char *given)
 /* NAME LOW HIGH; 0: they are not. */
 static int read_find(arguments *a, char *word[])
 {
-    char *end[2] = { "?", "?" };
+    char rest;
 
-    if (!word[0] || !word[1] || !word[2])
-        return 0;
     a->find = word[0];
-    a->low = strtod(word[1], &end[0]);
-    a->high = strtod(word[2], &end[1]);
-    return *word[1] && *word[2] && !*end[0] && !*end[1] && isfinite(a->low) && isfinite(a->high)
-           && a->low != a->high;
+    return word[0] && word[1] && word[2] && sscanf(word[1], "%lf%c", &a->low, &rest) == 1
+           && sscanf(word[2], "%lf%c", &a->high, &rest) == 1 && isfinite(a->low)
+           && isfinite(a->high) && a->low != a->high;
 }
 
 /* The options may stand before and after the model; behind `--` a name may begin with a dash. */
@@ -191,6 +188,14 @@ static void describe(const model *p, const char *path)
     fflush(stdout);
 }
 
+/* A stage, which begins after the step `from`. */
+static void describe_stage(const model *p, int k, int from)
+{
+    printf("stage %.60s: after step %d", p->stage[k].name, from);
+    printf(p->dynamic ? ", t = %g s" : "", from * p->m->par.dt);
+    printf(", to step %d\n", p->stage[k].par.steps);
+}
+
 static void summarise(const model *p, const char *folder)
 {
     const bbm_model *m = p->m;
@@ -276,8 +281,11 @@ static bbm_status run_all(run *r, write_results *w, progress *s)
     while (!r->is_over && !stopped && !w->status && !(status = run_step(r))) {
         if (r->has_begun)
             write_step(w, i->step);
-        if (r->stage_is_over && !r->is_over)
+        if (r->stage_is_over && !r->is_over) {
             write_stage(w);
+            if (s->shown)
+                describe_stage(r->p, r->p->now + 1, i->step);
+        }
         warn_in_step(r->p, w->source, i->step, &s->warned);
         show_progress(s, r);
     }
@@ -357,6 +365,8 @@ static int check(model *p, const arguments *a)
     warn_before(p, a->model);
     if (!a->quiet) {
         describe(p, a->model);
+        for (int k = 1; k <= p->stages; k++)
+            describe_stage(p, k, p->stage[k - 1].par.steps);
         describe_blocks(p);
         printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s "
                "of other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,

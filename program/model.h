@@ -34,6 +34,7 @@ typedef struct { int monitor, kind; double value, within; } model_expected;     
 typedef struct { double t, a[2]; } model_shaking;     /* s, m/s^2: of the base, a row of a record */
 
 typedef struct {                /* what holds from a stage on; the first is the run before them */
+    const char *name;
     bbm_parameters par;         /* steps: the last of the stage */
     double cohesion, tension;
     int edge_loads;

@@ -24,7 +24,7 @@ typedef struct { int count; entry *entry; } list;
 
 typedef struct {
     model_reader *r;
-    model_place at, statement;          /* the last word, and `mesh` in the model file */
+    model_place at;                     /* the last word */
     int line;                           /* of what is left of the file */
     char *text, *end;
     char section[40];
@@ -240,7 +240,7 @@ static int add_element(mesh *m, model_element *e, const entry *in)
     if (in->n == 0)
         return model_fail(r, e->at, "element %.60s lies in no physical surface, expected one, "
                           "which is its block", e->id);
-    e->block = model_find_block(r, name_of(m, 2, m->tag[in->first]), m->statement);
+    e->block = model_find_block(r, name_of(m, 2, m->tag[in->first]));
     if (e->block < 0)
         return 0;
     r->block[e->block].meshed = 1;
@@ -336,12 +336,12 @@ static void read_section(mesh *m)
                    m->section, m->entries, m->announced);
 }
 
-int model_read_mesh(model_reader *r, const char *path, model_place statement)
+int model_read_mesh(model_reader *r, const char *path)
 {
-    mesh m = { .r = r, .at = { .file = path, .line = 1 }, .statement = statement, .line = 1 };
+    mesh m = { .r = r, .at = { .file = path, .line = 1 }, .line = 1 };
     size_t size;
 
-    m.text = model_load(r, path, statement, &size);
+    m.text = model_load(r, path, &size);
     if (!m.text)
         return 0;
     m.end = m.text + size;

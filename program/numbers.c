@@ -281,7 +281,7 @@ static char *expand(model_reader *r, char *word, int *glued)
         return model_blame(r, "the values of numbers take more than %d bytes, expected less",
                            MOST_BYTES), NULL;
     *glued = pieces > 1;
-    char *text = model_text(r, size), *to = text;
+    char *text = model_keep(r, (int)size, 1), *to = text;
     for (from = word; text && *from; to += length) {
         value = next_piece(r, &from, number, &length);
         memcpy(to, value, length);
@@ -338,8 +338,11 @@ static int read_let(model_reader *r)
     const int at = r->s->first + r->next;
     double x;
 
-    if (other && model_look(r))
-        r->word[at] = (model_given){ other, "-d or --find", 0 };
+    if (other && model_look(r)) {
+        r->word[at].source = "-d or --find";
+        if (!(r->word[at].text = expand(r, other, &r->word[at].glued)))
+            return 0;
+    }
     if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
     if (!r->round)

@@ -139,10 +139,12 @@ int plot_close(plot *p)
 
 /* ------------------------------------------------------------------------------------- numbers */
 
-void plot_widen(double range[2], double value)
+void plot_widen(double range[][2], double x, double y)
 {
-    range[0] = fmin(range[0], value);
-    range[1] = fmax(range[1], value);
+    for (int k = 0; k < 2; k++) {
+        range[k][0] = fmin(range[k][0], k ? y : x);
+        range[k][1] = fmax(range[k][1], k ? y : x);
+    }
 }
 
 /* 1, 2, 5 (and 2.5 if `quarters`) times a power of ten next to x. */
@@ -338,18 +340,16 @@ static int is_shown(const plot_series *s, int i)
 
 static void chart_axes(plot *p, plot_box box, const plot_chart *c)
 {
-    double x[2] = { INFINITY, -INFINITY }, y[2] = { INFINITY, -INFINITY };
+    double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 
     for (int k = 0; k < c->count; k++) {
         const plot_series *s = &c->series[k];
         for (int i = 0; i < s->n; i++)
-            if (is_shown(s, i)) {
-                plot_widen(x, s->x[i]);
-                plot_widen(y, s->y[i]);
-            }
+            if (is_shown(s, i))
+                plot_widen(range, s->x[i], s->y[i]);
     }
-    p->x = make_axis(&c->x, x, fmax(2, box.w / 90));
-    p->y = make_axis(&c->y, y, fmax(2, box.h / 70));
+    p->x = make_axis(&c->x, range[0], fmax(2, box.w / 90));
+    p->y = make_axis(&c->y, range[1], fmax(2, box.h / 70));
     round_axis(&p->y);
 }
 

@@ -83,7 +83,7 @@ enum { PLOT_ROW = 24, PLOT_SYMBOL = 48 };           /* pixels */
 typedef struct { double x, y, room, right; int rows; } plot_legend; /* from (x, y) on, row by row */
 void   plot_begin_entry(plot *p, plot_legend *l, const char *text);
 double plot_pixel(const plot_axis *a, double value);        /* p->x, p->y: value to pixel         */
-void   plot_widen(double range[2], double value);   /* so that it holds the value                 */
+void   plot_widen(double range[][2], double x, double y);   /* of x and y: they hold the point    */
 double plot_nice(double x);                         /* 1, 2 or 5 times a power of ten, near x     */
 void   plot_draw_chart(plot *p, plot_box box, const plot_chart *c);
 /* Axes in metres, from x[0] to x[1] over the width of the frame b, likewise y. */

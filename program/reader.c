@@ -50,14 +50,15 @@ int model_fail(model_reader *r, model_place at, const char *format, ...)
 int model_note(model_reader *r, const char *format, ...)
 {
     const model_place at = { r->s->at.file, r->s->at.line, NULL };
-    char text[600];
+    char *note = model_keep(r, sizeof r->p->message, 1);
     va_list args;
 
+    if (!note)
+        return 0;
     va_start(args, format);
-    put_message(text, sizeof text, at, format, args);
+    put_message(note, sizeof r->p->message, at, format, args);
     va_end(args);
-    const char *note = model_print(r, "%s", text);
-    return note && model_add(r, &r->p->note, &r->p->notes, sizeof note, &note);
+    return model_add(r, &r->p->note, &r->p->notes, sizeof note, &note);
 }
 
 int model_out_of_memory(model_reader *r)
@@ -121,15 +122,13 @@ void *model_keep(model_reader *r, int n, size_t size)
     return array ? memset(array, 0, room * size) : NULL;
 }
 
-char *model_text(model_reader *r, size_t size) { return model_keep(r, (int)size, 1); }
-
 char *model_print(model_reader *r, const char *format, ...)
 {
     va_list args, again;
 
     va_start(args, format);
     va_copy(again, args);
-    char *text = model_text(r, (size_t)vsnprintf(NULL, 0, format, args));
+    char *text = model_keep(r, vsnprintf(NULL, 0, format, args), 1);
     if (text)
         vsprintf(text, format, again);
     va_end(again);
@@ -175,8 +174,9 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
 }
 
 /* The whole file as a text with a 0 behind it, kept until model_free; NULL after an error. */
-char *model_load(model_reader *r, const char *path, model_place at, size_t *size)
+char *model_load(model_reader *r, const char *path, size_t *size)
 {
+    const model_place at = r->s ? r->s->at : (model_place){ .file = path };
     FILE *f = path == r->path && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     char *text = NULL;
     size_t n = 0;
@@ -200,13 +200,14 @@ char *model_load(model_reader *r, const char *path, model_place at, size_t *size
     return r->p->status ? NULL : text;
 }
 
-/* How many letters, large or small, are to be changed, added or taken away (Levenshtein 1966). */
+/* How many letters, large or small, of the first word of b are to be changed, added or taken away
+ * (Levenshtein 1966). */
 static int distance(const char *a, const char *b)
 {
     enum { MOST = 40 };
     int row[MOST + 1], n = 0;
 
-    for (; n < MOST && b[n]; n++)
+    for (; n < MOST && b[n] && b[n] != ' '; n++)
         row[n] = n;
     row[n] = n;
     for (int i = 0; i < MOST && a[i]; i++) {
@@ -239,7 +240,8 @@ const char *model_nearest(const char *word, const void *names, int n, size_t str
     }
     text[0] = '\0';
     for (int k = 0; k < 3 && found[k]; k++)
-        snprintf(text + strlen(text), 200 - strlen(text), "%s%.60s", k ? ", " : "", found[k]);
+        snprintf(text + strlen(text), 200 - strlen(text), "%s%.*s", k ? ", " : "",
+                 (int)strcspn(found[k], " "), found[k]);
     return text;
 }
 
@@ -260,6 +262,8 @@ const char *model_hint(const char *word)
     while (*c > 0 && *c < 127)
         c++;
     return strncmp(word, "//", 2) == 0 ? "; a comment begins with #"
+         : strcmp(word, "midpoints") == 0
+           ? ": bonded in the middles of their sides alone elements can turn against each other"
          : strpbrk(word, "(*/^") ? "; arithmetic is $(...)"
          : strstr(word, "\xe2\x88\x92") || strstr(word, "\xe2\x80\x93") ? "; minus is -"
          : *c ? "; it has letters beyond ASCII"
@@ -452,7 +456,7 @@ int model_choice(model_reader *r, const char *choices, int *n)
         if (strncmp(c, word, length) == 0 && (c[length] == '|' || c[length] == '\0'))
             return 1;
     }
-    return word ? model_blame(r, "'%.60s', expected one of %s", word, choices) : 0;
+    return word && model_blame(r, "'%.60s', expected one of %s%s", word, choices, model_hint(word));
 }
 
 static int in_range(model_reader *r, const model_option *o)
@@ -516,9 +520,9 @@ int model_add_node(model_reader *r, const model_node *n)
            && model_add(r, &r->node, &r->nodes, sizeof *n, n);
 }
 
-int model_find_block(model_reader *r, const char *word, model_place at)
+int model_find_block(model_reader *r, const char *word)
 {
-    const model_block block = { .name = word, .at = at, .material = -1 };
+    const model_block block = { .name = word, .at = r->s->at, .material = -1 };
 
     if (model_find(&r->block_of, word) < 0 && model_enter(r, &r->block_of, word, r->blocks)
         && model_add(r, &r->p->block, &r->p->blocks, sizeof word, &word))

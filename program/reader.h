@@ -103,14 +103,14 @@ const char *model_hint(const char *word);               /* what it may mean; or 
 /* One more item at the end of an array of `count`; 0: no memory. */
 int   model_add(model_reader *r, void *array, int *count, size_t size, const void *item);
 void *model_keep(model_reader *r, int n, size_t size);          /* zeros, and one more; or NULL */
-char *model_text(model_reader *r, size_t size);                 /* of so many letters, as well */
 char *model_print(model_reader *r, const char *format, ...);    /* as by printf; or NULL */
-/* With a 0 behind it; or NULL. */
-char *model_load(model_reader *r, const char *path, model_place at, size_t *size);
+/* A file that the statement in hand names, with a 0 behind it; or NULL. */
+char *model_load(model_reader *r, const char *path, size_t *size);
 int   model_find(const model_table *t, const char *key);        /* -1: not there */
 int   model_enter(model_reader *r, model_table *t, const char *key, int value);
 int   model_is_name(const char *word);
-/* The nearest ones to a word among n, `stride` bytes from name to name, NULL: none; as text. */
+/* The nearest ones to a word among n, `stride` bytes from name to name, of which the first word
+ * counts, NULL: none; as text. */
 const char *model_nearest(const char *word, const void *names, int n, size_t stride,
                           char text[200]);
 const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
@@ -167,11 +167,11 @@ int   model_add_node(model_reader *r, const model_node *n);
 int   model_add_corner(model_reader *r, int node);
 int   model_add_element(model_reader *r, const model_element *e);
 /* A new one if need be; -1: no memory. */
-int   model_find_block(model_reader *r, const char *name, model_place at);
+int   model_find_block(model_reader *r, const char *name);
 int   model_find_set(model_reader *r, const char *name);
 int   model_add_to_set(model_reader *r, int set, int node);
 /* msh.c: Gmsh's mesh files. */
-int   model_read_mesh(model_reader *r, const char *path, model_place statement);
+int   model_read_mesh(model_reader *r, const char *path);
 
 /* numbers.c: the statements as the file has them become those that count. */
 int   model_expand(model_reader *r);

@@ -97,6 +97,7 @@ typedef struct {                        /* what the functions below draw with   
 static void drop_frame(const scene_frame *f)
 {
     free(f->at);
+    free(f->held);
     free(f->force);
     free(f->value);
 }
@@ -126,12 +127,19 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
+/* With what holds each vertex now. */
 static int make_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
+    f->held = malloc((size_t)m->vertices * sizeof *f->held);
     f->value = malloc((size_t)m->vertices * sizeof *f->value);
     f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
-    return f->at && f->value && f->force;
+    for (int v = 0; v < m->vertices && f->held; v++) {
+        const bbm_node *i = &m->node[m->vertex[v].node];
+        f->held[v] = field_is_gone(m, v) ? SCENE_GONE
+                   : i->held + (i->wall[0] != 0 || i->wall[1] != 0 ? SCENE_MOVED : 0);
+    }
+    return f->at && f->held && f->value && f->force;
 }
 
 /* The principal stresses of each element in their directions, at its mean point. */
@@ -159,7 +167,7 @@ static void copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
     const field *shown = s->field ? field_find(s->field) : NULL;
 
     for (int v = 0; v < m->vertices; v++) {
-        const int gone = field_is_gone(m, v);
+        const int gone = f->held[v] == SCENE_GONE;
         const double further = gone || s->scale <= 0 ? 0 : s->scale - 1;
         f->at[v] = (point){ field_place(m, v, 0) + further * m->vertex[v].u,
                             field_place(m, v, 1) + further * m->vertex[v].v };
@@ -242,30 +250,26 @@ static int choose_tint(const film *f, int b)
 }
 
 /* Block by block, which are numbered from 0, in the order of their elements. Held: each of its
- * vertices, in both directions, where it was. Those that are gone in the first frame are held and
- * have no vertices. */
+ * vertices, in both directions, where it was, in each frame in which it is there. Those that are
+ * gone in the first frame are held and have no vertices. */
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
 
     for (int n = 0; n < m->vertices; f->bodies++) {
         body *b = &f->body[f->bodies];
+        const scene_frame *first = f->s->frame, *end = first + f->s->frames;
         *b = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
         for (int v = 0; v < m->vertices; v++) {
-            const bbm_node *i = &m->node[m->vertex[v].node];
             if (m->element[m->vertex[v].element].block != f->bodies)
                 continue;
             f->vertex[n++] = v;
-            b->held &= i->held == BBM_XY && i->wall[0] == 0 && i->wall[1] == 0
-                       && !field_is_gone(m, v);
-            plot_widen(b->box[0], position(f, 0, v).x);
-            plot_widen(b->box[1], position(f, 0, v).y);
+            for (const scene_frame *g = first; g < end; g++)
+                b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
+            plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
         }
-        b->n = n - b->first;
-        const int gone = b->box[0][0] == b->box[0][1] && b->box[1][0] == b->box[1][1];
-        f->held |= b->held && !gone;
-        if (gone)
-            b->held = 1, b->n = 0;
+        b->n = first->held[f->vertex[b->first]] == SCENE_GONE ? 0 : n - b->first;
+        f->held |= b->held && b->n > 0;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -517,7 +521,7 @@ static void visit_supports(film *f, int frame, visitor *visit)
     for (int b = 0; b < f->bodies; b++)
         for (int k = 0; k < f->body[b].n && !f->body[b].held; k++) {
             const int v = f->vertex[f->body[b].first + k], n = f->m->vertex[v].node;
-            const int held = field_is_gone(f->m, v) ? 0 : f->m->node[n].held;
+            const int held = f->s->frame[frame].held[v] & BBM_XY;
             const point x = position(f, frame, v);
             point d = f->normal[n];
             if (held == 0 || hypot(x.x - last[held].x, x.y - last[held].y) * f->scale < 8)
@@ -695,6 +699,7 @@ static int draw_legend(film *f, double x, double y, double room)
 {
     plot_legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
+    const int stress = f->s->field && strcmp(field_find(f->s->field)->unit, "Pa") == 0;
     char text[60];
 
     if (f->held)
@@ -713,6 +718,8 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
         put_force_entry(f, &l, kind);
+    if (stress && f->bodies == f->m->elements)
+        put_entry(f, &l, "", "stress: mean of each block");
     if (f->s->scale > 0 && f->s->scale != 1) {
         snprintf(text, sizeof text, "displacements × %.12g", f->s->scale);
         put_entry(f, &l, "", text);
@@ -736,10 +743,8 @@ static int draw_legend(film *f, double x, double y, double room)
 static void widen_window(film *f, int kind, point from, point size, double share)
 {
     (void)kind, (void)share;
-    plot_widen(f->window[0], from.x);
-    plot_widen(f->window[1], from.y);
-    plot_widen(f->window[0], from.x + size.x / f->scale);
-    plot_widen(f->window[1], from.y + size.y / f->scale);
+    plot_widen(f->window, from.x, from.y);
+    plot_widen(f->window, from.x + size.x / f->scale, from.y + size.y / f->scale);
 }
 
 /* A panel, on a page of about 860 x 660 pixels, or two, on 1100 x 760: side by side, where they are
@@ -771,39 +776,29 @@ static void find_window(film *f)
     }
 }
 
-/* The mean size of the blocks that can move, m. */
-static double block_size(const film *f)
-{
-    double sum = 0;
-    int n = 0;
-
-    for (const body *b = f->body; b < f->body + f->bodies; b++)
-        if (!b->held) {
-            sum += fmin(b->box[0][1] - b->box[0][0], b->box[1][1] - b->box[1][0]);
-            n++;
-        }
-    return n ? sum / n : INFINITY;
-}
-
 /* Window and scale. How long an arrow is in metres depends on the scale of the panel, and that on
- * the window, which holds all arrows: by repetition. Those of contacts are not longer than
- * blocks. */
+ * the window, which holds all arrows: by repetition. Those of contacts are not longer than the
+ * mean of the blocks that can move. */
 static void measure(film *f, int n)
 {
-    for (int i = 0; i < f->s->frames; i++)
-        for (int kind = 0; kind < KINDS; kind++)
-            visit_forces(f, i, kind, NULL);
+    double sizes = 0, blocks = 0;               /* their mean is NaN, and no bound, of none */
+
+    for (const body *b = f->body; b < f->body + f->bodies; b++) {
+        blocks += !b->held;
+        sizes += b->held ? 0 : fmin(b->box[0][1] - b->box[0][0], b->box[1][1] - b->box[1][0]);
+    }
     f->thrust = f->s->frames == 1 && !f->s->field && draw_thrust(f, 0);
-    for (int round = 0; round < 5; round++) {           /* the first one without arrows */
+    for (int round = 0; round < 5; round++) {   /* without arrows, the largest force; then with */
         const double element = sqrt(f->w * f->h / f->m->elements);
         for (int kind = 0; kind < KINDS; kind++)
-            f->length[kind] = fmax(12, fmin(ARROW, is_contact(kind) ? block_size(f) * f->scale
+            f->length[kind] = fmax(12, fmin(ARROW, is_contact(kind) ? sizes / blocks * f->scale
                                             : is_stress(kind) ? 0.6 * element : ARROW));
         find_window(f);
-        for (int i = 0; i < f->s->frames && round > 0; i++) {
-            visit_supports(f, i, widen_window);
+        for (int i = 0; i < f->s->frames; i++) {
+            if (round > 0)
+                visit_supports(f, i, widen_window);
             for (int kind = 0; kind < KINDS; kind++)
-                visit_forces(f, i, kind, widen_window);
+                visit_forces(f, i, kind, round > 0 ? widen_window : NULL);
         }
         arrange(f, n);
     }
@@ -877,7 +872,8 @@ static int open_page(film *f, const char *path, int n)
     return 1;
 }
 
-/* The frame of a panel with its axes; what follows until end_panel is cut off at it. */
+/* The frame of a panel with its axes; what follows until end_panel is cut off at it. Lines have no
+ * round ends: a block that is gone is one point, which would be a dot. */
 static plot_box begin_panel(film *f, int k)
 {
     const plot_box b = { f->left + k % f->columns * f->w + LEFT,
@@ -887,8 +883,7 @@ static plot_box begin_panel(film *f, int k)
     plot_draw_frame(&f->p, b, f->window[0], f->window[1]);
     plot_put(&f->p, "<clipPath id=\"panel%d\">", k);
     plot_rectangle(&f->p, b, "");
-    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel%d)\" stroke-linejoin=\"round\" "
-             "stroke-linecap=\"round\">\n", k);
+    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel%d)\" stroke-linejoin=\"round\">\n", k);
     return b;
 }
 
@@ -1017,8 +1012,7 @@ static double find_scale(const scene *s, const bbm_model *m)
 
     memcpy(range, nothing, sizeof nothing);
     for (int v = 0; v < m->vertices; v++) {
-        plot_widen(range[0], x[v].x);
-        plot_widen(range[1], x[v].y);
+        plot_widen(range, x[v].x, x[v].y);
         moved = fmax(moved, hypot(d[v].x, d[v].y));
     }
     const double size = fmax(range[0][1] - range[0][0], range[1][1] - range[1][0]);
@@ -1117,7 +1111,7 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
     int finite = 1;
 
     for (int v = 0; v < m->vertices; v++) {
-        const int i = m->vertex[v].node, gone = field_is_gone(m, v);
+        const int i = m->vertex[v].node, gone = f->held[v] == SCENE_GONE;
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
         f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0),
@@ -1133,8 +1127,8 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
     return finite;
 }
 
-/* A panel for each model, with bands, the lines of the mesh, the boundaries where they were and are.
- * The first frame has the values of the other model. */
+/* A panel for each model: below all the boundaries where they were; bands, the lines of the mesh,
+ * the boundaries where they are. The first frame has the values of the other model. */
 static int draw_map(film *f, const char *path)
 {
     const int panels = f->s->other ? 2 : 1;
@@ -1144,12 +1138,12 @@ static int draw_map(film *f, const char *path)
         return 0;
     for (int k = 0; k < panels; k++) {
         b = begin_panel(f, k);
+        draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
         if (has_colours(f->s->field))
             draw_bands(f, 1 - k);
         draw_blocks(f, 1, 0);
         draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
                    put_elements);
-        draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
         draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
         end_panel(f, b);
         draw_state(f, b, 1);

@@ -30,11 +30,14 @@ typedef struct {                /* of a closed contact                          
     int    kind, block[2];      /* of its arrow; the corner's and the edge's                      */
 } scene_force;
 
+enum { SCENE_MOVED = 4, SCENE_GONE = 8 };       /* a support not where it began; no block there   */
+
 typedef struct {                /* what was recorded at one time                                  */
     double time;                /* s                                                              */
     int    call;                /* of scene_record, from 0                                        */
     int    forces;
     scene_point *at;            /* m        [vertices]                                            */
+    int    *held;               /*          [vertices] BBM_X + BBM_Y, SCENE_MOVED; SCENE_GONE     */
     scene_force *force;         /*          [forces]                                              */
     double *value;              /*          [vertices] of the field; NaN: the block is gone       */
 } scene_frame;

@@ -25,6 +25,7 @@ int model_stage_head(model_reader *r)
     if (!word || !model_enter(r, &r->stage_of, word, r->s->stage)
         || (model_skip(r, "steps") && !model_whole(r, "steps", 1, &steps)))
         return 0;
+    p->stage[r->s->stage].name = word;
     p->m->par.steps += steps;
     if (!model_skip(r, "remove"))
         return 1;
@@ -42,7 +43,10 @@ int model_stage_head(model_reader *r)
                                p->block[block]);
         p->gone[block] = r->s->stage;
     } while (model_look(r));
-    return 1;
+    for (int b = 0; b < p->blocks; b++)
+        if (!p->gone[b])
+            return 1;
+    return model_blame(r, "the last block is removed, expected one that stays");
 }
 
 /* What fixes a block goes to its nodes; without shear springs there is no friction. Supports begin
@@ -54,8 +58,8 @@ void model_keep_stage(model_reader *r, int k)
 
     if (r->no_shear)
         m->par.friction = m->beyond->cohesion = 0;
-    r->p->stage[k] = (model_stage){ m->par, m->beyond->cohesion, m->beyond->tension,
-                                    m->beyond->edge_loads, node };
+    r->p->stage[k] = (model_stage){ r->p->stage[k].name, m->par, m->beyond->cohesion,
+                                    m->beyond->tension, m->beyond->edge_loads, node };
     for (int n = 0; n < m->nodes && node; n++) {
         if (k == 0 && r->block[r->p->node_block[n]].fixed)
             m->node[n].held = BBM_XY;

@@ -3,7 +3,7 @@
  * any order.
  *
  *     NUMBERS          let, repeat, end           before all others: numbers.c
- *     NOTHING_NEEDED   title, node, mesh, material, and all that goes into the parameters
+ *     ALONE            title, node, mesh, material, and all that goes into the parameters
  *     NODES            element                    needs nodes and materials
  *     MADE             block, grid                number on from the largest ids
  *     ALL_NODES        set                        needs nodes
@@ -20,7 +20,7 @@
 #include "cell.h"
 #include "reader.h"
 
-enum { NUMBERS, NOTHING_NEEDED, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
+enum { NUMBERS, ALONE, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
 enum { ONCE = 1, STAGED };      /* a statement that may stand once, and one that a stage may have */
 
 /* Cells of a grid; memory for each element, at least. */
@@ -60,7 +60,7 @@ static int read_mesh(model_reader *r)
 {
     const char *path = next_path(r);
 
-    return path && model_at_end(r) && model_read_mesh(r, path, r->s->at);
+    return path && model_at_end(r) && model_read_mesh(r, path);
 }
 
 static int read_material(model_reader *r)
@@ -141,12 +141,11 @@ static int read_dynamic(model_reader *r)
 
     p->velocity_factor = 1;
     r->p->dynamic = 1;
-    r->p->ramp = -1;
     if (!model_options(r, 2, LENGTH(o), o))
         return 0;
     if (o[2].seen && o[3].seen)
         return model_blame(r, "velocity_factor and damping, which are the same, expected one");
-    r->p->ramp = r->p->ramp < 0 ? p->dt * p->steps : r->p->ramp;
+    r->p->ramp = o[5].seen ? r->p->ramp : p->dt * p->steps;
     return 1;
 }
 
@@ -158,15 +157,9 @@ static int read_bond(model_reader *r)
                          COUNT("augment", &b->multiplier_rounds, 0),
                          CHOICE("at", &kind, "vertices|moment|auto") };
 
-    for (int k = 1; k < r->s->n; k++)
-        if (strcmp(r->word[r->s->first + k].text, "midpoints") == 0)
-            return model_blame(r, "'midpoints', expected one of vertices|moment|auto: bonded in "
-                                  "the middles of their sides alone elements can turn against "
-                                  "each other");
-    if (!model_options(r, 0, LENGTH(o), o))
-        return 0;
+    const int good = model_options(r, 0, LENGTH(o), o);
     b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
-    return 1;
+    return good;
 }
 
 static int read_pcg(model_reader *r)
@@ -179,20 +172,18 @@ static int read_pcg(model_reader *r)
         COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
     };
 
-    if (!model_options(r, 0, LENGTH(o), o))
-        return 0;
+    const int good = model_options(r, 0, LENGTH(o), o);
     p->method = coarse == 0 ? &bbm_two_level : NULL;
-    return 1;
+    return good;
 }
 
 static int read_rotation(model_reader *r)
 {
     int kind;
+    const int good = model_choice(r, "exact|linear", &kind);
 
-    if (!model_choice(r, "exact|linear", &kind))
-        return 0;
     r->p->m->beyond->rotation = kind == 0 ? BBM_EXACT : BBM_LINEAR;
-    return 1;
+    return good;
 }
 
 static int read_output(model_reader *r)
@@ -228,7 +219,7 @@ static int read_element(model_reader *r)
     e.n = r->s->n - r->next;
     if (e.n < 3)
         return model_fail(r, e.at, "element %.60s has %d nodes, expected 3 or more", e.id, e.n);
-    e.block = model_find_block(r, block, e.at);
+    e.block = model_find_block(r, block);
     for (int k = 0; k < e.n; k++)
         if (!model_add_corner(r, model_known(r, &r->node_of)))
             return 0;
@@ -268,7 +259,7 @@ static int new_block(model_reader *r, const char **word, int *material)
     *word = model_new_name(r, &r->block_of);
     if (!*word || (*material = model_known(r, &r->material_of)) < 0)
         return -1;
-    return model_find_block(r, *word, r->s->at);
+    return model_find_block(r, *word);
 }
 
 static int read_block(model_reader *r)
@@ -428,62 +419,52 @@ static int read_expect(model_reader *r)
 /* ------------------------------------------------------------------------------------ the table */
 
 static const struct kind {
-    const char *name, *form;
+    const char *form;                           /* its name first */
     model_action *read;
     int phase, may;
 } kinds[] = {
-    { "let", "let NAME VALUE", NULL, NUMBERS, STAGED },
-    { "repeat", "repeat NAME FROM TO, statements, end", NULL, NUMBERS, STAGED },
-    { "stage", "stage NAME [steps N] [remove BLOCK ...], statements, end", model_stage_head,
-      NOTHING_NEEDED, STAGED },
-    { "end", "end", NULL, NUMBERS, STAGED },
-    { "title", "title TEXT", read_title, NOTHING_NEEDED, ONCE },
-    { "node", "node ID X Y", read_node, NOTHING_NEEDED, 0 },
-    { "mesh", "mesh FILE.msh", read_mesh, NOTHING_NEEDED, 0 },
-    { "material", "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material,
-      NOTHING_NEEDED, 0 },
-    { "plane", "plane stress|strain", read_plane, NOTHING_NEEDED, ONCE },
-    { "gravity", "gravity GX GY", read_gravity, NOTHING_NEEDED, ONCE | STAGED },
-    { "shake", "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NOTHING_NEEDED, ONCE },
-    { "contact",
-      "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
-      "[restitution E]",
-      read_contact, NOTHING_NEEDED, ONCE | STAGED },
-    { "static", "static [steps N] [tolerance VALUE]", read_static, NOTHING_NEEDED, ONCE },
-    { "dynamic", "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]",
-      read_dynamic, NOTHING_NEEDED, ONCE },
-    { "bond", "bond [alpha VALUE] [augment N] [at vertices|moment|auto]", read_bond,
-      NOTHING_NEEDED, ONCE },
-    { "pcg", "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg,
-      NOTHING_NEEDED, ONCE },
-    { "rotation", "rotation exact|linear", read_rotation, NOTHING_NEEDED, ONCE },
-    { "output", "output [every N] [vtk] [svg] [film] [field NAME] [scale N] [low VALUE] "
-                "[high VALUE]",
-      read_output, NOTHING_NEEDED, ONCE },
-    { "element", "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
-    { "block", "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
-    { "grid", "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE,
-      0 },
-    { "set", "set NAME nodes ID ID ...", read_set, ALL_NODES, 0 },
-    { "use", "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
-    { "fixblock", "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
-    { "joint", "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]",
-      model_joint, MODEL, 0 },
-    { "fix", "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, STAGED },
-    { "load", "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, STAGED },
-    { "traction", "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, STAGED },
-    { "pressure", "pressure WHERE [of BLOCK] P", model_pressure, MODEL, STAGED },
-    { "water", "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
-    { "bolt", "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts,
+    { "let NAME VALUE", NULL, NUMBERS, STAGED },
+    { "repeat NAME FROM TO, statements, end", NULL, NUMBERS, STAGED },
+    { "stage NAME [steps N] [remove BLOCK ...], statements, end", model_stage_head, ALONE, STAGED },
+    { "end", NULL, NUMBERS, STAGED },
+    { "title TEXT", read_title, ALONE, ONCE },
+    { "node ID X Y", read_node, ALONE, 0 },
+    { "mesh FILE.msh", read_mesh, ALONE, 0 },
+    { "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material, ALONE, 0 },
+    { "plane stress|strain", read_plane, ALONE, ONCE },
+    { "gravity GX GY", read_gravity, ALONE, ONCE | STAGED },
+    { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, ALONE, ONCE },
+    { "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
+      "[restitution E]", read_contact, ALONE, ONCE | STAGED },
+    { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
+    { "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]", read_dynamic, ALONE,
+      ONCE },
+    { "bond [alpha VALUE] [augment N] [at vertices|moment|auto]", read_bond, ALONE, ONCE },
+    { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
+    { "rotation exact|linear", read_rotation, ALONE, ONCE },
+    { "output [every N] [vtk] [svg] [film] [field NAME] [scale N] [low VALUE] [high VALUE]",
+      read_output, ALONE, ONCE },
+    { "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
+    { "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
+    { "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE, 0 },
+    { "set NAME nodes ID ID ...", read_set, ALL_NODES, 0 },
+    { "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
+    { "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
+    { "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]", model_joint,
       MODEL, 0 },
-    { "velocity", "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
-    { "stress", "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
-    { "monitor", "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK",
-      model_monitors, MODEL, 0 },
-    { "expect",
-      "expect NAME u|v|normal|shear|fx|fy VALUE within TOLERANCE [%], or expect NAME moves|stays "
-      "by TOLERANCE",
-      read_expect, MONITORS, 0 },
+    { "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, STAGED },
+    { "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, STAGED },
+    { "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, STAGED },
+    { "pressure WHERE [of BLOCK] P", model_pressure, MODEL, STAGED },
+    { "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
+    { "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts, MODEL,
+      0 },
+    { "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
+    { "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
+    { "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK", model_monitors, MODEL,
+      0 },
+    { "expect NAME u|v|normal|shear|fx|fy VALUE within TOLERANCE [%], or expect NAME moves|stays "
+      "by TOLERANCE", read_expect, MONITORS, 0 },
 };
 
 /* What other programs have, and what there is here instead; NULL: not known. */
@@ -512,9 +493,11 @@ static const char *find_other(const char *word)
 /* The row of the statement; LENGTH(kinds): there is none. */
 static int find_kind(const char *word)
 {
+    const size_t n = strlen(word);
     int k = 0;
 
-    while (k < LENGTH(kinds) && strcmp(kinds[k].name, word) != 0)
+    while (k < LENGTH(kinds)
+           && (strncmp(kinds[k].form, word, n) != 0 || strcspn(kinds[k].form, " ") != n))
         k++;
     return k;
 }
@@ -534,7 +517,7 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
                           model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text),
                           model_hint(word));
     }
-    const model_statement s = { at, r->cut_words, 0, k, 0, kinds[k].name, kinds[k].form };
+    const model_statement s = { at, r->cut_words, 0, k, 0, word, kinds[k].form };
     return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
 }
 
@@ -645,7 +628,7 @@ static int read_all(model_reader *r)
 {
     model *p = r->p;
     size_t size;
-    char *text = model_load(r, r->path, (model_place){ .file = r->path }, &size);
+    char *text = model_load(r, r->path, &size);
 
     if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;

@@ -79,11 +79,12 @@ static void warn_of_pieces(const model *p, const char *path)
 /* A block. Gaps up to NEAR of its size may be meant as none; one below TOUCH of it is none. */
 typedef struct {
     double box[4], size, gap;   /* m            x and y from, to; size: root of its area        */
-    int    elements, free, held, thrown, edge, group, near;     /* free, held: its nodes;       */
-} body;                         /* edge: the first; group: of those that touch; near: at the gap */
+    int    elements, free, held, thrown, edge, near;    /* free, held: its nodes; edge: the     */
+} body;                                                 /* first; near: at the gap              */
 
-/* next: edge; alike: pairs of meshes of one material with the same nodes along a side. */
-typedef struct { const model *p; const bbm_model *m; body *body; int *next, alike; } bodies;
+/* next: edge; group: of blocks that touch; alike: pairs of meshes of one material with the same
+ * nodes along a side. */
+typedef struct { const model *p; const bbm_model *m; body *body; int *next, *group, alike; } bodies;
 
 #define NEAR 0.05
 #define TOUCH 1e-6
@@ -92,9 +93,11 @@ static void measure(bodies *s)
 {
     const bbm_model *m = s->m;
 
-    for (int b = 0; b < s->p->blocks; b++)
+    for (int b = 0; b < s->p->blocks; b++) {
         s->body[b] = (body){ .box = { INFINITY, -INFINITY, INFINITY, -INFINITY }, .gap = INFINITY,
-                             .edge = -1, .group = b, .thrown = s->p->velocity[b].given };
+                             .edge = -1, .thrown = s->p->velocity[b].given };
+        s->group[b] = b;
+    }
     for (int e = 0; e < m->elements; e++) {
         body *b = &s->body[m->element[e].block];
         b->size = hypot(b->size, sqrt(m->element[e].A0));
@@ -137,12 +140,7 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
     return gap;
 }
 
-static body *group_of(const bodies *s, int b)
-{
-    while (s->body[b].group != b)
-        b = s->body[b].group;
-    return &s->body[b];
-}
+static body *group_of(const bodies *s, int b) { return &s->body[bbm_root_of(s->group, b)]; }
 
 static int has_strength(const bbm_beyond *b) { return b->joints || b->tension + b->cohesion > 0; }
 
@@ -161,7 +159,7 @@ static void compare(bodies *s, const char *path, int i, int j)
     if (gap <= TOUCH * size) {
         to->held += of == to ? 0 : of->held;
         to->thrown |= of->thrown;
-        of->group = to->group;
+        s->group[of - s->body] = (int)(to - s->body);
     }
     if (gap < fmin(far, a->gap))
         a->gap = gap, a->near = j;
@@ -238,10 +236,11 @@ static void warn_of_bodies(const model *p, const char *path)
 {
     const bbm_model *m = p->m;
     bodies s = { .p = p, .m = m, .body = malloc((size_t)p->blocks * sizeof *s.body),
-                 .next = malloc((size_t)m->edges * sizeof *s.next) };
+                 .next = malloc((size_t)(m->edges + p->blocks) * sizeof *s.next) };
     int held = 0;
 
     if (s.body && s.next) {
+        s.group = s.next + m->edges;
         measure(&s);
         for (int i = 0; i < p->blocks; i++)
             for (int j = 0; j < i; j++)

@@ -739,6 +739,38 @@ START_TEST(a_block_that_is_gone_does_not_move_far)
 }
 END_TEST
 
+/* A prop goes that is fixed as a whole, a support ends; round caps would make a dot of the prop. */
+START_TEST(a_film_of_stages_shows_what_is_fixed_in_each)
+{
+    ck_assert_int_eq(run_text("strike", "material r E 1e9 nu 0 density 2500\nblock prop r 0 0 1 0 1 1 0 1\n"
+                              "block beam r 0 1 3 1 3 2 0 2\nfixblock prop\nfix at 3 2\ngravity 0 -9.81\n"
+                              "dynamic dt 0.01 steps 2\nstage off steps 2 remove prop\nfix at 3 2 free\nend\n"
+                              "output svg\n"), 0);
+    char *text = read_all("out/model/strike/movie.svg");
+    ck_assert_ptr_nonnull(strstr(text, "<path fill=\"url(#held)\""));
+    ck_assert_ptr_null(strstr(text, "stroke-linecap=\"round\""));
+    int supports[5] = { 0 }, n = 0;
+    for (const char *s = text; (s = strstr(s, "<path fill=\"#ffffff\"")) && n < 5; s++)
+        supports[n++] = *path_of(s) == 'M';
+    for (int k = 0; k < 5; k++)
+        ck_assert_int_eq(supports[k], k < 3);
+    free(text);
+}
+END_TEST
+
+/* The stone has moved over where its neighbour was: the outlines of the start lie below it. */
+START_TEST(a_map_of_blocks_hides_where_they_were_and_says_that_stresses_are_means)
+{
+    ck_assert_int_eq(run_text("means", "material r E 1e9 nu 0 density 2500\nblock a r 0 0 1 0 1 1 0 1\n"
+                              "block b r 1.1 0 2 0 2 1 1.1 1\nvelocity a 20 0\nvelocity b 20 0\n"
+                              "dynamic dt 0.01 steps 2\noutput svg\n"), 0);
+    char *text = read_all("out/model/means/mises.svg");
+    const char *was = strstr(text, "stroke=\"#666666\"");
+    ck_assert(was && strstr(was, "stroke-width=\"0.6\"") && strstr(text, ">stress: mean of each block<"));
+    free(text);
+}
+END_TEST
+
 Suite *pictures_suite(void)
 {
     Suite *s = suite_create("pictures");
@@ -762,6 +794,8 @@ Suite *pictures_suite(void)
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, water_is_drawn_as_it_presses, 0, 2);
     tcase_add_test(t, a_block_that_is_gone_does_not_move_far);
+    tcase_add_test(t, a_film_of_stages_shows_what_is_fixed_in_each);
+    tcase_add_test(t, a_map_of_blocks_hides_where_they_were_and_says_that_stresses_are_means);
     tcase_add_loop_test(t, blocks_that_touch_have_other_tints, 0, 6);
     return s;
 }

@@ -446,9 +446,9 @@ START_TEST(bonds_are_as_stiff_as_the_document_says_unless_the_file_does)
                                           { "dynamic dt 0.01 steps 9", "bond alpha 1000" } };
 
     for (int k = 0; k < 2; k++)
-        ck_assert_int_eq(run_printed(k ? "said" : "silent", ROCK "grid a rock 0 0 2 1 4 2\nfix set a.left\n"
+        ck_assert_int_eq(run_printed(k ? "spoken" : "silent", ROCK "grid a rock 0 0 2 1 4 2\nfix set a.left\n"
                                      "gravity 0 -9.81\n%s\n%s\n", how[_i][0], k ? how[_i][1] : ""), 0);
-    ck_assert_int_eq(shell("cmp out/model/said/nodes.csv out/model/silent/nodes.csv"), 0);
+    ck_assert_int_eq(shell("cmp out/model/spoken/nodes.csv out/model/silent/nodes.csv"), 0);
 }
 END_TEST
 
@@ -598,6 +598,9 @@ START_TEST(a_number_of_the_command_line_takes_the_place_of_let)
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=30 -d g=20 -dsteps=50 -o "
                            "out/model/let 2> out/model/err", BUILD), 0);
     ck_relative(cell("let", "history.csv", "50,", "a_v"), -20 * 0.125, 1e-9);
+    ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d g=20 -d 'steps=$(g + 30)' -o "
+                           "out/model/let 2> out/model/err", BUILD), 0);
+    ck_relative(cell("let", "history.csv", "", "a_v"), -20 * 0.125, 1e-9);
     ck_assert_int_eq(shell("%s/bbm -q out/model/let.model -d f=20 2> out/model/err", BUILD), 2);
     ck_assert_str_eq(slurp("out/model/err"), "out/model/let.model: 'f=20' of -d or --find, "
                      "expected NAME=VALUE with a name of a `let`, such as g, steps, twice\n");
@@ -745,6 +748,19 @@ START_TEST(a_block_slides_from_where_it_was_when_friction_falls)
 }
 END_TEST
 
+START_TEST(each_stage_is_said_when_it_begins_and_by_a_check)
+{
+    write_text("out/model/said.model", COLUMN "dynamic dt 0.01 steps 3\nstage off remove c\nend\n"
+               "stage on steps 2\nend\n");
+    for (int k = 0; k < 2; k++) {
+        ck_assert_int_eq(shell("%s/bbm out/model/said.model %s -o out/model/stages > out/model/out",
+                               BUILD, k ? "--check" : ""), 0);
+        check_text("out/model/out", "\nstage off: after step 3, t = 0.03 s, to step 6\n");
+        check_text("out/model/out", "\nstage on: after step 6, t = 0.06 s, to step 8\n");
+    }
+}
+END_TEST
+
 static const char *const bad_stages[][2] = {
     { "stage x\n", ":11: stage without its `end`" },
     { "stage x remove q\nend\n", ":11: unknown block 'q'" },
@@ -803,6 +819,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
     tcase_add_test(t, a_block_slides_from_where_it_was_when_friction_falls);
+    tcase_add_test(t, each_stage_is_said_when_it_begins_and_by_a_check);
     tcase_add_loop_test(t, a_wrong_stage_is_refused_before_anything_runs, 0, COUNT(bad_stages));
     return s;
 }
