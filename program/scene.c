@@ -98,6 +98,7 @@ static void drop_frame(const scene_frame *f)
 {
     free(f->at);
     free(f->held);
+    free(f->load);
     free(f->force);
     free(f->value);
 }
@@ -127,19 +128,24 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-/* With what holds each vertex now. */
+/* With what holds each vertex now, and the loads. */
 static int make_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
     f->held = malloc((size_t)m->vertices * sizeof *f->held);
     f->value = malloc((size_t)m->vertices * sizeof *f->value);
     f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
+    f->load = malloc((size_t)m->nodes * sizeof *f->load);
+    for (int n = 0; n < m->nodes && f->load; n++)
+        memcpy(f->load[n], m->node[n].load, sizeof f->load[n]);
+    for (scene_line l; scene_edge_load(m, f->lines, &l); )
+        f->lines++;
     for (int v = 0; v < m->vertices && f->held; v++) {
         const bbm_node *i = &m->node[m->vertex[v].node];
         f->held[v] = field_is_gone(m, v) ? SCENE_GONE
                    : i->held + (i->wall[0] != 0 || i->wall[1] != 0 ? SCENE_MOVED : 0);
     }
-    return f->at && f->held && f->value && f->force;
+    return f->at && f->held && f->load && f->value && f->force;
 }
 
 /* The principal stresses of each element in their directions, at its mean point. */
@@ -495,7 +501,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     point last = { INFINITY, 0 };
 
     for (int i = 0; kind == LOAD && i < m->nodes; i++) {
-        const double *q = m->node[i].load;
+        const double *q = g->load[i];
         if (q[0] != 0 || q[1] != 0)
             visit_force(f, kind, position(f, frame, m->adjacent[m->adjacent_first[i]]),
                         (point){ q[0], q[1] }, f->normal[i], visit);
@@ -506,7 +512,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
                                               0, 0, 0 }, &last, visit);
     }
     scene_line l;
-    for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
+    for (int i = 0; kind == LINE_LOAD && i < g->lines && scene_edge_load(m, i, &l); i++)
         visit_edge(f, frame, &l, &last, visit);
     for (int i = 0; i < g->forces; i++)
         if (g->force[i].kind == kind && !(is_stress(kind) && f->body[g->force[i].block[0]].held))
