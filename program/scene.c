@@ -621,12 +621,11 @@ static void add_force(neighbours *b, const scene_force *c, int side)
 
 /* The line of thrust goes through each block that two others press from both sides, from the point
  * where the force of the one acts to that of the other. A film has none: it would be half as large
- * again. Returns whether there is any. */
-static int draw_thrust(film *f, int frame)
+ * again. */
+static void draw_thrust(film *f, int frame)
 {
     const scene_frame *g = &f->s->frame[frame];
     neighbours *b = calloc((size_t)f->bodies, sizeof *b);
-    int any = 0;
 
     for (int i = 0; i < 2 * g->forces && b; i++)
         add_force(&b[g->force[i / 2].block[i % 2]], &g->force[i / 2], i % 2);
@@ -638,10 +637,9 @@ static int draw_thrust(film *f, int frame)
         const point from = pixel(f, (point){ x[0].x / N[0], x[0].y / N[0] });
         const point to = pixel(f, (point){ x[1].x / N[1], x[1].y / N[1] });
         plot_line(&f->p, THRUST, from.x, from.y, to.x, to.y);
-        any = 1;
+        f->thrust = 1;
     }
     free(b);
-    return any;
 }
 
 #define BOLT "fill=\"none\" stroke=\"#000000\" stroke-width=\"3\""
@@ -793,7 +791,8 @@ static void measure(film *f, int n)
         blocks += !b->held;
         sizes += b->held ? 0 : fmin(b->box[0][1] - b->box[0][0], b->box[1][1] - b->box[1][0]);
     }
-    f->thrust = f->s->frames == 1 && !f->s->field && draw_thrust(f, 0);
+    if (f->s->frames == 1 && !f->s->field)              /* whether there is any */
+        draw_thrust(f, 0);
     for (int round = 0; round < 5; round++) {   /* without arrows, the largest force; then with */
         const double element = sqrt(f->w * f->h / f->m->elements);
         for (int kind = 0; kind < KINDS; kind++)
