@@ -74,11 +74,11 @@ typedef struct {                        /* a block                              
 
 typedef struct {                        /* what the functions below draw with                     */
     plot         p;
-    int          columns;               /* of panels of w x h pixels                              */
+    int          columns, thrust;       /* of panels, w x h pixels; thrust: it is drawn           */
     double       left, top, over, w, h; /* over: above the frame of a panel                       */
     const scene *s;
     const bbm_model *m;
-    int          bodies, held, thrust;  /* whether any is held; whether there is a line of thrust */
+    int          bodies, held, whole;   /* whether any is held; is free, of one element           */
     body        *body;
     int         *vertex;                /*          [vertices], block by block                    */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
@@ -276,6 +276,7 @@ static void find_bodies(film *f)
         }
         b->n = first->held[f->vertex[b->first]] == SCENE_GONE ? 0 : n - b->first;
         f->held |= b->held && b->n > 0;
+        f->whole |= !b->held && b->n == m->element[m->vertex[f->vertex[b->first]].element].n;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -703,7 +704,6 @@ static int draw_legend(film *f, double x, double y, double room)
 {
     plot_legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
-    const int stress = f->s->field && strcmp(field_find(f->s->field)->unit, "Pa") == 0;
     char text[60];
 
     if (f->held)
@@ -722,8 +722,8 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
         put_force_entry(f, &l, kind);
-    if (stress && f->bodies == f->m->elements)
-        put_entry(f, &l, "", "stress: mean of each block");
+    if (f->whole && f->s->field && strcmp(field_find(f->s->field)->unit, "Pa") == 0)
+        put_entry(f, &l, "", "stress of a block of one element: its mean");
     if (f->s->scale > 0 && f->s->scale != 1) {
         snprintf(text, sizeof text, "displacements × %.12g", f->s->scale);
         put_entry(f, &l, "", text);
