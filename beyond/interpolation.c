@@ -27,9 +27,9 @@
  * with blocks of 2 to 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
 
-/* The unknowns r0, ex, ey, gxy of a linear displacement are Q times its slopes ux, uy, vx, vy. With T
- * of (2), where D = 0, they are (vx - uy)/2, ux, vy and uy + vx. With T_m of rotation.c for an
- * element that moves by D, with t = tan(r0/2) and q = 1/(1 + t^2), the slopes of unknowns r, e are
+/* The unknowns r0, ex, ey, gxy of a linear displacement are Q times its slopes ux, uy, vx, vy. With
+ * T of (2), where D = 0, they are (vx - uy)/2, ux, vy and uy + vx. With T_m of rotation.c for an
+ * element that moves by D, with t = tan(r0/2), q = 1/(1 + t^2), p = t q, the slopes of r and e are
  *
  *     G = r (2 t/r0) J (1 + R(r0) (1 + e(D)))/2 + (1 + t J) e,
  *
@@ -37,12 +37,12 @@
  * symmetric part e and r (t/r0) q [-gxy/2 - t ex, (ex - ey - t gxy)/2; ..., gxy/2 - t ey]. */
 void bbm_slopes(const double D[6], double Q[4][4])
 {
-    const double t = tan(D[2] / 2), q = 1 / (1 + t * t), f = D[2] == 0 ? 1 : 2 * t / D[2];
+    const double t = tan(D[2] / 2), q = 1 / (1 + t * t), p = t * q, f = t == 0 ? 1 : 2 * t / D[2];
     const double skew = 1 / (2 * f * (1 + (D[3] + D[4]) / 4)), share = f * q / 2;
     const double turn[4] = { -t * skew, -skew, skew, -t * skew };
     const double of_turn[3] = { share * (-D[5] / 2 - t * D[3]), share * (D[5] / 2 - t * D[4]),
                                 share * (D[3] - D[4] - t * D[5]) };
-    const double strain[3][4] = { { q, 0, t * q, 0 }, { 0, -t * q, 0, q }, { -t * q, q, q, t * q } };
+    const double strain[3][4] = { { q, 0, p, 0 }, { 0, -p, 0, q }, { -p, q, q, p } };
 
     memcpy(Q[0], turn, sizeof turn);
     for (int a = 0; a < 12; a++)

@@ -66,8 +66,8 @@ void case_print_augmented(const bbm_model *m)
 {
     if (m)
         printf("\nwith beyond/: %d quadrilaterals, edge bonds with a moment, %s, two levels "
-               "(%d iterations)\n", m->elements, isinf(m->par.dt) ? "two rounds of multipliers"
-               : "alpha = 1e4, T of the middle of the step, exact rotation", m->info.pcg.iterations);
+               "(%d iterations)\n", m->elements, isinf(m->par.dt) ? "two rounds of multipliers" :
+               "alpha = 1e4, T of the middle of the step, exact rotation", m->info.pcg.iterations);
 }
 
 /* --------------------------------------------------------------------------------------- meshes */

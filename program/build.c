@@ -11,9 +11,9 @@
 
 /* ----------------------------------------------------------------- building the library's model */
 
-/* What the file leaves out. The contacts are as stiff as the softest material of a block that is not
- * fixed, for a fixed one is often given an E that only says "rigid". In dynamics, where multipliers
- * have no part, bonds are as stiff as is possible without many more passes in fast motions. */
+/* What the file leaves out. The contacts are as stiff as the softest material of a block that is
+ * not fixed, for a fixed one is often given an E that only says "rigid". In dynamics, where
+ * multipliers have no part, bonds are as stiff as fast motions can take without further passes. */
 static void set_defaults(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;

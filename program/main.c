@@ -192,7 +192,8 @@ static void describe(const model *p, const char *path)
 static void describe_stage(const model *p, int k, int from)
 {
     printf("stage %.60s: after step %d", p->stage[k].name, from);
-    printf(p->dynamic ? ", t = %g s" : "", from * p->m->par.dt);
+    if (p->dynamic)
+        printf(", t = %g s", from * p->m->par.dt);
     printf(", to step %d\n", p->stage[k].par.steps);
 }
 
@@ -283,6 +284,7 @@ static bbm_status run_all(run *r, write_results *w, progress *s)
             write_step(w, i->step);
         if (r->stage_is_over && !r->is_over) {
             write_stage(w);
+            fputs(s->begun ? "\n" : "", stderr);
             if (s->shown)
                 describe_stage(r->p, r->p->now + 1, i->step);
         }

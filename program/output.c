@@ -16,6 +16,7 @@
 #include <direct.h>
 #include <share.h>
 #define mkdir(path, mode) _mkdir(path)
+#define rename(from, to) (remove(to), rename(from, to)) /* there a name that is taken is an error */
 #else
 #include <fcntl.h>
 #endif
@@ -52,16 +53,7 @@ int output_keep(output *o)
     return !o->why;
 }
 
-/* Replaces a file of that name. */
-static int give_name(const char *from, const char *to)
-{
-#ifdef _WIN32
-    remove(to);                 /* there, a name that is taken is an error */
-#endif
-    return rename(from, to) == 0;
-}
-
-/* What is kept of a file that is cut off is what was whole. */
+/* Replaces a file of that name. What is kept of a file that is cut off is what was whole. */
 int output_close(output *o)
 {
     FILE *file = o->file;
@@ -72,7 +64,7 @@ int output_close(output *o)
     output_note(o, !fflush(file) && !ferror(file));
     output_note(o, !fclose(file));
     const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
-    if (!keep || !(o->direct || give_name(o->temporary, o->path) || output_note(o, 0)))
+    if (!keep || !(o->direct || !rename(o->temporary, o->path) || output_note(o, 0)))
         remove(o->temporary);
     errno = o->why;
     return !o->why;

@@ -413,11 +413,10 @@ int model_known(model_reader *r, const model_table *t)
     const int found = word ? model_find(t, word) : -1;
     char text[200];
 
-    if (word && t->count == 0)
-        model_blame(r, "unknown %s '%.60s': the model has none", t->what, word);
-    else if (word && found < 0)
-        model_blame(r, "unknown %s '%.60s', expected one that the model has, such as %s", t->what,
-                    word, model_nearest_of(t, word, text));
+    if (word && found < 0)
+        model_blame(r, "unknown %s '%.60s'%s%s", t->what, word, t->count == 0
+                    ? ": the model has none" : ", expected one that the model has, such as ",
+                    model_nearest_of(t, word, text));
     return found;
 }
 

@@ -74,11 +74,11 @@ typedef struct {                        /* a block                              
 
 typedef struct {                        /* what the functions below draw with                     */
     plot         p;
-    int          columns;               /* of panels of w x h pixels                              */
+    int          columns, thrust;       /* of panels, w x h pixels; thrust: it is drawn           */
     double       left, top, over, w, h; /* over: above the frame of a panel                       */
     const scene *s;
     const bbm_model *m;
-    int          bodies, held, thrust;  /* whether any is held; whether there is a line of thrust */
+    int          bodies, held, whole;   /* whether any is held; is free, of one element           */
     body        *body;
     int         *vertex;                /*          [vertices], block by block                    */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
@@ -98,6 +98,7 @@ static void drop_frame(const scene_frame *f)
 {
     free(f->at);
     free(f->held);
+    free(f->load);
     free(f->force);
     free(f->value);
 }
@@ -127,19 +128,24 @@ static void thin_out(scene *s)
     s->frames = kept;
 }
 
-/* With what holds each vertex now. */
+/* With what holds each vertex now, and the loads. */
 static int make_frame(scene_frame *f, const bbm_model *m)
 {
     f->at = malloc((size_t)m->vertices * sizeof *f->at);
     f->held = malloc((size_t)m->vertices * sizeof *f->held);
     f->value = malloc((size_t)m->vertices * sizeof *f->value);
     f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
+    f->load = malloc((size_t)m->nodes * sizeof *f->load);
+    for (int n = 0; n < m->nodes && f->load; n++)
+        memcpy(f->load[n], m->node[n].load, sizeof f->load[n]);
+    for (scene_line l; scene_edge_load(m, f->lines, &l); )
+        f->lines++;
     for (int v = 0; v < m->vertices && f->held; v++) {
         const bbm_node *i = &m->node[m->vertex[v].node];
         f->held[v] = field_is_gone(m, v) ? SCENE_GONE
                    : i->held + (i->wall[0] != 0 || i->wall[1] != 0 ? SCENE_MOVED : 0);
     }
-    return f->at && f->held && f->value && f->force;
+    return f->at && f->held && f->load && f->value && f->force;
 }
 
 /* The principal stresses of each element in their directions, at its mean point. */
@@ -270,6 +276,7 @@ static void find_bodies(film *f)
         }
         b->n = first->held[f->vertex[b->first]] == SCENE_GONE ? 0 : n - b->first;
         f->held |= b->held && b->n > 0;
+        f->whole |= !b->held && b->n == m->element[m->vertex[f->vertex[b->first]].element].n;
     }
     for (int b = 0; b < f->bodies; b++)
         f->body[b].tint = choose_tint(f, b);
@@ -495,7 +502,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     point last = { INFINITY, 0 };
 
     for (int i = 0; kind == LOAD && i < m->nodes; i++) {
-        const double *q = m->node[i].load;
+        const double *q = g->load[i];
         if (q[0] != 0 || q[1] != 0)
             visit_force(f, kind, position(f, frame, m->adjacent[m->adjacent_first[i]]),
                         (point){ q[0], q[1] }, f->normal[i], visit);
@@ -506,7 +513,7 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
                                               0, 0, 0 }, &last, visit);
     }
     scene_line l;
-    for (int i = 0; kind == LINE_LOAD && scene_edge_load(m, i, &l); i++)
+    for (int i = 0; kind == LINE_LOAD && i < g->lines && scene_edge_load(m, i, &l); i++)
         visit_edge(f, frame, &l, &last, visit);
     for (int i = 0; i < g->forces; i++)
         if (g->force[i].kind == kind && !(is_stress(kind) && f->body[g->force[i].block[0]].held))
@@ -615,12 +622,11 @@ static void add_force(neighbours *b, const scene_force *c, int side)
 
 /* The line of thrust goes through each block that two others press from both sides, from the point
  * where the force of the one acts to that of the other. A film has none: it would be half as large
- * again. Returns whether there is any. */
-static int draw_thrust(film *f, int frame)
+ * again. */
+static void draw_thrust(film *f, int frame)
 {
     const scene_frame *g = &f->s->frame[frame];
     neighbours *b = calloc((size_t)f->bodies, sizeof *b);
-    int any = 0;
 
     for (int i = 0; i < 2 * g->forces && b; i++)
         add_force(&b[g->force[i / 2].block[i % 2]], &g->force[i / 2], i % 2);
@@ -632,10 +638,9 @@ static int draw_thrust(film *f, int frame)
         const point from = pixel(f, (point){ x[0].x / N[0], x[0].y / N[0] });
         const point to = pixel(f, (point){ x[1].x / N[1], x[1].y / N[1] });
         plot_line(&f->p, THRUST, from.x, from.y, to.x, to.y);
-        any = 1;
+        f->thrust = 1;
     }
     free(b);
-    return any;
 }
 
 #define BOLT "fill=\"none\" stroke=\"#000000\" stroke-width=\"3\""
@@ -699,7 +704,6 @@ static int draw_legend(film *f, double x, double y, double room)
 {
     plot_legend l = { x, y, room, 0, 0 };
     const int last = f->s->frames - 1;
-    const int stress = f->s->field && strcmp(field_find(f->s->field)->unit, "Pa") == 0;
     char text[60];
 
     if (f->held)
@@ -718,8 +722,8 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
         put_force_entry(f, &l, kind);
-    if (stress && f->bodies == f->m->elements)
-        put_entry(f, &l, "", "stress: mean of each block");
+    if (f->whole && f->s->field && strcmp(field_find(f->s->field)->unit, "Pa") == 0)
+        put_entry(f, &l, "", "stress of a block of one element: its mean");
     if (f->s->scale > 0 && f->s->scale != 1) {
         snprintf(text, sizeof text, "displacements × %.12g", f->s->scale);
         put_entry(f, &l, "", text);
@@ -787,7 +791,8 @@ static void measure(film *f, int n)
         blocks += !b->held;
         sizes += b->held ? 0 : fmin(b->box[0][1] - b->box[0][0], b->box[1][1] - b->box[1][0]);
     }
-    f->thrust = f->s->frames == 1 && !f->s->field && draw_thrust(f, 0);
+    if (f->s->frames == 1 && !f->s->field)              /* whether there is any */
+        draw_thrust(f, 0);
     for (int round = 0; round < 5; round++) {   /* without arrows, the largest force; then with */
         const double element = sqrt(f->w * f->h / f->m->elements);
         for (int kind = 0; kind < KINDS; kind++)

@@ -35,7 +35,8 @@ enum { SCENE_MOVED = 4, SCENE_GONE = 8 };       /* a support not where it began;
 typedef struct {                /* what was recorded at one time                                  */
     double time;                /* s                                                              */
     int    call;                /* of scene_record, from 0                                        */
-    int    forces;
+    int    forces, lines;       /* lines: loads of edges                                          */
+    double (*load)[2];          /* N        [nodes]                                               */
     scene_point *at;            /* m        [vertices]                                            */
     int    *held;               /*          [vertices] BBM_X + BBM_Y, SCENE_MOVED; SCENE_GONE     */
     scene_force *force;         /*          [forces]                                              */

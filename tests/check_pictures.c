@@ -739,21 +739,25 @@ START_TEST(a_block_that_is_gone_does_not_move_far)
 }
 END_TEST
 
-/* A prop goes that is fixed as a whole, a support ends; round caps would make a dot of the prop. */
+/* A prop goes that is fixed as a whole, a support ends, a load begins; round caps would make a dot of the prop. */
 START_TEST(a_film_of_stages_shows_what_is_fixed_in_each)
 {
     ck_assert_int_eq(run_text("strike", "material r E 1e9 nu 0 density 2500\nblock prop r 0 0 1 0 1 1 0 1\n"
                               "block beam r 0 1 3 1 3 2 0 2\nfixblock prop\nfix at 3 2\ngravity 0 -9.81\n"
-                              "dynamic dt 0.01 steps 2\nstage off steps 2 remove prop\nfix at 3 2 free\nend\n"
+                              "dynamic dt 0.01 steps 2\nstage off steps 2 remove prop\nfix at 3 2 free\n"
+                              "load at 0 2 1e5 0\nend\n"
                               "output svg\n"), 0);
     char *text = read_all("out/model/strike/movie.svg");
     ck_assert_ptr_nonnull(strstr(text, "<path fill=\"url(#held)\""));
     ck_assert_ptr_null(strstr(text, "stroke-linecap=\"round\""));
-    int supports[5] = { 0 }, n = 0;
-    for (const char *s = text; (s = strstr(s, "<path fill=\"#ffffff\"")) && n < 5; s++)
-        supports[n++] = *path_of(s) == 'M';
+    int supported[5] = { 0 }, loaded[5] = { 0 }, n = 0;
+    for (const char *s = text; (s = strstr(s, "<path fill=\"#ffffff\"")) && n < 5; s++) {
+        const char *loads = strstr(s, "marker-end=\"url(#head0)\"");
+        supported[n] = *path_of(s) == 'M';
+        loaded[n++] = loads && strncmp(strchr(loads, '\n'), "\n<path", 6) == 0;
+    }
     for (int k = 0; k < 5; k++)
-        ck_assert_int_eq(supports[k], k < 3);
+        ck_assert(supported[k] == (k < 3) && loaded[k] == (k > 2));
     free(text);
 }
 END_TEST
@@ -763,10 +767,10 @@ START_TEST(a_map_of_blocks_hides_where_they_were_and_says_that_stresses_are_mean
 {
     ck_assert_int_eq(run_text("means", "material r E 1e9 nu 0 density 2500\nblock a r 0 0 1 0 1 1 0 1\n"
                               "block b r 1.1 0 2 0 2 1 1.1 1\nvelocity a 20 0\nvelocity b 20 0\n"
-                              "dynamic dt 0.01 steps 2\noutput svg\n"), 0);
+                              "grid c r 9 0 11 1 2 1\ndynamic dt 0.01 steps 2\noutput svg\n"), 0);
     char *text = read_all("out/model/means/mises.svg");
     const char *was = strstr(text, "stroke=\"#666666\"");
-    ck_assert(was && strstr(was, "stroke-width=\"0.6\"") && strstr(text, ">stress: mean of each block<"));
+    ck_assert(was && strstr(was, "stroke-width=\"0.6\"") && strstr(text, ">stress of a block of one element: its mean<"));
     free(text);
 }
 END_TEST
