@@ -43,8 +43,6 @@ static bbm_model *solve_uniform(int nx, int ny, int cut, bbm_bonding bonding)
 /* Quadrilaterals by their bond, beside triangles of as many unknowns. */
 static void print_quadrilaterals(const case_reference *b)
 {
-    static const bbm_bonding bonding[2] = { BBM_VERTICES, BBM_MOMENT };
-
     printf("\nQuadrilaterals by their bonds, load b, all with two rounds of multipliers: error of "
            "v(48,0), v(24,0)\n\n"
            "| unknowns | at vertices, as the paper has it | with moment | triangles |\n"
@@ -53,7 +51,7 @@ static void print_quadrilaterals(const case_reference *b)
         printf("| %d |", 6 * 24 * 6 * n * n);
         for (int kind = 0; kind < 3; kind++) {
             bbm_model *m = kind < 2
-                ? solve_uniform(24 * n, 6 * n, CELL_QUADS, bonding[kind])
+                ? solve_uniform(24 * n, 6 * n, CELL_QUADS, kind ? BBM_MOMENT : BBM_VERTICES)
                 : solve_uniform(18 * n, 4 * n, CELL_ALTERNATING, BBM_VERTICES);
             printf(" %+.3f %%, %+.3f %% |", deflection_error(m, b, 48), deflection_error(m, b, 24));
             fflush(stdout);

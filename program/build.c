@@ -20,8 +20,7 @@ static void set_defaults(model_reader *r)
     double softest[2] = { INFINITY, INFINITY };         /* of the blocks that are free, of all */
     int *rounds = &r->p->m->beyond->multiplier_rounds;
 
-    r->p->augmented = *rounds > 0;
-    *rounds = *rounds < 0 ? 2 : *rounds;
+    *rounds = *rounds >= 0 ? *rounds : r->p->dynamic ? 0 : 2;
     p->alpha = p->alpha > 0 ? p->alpha : r->p->dynamic ? 1000 : 100;
     for (int e = 0; e < r->elements; e++) {
         const bbm_material *m = &r->p->m->element[e].material;

@@ -56,7 +56,6 @@ typedef struct {
     double colours[2];          /* their range; zeros: that of the field */
     double scale;               /* by which it enlarges displacements; 0: as the picture chooses */
     int    slippery;            /* several blocks, which may touch, and no friction given */
-    int    augmented;           /* rounds of multipliers are given */
     int    blocks, monitors;
     const char **block;         /* [blocks]     names */
     const char **node;          /* [m->nodes]   ids */

@@ -127,14 +127,6 @@ static const function functions[] = {
     { "min", NULL, fmin }, { "max", NULL, fmax },
 };
 
-static const function *find_function(const char *text, size_t n)
-{
-    for (int k = 0; k < LENGTH(functions); k++)
-        if (strlen(functions[k].name) == n && strncmp(functions[k].name, text, n) == 0)
-            return &functions[k];
-    return NULL;
-}
-
 /* The numbers in its parentheses, whose first is taken. */
 static double call(formula *f, const function *of)
 {
@@ -156,9 +148,12 @@ static double call(formula *f, const function *of)
 static double name(formula *f)
 {
     const size_t letters = strcspn(f->at, "+-*/^(),$ \t");
-    const function *of = find_function(f->at, letters);
+    const function *of = NULL;
     size_t n;
 
+    for (const function *k = functions; k < functions + LENGTH(functions); k++)
+        if (strlen(k->name) == letters && strncmp(k->name, f->at, letters) == 0)
+            of = k;
     if (of && f->at[letters + strspn(f->at + letters, " \t")] == '(') {
         f->at += letters;
         return take(f, "("), call(f, of);

@@ -261,9 +261,8 @@ static void warn_of_bodies(const model *p, const char *path)
 
 void warn_before(const model *p, const char *path)
 {
-    if (p->dynamic && p->augmented)
-        put_warning(path, "bond augment has no part in dynamics, where a larger alpha makes bonds "
-                          "stiffer");
+    if (p->dynamic && p->m->beyond->multiplier_rounds > 0)
+        put_warning(path, "bond augment has no part in dynamics; a larger alpha stiffens bonds");
     warn_of_loads(p, path);
     warn_of_pieces(p, path);
     warn_of_bodies(p, path);

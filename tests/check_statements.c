@@ -424,7 +424,7 @@ static const struct { const char *text, *said; } doubtful[] = {
     { ROCK "grid a rock 0 0 2 1 4 2\ngrid b rock 2 0 4 1 4 2\ngrid c rock 4 0 6 1 4 2\nfix set a.left\nfix set c.right\n"
       "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: in all 2 pairs of blocks have this\n" },
     { ROCK "block b rock 0 0 1 0 1 1 0 1\nfix node 1\nfix node 2\ngravity 0 -9.81\nbond augment 1\ndynamic dt 0.01 steps 9\n",
-      "warning: bond augment has no part in dynamics, where a larger alpha makes bonds stiffer\n" },
+      "warning: bond augment has no part in dynamics; a larger alpha stiffens bonds\n" },
 };
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
@@ -753,10 +753,10 @@ START_TEST(each_stage_is_said_when_it_begins_and_by_a_check)
     write_text("out/model/said.model", COLUMN "dynamic dt 0.01 steps 3\nstage off remove c\nend\n"
                "stage on steps 2\nend\n");
     for (int k = 0; k < 2; k++) {
-        ck_assert_int_eq(shell("%s/bbm out/model/said.model %s -o out/model/stages > out/model/out",
+        ck_assert_int_eq(shell("%s/bbm out/model/said.model %s -o out/model/stages > out/model/stages.said",
                                BUILD, k ? "--check" : ""), 0);
-        check_text("out/model/out", "\nstage off: after step 3, t = 0.03 s, to step 6\n");
-        check_text("out/model/out", "\nstage on: after step 6, t = 0.06 s, to step 8\n");
+        check_text("out/model/stages.said", "\nstage off: after step 3, t = 0.03 s, to step 6\n");
+        check_text("out/model/stages.said", "\nstage on: after step 6, t = 0.06 s, to step 8\n");
     }
 }
 END_TEST
