@@ -624,7 +624,6 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
-    const int j = c->element[1];
     double at[4][2], u[4][2], x[2], p[2], s[2];
 
     for (int k = 0; k < 3; k++) {
@@ -635,8 +634,6 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
         at[3][a] = at[2][a] + anchor * (at[1][a] - at[2][a]);
         u[3][a] = u[2][a] + anchor * (u[1][a] - u[2][a]);
     }
-    if (c->parts == 2)
-        bbm_move(m, &m->element[j], &m->D[6 * j], at[3][0], at[3][1], u[3]);
     for (int a = 0; a < 2; a++) {
         x[a] = at[2][a] - at[1][a] + u[2][a] - u[1][a];
         p[a] = at[0][a] - at[1][a] + u[0][a] - u[1][a];

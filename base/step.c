@@ -157,14 +157,11 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
     for (int k = 0; k < contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
         for (int j = 1; j < c->parts; j++)
-            for (int i = 0; i < j; i++, n++) {
-                link[n][0] = c->element[i];
-                link[n][1] = c->element[j];
-            }
+            for (int i = 0; i < j; i++)
+                memcpy(link[n++], (int [2]){ c->element[i], c->element[j] }, sizeof *link);
     }
     for (int g = 0; g < m->gaps; g++) {
-        link[n][0] = m->gap[g].i;
-        link[n][1] = m->gap[g].j;
+        memcpy(link[n], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);
         n += m->gap[g].j >= 0;
     }
     const int same = m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0;

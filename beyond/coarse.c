@@ -154,12 +154,12 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
 
     c->n = nodes;
     c->start = calloc(2 * rows + corners, sizeof *c->start);
-    c->P = calloc(corners, sizeof *c->P + sizeof *c->at);
-    c->Q = calloc(rows, sizeof *c->Q);
+    c->P = calloc(corners * (sizeof *c->P + sizeof *c->at) + rows * sizeof *c->Q, 1);
     c->x = calloc(2 * (size_t)nodes + 6 * rows, sizeof *c->x);
-    if (!c->start || !c->P || !c->Q || !c->x)
+    if (!c->start || !c->P || !c->x)
         return BBM_NO_MEMORY;
     c->at = (double (*)[2])(c->P + corners);
+    c->Q = (double (*)[4][4])(c->at + corners);
     c->first = c->start + rows;
     c->node = c->first + rows;
     c->z = c->x + 2 * nodes;
@@ -190,7 +190,6 @@ static void coarse_free(void *extra)
         return;
     free(c->start);
     free(c->P);
-    free(c->Q);
     free(c->x);
     bbm_factor_free(&c->Kc);
     free(c);
@@ -253,8 +252,7 @@ static void take_to_slopes(double Q[4][4], const double z[6], double y[6])
 {
     for (int b = 0; b < 4; b++)
         y[2 + b] = Q[0][b] * z[2] + Q[1][b] * z[3] + Q[2][b] * z[4] + Q[3][b] * z[5];
-    y[0] = z[0];
-    y[1] = z[1];
+    memcpy(y, z, 2 * sizeof *y);
 }
 
 /* W = (B Q)^T, the block B of two rows for values and slopes of the second. */
@@ -351,7 +349,7 @@ static void make_coarse(bbm_matrix *K)
 static void interpolate(const bbm_matrix *K, const coarse_space *c)
 {
     for (int i = K->from; i < K->to; i++) {
-        double *z = &c->z[6 * i], s[4] = { 0 };
+        double *z = &c->z[6 * i], (*Q)[4] = c->Q[i], s[4] = { 0 };
         memset(z, 0, 6 * sizeof *z);
         for (int a = c->first[i]; a < c->first[i + 1]; a++) {
             const bbm_linear *P = &c->P[a];
@@ -364,8 +362,7 @@ static void interpolate(const bbm_matrix *K, const coarse_space *c)
             s[3] += P->fy * x[1];
         }
         for (int a = 0; a < 4; a++)
-            for (int b = 0; b < 4; b++)
-                z[2 + a] += c->Q[i][a][b] * s[b];
+            z[2 + a] = Q[a][0] * s[0] + Q[a][1] * s[1] + Q[a][2] * s[2] + Q[a][3] * s[3];
     }
 }
 

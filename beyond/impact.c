@@ -41,15 +41,13 @@
 /* The normal velocity of P1, where elements move as those of `of`. */
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
 {
-    const int row[BBM_PARTS] = { 0, 1, 2, 3, 4 };
-    double V[BBM_PARTS][6];
+    double velocity = 0;
     bbm_spring v[2];
 
     bbm_contact_vectors(m, c, c->anchor, v);
-    v[0].d = 0;
-    for (int i = 0; i < c->parts; i++)
-        memcpy(V[i], of[c->element[i]].V, sizeof V[i]);
-    return bbm_length_of(&v[0], c->parts, row, V[0]);
+    for (int a = 0; a < 6 * c->parts; a++)
+        velocity += v[0].v[a / 6][a % 6] * of[c->element[a / 6]].V[a % 6];
+    return velocity;
 }
 
 static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->was_closed; }

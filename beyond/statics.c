@@ -199,8 +199,7 @@ static double find_imbalance(const bbm_model *m, double h)
         force = fmax(force, m->contact[k].N);
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
-        const double mass = bbm_mass_per_area(e) * e->A0;
-        most = fmax(most, 2 * mass / (h * h)
+        most = fmax(most, 2 * bbm_mass_per_area(e) * e->A0 / (h * h)
                           * (hypot(e->D[0], e->D[1]) + fabs(e->D[2]) * sqrt(e->A0)));
         force = fmax(force, hypot(m->load[6 * i], m->load[6 * i + 1]));
     }

@@ -140,8 +140,7 @@ void bbm_place_supports(bbm_model *m)
 /* The force of a support on its node, in the step or in the jump. */
 static double *force_of(const bbm_model *m, int node)
 {
-    bbm_support *s = &m->beyond->support[node];
-    return m->beyond->jump_of ? s->jump : s->force;
+    return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].force;
 }
 
 /* The forces of the supports on their nodes, of the solution. The gap of an edge is the mean of
