@@ -301,7 +301,8 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 }
 
 /* The velocities at the end of the step, where a contact has closed or a support moves. `end` has
- * those of (14). The model of the jump is that at the end of the step, with lists of its own. */
+ * those of (14). The model of the jump is that at the end of the step, with lists of its own; its
+ * gaps take the place of those of the step, which are listed anew. */
 bbm_status bbm_jump(bbm_model *m, bbm_model *end)
 {
     const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
@@ -316,10 +317,9 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end)
     hook.load = take_back;
     jump.hook = &hook;
     jump.element = calloc(n, sizeof *jump.element);
-    jump.gap = calloc((size_t)m->gaps + 1, sizeof *jump.gap);
     jump.F = calloc(18 * n, sizeof *jump.F);
     bbm_contact *list = m->beyond->jump_of = calloc(contacts + 1, sizeof *list);
-    if (jump.element && jump.gap && jump.F && list) {
+    if (jump.element && jump.F && list) {
         jump.D = jump.F + 6 * n;
         jump.load = jump.D + 6 * n;
         memcpy(list, m->scratch->contact, contacts * sizeof *list);
@@ -328,7 +328,6 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end)
         note_hits(&jump, m, end);
     }
     free(jump.element);
-    free(jump.gap);
     free(jump.F);
     free(list);
     m->beyond->jump_of = NULL;
