@@ -105,8 +105,7 @@ static bbm_status move(bbm_model *m)
     if ((status = bbm_check_reach(m, &end)) || (status = bbm_check_passing(m, &end))
         || (status = bbm_jump(m, &end)) || (status = bbm_check_balance(m, &end)))
         return status;
-    for (int k = 0; k < m->gaps; k++)
-        memcpy(m->gap[k].own.f_before, m->gap[k].own.f, sizeof m->gap[k].own.f);
+    bbm_store_multipliers(m);
     bbm_stop_supports(m);
     memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
     memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);

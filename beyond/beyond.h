@@ -139,6 +139,7 @@ void       bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r
 void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   /* of m->D      */
 void       bbm_start_multipliers(bbm_model *m);
 bbm_pass   bbm_take_over(bbm_model *m);
+void       bbm_store_multipliers(bbm_model *m);
 
 /* sliding.c */
 bbm_status bbm_lay_out_sliding(bbm_model *m);

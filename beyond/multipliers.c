@@ -57,3 +57,11 @@ bbm_pass bbm_take_over(bbm_model *m)
     }
     return BBM_PASS_SAME_K;
 }
+
+/* At the end of a step. */
+void bbm_store_multipliers(bbm_model *m)
+{
+    for (int k = 0; k < m->gaps; k++)
+        for (int r = 0; r < 2; r++)
+            m->gap[k].own.f_before[r] = m->gap[k].own.f[r];
+}
