@@ -122,8 +122,8 @@ bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
         return bbm_fail(m, status, "step %d, a load, velocity, stress or stiffness is too large",
                         step);
     if (i->element >= 0)
-        return bbm_fail(m, status, "step %d, element %d of block %d: it has turned over, or the "
-                        "stiffnesses that meet there are too far apart", step, i->element,
+        return bbm_fail(m, status, "step %d, element %d of block %d: it is free to move, it has "
+                        "turned over, or the stiffnesses that meet there are too far apart", step, i->element,
                         m->element[i->element].block);
     return bbm_fail(m, status, "step %d, %d iterations, residual %.2g%s", step, i->iterations,
                     i->residual, status == BBM_NOT_CONVERGED

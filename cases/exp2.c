@@ -141,14 +141,6 @@ static double abscissa_of(const line_of *l, double x, double y)
     return l->abscissa[0] == 'x' ? x : l->abscissa[0] == 'y' ? y : atan2(y, x) * 180 / PI;
 }
 
-/* Whether a reference value lies on the line: on an axis, or on the hole. */
-static int on_line(const line_of *l, const struct case_value *f)
-{
-    return strcmp(f->quantity, l->quantity) == 0
-           && (l->abscissa[0] == 'x' ? f->y == 0 : l->abscissa[0] == 'y' ? f->x == 0
-               : fabs(hypot(f->x, f->y) - 1) < 1e-6);
-}
-
 /* A chart, and rows of results.csv. */
 static void draw_line(case_results *r, const bbm_model *const m[], const case_reference *b5,
                       const line_of *l)
@@ -167,10 +159,12 @@ static void draw_line(case_results *r, const bbm_model *const m[], const case_re
             case_row(r, name, (double[]){ n->x, n->y }, value[k][i], exact[i], "theory");
         }
     }
-    for (int i = 0; i < b5->values && fems < 16; i++)
-        if (on_line(l, &b5->value[i])) {
-            fem_at[fems] = abscissa_of(l, b5->value[i].x, b5->value[i].y);
-            fem[fems++] = b5->value[i].converged;
+    for (const struct case_value *f = b5->value; f < b5->value + b5->values && fems < 16; f++)
+        if (strcmp(f->quantity, l->quantity) == 0       /* on an axis, or on the hole */
+            && (l->abscissa[0] == 'x' ? f->y == 0 : l->abscissa[0] == 'y' ? f->x == 0
+                : fabs(hypot(f->x, f->y) - 1) < 1e-6)) {
+            fem_at[fems] = abscissa_of(l, f->x, f->y);
+            fem[fems++] = f->converged;
         }
     const plot_series s[] = {
         { .name = "theory (72), infinite plate", .n = l->count, .x = at, .y = exact, .look = 1 },

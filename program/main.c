@@ -223,8 +223,8 @@ static void summarise(const model *p, const char *folder)
     bbm_energies(m, &e);
     if (m->beyond->restitution >= 0
         && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
-        printf("hits came with %.3g J in their normal velocities, %.0f %% of it was given back\n",
-               m->beyond->hit[0], 100 * m->beyond->hit[1] / m->beyond->hit[0]);
+        printf("of what hits came with in their normal velocities %.0f %% was given back\n",
+               100 * m->beyond->hit[1] / m->beyond->hit[0]);
     for (int k = 0; k < p->bolts; k++)
         if (p->bolt[k].k == 0)
             printf("bolt %d holds no more since t = %.6g s\n", k + 1, p->bolt[k].until);

@@ -43,6 +43,9 @@ bbm_status run_step(run *r)
     const bbm_status status = bbm_step(m);
     r->stage_is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
                                                       : m->info.step == par->steps);
+    for (int k = 0; k < r->p->bolts && !r->p->dynamic; k++)     /* one breaks in the next step */
+        r->stage_is_over &= model_bolt_force(m, &r->p->bolt[k], &(bbm_direction){ 0 })
+                         <= r->p->bolt[k].strength;
     r->is_over = r->stage_is_over && r->p->now == r->p->stages;
     return status;
 }
@@ -55,8 +58,10 @@ void run_says(const run *r, bbm_status status, char out[500])
 
     snprintf(step, sizeof step, "step %d: ", m->info.step + 1);
     if (status == BBM_STEPS_EXHAUSTED)
-        snprintf(out, 500, "step %d: no equilibrium, change %.2g, expected %.2g; more steps may "
-                 "help", m->info.step, m->info.change, m->par.tolerance);
+        snprintf(out, 500, m->par.tolerance > 0
+                 ? "step %d: no equilibrium, change %.2g, expected %.2g; more steps may help"
+                 : "step %d: a bolt carries more than its strength; more steps may help",
+                 m->info.step, m->info.change, m->par.tolerance);
     else
         snprintf(out, 500, "%s%s%s", r->has_begun ? "" : "settling, ",
                  strstr(model_says(r->p, status, text), "step ") ? "" : step, text);
