@@ -358,9 +358,9 @@ static int faces_up(bbm_direction p, bbm_direction q)
 
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
  * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
- * the shorter side slides on the longer one. In statics, where nothing slides far, those of a side
- * more than twice as fine do: a coarse one would not feel it between its points. Deviation: with
- * `faces` = 0 corners alone touch, and a block of many elements sags between them. */
+ * the shorter side slides on the longer one. In statics, where nothing slides far, those of the
+ * finer side do: a coarse one would not feel it between its points. Deviation: with `faces` = 0
+ * corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
@@ -369,7 +369,7 @@ int bbm_carries(const bbm_model *m, int c, int e)
     if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
         return 0;
     const double ratio = mine->spacing / other->spacing;
-    if (bbm_is_static(m) && fmax(ratio, 1 / ratio) > 2)
+    if (bbm_is_static(m) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
     return fabs(mine->span - other->span) > STRAIGHT * other->span ? mine->span < other->span
                                                                    : faces_up(q, p);

@@ -377,17 +377,19 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_upper_one_touch)
 }
 END_TEST
 
-/* A coarse block of 0.9 m on a base with a grid point each 25 cm: three of them touch between its
- * corners, in statics; else its corners alone. */
+/* A coarse block of 0.9 m, or 0.4 m, on a base with a grid point each 25 cm: three of them, or one,
+ * touch between its corners, in statics; else its corners alone. */
 START_TEST(in_statics_the_grid_points_of_the_finer_side_touch)
 {
+    const double w = _i / 2 ? 0.4 : 0.9;
+    const int in_statics = _i % 2;
     bbm_model *m = new_blocks();
 
-    m->par.dt = _i ? INFINITY : m->par.dt;
-    add_rectangle(m, _i, BASE, (rectangle){ .x = -2, .y = -1, .w = 4, .h = 1, .nx = 16 });
-    add_rectangle(m, !_i, ROCK, (rectangle){ .x = -0.45, .y = 0, .w = 0.9, .h = 1 });
+    m->par.dt = in_statics ? INFINITY : m->par.dt;
+    add_rectangle(m, in_statics, BASE, (rectangle){ .x = -2, .y = -1, .w = 4, .h = 1, .nx = 16 });
+    add_rectangle(m, !in_statics, ROCK, (rectangle){ .x = -w / 2, .y = 0, .w = w, .h = 1 });
     detect(m);
-    ck_assert_int_eq(m->contacts, _i ? 5 : 2);
+    ck_assert_int_eq(m->contacts, !in_statics ? 2 : _i / 2 ? 3 : 5);
 }
 END_TEST
 
@@ -717,7 +719,7 @@ Suite *detection_suite(void)
         { the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks, COUNT(ANGLES) });
     add_case(s, "grid points",
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
-        { in_statics_the_grid_points_of_the_finer_side_touch, 2 },
+        { in_statics_the_grid_points_of_the_finer_side_touch, 4 },
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
         { of_two_sides_the_grid_points_of_the_shorter_one_touch, 2 },
         { rounding_in_a_model_file_does_not_undo_a_contact, 4 },
