@@ -29,8 +29,8 @@ BEYOND   = beyond bending coarse energy factor impact interpolation joints mesh 
 RUN      = exp1 exp2 exp3
 CASES    = $(RUN)
 # Beyond their limits models do not do what is expected of them (status 3).
-BEYOND_LIMITS = arch:t=1 topple:phi=19 slope:phi=38.114 tilt:gx=4.76864 spread:half=0.601 dominoes:spin=-1.45 \
-                shaken:phi=34 wall:A=8:courses=4:bricks=8 conveyor:phi=9.9 keyblock:part=0.99 portal:part=1.01 \
+BEYOND_LIMITS = arch:t=1 topple:phi=19 slope:phi=38.114 slope:wet=0.5:phi=38.98 tilt:gx=4.76864 spread:half=0.601 \
+                dominoes:spin=-1.45 shaken:phi=34 wall:A=8:courses=4:bricks=8 conveyor:phi=9.9 keyblock:part=0.99 portal:part=1.01 \
                 retaining:part=1.01 water:part=1.01 bolted:part=0.99
 COMMON   = cases/case cases/theory $(addprefix program/,cell field output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
