@@ -2,6 +2,7 @@
  * where it is held and loaded, WHERE by its nodes. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "reader.h"
 
@@ -223,11 +224,9 @@ static void choose_nearest(model_reader *r, const selection *w)
 
 static int is_there(const model_reader *r, const selection *w, const model_node *n)
 {
-    const double *x = w->x, d = r->margin;
+    const double *a = w->x, *b = w->kind == BY_AT ? a : a + 2, d = r->margin;
 
-    if (w->kind == BY_AT)
-        return hypot(n->x - x[0], n->y - x[1]) <= d;
-    return n->x >= x[0] - d && n->x <= x[2] + d && n->y >= x[1] - d && n->y <= x[3] + d;
+    return n->x >= a[0] - d && n->x <= b[0] + d && n->y >= a[1] - d && n->y <= b[1] + d;
 }
 
 /* The words of WHERE; a set may be all nodes of a block. */
@@ -241,10 +240,15 @@ static int read_selection(model_reader *r, selection *w)
     *w = (selection){ .block = -1 };
     while (w->kind < LENGTH(kind) && !model_skip(r, kind[w->kind].word))
         w->kind++;
-    if (w->kind == LENGTH(kind))
-        return !model_look(r) ? model_word(r) != NULL
-             : model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME or box "
-                              "XMIN YMIN XMAX YMAX in: %s", model_look(r), r->s->form);
+    if (w->kind == LENGTH(kind)) {
+        const char *word = model_word(r);
+        const int set = word ? model_find(&r->set_of, word) : -1;
+        if (set >= 0)
+            return model_blame(r, "'%.60s' is a %s, expected: set %.60s", word,
+                               set < r->sets ? "set" : "block", word);
+        return word && model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME "
+                                   "or box XMIN YMIN XMAX YMAX in: %s", word, r->s->form);
+    }
     if (!model_numbers(r, kind[w->kind].numbers, w->x))
         return 0;
     const model_table *of = w->kind == BY_NODE ? &r->node_of : &r->set_of;
@@ -278,10 +282,15 @@ static int blame_nowhere(model_reader *r, const selection *w)
  * far. */
 static int read_where(model_reader *r, int nearest, selection *w)
 {
+    const int ahead = r->ahead - r->next - 1;
+
     r->chosen = r->file_nodes = 0;
     r->wheres++;
+    if (model_look(r))                          /* the form has no names for words in it */
+        r->ahead = r->s->n + 2;
     if (!read_selection(r, w))
         return 0;
+    r->ahead = ahead + r->next;
     if (w->kind == BY_NODE)
         choose(r, w, w->found);
     else if (w->kind == BY_SET && w->found < r->sets)
@@ -391,7 +400,8 @@ static int load_edges(model_reader *r, const edge_load *l)
             bbm_load_edge(m, e, l->t[0] * t, l->t[1] * t, l->pressure * t);
     }
     if (!found)
-        return model_blame(r, "no boundary edge has both ends there, expected one");
+        return model_blame(r, "no boundary edge has both ends there, expected a set or a box with "
+                           "both");
     if (l->weight > 0 && !wet)
         return model_blame(r, "no edge there lies below y = %g, expected one under water",
                            l->level);
@@ -400,18 +410,14 @@ static int load_edges(model_reader *r, const edge_load *l)
     return m->status ? model_blame(r, "a load too large, expected a finite one") : 1;
 }
 
-int model_traction(model_reader *r)
+/* Of traction and pressure. */
+int model_edge_load(model_reader *r)
 {
     edge_load l = { .weight = 0 };
 
-    return where(r, 0) && model_numbers(r, 2, l.t) && load_edges(r, &l);
-}
-
-int model_pressure(model_reader *r)
-{
-    edge_load l = { .weight = 0 };
-
-    return where(r, 0) && model_numbers(r, 1, &l.pressure) && load_edges(r, &l);
+    return where(r, 0) && (strcmp(r->s->name, "pressure") == 0 ? model_number(r, &l.pressure)
+                                                               : model_numbers(r, 2, l.t))
+           && load_edges(r, &l);
 }
 
 int model_water(model_reader *r)
@@ -453,12 +459,13 @@ int model_joint(model_reader *r)
     if (!read_blocks(r, block) || !model_options(r, 0, LENGTH(o), o)
         || !model_note_friction(r, friction))
         return 0;
-    for (int k = 0; k < b->joints; k++) {
-        const int *a = b->joint[k].block;
-        if (((a[0] < 0 || a[0] == block[0]) && (a[1] < 0 || a[1] == block[1]))
-            || ((a[0] < 0 || a[0] == block[1]) && (a[1] < 0 || a[1] == block[0])))
+    if (!o[0].seen && !o[1].seen && !o[2].seen)
+        model_note(r, "warning: this joint has what `contact` has, without friction, cohesion or "
+                   "tension of its own");
+    for (int k = 0; k < b->joints; k++)
+        if (model_fits(b->joint[k].block, block[0], block[1])
+            || model_fits(b->joint[k].block, block[1], block[0]))
             model_note(r, "warning: this joint never counts, below one that fits the same blocks");
-    }
     r->p->slippery = 0;
     if (r->no_shear)
         friction = cohesion = 0;
@@ -575,6 +582,11 @@ static int read_end(model_reader *r, scene_end *end)
         const int v = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
         *end = (scene_end){ m->element[m->vertex[v].element].block, { v, v, v }, { 1, 0, 0 } };
     }
+    if (found == 0 && w.kind == BY_AT)
+        return find_end(m, -1, w.x, end)
+               ? model_blame(r, "%g %g lies in block '%.60s', not in '%.60s'", w.x[0], w.x[1],
+                             r->block[end->block].name, r->block[w.block].name)
+               : model_blame(r, "%g %g lies in no element, expected one or a node", w.x[0], w.x[1]);
     return found > 0 || blame_nowhere(r, &w);
 }
 
@@ -611,13 +623,13 @@ static int blame_free(model_reader *r)
 
     for (int e = 0; e < m->edges; e++)
         for (int f = 0; f < m->edges; f++) {
-            const int i = bbm_element_of(m, e), j = bbm_element_of(m, f),
-                      own = bbm_component_of(m->K, i) == body;
-            if (own == (bbm_component_of(m->K, j) == body) || model_distance(m, e, f) >= gap)
+            const int i = bbm_element_of(m, e), j = bbm_element_of(m, f);
+            const double d = fmin(model_distance(m, e, f), model_distance(m, f, e));
+            if (bbm_component_of(m->K, i) != body || bbm_component_of(m->K, j) == body || d >= gap)
                 continue;
-            gap = model_distance(m, e, f);
+            gap = d;
             snprintf(near, sizeof near, "; block '%.60s' is %.3g m away",
-                     r->p->block[m->element[own ? j : i].block], gap);
+                     r->p->block[m->element[j].block], gap);
         }
     return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, "
                       "expected fix, fixblock or a contact that holds it in statics%s",

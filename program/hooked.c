@@ -17,24 +17,36 @@ static hooked *hooked_of(const bbm_model *m) { return (hooked *)m->beyond; }
 
 /* --------------------------------------------------- shake FILE: a record of the acceleration */
 
-/* A line TIME AX [AY]; what is above the first number is a head. */
-static int read_row(model_reader *r, char *line, model_place at)
+/* A line TIME AX [AY], with as many columns as those above; what is above the first number is a
+ * head. */
+static int read_row(model_reader *r, char *line, model_place at, int *columns)
 {
     static const char blanks[] = ",; \t\r";
     model *p = r->p;
-    double x[4] = { 0 };
-    char *end = "";
-    int n = 0;
+    double x[3] = { 0 };
+    int n = 0, gaps = 0;        /* 1: a comma and nothing else between two numbers, 2: no comma */
 
     line[strcspn(line, "#")] = '\0';
-    for (char *w = strtok(line, blanks); w && n < 4 && !*end; w = strtok(NULL, blanks))
-        x[n++] = strtod(w, &end);
-    if (n == 0 || (n == 1 && *end && !p->shakings))
-        return 1;
-    if (*end || n < 2 || n > 3 || !isfinite(x[0] + x[1] + x[2])
-        || (p->shakings && x[0] <= p->shaking[p->shakings - 1].t))
-        return model_fail(r, at, "expected two or three numbers, TIME AX [AY], each time later "
-                          "than the one before; decimals need a point");
+    for (char *w = line + strspn(line, blanks), *end; *w; w = end) {
+        const size_t length = strcspn(w, blanks), gap = strspn(w + length, blanks);
+        x[n < 3 ? n : 2] = strtod(w, &end);
+        if (end != w + length)
+            return (n == 0 && !p->shakings)
+                   || model_fail(r, at, "not a number: '%.*s', expected TIME AX [AY]",
+                                 (int)length, w);
+        n++;
+        end += gap;
+        gaps |= *end == '\0' ? 0 : memchr(end - gap, ',', gap) ? gap == 1 : 2;
+    }
+    const char *why = gaps == 3 ? "both commas and blanks or ; (decimals need a point)"
+                    : n == 1 ? "no second number" : n > 3 ? "more than three numbers"
+                    : *columns && n != *columns ? "not as many numbers as in the rows above"
+                    : !isfinite(x[0] + x[1] + x[2]) ? "a number that is not finite"
+                    : p->shakings && x[0] <= p->shaking[p->shakings - 1].t
+                      ? "a time that is not later than the one before" : NULL;
+    if (n == 0 || why)
+        return n == 0 || model_fail(r, at, "%s, expected TIME AX [AY]", why);
+    *columns = n;
     return model_add(r, &p->shaking, &p->shakings, sizeof *p->shaking,
                      &(model_shaking){ x[0], { x[1], x[2] } });
 }
@@ -42,15 +54,17 @@ static int read_row(model_reader *r, char *line, model_place at)
 int model_read_record(model_reader *r, const char *path)
 {
     model_place at = { path, 1, NULL };
+    int columns = 0;
     size_t size;
 
     for (char *line = model_load(r, path, &size), *next; line; line = next, at.line++) {
         if ((next = strchr(line, '\n')) != NULL)
             *next++ = '\0';
-        if (!read_row(r, line, at))
+        if (!read_row(r, line, at, &columns))
             return 0;
     }
-    return r->p->shakings || model_blame(r, "%.200s has no row, expected TIME AX [AY]", path);
+    return r->p->shakings > 1
+           || model_blame(r, "%.200s has fewer than two rows, expected TIME AX [AY]", path);
 }
 
 /* ---------------------------------------------------------------------------------------- bolts */

@@ -62,7 +62,7 @@ const model_followed
     model_force = { "force", "N", "normal|shear|fx|fy", { "normal", "shear", "fx", "fy" },
                     { "normal expected", "shear expected", "fx expected", "fy expected" }, 4 };
 
-static int fits(const int block[2], int i, int j)
+int model_fits(const int block[2], int i, int j)
 {
     return (block[0] < 0 || block[0] == i) && (block[1] < 0 || block[1] == j);
 }
@@ -82,7 +82,7 @@ void model_follow(const model *p, const model_monitor *m, double x[MODEL_FOLLOWE
     }
     for (const bbm_contact *c = b->contact; c < b->contact + b->contacts && !m->nodes; c++) {
         const int i = b->edge[c->corner].block, j = b->edge[c->edge].block,
-                  sign = fits(m->block, i, j) - fits(m->block, j, i);
+                  sign = model_fits(m->block, i, j) - model_fits(m->block, j, i);
         double f[2];
         field_contact_force(b, c, c->N, c->T, f);
         const double of[] = { c->N, c->T, sign * f[0], sign * f[1] };

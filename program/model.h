@@ -92,6 +92,7 @@ int  model_read(const char *path, int lets, char *const let[], model *p);
 const char *model_says(const model *p, bbm_status status, char out[400]);
 /* How far the start of a boundary edge is from another edge, m. */
 double model_distance(const bbm_model *m, int corner, int edge);
+int  model_fits(const int block[2], int i, int j);      /* -1: any */
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p);     /* to where they are after the next step */
 void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */

@@ -127,16 +127,11 @@ static void read_names(mesh *m)
     for (int n = whole(m, 0); more(m, &n); ) {
         entry e = { .dimension = whole(m, 0) };
         e.number = whole(m, 1);
-        char *word = next_word(m);
-        const size_t length = strlen(word);
-        if (length < 3 || word[0] != '"' || word[length - 1] != '"') {
-            wrong(m, word, "a name in quotes, without blanks");
-            return;
-        }
-        word[length - 1] = '\0';
-        e.name = word + 1;
-        if (!model_is_name(e.name))
-            wrong(m, e.name, "a name of letters, digits, _ - .");
+        const char *word = next_word(m);
+        const size_t length = *word == '"' ? strspn(word + 1, MODEL_NAME) : 0;
+        if (length == 0 || strcmp(word + 1 + length, "\"") != 0)
+            wrong(m, word, "a name in quotes, of letters, digits, _ - .");
+        e.name = model_print(m->r, "%.*s", (int)length, word + 1);
         model_add(m->r, &m->group.entry, &m->group.count, sizeof e, &e);
     }
 }

@@ -34,29 +34,8 @@ enum {
 
 /* ---------------------------------------------------------------------------------------- names */
 
-/* What the command line says of a name, the last time, or NULL. */
-static char *given(const model_reader *r, const char *name)
-{
-    const size_t n = strlen(name);
-
-    for (int k = r->lets; k-- > 0; )
-        if (strncmp(r->let[k], name, n) == 0 && r->let[k][n] == '=')
-            return r->let[k] + n + 1;
-    return NULL;
-}
-
-/* The value of a name: of the round, or of the file; NULL: there is none. */
-static const char *value_of_name(const model_reader *r, const char *name)
-{
-    for (int k = r->locals; k-- > 0; )
-        if (strcmp(r->local[k].name, name) == 0)
-            return r->local[k].value;
-    const int at = model_find(&r->let_of, name);
-    return at >= 0 ? r->word[at].text : NULL;
-}
-
-/* The value of the longest name that the text begins with and that ends where its letters end, and
- * its length; NULL: the file has none. */
+/* The value, of the round or of the file, of the longest name that the text begins with and that
+ * ends where its letters end, and its length; NULL: there is none. */
 static const char *find_value(const model_reader *r, const char *text, size_t *n)
 {
     char name[NAME_ROOM];
@@ -66,22 +45,24 @@ static const char *find_value(const model_reader *r, const char *text, size_t *n
         if (isalnum((unsigned char)text[*n]) || text[*n] == '_')
             continue;
         snprintf(name, sizeof name, "%.*s", (int)*n, text);
-        const char *value = value_of_name(r, name);
-        if (value)
-            return value;
+        for (int k = r->locals; k-- > 0; )
+            if (strcmp(r->local[k].name, name) == 0)
+                return r->local[k].value;
+        const int at = model_find(&r->let_of, name);
+        if (at >= 0)
+            return r->word[at].text;
     }
     return NULL;
 }
 
 static int blame_name(model_reader *r, const char *name)
 {
-    char text[200];
     const int n = (int)strspn(name, MODEL_NAME);
 
     return model_blame(r, "no `let`%s says what $%.*s is%s%s",
                        strcmp(r->s->name, "let") == 0 ? " above" : "", n < 60 ? n : 60, name,
                        r->let_of.count ? ", expected one such as $" : "",
-                       model_nearest_of(&r->let_of, name, text));
+                       model_nearest_of(r, &r->let_of, name));
 }
 
 /* ----------------------------------------------------------------------------------- arithmetic */
@@ -96,7 +77,8 @@ static double sum(formula *f);
 
 static double blame_formula(formula *f, const char *what)
 {
-    model_blame(f->r, "%s at '%.30s' in '%.80s'", what, f->at, f->text);
+    model_blame(f->r, *f->at ? "%s at '%.30s' in '%.80s'" : "%s at the end%s of '%.80s'", what,
+                f->at, f->text);
     return 0;
 }
 
@@ -140,7 +122,7 @@ static double call(formula *f, const function *of)
     if (!take(f, ")"))
         return blame_formula(f, "an operator or ) is missing");
     if (of->one ? numbers > 1 : numbers < 2)
-        return blame_formula(f, of->one ? "one number too many before"
+        return blame_formula(f, of->one ? "one number too many"
                                         : "a second number is missing");
     return of->one ? of->one(x) : x;
 }
@@ -237,51 +219,36 @@ static const char *evaluate(model_reader *r, const char *text, char number[NUMBE
 
 /* ------------------------------------------------------------------------- a word, a statement */
 
-/* The text of the next piece of a word, $NAME, $(...) or what stands between, and its length; the
- * piece after it begins at *from. NULL after an error. */
-static const char *next_piece(model_reader *r, const char **from, char number[NUMBER_ROOM],
-                              size_t *length)
-{
-    const char *at = *from, *value = at;
-    size_t n = strcspn(at, "$");
-
-    if (*at == '$') {
-        value = at[1] == '(' ? evaluate(r, at, number, &n) : find_value(r, at + 1, &n);
-        if (!value)
-            return r->p->status ? NULL : (blame_name(r, at + 1), NULL);
-        n += at[1] != '(';
-    }
-    *length = value == at ? n : strlen(value);
-    *from += n;
-    return value;
-}
-
-/* The word with the value in place of each piece that has one; NULL after an error. glued: it has
- * several pieces, but for a sign or %, and is no number. */
+/* The word with the value in place of each piece $NAME or $(...); NULL after an error. glued: it
+ * has several pieces, but for a sign or %, and is no number. */
 static char *expand(model_reader *r, char *word, int *glued)
 {
-    const char *from = word, *value;
-    char number[NUMBER_ROOM];
-    size_t length, size = 0;
-    int pieces = 0;
+    char number[NUMBER_ROOM], *text = NULL;
+    int pieces = 0, letters = 0;
 
     *glued = 0;
     if (!strchr(word, '$'))
         return word;
-    for (; *from; size += length, pieces += length != 1 || !strchr("+-%", *value))
-        if (!(value = next_piece(r, &from, number, &length)))
-            return NULL;
-    r->grown += (double)size;
-    if (r->grown > MOST_BYTES)
-        return model_blame(r, "the values of numbers take more than %d bytes, expected less",
-                           MOST_BYTES), NULL;
-    *glued = pieces > 1;
-    char *text = model_keep(r, (int)size, 1), *to = text;
-    for (from = word; text && *from; to += length) {
-        value = next_piece(r, &from, number, &length);
-        memcpy(to, value, length);
+    for (const char *from = word; *from; ) {
+        const char *value = from;
+        size_t n = strcspn(from, "$"), length = n;
+        if (n == 0) {
+            value = from[1] == '(' ? evaluate(r, from, number, &n) : find_value(r, ++from, &n);
+            if (!value)
+                return r->p->status ? NULL : (blame_name(r, from), NULL);
+            length = strlen(value);
+        }
+        from += n;
+        pieces += length != 1 || !strchr("+-%", *value);
+        if ((r->grown += (double)length) > MOST_BYTES)
+            return model_blame(r, "the values of numbers take more than %d bytes, expected less",
+                               MOST_BYTES), NULL;
+        while (length-- > 0)
+            model_add(r, &text, &letters, 1, value++);
     }
-    return text;
+    model_add(r, &text, &letters, 1, "");
+    *glued = pieces > 1;
+    return r->p->status ? NULL : text;
 }
 
 /* Adds the statement with its words as they are now; it is then the one in hand. */
@@ -295,7 +262,7 @@ static int add_statement(model_reader *r, const model_statement *source)
     if (!model_add(r, &r->statement, &r->statements, sizeof s, &s))
         return 0;
     r->s = &r->statement[r->statements - 1];
-    r->next = 0;
+    r->next = r->ahead = 0;
     if (r->round && ++r->repeated > MOST_REPEATED)
         return model_blame(r, "repetitions make more than %d statements, expected fewer",
                            MOST_REPEATED);
@@ -324,20 +291,21 @@ static const char *new_number(model_reader *r)
     return word;
 }
 
-/* The number is the word behind the name, or that of the command line in its place. In a round it
- * is the round's. */
+/* The number is the word behind the name, or the last one of the command line in its place. In a
+ * round it is the round's. */
 static int read_let(model_reader *r)
 {
     const char *word = new_number(r);
-    char *other = word && !r->round ? given(r, word) : NULL;
+    const size_t n = word ? strlen(word) : 0;
     const int at = r->s->first + r->next;
     double x;
 
-    if (other && model_look(r)) {
-        r->word[at].source = "-d or --find";
-        if (!(r->word[at].text = expand(r, other, &r->word[at].glued)))
-            return 0;
-    }
+    for (int k = 0; k < r->lets && n > 0 && !r->round && model_look(r); k++)
+        if (strncmp(r->let[k], word, n) == 0 && r->let[k][n] == '=') {
+            r->word[at].source = "-d or --find";
+            if (!(r->word[at].text = expand(r, r->let[k] + n + 1, &r->word[at].glued)))
+                return 0;
+        }
     if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
     if (!r->round)
@@ -398,11 +366,12 @@ static int walk(model_reader *r, int from, int to)
     for (int k = from; k < to; k++) {
         const model_statement *s = &r->cut[k];
         const int end = is(s, "repeat") ? find_end(r, k) : k;
-        if (is(s, "stage") && r->stage)
-            return model_fail(r, s->at, "a stage in a stage, expected the `end` of the first");
+        if (r->stage && (is(s, "stage") || (is(s, "let") && !r->round)))
+            return model_fail(r, s->at, "a %s in a stage, expected it before or behind the stage",
+                              s->name);
         r->stage = is(s, "stage") ? ++r->p->stages : r->stage;
         if (is(s, "repeat") ? !repeat(r, k, end)
-            : is(s, "let") ? (r->round || r->stage) && (!add_statement(r, s) || !read_let(r))
+            : is(s, "let") ? r->round && (!add_statement(r, s) || !read_let(r))
             : !add_statement(r, s) || (is(s, "end") && !model_at_end(r)))
             return 0;
         r->stage = is(s, "end") ? 0 : r->stage;
@@ -420,7 +389,7 @@ static int read_lets(model_reader *r)
         if (end < 0)
             return model_fail(r, s->at, "%s without its `end`, expected: %s", s->name, s->form);
         if (is(s, "end"))
-            return model_fail(r, s->at, "end without `repeat` or `stage`, expected: %s", s->form);
+            return model_fail(r, s->at, "this `end` closes no `repeat` and no `stage`");
         if (is(s, "let") && (!add_statement(r, s) || !read_let(r)))
             return 0;
         k = end;
@@ -432,14 +401,14 @@ static int read_lets(model_reader *r)
 static int check_given(model_reader *r)
 {
     for (int k = 0; k < r->lets; k++) {
-        char word[NAME_ROOM], text[200];
+        char word[NAME_ROOM];
         snprintf(word, sizeof word, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
         if (!strchr(r->let[k], '=') || model_find(&r->let_of, word) < 0)
             return model_fail(r, (model_place){ .file = r->path },
                               "'%.60s' of -d or --find, expected NAME=VALUE with a name of a "
                               "`let`%s%s", r->let[k],
                               r->let_of.count ? ", such as " : "; the model has none",
-                              model_nearest_of(&r->let_of, word, text));
+                              model_nearest_of(r, &r->let_of, word));
     }
     return 1;
 }

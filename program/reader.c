@@ -223,36 +223,41 @@ static int distance(const char *a, const char *b)
     return row[n];
 }
 
-const char *model_nearest(const char *word, const void *names, int n, size_t stride, char text[200])
+const char *model_nearest(model_reader *r, const char *word, const void *names, int n,
+                          size_t stride, int most)
 {
-    const char *found[4] = { NULL };            /* the fourth one is not wanted */
+    const char *found[4] = { NULL }, *text = "";        /* the fourth one is not wanted */
     int d[4] = { INT_MAX, INT_MAX, INT_MAX };
 
     for (int k = 0; k < n; k++) {
         const char *const name = *(const char *const *)((const char *)names + (size_t)k * stride);
         const int far = name ? distance(word, name) : INT_MAX;
         int at = 3;
-        for (; at > 0 && name
+        for (; at > 0 && far <= most
                && (far < d[at - 1] || (far == d[at - 1] && strcmp(name, found[at - 1]) < 0));
              at--)
             found[at] = found[at - 1], d[at] = d[at - 1];
         found[at] = name, d[at] = far;
     }
-    text[0] = '\0';
-    for (int k = 0; k < 3 && found[k]; k++)
-        snprintf(text + strlen(text), 200 - strlen(text), "%s%.*s", k ? ", " : "",
-                 (int)strcspn(found[k], " "), found[k]);
-    return text;
+    for (int k = 0; k < 3 && found[k] && text; k++)
+        text = model_print(r, "%s%s%.*s", text, k ? ", " : "", (int)strcspn(found[k], " "),
+                           found[k]);
+    return text ? text : "";
 }
 
-const char *model_nearest_of(const model_table *t, const char *word, char text[200])
+const char *model_nearest_of(model_reader *r, const model_table *t, const char *word)
 {
-    return model_nearest(word, t->slot, t->room, sizeof *t->slot, text);
+    return model_nearest(r, word, t->slot, t->room, sizeof *t->slot, INT_MAX - 1);
 }
 
-int model_is_name(const char *word)
+const char *model_find_word(const char *text, const char *word)
 {
-    return *word && word[strspn(word, MODEL_NAME)] == '\0';
+    const size_t n = strlen(word);
+
+    for (const char *at = text; n > 0 && (at = strstr(at, word)); at++)
+        if ((at == text || strchr(" [|", at[-1])) && strchr(" ]|", at[n]))  /* 0 is one of them */
+            return at;
+    return NULL;
 }
 
 const char *model_hint(const char *word)
@@ -264,6 +269,11 @@ const char *model_hint(const char *word)
     return strncmp(word, "//", 2) == 0 ? "; a comment begins with #"
          : strcmp(word, "midpoints") == 0
            ? ": bonded in the middles of their sides alone elements can turn against each other"
+         : strspn(word, "([") && !strpbrk(word, "+*/^")
+           ? "; numbers stand without brackets and commas"
+         : model_find_word("GPa MPa kPa Pa MN kN N N/m km m cm mm kg kg/m3 s m/s m/s2 deg",
+                          word + strspn(word, "+-.0123456789eE"))
+           ? "; numbers stand without units, which are Pa, N, m, kg, s and degrees"
          : strpbrk(word, "(*/^") ? "; arithmetic is $(...)"
          : strstr(word, "\xe2\x88\x92") || strstr(word, "\xe2\x80\x93") ? "; minus is -"
          : *c ? "; it has letters beyond ASCII"
@@ -272,20 +282,17 @@ const char *model_hint(const char *word)
 }
 
 /* ", from " and what the file has in place of a word of the statement, or "": the same. */
-static const char *source_of(const model_reader *r, const char *word, char text[80])
+static const char *source_of(model_reader *r, const char *word)
 {
-    text[0] = '\0';
     for (int k = r->s->first; k < r->s->first + r->s->n; k++)
         if (r->word[k].text == word && r->word[k].source != word)
-            snprintf(text, 80, ", from %.60s", r->word[k].source);
-    return text;
+            return model_print(r, ", from %.60s", r->word[k].source);
+    return "";
 }
 
 static int wrong(model_reader *r, const char *what, const char *word)
 {
-    char source[80];
-
-    return model_blame(r, "%s '%.60s'%s, expected: %s%s", what, word, source_of(r, word, source),
+    return model_blame(r, "%s '%.60s'%s, expected: %s%s", what, word, source_of(r, word),
                        r->s->form,
                        model_find(&r->let_of, word) >= 0 ? "; $ stands before the name of a number"
                                                          : model_hint(word));
@@ -297,15 +304,23 @@ char *model_look(const model_reader *r)
     return r->next < r->s->n ? r->word[r->s->first + r->next].text : NULL;
 }
 
+/* Where there is none, the word of the form that comes next is missing; of what is optional in it,
+ * none is named. */
 char *model_word(model_reader *r)
 {
-    char *word = model_look(r);
+    const char *name = r->s->form;
+    int optional = 0, n, k = r->next + 1 - r->ahead;
 
-    if (word)
-        r->next++;
-    else
-        model_blame(r, "a word is missing, expected: %s", r->s->form);
-    return word;
+    if (model_look(r))
+        return r->word[r->s->first + r->next++].text;
+    for (; (n = (int)strcspn(name, " ,")) > 0; name += n + (name[n] == ' ')) {
+        optional |= *name == '[';
+        if (!optional && k-- == 0)
+            break;
+        optional &= name[n - 1] != ']';
+    }
+    return model_blame(r, "%.*s is missing, expected: %s", n ? n : 6, n ? name : "a word",
+                       r->s->form), NULL;
 }
 
 /* Takes the next word if it is this one. */
@@ -319,11 +334,12 @@ int model_skip(model_reader *r, const char *word)
 
 int model_keyword(model_reader *r, const char *word)
 {
-    if (model_skip(r, word))
-        return 1;
-    return model_look(r) ? model_blame(r, "not the word %s: '%.60s', expected: %s", word,
-                                       model_look(r), r->s->form)
-                         : model_word(r) != NULL;
+    const char *found = model_look(r);
+
+    return model_skip(r, word)
+           || model_blame(r, found ? "not the word %s: '%.60s', expected: %s"
+                          : "the word %s is missing%s, expected: %s", word, found ? found : "",
+                          r->s->form);
 }
 
 int model_at_end(model_reader *r)
@@ -331,24 +347,17 @@ int model_at_end(model_reader *r)
     return model_look(r) ? wrong(r, "surplus word", model_look(r)) : 1;
 }
 
-/* A word that is to be a number: none that is put together, as 2$p. */
-static char *number_word(model_reader *r)
-{
-    char *word = model_word(r);
-    const int at = r->s->first + r->next - 1;
-
-    if (word && r->word[at].glued)
-        return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or "
-                           "$(2*p)", r->word[at].source, word), NULL;
-    return word;
-}
-
+/* None that is put together, as 2$p. */
 int model_number(model_reader *r, double *x)
 {
-    char *word = number_word(r), *end;
+    char *word = model_word(r), *end;
 
     if (!word)
         return 0;
+    const model_given *given = &r->word[r->s->first + r->next - 1];
+    if (given->glued)
+        return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or "
+                           "$(2*p)", given->source, word);
     *x = strtod(word, &end);
     if (*word == '\0' || *end != '\0' || strpbrk(word, "xXpP"))
         return wrong(r, "not a number:", word);
@@ -369,19 +378,15 @@ int model_numbers(model_reader *r, int n, double x[])
 
 int model_whole(model_reader *r, const char *what, int least, int *n)
 {
-    char *word = number_word(r), *end;
+    const char *word = model_look(r);
+    double x;
 
-    if (!word)
+    if (!model_number(r, &x))
         return 0;
-    errno = 0;
-    const long value = strtol(word, &end, 10);
-    if (*end != '\0' || end == word)
-        return wrong(r, "not a whole number in digits:", word);
-    if (value < least)
-        return model_blame(r, "%s is %ld, expected a whole number, %d or more", what, value, least);
-    if (errno || value > INT_MAX / 2)
-        return wrong(r, "too large:", word);
-    *n = (int)value;
+    if (x != floor(x) || x < least || x > INT_MAX / 2)
+        return model_blame(r, "%s is %.15g%s, expected a whole number from %d to %d", what, x,
+                           source_of(r, word), least, INT_MAX / 2);
+    *n = (int)x;
     return 1;
 }
 
@@ -389,7 +394,7 @@ const char *model_name(model_reader *r)
 {
     const char *word = model_word(r);
 
-    if (word && !model_is_name(word))
+    if (word && word[strspn(word, MODEL_NAME)] != '\0')
         return wrong(r, "not a name (letters, digits, _ - .):", word), NULL;
     return word;
 }
@@ -411,12 +416,11 @@ int model_known(model_reader *r, const model_table *t)
 {
     const char *word = t == &r->node_of ? model_id(r) : model_word(r);
     const int found = word ? model_find(t, word) : -1;
-    char text[200];
 
     if (word && found < 0)
-        model_blame(r, "unknown %s '%.60s'%s%s", t->what, word, t->count == 0
-                    ? ": the model has none" : ", expected one that the model has, such as ",
-                    model_nearest_of(t, word, text));
+        model_blame(r, t->count == 0 ? "unknown %s '%.60s': the file has no statement `%s`"
+                    : "unknown %s '%.60s', expected one that the model has, such as %s", t->what,
+                    word, t->count == 0 ? t->what : model_nearest_of(r, t, word));
     return found;
 }
 
@@ -446,16 +450,13 @@ int model_note_friction(model_reader *r, double friction)
 
 int model_choice(model_reader *r, const char *choices, int *n)
 {
-    const char *word = model_word(r);
-    const size_t length = word ? strlen(word) : 0;
+    const char *word = model_word(r), *at = word ? model_find_word(choices, word) : NULL;
 
     *n = 0;
-    for (const char *c = choices; word && c; c = strchr(c, '|'), *n += 1) {
-        c += *c == '|';
-        if (strncmp(c, word, length) == 0 && (c[length] == '|' || c[length] == '\0'))
-            return 1;
-    }
-    return word && model_blame(r, "'%.60s', expected one of %s%s", word, choices, model_hint(word));
+    for (const char *c = at; c && c > choices; c--)
+        *n += c[-1] == '|';
+    return at || (word && model_blame(r, "'%.60s', expected one of %s%s", word, choices,
+                                      model_hint(word)));
 }
 
 static int in_range(model_reader *r, const model_option *o)
@@ -463,10 +464,9 @@ static int in_range(model_reader *r, const model_option *o)
     const double x = *o->x;
     const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
                      && (o->rim[1] == ']' ? x <= o->high : x < o->high);
-    char source[80];
 
     return good || model_blame(r, "%s is %g%s, expected %s", o->name, x,
-                               source_of(r, r->word[r->s->first + r->next - 1].text, source),
+                               source_of(r, r->word[r->s->first + r->next - 1].text),
                                o->expected);
 }
 
@@ -475,6 +475,8 @@ static int option_value(model_reader *r, model_option *o)
     if (o->seen)
         return model_blame(r, "%s for the second time, expected: %s", o->name, r->s->form);
     o->seen = 1;
+    if (!o->flag && !model_look(r))
+        return model_blame(r, "the value of %s is missing, expected: %s", o->name, r->s->form);
     if (o->flag)
         return (*o->flag = 1) && (!o->x || !model_skip(r, "by") || model_number(r, o->x));
     if (o->choices)

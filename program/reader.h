@@ -86,8 +86,8 @@ typedef struct {
                                             /* [nodes] the last one that named a library node */
     double margin;                          /* m            lengths below it are none */
     const model_statement *light;           /* of a material that weighs next to nothing */
-    const model_statement *s;               /* in hand, and its next word */
-    int next;
+    const model_statement *s;               /* in hand, and its next word; how many of those */
+    int next, ahead;                        /* before it are not in its form */
     model_place *seen;                      /* [kinds]      where the last of a kind stands */
 } model_reader;
 
@@ -108,12 +108,13 @@ char *model_print(model_reader *r, const char *format, ...);    /* as by printf;
 char *model_load(model_reader *r, const char *path, size_t *size);
 int   model_find(const model_table *t, const char *key);        /* -1: not there */
 int   model_enter(model_reader *r, model_table *t, const char *key, int value);
-int   model_is_name(const char *word);
+/* Where the word stands in the text, between blanks, [ ] and |; or NULL. */
+const char *model_find_word(const char *text, const char *word);
 /* The nearest ones to a word among n, `stride` bytes from name to name, of which the first word
- * counts, NULL: none; as text. */
-const char *model_nearest(const char *word, const void *names, int n, size_t stride,
-                          char text[200]);
-const char *model_nearest_of(const model_table *t, const char *word, char text[200]);
+ * counts, NULL: none; with at most `most` letters that differ; as text. */
+const char *model_nearest(model_reader *r, const char *word, const void *names, int n,
+                          size_t stride, int most);
+const char *model_nearest_of(model_reader *r, const model_table *t, const char *word);
 
 /* --- words of the statement in hand --- */
 char *model_look(const model_reader *r);           /* the word that comes next, it stays; or NULL */
@@ -192,7 +193,7 @@ int   model_finish(model_reader *r);
 /* It takes its words one by one and returns 1, or 0 after model_fail. What is left of them is
  * surplus. */
 typedef int model_action(model_reader *r);
-model_action model_fix, model_load_nodes, model_traction, model_pressure, model_water, model_joint,
+model_action model_fix, model_load_nodes, model_edge_load, model_water, model_joint,
              model_velocities, model_stress, model_monitors, model_bolts, model_stage_head;
 
 #endif

@@ -5,6 +5,7 @@
  *     NUMBERS          let, repeat, end           before all others: numbers.c
  *     ALONE            title, node, mesh, material, and all that goes into the parameters
  *     NODES            element                    needs nodes and materials
+ *                      shake, output              need to know whether the model is dynamic
  *     MADE             block, grid                number on from the largest ids
  *     ALL_NODES        set                        needs nodes
  *     BLOCKS           use, fixblock              need blocks
@@ -21,7 +22,7 @@
 #include "reader.h"
 
 enum { NUMBERS, ALONE, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
-enum { ONCE = 1, STAGED };      /* a statement that may stand once, and one that a stage may have */
+enum { ONCE = 1, STAGED, DYNAMIC = 4 };     /* it may stand once, in a stage, not in statics */
 
 /* Cells of a grid; memory for each element, at least. */
 enum { MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
@@ -203,6 +204,8 @@ static int read_output(model_reader *r)
         return 0;
     r->p->svg |= r->p->film;
     r->p->field = field_table[chosen].name;
+    if (r->p->film && !r->p->dynamic)
+        model_note(r, "warning: statics has no film");
     return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
            || model_blame(r, "colours from %g to %g, expected low below high", c[0], c[1]);
 }
@@ -399,6 +402,7 @@ static int read_expect(model_reader *r)
     if (e.monitor < 0 || !model_choice(r, p->monitor[e.monitor].of->kinds, &e.kind))
         return 0;
     const int value = e.kind < p->monitor[e.monitor].of->values;
+    r->ahead -= !value;
     if ((value && !model_number(r, &e.value)) || !model_keyword(r, value ? "within" : "by"))
         return 0;
     const char *last = model_look(r);
@@ -433,7 +437,8 @@ static const struct kind {
     { "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material, ALONE, 0 },
     { "plane stress|strain", read_plane, ALONE, ONCE },
     { "gravity GX GY", read_gravity, ALONE, ONCE | STAGED },
-    { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, ALONE, ONCE },
+    { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NODES,
+      ONCE | DYNAMIC },
     { "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
       "[restitution E]", read_contact, ALONE, ONCE | STAGED },
     { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
@@ -443,7 +448,7 @@ static const struct kind {
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
     { "output [every N] [vtk] [svg] [film] [field NAME] [scale N] [low VALUE] [high VALUE]",
-      read_output, ALONE, ONCE },
+      read_output, NODES, ONCE },
     { "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
     { "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE, 0 },
@@ -454,12 +459,12 @@ static const struct kind {
       MODEL, 0 },
     { "fix WHERE [of BLOCK] [x [by U]] [y [by V]]", model_fix, MODEL, STAGED },
     { "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, STAGED },
-    { "traction WHERE [of BLOCK] TX TY", model_traction, MODEL, STAGED },
-    { "pressure WHERE [of BLOCK] P", model_pressure, MODEL, STAGED },
+    { "traction WHERE [of BLOCK] TX TY", model_edge_load, MODEL, STAGED },
+    { "pressure WHERE [of BLOCK] P", model_edge_load, MODEL, STAGED },
     { "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
     { "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts, MODEL,
       0 },
-    { "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, 0 },
+    { "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, DYNAMIC },
     { "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
     { "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK", model_monitors, MODEL,
       0 },
@@ -467,39 +472,42 @@ static const struct kind {
       "by TOLERANCE", read_expect, MONITORS, 0 },
 };
 
-/* What other programs have, and what there is here instead; NULL: not known. */
-static const char *find_other(const char *word)
-{
-    static const struct { const char *words, *here; } other[] = {
-        { " anchor cable spring ", "see bolt" },
-        { " excavate remove ", "see stage" },
-        { " accelerogram earthquake pulse ", "see shake, which reads a record" },
-        { " for loop while do ", "see repeat" }, { " if else ", "min, max and floor choose" },
-        { " var define ", "see let" }, { " force ", "see load" },
-        { " support boundary fixed ", "see fix, fixblock" }, { " polygon ", "see block, grid" },
-        { " time step steps solve run damping ", "see static, dynamic" },
-        { " friction cohesion tension kn ks ", "see contact, joint" },
-        { " plot print history film field ", "see monitor, output" },
-    };
-    const size_t n = strlen(word);
-
-    for (int k = 0; k < LENGTH(other); k++)
-        for (const char *at = other[k].words; (at = strstr(at, word)); at++)
-            if (n > 0 && at[-1] == ' ' && at[n] == ' ')
-                return other[k].here;
-    return NULL;
-}
-
 /* The row of the statement; LENGTH(kinds): there is none. */
 static int find_kind(const char *word)
 {
-    const size_t n = strlen(word);
     int k = 0;
 
-    while (k < LENGTH(kinds)
-           && (strncmp(kinds[k].form, word, n) != 0 || strcspn(kinds[k].form, " ") != n))
+    while (k < LENGTH(kinds) && model_find_word(kinds[k].form, word) != kinds[k].form)
         k++;
     return k;
+}
+
+/* What may be meant: what other programs have in its place, or a word of these statements. */
+static int blame_statement(model_reader *r, const char *word, model_place at)
+{
+    static const struct { const char *words, *here; } other[] = {
+        { "anchor cable rockbolt spring", "bolt" }, { "for loop while do", "repeat" },
+        { "accelerogram earthquake pulse ricker", "shake, which reads a record" },
+        { "if else", "min, max and floor of $(...)" }, { "polygon body", "block, grid" },
+        { "support boundary fixed", "fix, fixblock" }, { "plot print history", "monitor, output" },
+        { "time step solve run damping", "static, dynamic" }, { "excavate", "stage" },
+        { "var define", "let" }, { "force", "load" },
+    };
+    char see[200] = "";
+
+    for (int k = 0; k < LENGTH(other); k++)
+        if (model_find_word(other[k].words, word))
+            snprintf(see, sizeof see, ", %s", other[k].here);
+    for (int k = 0; k < LENGTH(kinds); k++)
+        if (model_find_word(kinds[k].form, word))
+            snprintf(see + strlen(see), sizeof see - strlen(see), ", %.*s",
+                     (int)strcspn(kinds[k].form, " "), kinds[k].form);
+    if (*see)
+        return model_fail(r, at, "there is no statement '%.60s'; see %s", word, see + 2);
+    const char *near = model_nearest(r, word, kinds, LENGTH(kinds), sizeof *kinds, 2);
+    return model_fail(r, at, "there is no statement '%.60s'; %s%s%sall are in doc/model-file.md%s",
+                      word, *near ? "nearest: " : "", near, *near ? "; " : "",
+                      model_hint(word));
 }
 
 /* Finds the statement that begins with the word; whether there is one. */
@@ -507,16 +515,8 @@ static int begin_statement(model_reader *r, const char *word, model_place at)
 {
     const int k = find_kind(word);
 
-    if (k == LENGTH(kinds)) {
-        char text[200];
-        const char *other = find_other(word);
-        if (other)
-            return model_fail(r, at, "there is no statement '%.60s'; %s", word, other);
-        return model_fail(r, at, "there is no statement '%.60s'; the nearest are %s, and all are "
-                          "in doc/model-file.md%s", word,
-                          model_nearest(word, kinds, LENGTH(kinds), sizeof *kinds, text),
-                          model_hint(word));
-    }
+    if (k == LENGTH(kinds))
+        return blame_statement(r, word, at);
     const model_statement s = { at, r->cut_words, 0, k, 0, word, kinds[k].form };
     return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
 }
@@ -596,30 +596,31 @@ static int read_phase(model_reader *r, int phase, int stage)
 {
     for (int k = 0; k < r->statements && !r->p->status; k++) {
         r->s = &r->statement[k];
-        r->next = 0;
+        r->next = r->ahead = 0;
         const struct kind *kind = &kinds[r->s->kind];
-        if (kind->phase == phase && r->s->stage == stage && kind->read(r))
+        if (kind->phase != phase || r->s->stage != stage)
+            continue;
+        if (kind->may & DYNAMIC && !r->p->dynamic)
+            return model_blame(r, "%s in statics, expected dynamic", r->s->name);
+        if (kind->read(r))
             model_at_end(r);
     }
     return !r->p->status;
 }
 
-/* One of static and dynamic, and what needs dynamic; line 0: it stands nowhere. */
+/* One of static and dynamic; line 0: it stands nowhere. */
 static int check_kind(model_reader *r)
 {
-    const model_place *s = &r->seen[find_kind("static")], *d = &r->seen[find_kind("dynamic")],
-                      *v = &r->seen[find_kind("velocity")], *a = &r->seen[find_kind("shake")];
+    const model_place *s = &r->seen[find_kind("static")], *d = &r->seen[find_kind("dynamic")];
 
     if (s->line && d->line)
         return model_fail(r, s->line > d->line ? *s : *d,
                           "static and dynamic, expected one of them");
     if (!s->line && !d->line)
         return model_fail(r, (model_place){ .file = r->path },
-                          "neither static nor dynamic, expected one of them, such as: static, or: "
-                          "dynamic dt 1e-3 steps 1000");
-    if (s->line && (v->line || a->line))
-        return model_fail(r, v->line ? *v : *a, "%s in statics, expected dynamic",
-                          v->line ? "velocity" : "shake");
+                          "%sneither static nor dynamic, expected one of them, such as: static, "
+                          "or: dynamic dt 1e-3 steps 1000",
+                          r->statements ? "" : "the file has no statement, ");
     return 1;
 }
 

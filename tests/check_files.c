@@ -552,7 +552,7 @@ START_TEST(what_is_left_out_has_its_default)
         { STACK("fixblock base\nfixblock b\n", ""), STACK("fixblock base\nfixblock b\n", "kn 2.5e11 ks 1e11") },
         { STACK("fixblock base\nfixblock b\nfixblock a\n", ""),
           STACK("fixblock base\nfixblock b\nfixblock a\n", "kn 1e11 ks 4e10") },
-        { SLIDE("10"), SLIDE("10 settle 0") },
+        { SLIDE("10"), SLIDE("1e1 settle 0") },
     };
 
     ck_assert_int_eq(run_text("left", same[_i][0]), 0);
