@@ -19,6 +19,9 @@ enum { TEXT = 14, TICK_TEXT = 48, LEVELS = 11 };    /* pixels; the last: wanted 
 
 static const double LETTER = 7.8;       /* pixels, generous mean width of a letter of size TEXT */
 static const double UNSEEN = 1e-3;      /* of a step: results end there that may be meant to be 0 */
+/* A band is cut off if it is so many times as high as the curves in it, unless these are flat but
+ * for rounding: less than so much of its height. */
+static const double HIGHER = 5, FLAT = 1e-6;
 
 /* ------------------------------------------------------------------------------- file and text */
 
@@ -79,12 +82,10 @@ void plot_text(plot *p, double x, double y, const char *attributes, const char *
     plot_put(p, "<text x=\"%.2f\" y=\"%.2f\" %s>", x, y, attributes);
     for (int n; *s; s += n ? n : 1) {
         n = character(s);
-        if (*s == '<' || *s == '>' || *s == '&')
+        if (*s == '<' || *s == '>' || *s == '&' || (n == 0 && *s >= 0xA0))  /* Latin-1 */
             plot_put(p, "&#%d;", *s);
-        else if (n > 0)
+        else
             plot_put(p, "%.*s", n, (const char *)s);
-        else if (*s >= 0xA0)
-            plot_put(p, "&#%d;", *s);           /* Latin-1 */
     }
     plot_put(p, "</text>\n");
 }
@@ -120,14 +121,14 @@ void plot_title(plot *p, double x, double y, const char *text)
 
 int plot_open(plot *p, const char *path, double width, double height)
 {
-    *p = (plot){ 0 };
+    *p = (plot){ .width = width };
     if (!output_open(&p->out, path))
         return 0;
     plot_put(p, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" ",
-             width, height);
-    plot_put(p, "viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"%d\">\n"
-             "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n", width, height, TEXT);
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
+             "viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"%d\">\n"
+             "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+             width, height, width, height, TEXT);
     return 1;
 }
 
@@ -172,15 +173,6 @@ static void number_text(char *text, size_t size, double value, double step)
     snprintf(text, size, "%s%.*f", value < 0 ? "−" : "", decimals, fabs(value));
 }
 
-static void power_text(char *text, size_t size, int exponent)
-{
-    static const char *const raised[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
-    const int e = abs(exponent);
-
-    snprintf(text, size, "10%s%s%s%s", exponent < 0 ? "⁻" : "", e < 100 ? "" : raised[e / 100 % 10],
-             e < 10 ? "" : raised[e / 10 % 10], raised[e % 10]);
-}
-
 /* ---------------------------------------------------------------------------------------- axes */
 
 /* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
@@ -188,18 +180,20 @@ static void power_text(char *text, size_t size, int exponent)
 static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 {
     static const char *const prefix[] = { "p", "n", "µ", "m", "", "k", "M", "G", "T" };
+    static const char *const raised[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
     const char *unit = q->unit ? q->unit : "", *name = q->name ? q->name : "";
     const size_t n = strcspn(unit, "/");
-    char power[48];
     int e = 0;
 
     if (largest > 1e-300 && (largest < 0.1 || largest >= 1e4))
         e = 3 * (int)floor(log10(largest) / 3);
     a->scale = pow(10, -e);
-    power_text(power, sizeof power, e);
+    const int all = abs(e);
     const int takes = (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
     if (e && (!takes || e < -12 || e > 12))
-        snprintf(a->label, sizeof a->label, "%s [×%s%s%s]", name, power, *unit ? " " : "", unit);
+        snprintf(a->label, sizeof a->label, "%s [×10%s%s%s%s%s%s]", name, e < 0 ? "⁻" : "",
+                 all < 100 ? "" : raised[all / 100 % 10], all < 10 ? "" : raised[all / 10 % 10],
+                 raised[all % 10], *unit ? " " : "", unit);
     else if (*unit)
         snprintf(a->label, sizeof a->label, "%s [%s%s]", name, prefix[e / 3 + 4], unit);
     else
@@ -222,7 +216,7 @@ static plot_axis make_axis(const plot_quantity *q, const double range[2], double
         a.lo -= margin;
         a.hi += margin;
     }
-    a.step = plot_nice((a.hi - a.lo) / count);
+    a.step = fmax(plot_nice((a.hi - a.lo) / count), q->unit ? 0 : a.scale);
     return a;
 }
 
@@ -338,31 +332,30 @@ static int is_shown(const plot_series *s, int i)
     return isfinite(s->x[i]) && isfinite(s->y[i]);
 }
 
+/* Whether a series, of a range of y, leaves the axes as those before it made them. */
+static int is_left_out(const plot_series *s, const double own[2], const double before[2])
+{
+    const double height = own[1] - own[0], inside = before[1] - before[0];
+
+    return height < 0 || (s->style == PLOT_BAND && own[0] <= before[0] && own[1] >= before[1]
+                          && inside < height / HIGHER && inside > height * FLAT);
+}
+
 static void chart_axes(plot *p, plot_box box, const plot_chart *c)
 {
     double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 
-    for (int k = 0; k < c->count; k++) {
-        const plot_series *s = &c->series[k];
+    for (const plot_series *s = c->series; s < c->series + c->count; s++) {
+        double own[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
         for (int i = 0; i < s->n; i++)
-            if (is_shown(s, i))
-                plot_widen(range, s->x[i], s->y[i]);
+            if (!isinf(s->x[i]) && !isinf(s->y[i]))     /* of a gap, x */
+                plot_widen(own, s->x[i], s->y[i]);
+        for (int k = 0, out = is_left_out(s, own[1], range[1]); k < 2 && !out; k++)
+            plot_widen(range, own[0][k], own[1][k]);
     }
     p->x = make_axis(&c->x, range[0], fmax(2, box.w / 90));
     p->y = make_axis(&c->y, range[1], fmax(2, box.h / 70));
     round_axis(&p->y);
-}
-
-/* Lines without marks take the patterns in turn; the first is solid. */
-static const char *series_dashes(const plot_chart *c, int k)
-{
-    static const char *const pattern[] = { "none", "9 5", "2 4", "10 4 2 4", "16 5",
-                                           "5 3 2 3 2 3" };
-    int before = 0;
-
-    for (int i = 0; i < k && c->series[k].style == PLOT_LINE; i++)
-        before += c->series[i].style == PLOT_LINE;
-    return pattern[before % LENGTH(pattern)];
 }
 
 static void draw_mark(plot *p, int look, double x, double y)
@@ -383,30 +376,30 @@ static void draw_mark(plot *p, int look, double x, double y)
 
 static void draw_line(plot *p, const plot_series *s)
 {
-    int drawing = 0;
-
     plot_put(p, "<path d=\"");
-    for (int i = 0; i < s->n; i++) {
-        const int shown = is_shown(s, i);
-        if (shown)
-            plot_point(p, drawing ? " " : "M", plot_pixel(&p->x, s->x[i]),
-                       plot_pixel(&p->y, s->y[i]));
-        drawing = shown;
-    }
+    for (int i = 0; i < s->n; i++)
+        if (is_shown(s, i))
+            plot_point(p, i > 0 && is_shown(s, i - 1) ? " " : "M", plot_pixel(&p->x, s->x[i]),
+                       fmin(fmax(plot_pixel(&p->y, s->y[i]), p->y.to), p->y.from));
     plot_put(p, "\"/>\n");
 }
 
+/* Lines without marks take the dashes in turn; the first is solid. */
 static void begin_series(plot *p, const plot_chart *c, int k)
 {
+    static const char *const dashes[] = { "none", "9 5", "2 4", "10 4 2 4", "16 5",
+                                          "5 3 2 3 2 3" };
     static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
                                           "#CC79A7", "#E69F00" };
-
     const char *own = colour[c->series[k].look % LENGTH(colour)];
     const int band = c->series[k].style == PLOT_BAND;
+    int before = 0;
 
+    for (int i = 0; i < k && c->series[k].style == PLOT_LINE; i++)
+        before += c->series[i].style == PLOT_LINE;
     plot_put(p, "<g fill=\"%s\" fill-opacity=\"0.2\" stroke=\"%s\" stroke-width=\"%s\" "
              "stroke-linejoin=\"round\" stroke-dasharray=\"%s\">\n",
-             band ? own : "none", own, band ? "0.6" : "1.8", series_dashes(c, k));
+             band ? own : "none", own, band ? "0.6" : "1.8", dashes[before % LENGTH(dashes)]);
 }
 
 /* Returns the number of rows. */

@@ -23,13 +23,15 @@
 
 typedef enum {
     PLOT_LINE,                  /* the first such series solid, later ones with dashes            */
-    PLOT_BAND,                  /* the area within the points                                     */
+    PLOT_BAND,                  /* the area within the points, behind the lines in the list; much */
+                                /* higher than what it holds, it is cut off at the axes           */
     PLOT_MARKS,                 /* a mark at each point                                           */
     PLOT_BOTH                   /* a solid line, and a mark at each point                         */
 } plot_style;
 
 typedef struct {                /* what an axis or a colour bar measures                          */
-    const char *name, *unit;    /* m, N, s, J, Pa, alone or before a slash, may get a prefix      */
+    const char *name, *unit;    /* m, N, s, J, Pa, alone or before a slash, may get a prefix;     */
+                                /* NULL: a count, with whole numbers at the ticks                 */
 } plot_quantity;
 
 typedef struct {
@@ -66,6 +68,7 @@ typedef struct {
 typedef struct {
     output    out;
     plot_axis x, y;             /* of the last panel                                              */
+    double    width;            /* pixels                                                         */
 } plot;
 
 int    plot_open(plot *p, const char *path, double width, double height);   /* 1; 0: it cannot be */

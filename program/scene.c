@@ -40,13 +40,16 @@ enum { OUTSIDE = 100, LARGER = 20 };
 static const double nothing[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
 static const double FAIR = 0.5;         /* of an element's width: how much an edge may change     */
+static const double MOST = 1e5;         /* displacements are magnified: above, rounding is seen   */
 
 /* Arrows: the largest is so wide, in pixels; name, unit: in the legend, with the force between
  * them. Contacts have a head on both sides. */
-enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, PRESSURE, TENSION, KINDS };
+enum { LOAD, LOCKED = BBM_LOCK, SLIDING = BBM_SLIDE, PULLED, LINE_LOAD, WATER, PRESSURE, TENSION,
+       KINDS };
 
 static const struct { const char *colour; double width; const char *name, *unit; } arrow[KINDS] = {
     [LOAD] = { "#aa2288", 4, "load", "N" }, [LINE_LOAD] = { "#aa2288", 3, "load", "N/m" },
+    [WATER] = { "#0077bb", 3, "water", "N/m" },
     [LOCKED] = { "#004488", 6, "contact force", "N, locked" },
     [SLIDING] = { "#cc3311", 6, "contact force", "N, sliding" },
     [PULLED] = { "#117733", 6, "contact force", "N, pulling" },
@@ -68,7 +71,7 @@ typedef scene_point point;
 
 typedef struct {                        /* a block                                                */
     int first, n;                       /* its vertices are film.vertex[first .. first+n-1]       */
-    int held, tint;
+    int held, fixed, tint;              /* fixed: at a point or more                              */
     double box[2][2];                   /* m        x from, to; y from, to, in the first frame    */
 } body;
 
@@ -82,6 +85,7 @@ typedef struct {                        /* what the functions below draw with   
     body        *body;
     int         *vertex;                /*          [vertices], block by block                    */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
+    int         *hidden;                /*          [elements] whether its cross is               */
     double       window[2][2];          /* m                                                      */
     double       scale;                 /* pixels/m                                               */
     double       most[KINDS];           /* the largest force of each kind, by scale_of            */
@@ -168,21 +172,33 @@ static void put_crosses(scene_frame *f, const bbm_model *m)
     }
 }
 
-static void copy_frame(scene_frame *f, const scene *s, const bbm_model *m)
+/* Places at the start and displacements, so many times each, and the values at nodes or of
+ * elements. Returns whether all are finite. */
+static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, int nodal,
+                      const double times[2])
 {
-    const field *shown = s->field ? field_find(s->field) : NULL;
+    int finite = 1;
 
     for (int v = 0; v < m->vertices; v++) {
-        const int gone = f->held[v] == SCENE_GONE;
-        const double further = gone || s->scale <= 0 ? 0 : s->scale - 1;
-        f->at[v] = (point){ field_place(m, v, 0) + further * m->vertex[v].u,
-                            field_place(m, v, 1) + further * m->vertex[v].v };
-        if (shown)
-            f->value[v] = gone ? NAN : field_of_element(shown, m, m->vertex[v].element);
+        const int i = m->vertex[v].node, gone = f->held[v] == SCENE_GONE;
+        bbm_result r;
+        bbm_nodal_result(m, i, -1, &r);
+        f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0),
+                                   times[0] * field_place(m, v, 1) }
+                 : (point){ times[0] * m->node[i].x + times[1] * r.u,
+                            times[0] * m->node[i].y + times[1] * r.v };
+        f->value[v] = gone ? NAN : !shown ? 0 : nodal ? field_of_node(shown, m, i)
+                      : field_of_element(shown, m, m->vertex[v].element);
+        finite &= gone || isfinite(r.u + r.v + f->value[v]);
     }
-    if (shown && !has_colours(s->field))
+    if (shown && !has_colours(shown->name))
         put_crosses(f, m);
-    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts && !shown; c++) {
+    return finite;
+}
+
+static void put_contact_forces(scene_frame *f, const bbm_model *m)
+{
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
         const bbm_edge *corner = &m->edge[c->corner];
         double force[2];
         field_contact_force(m, c, c->N, c->T, force);
@@ -197,24 +213,25 @@ void scene_record(scene *s, const bbm_model *m)
 {
     scene_frame f = { .time = m->info.t, .call = s->calls++ };
 
-    for (int v = 0; v < m->vertices; v++)
-        if (!isfinite(m->vertex[v].x + m->vertex[v].y))
-            return;
     if (!s->frame) {
         s->frame = calloc(FRAMES, sizeof *s->frame);
         s->every = 1;
     }
     s->failed |= !s->frame || !make_frame(&f, m);
-    if (s->failed) {
+    if (s->failed || !fill_frame(&f, m, s->field ? field_find(s->field) : NULL, 0,
+                                 (double[]){ 1, s->scale > 0 ? s->scale : 1 })) {
         drop_frame(&f);
         return;
     }
-    copy_frame(&f, s, m);
+    if (!s->field)
+        put_contact_forces(&f, m);
     thin_out(s);
     s->frame[s->frames++] = f;
 }
 
 /* -------------------------------------------------------------------------------------- blocks */
+
+static double gap(point a, point b) { return hypot(b.x - a.x, b.y - a.y); }
 
 /* m, in a frame */
 static point position(const film *f, int frame, int v) { return f->s->frame[frame].at[v]; }
@@ -227,29 +244,22 @@ static point pixel(const film *f, point a)
 
 static point at(const film *f, int frame, int v) { return pixel(f, position(f, frame, v)); }
 
-/* Distance of two boxes, and a little of that of their centres. */
-static double distance(const body *a, const body *b)
+/* The distance of two blocks is that of their boxes, and a little of that of their centres. */
+static int choose_tint(const film *f, const body *b)
 {
-    double gap[2], way[2];
-
-    for (int k = 0; k < 2; k++) {
-        gap[k] = fmax(0, fmax(a->box[k][0] - b->box[k][1], b->box[k][0] - a->box[k][1]));
-        way[k] = (a->box[k][0] + a->box[k][1] - b->box[k][0] - b->box[k][1]) / 2;
-    }
-    return hypot(gap[0], gap[1]) + 0.01 * hypot(way[0], way[1]);
-}
-
-static int choose_tint(const film *f, int b)
-{
-    double nearest[TINTS];
+    double nearest[TINTS], apart[2], way[2];
     int best = 0;
 
     for (int k = 0; k < TINTS; k++)
         nearest[k] = INFINITY;
-    for (int i = 0; i < b; i++)
-        if (!f->body[i].held)
-            nearest[f->body[i].tint] = fmin(nearest[f->body[i].tint],
-                                            distance(&f->body[i], &f->body[b]));
+    for (const body *a = f->body; a < b; a++) {
+        for (int k = 0; k < 2; k++) {
+            apart[k] = fmax(0, fmax(a->box[k][0] - b->box[k][1], b->box[k][0] - a->box[k][1]));
+            way[k] = (a->box[k][0] + a->box[k][1] - b->box[k][0] - b->box[k][1]) / 2;
+        }
+        const double distance = hypot(apart[0], apart[1]) + 0.01 * hypot(way[0], way[1]);
+        nearest[a->tint] = a->held ? nearest[a->tint] : fmin(nearest[a->tint], distance);
+    }
     for (int k = 1; k < TINTS; k++)
         best = nearest[k] > nearest[best] ? k : best;
     return best;
@@ -265,21 +275,22 @@ static void find_bodies(film *f)
     for (int n = 0; n < m->vertices; f->bodies++) {
         body *b = &f->body[f->bodies];
         const scene_frame *first = f->s->frame, *end = first + f->s->frames;
-        *b = (body){ n, 0, 1, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
+        *b = (body){ n, 0, 1, 0, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
         for (int v = 0; v < m->vertices; v++) {
             if (m->element[m->vertex[v].element].block != f->bodies)
                 continue;
             f->vertex[n++] = v;
             for (const scene_frame *g = first; g < end; g++)
                 b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
+            b->fixed |= f->s->frame[f->s->frames - 1].held[v] & BBM_XY;
             plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
         }
         b->n = first->held[f->vertex[b->first]] == SCENE_GONE ? 0 : n - b->first;
         f->held |= b->held && b->n > 0;
         f->whole |= !b->held && b->n == m->element[m->vertex[f->vertex[b->first]].element].n;
     }
-    for (int b = 0; b < f->bodies; b++)
-        f->body[b].tint = choose_tint(f, b);
+    for (body *b = f->body; b < f->body + f->bodies; b++)
+        b->tint = choose_tint(f, b);
 }
 
 /* Of boundary edges whose two ends are held alike, or else of all: where supports stand. */
@@ -289,8 +300,7 @@ static void find_normals(film *f)
 
     for (int e = 0; e < m->edges; e++) {
         const int a = m->vertex[m->edge[e].a].node, b = m->vertex[m->edge[e].b].node;
-        const int alike = m->node[a].held && m->node[a].held == m->node[b].held;
-        const double weight = alike ? 1 : 1e-6;
+        const double weight = m->node[a].held && m->node[a].held == m->node[b].held ? 1 : 1e-6;
         for (int k = 0; k < 2; k++) {
             f->normal[k ? b : a].x += weight * (m->node[b].y - m->node[a].y);
             f->normal[k ? b : a].y += weight * (m->node[a].x - m->node[b].x);
@@ -306,6 +316,7 @@ static void end_film(film *f)
     free(f->body);
     free(f->vertex);
     free(f->normal);
+    free(f->hidden);
 }
 
 /* Returns 0 and errno where there is nothing to draw or no memory. */
@@ -316,8 +327,10 @@ static int begin_film(film *f)
     f->body = malloc((size_t)m->elements * sizeof *f->body);
     f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
     f->normal = calloc((size_t)m->nodes, sizeof *f->normal);
+    f->hidden = calloc((size_t)m->elements, sizeof *f->hidden);
     errno = f->s->frames || f->s->failed ? ENOMEM : EINVAL;
-    if (f->s->failed || !f->s->frames || !f->body || !f->vertex || !f->normal)
+    if (f->s->failed || !f->s->frames || !f->body || !f->vertex || !f->normal
+        || !f->hidden)
         return 0;
     find_bodies(f);
     find_normals(f);
@@ -364,11 +377,9 @@ static int value_count(const film *f) { return f->s->frames + HOLD; }
 static int is_moving(const film *f, const body *b)
 {
     for (int i = 1; i < f->s->frames && f->seconds > 0; i++)
-        for (int k = b->first; k < b->first + b->n; k++) {
-            const point A = at(f, 0, f->vertex[k]), a = at(f, i, f->vertex[k]);
-            if (hypot(a.x - A.x, a.y - A.y) > VISIBLE)
+        for (int k = b->first; k < b->first + b->n; k++)
+            if (gap(at(f, 0, f->vertex[k]), at(f, i, f->vertex[k])) > VISIBLE)
                 return 1;
-        }
     return 0;
 }
 
@@ -417,10 +428,8 @@ static void draw_block(film *f, int frame, const body *b)
     static const char *const tint[TINTS] = { "#f6cf8b", "#b3dcf5", "#8fd3bd", "#f7f0a6", "#e6c3d7",
                                              "#eba98f" };
     const int coloured = has_colours(f->s->field) && !b->held;
-    body e = { .first = b->first };
 
-    for (int k = 0; k < b->n && coloured; k += e.n) {
-        e.first = b->first + k;
+    for (body e = { .first = b->first }; coloured && e.first < b->first + b->n; e.first += e.n) {
         e.n = f->m->element[f->m->vertex[f->vertex[e.first]].element].n;
         put_shape(f, frame, &e, NULL, 0.3, put_elements);
     }
@@ -467,13 +476,29 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
     visit(f, kind, from, d, is_stress(kind) ? 1 : share);
 }
 
+/* Whether a point of a loaded edge, a share of the way, lay on another one at first. */
+static int is_in_joint(const film *f, int frame, const scene_line *l, double share)
+{
+    const point a = position(f, 0, l->a), b = position(f, 0, l->b);
+    const point x = { a.x + share * (b.x - a.x), a.y + share * (b.y - a.y) };
+    int found = 0;
+    scene_line k;
+
+    for (int i = 0; i < f->s->frame[frame].lines && scene_edge_load(f->m, i, &k); i++) {
+        const point c = position(f, 0, k.a), d = position(f, 0, k.b);
+        found |= k.a != l->a && gap(x, c) + gap(x, d) < (1 + 1e-6) * gap(c, d);
+    }
+    return found;
+}
+
 /* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points; of
- * water, what presses there, or if displacements are magnified, at the height of the first frame. To
- * be measured (visit NULL), at both ends. */
+ * water, what presses there, or if displacements are magnified, at the height of the first frame.
+ * In a joint whose other side is loaded, too, they begin at the edge. To be measured (visit NULL),
+ * at both ends. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
-    const double length = hypot(b.x - a.x, b.y - a.y);
+    const double length = gap(a, b);
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
     const int wet = l->weight > 0, varies = l->loads > 1 && !wet;
     const int n = varies ? l->loads : visit ? (int)fmax(1, length * f->scale / 16) : 2;
@@ -485,12 +510,13 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
         if (varies)
             bbm_gauss_point(i, &s, &weight);
         const point x = { a.x + s * (b.x - a.x), a.y + s * (b.y - a.y) };
-        if (visit && hypot(x.x - last->x, x.y - last->y) * f->scale < 10)
+        if (visit && gap(x, *last) * f->scale < 10)
             continue;
         *last = x;
         const double y = (1 - s) * still[l->a].y + s * still[l->b].y;
         const double p = l->pressure + l->weight * fmax(0, l->level - y);
-        visit_force(f, LINE_LOAD, x, (point){ q[0] - p * side.x, q[1] - p * side.y }, side, visit);
+        visit_force(f, wet ? WATER : LINE_LOAD, x, (point){ q[0] - p * side.x, q[1] - p * side.y },
+                    visit && is_in_joint(f, frame, l, s) ? (point){ 0, 0 } : side, visit);
     }
 }
 
@@ -501,22 +527,20 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     const scene_frame *g = &f->s->frame[frame];
     point last = { INFINITY, 0 };
 
-    for (int i = 0; kind == LOAD && i < m->nodes; i++) {
-        const double *q = g->load[i];
-        if (q[0] != 0 || q[1] != 0)
-            visit_force(f, kind, position(f, frame, m->adjacent[m->adjacent_first[i]]),
-                        (point){ q[0], q[1] }, f->normal[i], visit);
-    }
+    for (int i = 0; kind == LOAD && i < m->nodes; i++)
+        visit_force(f, kind, position(f, frame, m->adjacent[m->adjacent_first[i]]),
+                    (point){ g->load[i][0], g->load[i][1] }, f->normal[i], visit);
     for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++) {
         const bbm_line_load *l = &m->line_load[i];
         visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f,
                                               0, 0, 0 }, &last, visit);
     }
     scene_line l;
-    for (int i = 0; kind == LINE_LOAD && i < g->lines && scene_edge_load(m, i, &l); i++)
-        visit_edge(f, frame, &l, &last, visit);
+    for (int i = 0; i < g->lines && scene_edge_load(m, i, &l); i++)
+        if (kind == (l.weight > 0 ? WATER : LINE_LOAD))
+            visit_edge(f, frame, &l, &last, visit);
     for (int i = 0; i < g->forces; i++)
-        if (g->force[i].kind == kind && !(is_stress(kind) && f->body[g->force[i].block[0]].held))
+        if (g->force[i].kind == kind && !(is_stress(kind) && f->hidden[i / 2]))
             visit_force(f, kind, g->force[i].at, g->force[i].force, (point){ 0, 0 }, visit);
 }
 
@@ -531,7 +555,7 @@ static void visit_supports(film *f, int frame, visitor *visit)
             const int held = f->s->frame[frame].held[v] & BBM_XY;
             const point x = position(f, frame, v);
             point d = f->normal[n];
-            if (held == 0 || hypot(x.x - last[held].x, x.y - last[held].y) * f->scale < 8)
+            if (held == 0 || gap(x, last[held]) * f->scale < 8)
                 continue;
             last[held] = x;
             f->supports[held] = 1;
@@ -603,8 +627,9 @@ static void draw_forces(film *f, int frame)
 #define THRUST "fill=\"none\" stroke=\"#ee7733\" stroke-width=\"2.5\" stroke-linecap=\"round\""
 
 /* What a block feels of two others, and the third time of all the rest: how many touch it, 3 for
- * more, which, and the forces on it, with the sums of N and of N times the place. */
-typedef struct { int n, other[3]; point at[3], force[3]; double N[3]; } neighbours;
+ * more, which, and the forces on it, with the sums of N and of N times the place, then the mean
+ * place; whether a line of thrust goes through it. */
+typedef struct { int n, line, other[3]; point at[3], force[3]; double N[3]; } neighbours;
 
 static void add_force(neighbours *b, const scene_force *c, int side)
 {
@@ -620,25 +645,35 @@ static void add_force(neighbours *b, const scene_force *c, int side)
     b->N[k] += c->N;
 }
 
-/* The line of thrust goes through each block that two others press from both sides, from the point
- * where the force of the one acts to that of the other. A film has none: it would be half as large
- * again. */
+/* The line of thrust goes through each block that two others press together: from the point where
+ * the force of the one acts to that of the other, the forces within 60 degrees or so of that way.
+ * It goes on at both ends, into another line, or into a block that is fixed or that nothing else
+ * touches. A film has none: it would be half as large again. */
 static void draw_thrust(film *f, int frame)
 {
     const scene_frame *g = &f->s->frame[frame];
-    neighbours *b = calloc((size_t)f->bodies, sizeof *b);
+    neighbours *b = calloc((size_t)f->bodies, sizeof *b), *end = b ? b + f->bodies : b;
 
     for (int i = 0; i < 2 * g->forces && b; i++)
         add_force(&b[g->force[i / 2].block[i % 2]], &g->force[i / 2], i % 2);
-    for (int k = 0; k < f->bodies && b; k++) {
-        const point *x = b[k].at, *F = b[k].force;
-        const double *N = b[k].N;
-        if (b[k].n != 2 || !(N[0] > 0 && N[1] > 0 && F[0].x * F[1].x + F[0].y * F[1].y < 0))
-            continue;
-        const point from = pixel(f, (point){ x[0].x / N[0], x[0].y / N[0] });
-        const point to = pixel(f, (point){ x[1].x / N[1], x[1].y / N[1] });
-        plot_line(&f->p, THRUST, from.x, from.y, to.x, to.y);
-        f->thrust = 1;
+    for (neighbours *k = b; k < end; k++) {
+        for (int i = 0; i < 2; i++)
+            k->at[i] = (point){ k->at[i].x / k->N[i], k->at[i].y / k->N[i] };
+        const point *x = k->at, *F = k->force;
+        k->line = k->n == 2 && k->N[0] > 0 && k->N[1] > 0
+                  && (F[0].x - F[1].x) * (x[1].x - x[0].x) + (F[0].y - F[1].y) * (x[1].y - x[0].y)
+                     > 0.5 * gap(x[0], x[1]) * (hypot(F[0].x, F[0].y) + hypot(F[1].x, F[1].y));
+    }
+    for (int i = 0, same = 0; same < 2 * f->bodies && b; i = (i + 1) % (2 * f->bodies), same++) {
+        const int other = b[i / 2].other[i % 2];
+        if (b[i / 2].line && !b[other].line && !f->body[other].fixed && b[other].n > 1)
+            same = b[i / 2].line = 0;
+    }
+    for (neighbours *k = b; k < end; k++) {
+        const point from = pixel(f, k->at[0]), to = pixel(f, k->at[1]);
+        if (k->line)
+            plot_line(&f->p, THRUST, from.x, from.y, to.x, to.y);
+        f->thrust |= k->line;
     }
     free(b);
 }
@@ -677,8 +712,6 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
     const int power = (size >= 1e3) + (size >= 1e6) + (size >= 1e9);
     char text[80];
 
-    if (!f->seen[kind])
-        return;
     snprintf(text, sizeof text, "%s %.3g %s%s%s", arrow[kind].name, size / pow(1000, power),
              prefix[power], arrow[kind].unit,
              is_stress(kind) && f->range[1] > size ? " and more" : "");
@@ -721,7 +754,8 @@ static int draw_legend(film *f, double x, double y, double room)
     if (f->s->bolts)
         put_entry(f, &l, "<path " BOLT " d=\"M0 0H48\"/>", "bolt");
     for (int kind = 0; kind < KINDS; kind++)
-        put_force_entry(f, &l, kind);
+        if (f->seen[kind])
+            put_force_entry(f, &l, kind);
     if (f->whole && f->s->field && strcmp(field_find(f->s->field)->unit, "Pa") == 0)
         put_entry(f, &l, "", "stress of a block of one element: its mean");
     if (f->s->scale > 0 && f->s->scale != 1) {
@@ -735,7 +769,7 @@ static int draw_legend(film *f, double x, double y, double room)
         put_entry(f, &l, "", text);
         plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
         put_entry(f, &l, "", "click, space: stop or play");
-        put_entry(f, &l, "", "arrow keys, Home, End: step");
+        put_entry(f, &l, "", "arrow keys: step; Home, End, bar: go there");
         put_bar(f, (plot_box){ x, y + PLOT_ROW * l.rows++ - 6, room, 12 });
         plot_put(&f->p, "</g>\n");
     }
@@ -751,13 +785,17 @@ static void widen_window(film *f, int kind, point from, point size, double share
     plot_widen(f->window, from.x + size.x / f->scale, from.y + size.y / f->scale);
 }
 
-/* A panel, on a page of about 860 x 660 pixels, or two, on 1100 x 760: side by side, where they are
- * high, or one below the other, and their scale. */
+/* The window gets a margin. A panel, on a page of about 860 x 660 pixels, or two, on 1100 x 760:
+ * side by side, where they are high, or one below the other, and their scale. */
 static void arrange(film *f, int n)
 {
-    const double w = f->window[0][1] - f->window[0][0], h = f->window[1][1] - f->window[1][0];
+    double *x = f->window[0], *y = f->window[1];
+    const double more = 0.03 * fmax(x[1] - x[0], y[1] - y[0]);
+    const double w = x[1] - x[0] + 2 * more, h = y[1] - y[0] + 2 * more;
     const double around = LEFT + RIGHT, over = f->over + UNDER;
 
+    x[0] -= more, y[0] -= more;
+    x[1] += more, y[1] += more;
     f->columns = w < 1.5 * h ? n : 1;
     f->scale = fmin(((n > 1 ? 1100 : 860) / f->columns - around) / w,
                     ((n > 1 ? 760.0 : 660.0) * f->columns / n - over) / h);
@@ -765,18 +803,16 @@ static void arrange(film *f, int n)
     f->h = f->scale * h + over;
 }
 
-/* The window that holds all vertices. */
-static void find_window(film *f)
+/* Crosses of blocks that are held, and where one before them is nearer than the longest arrow. */
+static void hide_crosses(film *f)
 {
-    memcpy(f->window, nothing, sizeof nothing);
-    for (int v = 0; v < f->m->vertices; v++)
-        for (int i = 0; i < f->s->frames; i++)
-            widen_window(f, 0, position(f, i, v), (point){ 0, 0 }, 0);
-    const double more = 0.03 * fmax(f->window[0][1] - f->window[0][0],
-                                    f->window[1][1] - f->window[1][0]);
-    for (int k = 0; k < 2; k++) {
-        f->window[k][0] -= more;
-        f->window[k][1] += more;
+    const scene_force *cross = f->s->frame[f->s->frames - 1].force;
+
+    for (int i = 0; i < f->m->elements; i++) {
+        f->hidden[i] = f->body[cross[2 * i].block[0]].held;
+        for (int k = i - 1; k >= 0 && !f->hidden[i]; k--)
+            f->hidden[i] = !f->hidden[k] && gap(cross[2 * i].at, cross[2 * k].at) * f->scale
+                                            < f->length[TENSION];
     }
 }
 
@@ -798,8 +834,12 @@ static void measure(film *f, int n)
         for (int kind = 0; kind < KINDS; kind++)
             f->length[kind] = fmax(12, fmin(ARROW, is_contact(kind) ? sizes / blocks * f->scale
                                             : is_stress(kind) ? 0.6 * element : ARROW));
-        find_window(f);
+        if (round == 1 && f->s->field && !has_colours(f->s->field))
+            hide_crosses(f);
+        memcpy(f->window, nothing, sizeof nothing);
         for (int i = 0; i < f->s->frames; i++) {
+            for (int v = 0; v < f->m->vertices; v++)
+                plot_widen(f->window, position(f, i, v).x, position(f, i, v).y);
             if (round > 0)
                 visit_supports(f, i, widen_window);
             for (int kind = 0; kind < KINDS; kind++)
@@ -926,10 +966,10 @@ static void begin_turn(film *f, int frame)
 {
     const int last = f->s->frames - 1, intervals = value_count(f) - 1;
 
-    plot_put(&f->p, "<g%s>", frame ? " visibility=\"hidden\"" : "");
-    plot_put(&f->p, "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"%.3gs\" "
-             "repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
-             "keyTimes=\"0;%.5f;%.5f\"/>\n", f->seconds, fmax(0, (frame - 0.5) / intervals),
+    plot_put(&f->p, "<g%s><animate attributeName=\"visibility\" calcMode=\"discrete\" "
+             "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
+             "keyTimes=\"0;%.5f;%.5f\"/>\n",
+             frame ? " visibility=\"hidden\"" : "", f->seconds, fmax(0, (frame - 0.5) / intervals),
              frame == last ? 1 : (frame + 0.5) / intervals);
 }
 
@@ -944,10 +984,9 @@ static void put_script(film *f)
              "film.setAttribute('width', '100%%'), film.setAttribute('height', '100%%');\n"
              "const play = () => film.animationsPaused() ? film.unpauseAnimations() :\n"
              "    film.pauseAnimations();\n", f->seconds / (value_count(f) - 1), f->s->frames - 1);
-    plot_put(&f->p, "const go = (to) => {\n    film.pauseAnimations();\n"
-             "    film.setCurrentTime(Math.max(0, to));\n};\nlet held = false;\n"
-             "const drag = (e) => {\n    const b = bar.getBoundingClientRect();\n"
-             "    if (!held || !e.buttons) return;\n"
+    plot_put(&f->p, "let held = false;\nconst go = (to) => {\n    film.pauseAnimations();\n"
+             "    film.setCurrentTime(Math.max(0, to));\n};\nconst drag = (e) => {\n"
+             "    const b = bar.getBoundingClientRect();\n    if (!held || !e.buttons) return;\n"
              "    go(end * Math.min(1, (e.clientX - b.left) / b.width));\n};\n"
              "film.onpointerdown = (e) => { held = e.target === bar; drag(e); };\n"
              "film.onpointermove = drag;\nfilm.onclick = () => held || play();\n");
@@ -988,41 +1027,33 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 
 typedef struct { double x, y, value; } sample;     /* pixels */
 
-/* By so much displacements may be magnified that no edge changes, in length or direction, by more
- * than FAIR of its element's width: its area by its longest edge, of a triangle twice that, which
- * is its least height. Before it turns over an edge changes by all of it. */
-static double fair_scale(const scene *s, const bbm_model *m)
-{
-    const point *x = s->frame[0].at, *d = s->frame[1].at;
-    double scale = INFINITY;
-
-    for (int e = 0; e < m->elements; e++) {
-        const bbm_element *i = &m->element[e];
-        double longest = 0, change = 0;
-        for (int a = i->first; a < i->first + i->n; a++) {
-            const int b = bbm_next_vertex(i, a);
-            longest = fmax(longest, hypot(x[b].x - x[a].x, x[b].y - x[a].y));
-            change = fmax(change, hypot(d[b].x - d[a].x, d[b].y - d[a].y));
-        }
-        scale = fmin(scale, FAIR * (i->n == 3 ? 2 : 1) * i->A0 / longest / change);
-    }
-    return scale;
-}
-
-/* 1, 2 or 5 times a power of ten, 1 at least, by which the displacements d can be magnified. */
+/* By so much the displacements d can be magnified that no edge changes, in length or direction, by
+ * more than FAIR of its element's width: its area by its longest edge, of a triangle twice that,
+ * which is its least height. Before it turns over an edge changes by all of it. 1, 2 or 5 times a
+ * power of ten, 1 at least. */
 static double find_scale(const scene *s, const bbm_model *m)
 {
     const point *x = s->frame[0].at, *d = s->frame[1].at;
-    double range[2][2], moved = 0;
+    double range[2][2], moved = 0, fair = INFINITY;
 
     memcpy(range, nothing, sizeof nothing);
     for (int v = 0; v < m->vertices; v++) {
         plot_widen(range, x[v].x, x[v].y);
         moved = fmax(moved, hypot(d[v].x, d[v].y));
     }
+    for (int e = 0; e < m->elements; e++) {
+        const bbm_element *i = &m->element[e];
+        double longest = 0, change = 0;
+        for (int a = i->first; a < i->first + i->n; a++) {
+            const int b = bbm_next_vertex(i, a);
+            longest = fmax(longest, gap(x[a], x[b]));
+            change = fmax(change, gap(d[a], d[b]));
+        }
+        fair = fmin(fair, FAIR * (i->n == 3 ? 2 : 1) * i->A0 / longest / change);
+    }
     const double size = fmax(range[0][1] - range[0][0], range[1][1] - range[1][0]);
-    double scale = moved > 1e-12 * size ? plot_nice(0.1 * size / moved) : 1;
-    while (scale > 1 && scale > fair_scale(s, m))
+    double scale = moved > 1e-12 * size ? plot_nice(fmin(0.1 * size / moved, MOST)) : 1;
+    while (scale > 1 && scale > fair)
         scale = plot_nice(scale / 2.2);
     return fmax(scale, 1);
 }
@@ -1108,30 +1139,6 @@ static void draw_lines(film *f, int frame, const char *stroke, writer *put)
     plot_put(&f->p, "\"/>\n");
 }
 
-/* Places at the start and displacements, so many times each, and the values at nodes. Returns
- * whether all are finite. */
-static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown,
-                      const double times[2])
-{
-    int finite = 1;
-
-    for (int v = 0; v < m->vertices; v++) {
-        const int i = m->vertex[v].node, gone = f->held[v] == SCENE_GONE;
-        bbm_result r;
-        bbm_nodal_result(m, i, -1, &r);
-        f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0),
-                                   times[0] * field_place(m, v, 1) }
-                 : (point){ times[0] * m->node[i].x + times[1] * r.u,
-                            times[0] * m->node[i].y + times[1] * r.v };
-        f->value[v] = gone ? NAN : has_colours(shown->name) ? field_of_node(shown, m, i)
-                      : field_of_element(shown, m, m->vertex[v].element);
-        finite &= gone || isfinite(r.u + r.v + f->value[v]);
-    }
-    if (!has_colours(shown->name))
-        put_crosses(f, m);
-    return finite;
-}
-
 /* A panel for each model: below all the boundaries where they were; bands, the lines of the mesh,
  * the boundaries where they are. The first frame has the values of the other model. */
 static int draw_map(film *f, const char *path)
@@ -1164,7 +1171,7 @@ int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
     const field *shown = field_find(choices->field);
     scene s = *choices;
     film f = { .s = &s, .m = m };
-    int done = 0;
+    int done = 0, nodal = has_colours(choices->field);
 
     s.frames = 2;
     s.frame = state;
@@ -1172,10 +1179,10 @@ int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
     errno = ENOMEM;
     if (make_frame(&state[0], m) && make_frame(&state[1], m)) {
         errno = EDOM;
-        done = fill_frame(&state[0], s.other ? s.other : m, shown, (double[]){ 1, 0 })
-               && fill_frame(&state[1], m, shown, (double[]){ 0, 1 });
+        done = fill_frame(&state[0], s.other ? s.other : m, shown, nodal, (double[]){ 1, 0 })
+               && fill_frame(&state[1], m, shown, nodal, (double[]){ 0, 1 });
         s.scale = s.scale == 0 && done ? find_scale(&s, m) : fmax(0, s.scale);
-        fill_frame(&state[1], m, shown, (double[]){ 1, s.scale });
+        fill_frame(&state[1], m, shown, nodal, (double[]){ 1, s.scale });
         done = done && draw_map(&f, path);
     }
     end_film(&f);

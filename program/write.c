@@ -192,7 +192,7 @@ static void put_summary(const write_results *w)
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
-    const double row[] = { w->p->dynamic ? time_of(w) : w->step, w->step ? i->passes : 0,
+    const double row[] = { w->p->dynamic ? time_of(w) : w->step, w->step ? (double)i->passes : NAN,
                            e.kinetic, e.elastic, e.springs, b->work, b->gained };
     keep(w, T, LENGTH(row), row);
     if (w->step == 0)
@@ -225,8 +225,14 @@ static void put_head(FILE *f, const write_results *w, const char *kind, int poin
     fprintf(f, "FIELD FieldData 1\nTIME 1 1 double\n%.15g\nPOINTS %d double\n", time_of(w), points);
 }
 
-static void put_cells(FILE *f, const bbm_model *m)
+/* Points where they started, with the displacement as a vector to warp by; cells with stress. */
+static void put_vtk(FILE *f, const write_results *w)
 {
+    const bbm_model *m = w->p->m;
+
+    put_head(f, w, "UNSTRUCTURED_GRID", m->nodes);
+    for (int n = 0; n < m->nodes; n++)
+        fprintf(f, "%.15g %.15g 0\n", m->node[n].x, m->node[n].y);
     fprintf(f, "CELLS %d %d\n", m->elements, m->elements + m->vertices);
     for (int e = 0; e < m->elements; e++) {
         fprintf(f, "%d", m->element[e].n);
@@ -238,17 +244,6 @@ static void put_cells(FILE *f, const bbm_model *m)
     for (int e = 0; e < m->elements; e++)
         fprintf(f, "%d\n", field_is_gone(m, m->element[e].first) ? 0 : m->element[e].n == 3 ? 5
                             : m->element[e].n == 4 ? 9 : 7);
-}
-
-/* Points where they started, with the displacement as a vector to warp by; cells with stress. */
-static void put_vtk(FILE *f, const write_results *w)
-{
-    const bbm_model *m = w->p->m;
-
-    put_head(f, w, "UNSTRUCTURED_GRID", m->nodes);
-    for (int n = 0; n < m->nodes; n++)
-        fprintf(f, "%.15g %.15g 0\n", m->node[n].x, m->node[n].y);
-    put_cells(f, m);
     fprintf(f, "CELL_DATA %d\nSCALARS block int 1\nLOOKUP_TABLE default\n", m->elements);
     for (int e = 0; e < m->elements; e++)
         fprintf(f, "%d\n", m->element[e].block);
@@ -342,7 +337,7 @@ static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_serie
                               .y = column(w, first + k), .look = k + 2 };
     c.x = w->p->dynamic ? (plot_quantity){ "t", "s" } : (plot_quantity){ "step", NULL };
     c.series = s;
-    plot_draw_chart(p, (plot_box){ 0, 40 + PANEL * place, 860, PANEL }, &c);
+    plot_draw_chart(p, (plot_box){ 0, 40 + PANEL * place, p->width, PANEL }, &c);
 }
 
 /* What it follows, and the bands in which that is expected to end. */
@@ -353,6 +348,7 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
     plot_chart c = { .title = w->p->monitor[monitor].name, .y = { of->what, of->unit } };
     plot_series s[MODEL_FOLLOWED + BANDS];
     double y[BANDS][4];
+    char name[BANDS][100];
 
     for (int k = 0; k < w->p->expectations && c.count < BANDS; k++) {
         const model_expected *e = &w->p->expected[k];
@@ -360,7 +356,9 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
             continue;
         for (int i = 0; i < 4; i++)
             y[c.count][i] = e->value + (i < 2 ? -e->within : e->within);
-        s[of->values + c.count] = (plot_series){ .name = of->expected[e->kind], .n = 4, .x = x,
+        snprintf(name[c.count], sizeof *name, "%s, %.4g to %.4g %s", of->expected[e->kind],
+                 y[c.count][0], y[c.count][2], of->unit);
+        s[of->values + c.count] = (plot_series){ .name = name[c.count], .n = 4, .x = x,
                                                  .y = y[c.count], .style = PLOT_BAND,
                                                  .look = 2 + e->kind };
         c.count++;
@@ -377,15 +375,17 @@ static void draw_history(write_results *w)
     plot p;
 
     errno = ENOMEM;
-    int done = w->kept && plot_open(&p, path, 860, 40 + PANEL * (m->monitors + 2));
+    int done = w->kept && plot_open(&p, path, fmax(860, 1.3 * plot_text_width(m->title) + 20),
+                                    40 + PANEL * (m->monitors + 2));
     if (done) {
-        plot_title(&p, 430, 28, m->title);
+        plot_title(&p, p.width / 2, 28, m->title);
         for (int k = 0; k < m->monitors; k++)
             draw_monitor(w, &p, k);
         draw_panel(w, &p, (plot_chart){ .title = "Energies", .y = { "energy", "J" } }, s, KINETIC,
                    (const char *[]){ "kinetic", "elastic", "springs", "external", "gained", NULL });
-        draw_panel(w, &p, (plot_chart){ .title = "Open-close iteration", .y = { "passes", NULL } },
-                   s, PASSES, (const char *[]){ "passes of a step, at most", NULL });
+        draw_panel(w, &p, (plot_chart){ .title = "Solutions of K D = F in a step",
+                                        .y = { "solutions", NULL } },
+                   s, PASSES, (const char *[]){ "the most of a step", NULL });
         done = plot_close(&p);
     }
     note_picture(w, done);
