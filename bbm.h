@@ -194,7 +194,7 @@ struct bbm_model {
     /* --- results --- */
     bbm_info info;
     bbm_status status;          /* the first error while building                               */
-    char message[200];          /* what the last error was about                                */
+    char message[300];          /* what the last error was about                                */
     int  blamed[2];             /* elements that it names; -1: none                             */
     /* --- called before each solution, to see K and F; a result other than 0 stops the run --- */
     int (*monitor)(const bbm_model *m, void *context);

@@ -259,10 +259,10 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     }
     if (tried == 0 && status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG)
         return status;
-    return bbm_fail(m, BBM_OPEN_CLOSE, "step %d: no equilibrium was found, nor that there is none; "
-                    "after %d solutions forces lack %.1g of balance, and blocks have parted by "
-                    "%.1g of their size; try dynamics", from->info.step + 1, m->info.passes, lacks,
-                    parted);
+    return bbm_fail(m, BBM_OPEN_CLOSE, "step %d: neither an equilibrium nor a block that falls was "
+                    "found; try dynamics; after %d solutions forces lack %.1g of balance, and "
+                    "blocks have parted by %.1g of their size", from->info.step + 1,
+                    m->info.passes, lacks, parted);
 }
 
 /* What steps change but the contacts, to one piece of memory or back. Returns its bytes; to NULL:

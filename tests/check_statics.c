@@ -137,7 +137,7 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
     *load *= 2;
     m->par.pcg.iterations = _i ? 5 : 10000;
     ck_assert_int_eq(bbm_step(m), _i ? BBM_OPEN_CLOSE : BBM_NO_EQUILIBRIUM);
-    ck_assert_msg(!_i || strstr(bbm_message(m), "no equilibrium was found"), "%s", bbm_message(m));
+    ck_assert_msg(!_i || strstr(bbm_message(m), "was found; try dynamics"), "%s", bbm_message(m));
     ck_assert_ptr_null(strstr(bbm_message(m), "dt"));
     ck_assert_int_eq(memcmp(e, m->element, sizeof e), 0);
     ck_assert_int_eq(memcmp(v, m->vertex, sizeof v), 0);
