@@ -440,6 +440,9 @@ static int check_given(model_reader *r)
                               "`let`%s%s", r->let[k],
                               r->let_of.count ? ", such as " : "; the model has none",
                               model_nearest_of(&r->let_of, word, text));
+        if (given(r, word) != strchr(r->let[k], '=') + 1)
+            return model_fail(r, (model_place){ .file = r->path },
+                              "'%.60s' and one more of -d or --find, expected one", r->let[k]);
     }
     return 1;
 }
