@@ -15,6 +15,8 @@
 
 #include "../bbm.h"
 
+#define LENGTH(array) ((int)(sizeof array / sizeof *array))      /* how many items it has */
+
 /* --------------------------------------------------------------------- the data of 3.3 and 3.4 */
 
 struct bbm_bond {               /* an internal edge: two bonding springs                        */

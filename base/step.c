@@ -125,7 +125,7 @@ bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
         return bbm_fail(m, status, "step %d, element %d of block %d: it is free to move, it has "
                         "turned over, or the stiffnesses that meet there are too far apart", step, i->element,
                         m->element[i->element].block);
-    return bbm_fail(m, status, "step %d, %d iterations, residual %.2g%s", step, i->iterations,
+    return bbm_fail(m, status, "step %d, iteration %d, residual %.2g%s", step, i->iterations,
                     i->residual, status == BBM_NOT_CONVERGED
                                      ? "; more iterations or a smaller alpha help" : "");
 }
@@ -218,7 +218,7 @@ bbm_status bbm_check_step(bbm_model *m)
     if (!m->is_prepared)
         return bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again after "
                         "what is added");
-    return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
+    return bbm_check_ranges(m, LENGTH(range), range);
 }
 
 /* In how many parts a part that has ended with `status` is tried again: 2, or 0 if it is done, or

@@ -40,7 +40,7 @@ bbm_status bbm_check_settings(bbm_model *m)
         { "shake_omega", b->shake_omega, -most, most, "a finite number" },
     };
 
-    return bbm_check_ranges(m, (int)(sizeof range / sizeof *range), range);
+    return bbm_check_ranges(m, LENGTH(range), range);
 }
 
 /* A quarter of the boundary of the smaller of two blocks in contact. */

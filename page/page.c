@@ -4,7 +4,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "../program/length.h"
 #include "../program/run.h"
 #include "../program/scene.h"
 #include "../program/warn.h"

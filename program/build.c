@@ -597,7 +597,8 @@ int model_bolts(model_reader *r)
     scene_bolt b = { .strength = INFINITY, .until = INFINITY };
     double pretension = 0;
     bbm_direction along;
-    model_option o[] = { NORMAL("stiffness", &b.k), ABOVE_ZERO("strength", &b.strength),
+    model_option o[] = { RANGE("stiffness", &b.k, 1e-100, 1e15, "[]", "1e-100 to 1e15"),
+                         ABOVE_ZERO("strength", &b.strength),
                          FROM_ZERO("pretension", &pretension) };
 
     if (!read_end(r, &b.end[0]) || !read_end(r, &b.end[1]) || !model_options(r, 1, LENGTH(o), o))

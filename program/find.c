@@ -60,7 +60,7 @@ static int try_number(const arguments *a, double x, int first)
 
 int find_limit(const arguments *a)
 {
-    double x[2] = { a->low, a->high };
+    double x[2] = { a->end[0], a->end[1] };
     const int low = try_number(a, x[0], 1), high = low > MET ? low : try_number(a, x[1], 0);
     int answer = high, runs = 2;
 

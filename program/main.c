@@ -13,7 +13,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "length.h"
 #include "run.h"
 #include "warn.h"
 #include "write.h"
@@ -21,7 +20,7 @@
 /* The signal that came. Signals have no other way to say something: this variable, and it alone,
  * has file scope. */
 static volatile sig_atomic_t stopped;
-enum { SHOWN = 30 };                 /* blocks of --check */
+enum { SHOWN = 30, SILENCE = 10 };  /* blocks of --check; s between lines of progress to a file */
 
 static const char usage[] =
     "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
@@ -29,18 +28,15 @@ static const char usage[] =
     "  MODEL       a model file; -: standard input\n"
     "  -d          takes the place of `let NAME`; may be given several times\n"
     "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
-    "  --find NAME LOW HIGH\n"
-    "              bisects `let NAME` until its expectations change; writes no results\n"
-    "  -o FOLDER   for the results; without it the model's name, in the present folder.\n"
-    "              Tables are in SI units; doc/tables.md has that of each column\n"
-    "  -m FILE.mtx the matrix of the first solution (Matrix Market), and its right-hand "
-    "side as FILE.mtx.rhs\n"
+    "  --find      bisects `let NAME` until its expectations change; writes no results\n"
+    "  -o FOLDER   for the results; without it the model's name, here. Units: doc/tables.md\n"
+    "  -m FILE.mtx the matrix of the first solution (Matrix Market); its right side: FILE.mtx.rhs\n"
     "  -q          quiet: errors and warnings alone\n"
     "  -h, --version\n";
 
-static int complain(arguments *a, const char *what)
+static int complain(arguments *a, const char *what, const char *word)
 {
-    fprintf(stderr, "bbm: %s\n%s", what, usage);
+    fprintf(stderr, "bbm: %s%.60s; `bbm -h` lists the options\n", what, word);
     return a->exit = 2;
 }
 
@@ -53,20 +49,23 @@ static int name_folder(arguments *a, const char *given)
     dot = given ? NULL : strrchr(base, '.');
     const size_t n = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     if (n == 0 || n >= sizeof a->folder)
-        return complain(a, "no folder of that name; expected -o FOLDER");
+        return complain(a, "no folder of that name, expected -o FOLDER", "");
     snprintf(a->folder, sizeof a->folder, "%.*s", (int)n, base);
     return 0;
 }
 
-/* NAME LOW HIGH; 0: they are not. */
+/* NAME LOW HIGH. */
 static int read_find(arguments *a, char *word[])
 {
     char rest;
 
+    if (a->find || !word[0] || !word[1] || !word[2])
+        return complain(a, "expected --find NAME LOW HIGH, once", "");
     a->find = word[0];
-    return word[0] && word[1] && word[2] && sscanf(word[1], "%lf%c", &a->low, &rest) == 1
-           && sscanf(word[2], "%lf%c", &a->high, &rest) == 1 && isfinite(a->low)
-           && isfinite(a->high) && a->low != a->high;
+    for (int k = 0; k < 2; k++)
+        if (sscanf(word[k + 1], "%lf%c", &a->end[k], &rest) != 1 || !isfinite(a->end[k]))
+            return complain(a, "--find needs two numbers, not ", word[k + 1]);
+    return a->end[0] == a->end[1] ? complain(a, "--find needs two different numbers", "") : 0;
 }
 
 /* The options may stand before and after the model; behind `--` a name may begin with a dash. */
@@ -84,7 +83,7 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         char *word = argv[k];
         if (!options || word[0] != '-' || word[1] == '\0') {
             if (a->model)
-                return complain(a, "expected one model file");
+                return complain(a, "expected one model file, not also ", word);
             a->model = word;
         } else if (strcmp(word, "--") == 0) {
             options = 0;
@@ -97,28 +96,25 @@ static int read_arguments(arguments *a, int argc, char *argv[])
         } else if (strcmp(word, "--check") == 0) {
             a->check = 1;
         } else if (strcmp(word, "--find") == 0) {
-            if (!read_find(a, argv + k + 1))
-                return complain(a, "--find needs a name and two different numbers");
+            if (read_find(a, argv + k + 1))
+                return a->exit;
             k += 3;
         } else if (strchr("omd", word[1])) {
             char **value = word[1] == 'o' ? &folder : word[1] == 'm' ? &a->matrix
                          : &a->let[a->lets++];          /* they gather at the front of argv */
             *value = word[2] ? word + 2 : argv[++k];
-            if (k == argc || **value == '\0')
-                return complain(a, "-o and -m need a name, -d NAME=VALUE");
+            if (k == argc || **value == '\0' || (word[1] == 'd' && !strchr(*value, '=')))
+                return complain(a, "-o and -m need a name, -d NAME=VALUE in one word", "");
         } else {
-            fprintf(stderr, "bbm: unknown option %.60s\n%s", word, usage);
-            return a->exit = 2;
+            return complain(a, "unknown option ", word);
         }
     }
     const size_t n = a->matrix ? strlen(a->matrix) : 0;
     if (a->matrix && (n < 5 || strcmp(a->matrix + n - 4, ".mtx") != 0))
-        return complain(a, "-m needs a name that ends in .mtx");
-    const int from_stdin = a->model && strcmp(a->model, "-") == 0;
-    if (a->find && (folder || a->matrix || a->check || from_stdin))
-        return complain(a, "--find reads a file several times and writes none: without -o, -m, "
-                           "--check and -");
-    return a->model ? name_folder(a, folder) : complain(a, "expected a model file");
+        return complain(a, "-m needs a name that ends in .mtx", "");
+    if (a->find && (folder || a->matrix || a->check || (a->model && strcmp(a->model, "-") == 0)))
+        return complain(a, "--find reads a file again and writes none: no -o, -m, --check, -", "");
+    return a->model ? name_folder(a, folder) : complain(a, "expected a model file", "");
 }
 
 /* ------------------------------------------------------------------------------------- progress */
@@ -127,25 +123,12 @@ static const char *plural(int n) { return n == 1 ? "" : "s"; }
 
 typedef struct {
     int shown, begun, warned;                   /* begun: a line without its end */
-    double start, last;                         /* s            of t = 0, of the last line */
+    time_t step, line;                          /* when the last step ended; the last line */
+    double rate;                                /* s            of a step */
 } progress;
-enum { SILENCE = 10 };          /* s between lines of progress that go to a file */
 
-/* s, of a clock that goes on while others have the processor. */
-static double now(void)
-{
-#ifdef _WIN32
-    return difftime(time(NULL), 0);
-#else
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-#endif
-}
-
-/* What is left takes as long for each step as those since t = 0. Settling, whose steps are shorter,
- * does not tell. */
+/* What is left takes as long for each step as the last ones, a tenth of the run. Settling, whose
+ * steps are shorter, does not tell. */
 static void show_progress(progress *s, const run *r)
 {
     const model *p = r->p;
@@ -153,16 +136,18 @@ static void show_progress(progress *s, const run *r)
     const int all = r->settling ? p->settle : p->stage[p->stages].par.steps;
     const int done = r->settling ? all - r->settling : r->is_over ? all
                    : r->has_begun ? i->step : 0;
-    const double t = now(), apart = isatty(2) ? 0.1 : SILENCE;
+    const time_t t = time(NULL);
     char left[40] = "";
 
-    s->start = done == 0 ? t : s->start;
-    if (!s->shown || done == 0 || (t < s->last + apart && !(isatty(2) && done == all)))
+    s->rate += (difftime(t, s->step) - s->rate) / fmax(1, fmin(done, 1 + all / 10));
+    s->step = t;
+    if (!s->shown || done == 0
+        || (t < s->line + (isatty(2) ? 1 : SILENCE) && !(isatty(2) && done == all)))
         return;
-    s->last = t;
+    s->line = t;
     s->begun = isatty(2);
     if (!r->settling)
-        snprintf(left, sizeof left, ", %.0f s left", (t - s->start) / done * (all - done));
+        snprintf(left, sizeof left, ", %.0f s left", s->rate * (all - done));
     fprintf(stderr, "%s%sstep %d of %d, %d open-close pass%s, %d contact%s%s%s",
             s->begun ? "\r" : "", r->settling ? "settling, " : "", done, all, i->passes,
             i->passes == 1 ? "" : "es", i->contacts, plural(i->contacts), left,
@@ -177,11 +162,10 @@ static void describe(const model *p, const char *path)
     printf("%s%s%s\n", path, p->title ? ": " : "", p->title ? p->title : "");
     printf("%d element%s in %d block%s, %d nodes, %d bond%s; ", m->elements, plural(m->elements),
            p->blocks, plural(p->blocks), m->nodes, m->bonds, plural(m->bonds));
-    if (!p->dynamic)
-        printf("static, %s%d step%s", m->par.tolerance > 0 ? "at most " : "", m->par.steps,
-               plural(m->par.steps));
-    else
-        printf("dynamic, %d step%s of %g s", m->par.steps, plural(m->par.steps), m->par.dt);
+    printf("%s%d step%s", p->dynamic ? "dynamic, " : m->par.tolerance > 0 ? "static, at most "
+                        : "static, ", m->par.steps, plural(m->par.steps));
+    if (p->dynamic)
+        printf(" of %g s", m->par.dt);
     if (p->settle)
         printf(" after %d quasi-static one%s", p->settle, plural(p->settle));
     puts("");
@@ -225,9 +209,6 @@ static void summarise(const model *p, const char *folder)
         && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
         printf("of what hits came with in their normal velocities %.0f %% was given back\n",
                100 * m->beyond->hit[1] / m->beyond->hit[0]);
-    for (int k = 0; k < p->bolts; k++)
-        if (p->bolt[k].k == 0)
-            printf("bolt %d holds no more since t = %.6g s\n", k + 1, p->bolt[k].until);
     printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
@@ -248,8 +229,8 @@ static int report_expectations(const model *p, int quiet)
     return missed;
 }
 
-/* Elements, fixed nodes and mass of each block. */
-static void describe_blocks(const model *p)
+/* Elements, fixed nodes and mass of each block, and what is between them. */
+static void describe_blocks(const model *p, int touching)
 {
     const bbm_model *m = p->m;
 
@@ -268,6 +249,9 @@ static void describe_blocks(const model *p)
     }
     if (p->blocks > SHOWN)
         printf("... and %d more\n", p->blocks - SHOWN);
+    printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s of "
+           "other strength\n", touching, plural(touching), m->par.p_n, m->par.p_s,
+           m->par.friction, m->beyond->joints, plural(m->beyond->joints));
 }
 
 /* -------------------------------------------------------------------------------------- the run */
@@ -276,26 +260,25 @@ static void describe_blocks(const model *p)
  * the library's message or in w. */
 static bbm_status run_all(run *r, write_results *w, progress *s)
 {
-    const bbm_info *i = &r->p->m->info;
     bbm_status status = BBM_OK;
 
     while (!r->is_over && !stopped && !w->status && !(status = run_step(r))) {
         if (r->has_begun)
-            write_step(w, i->step);
+            write_step(w, r->p->m->info.step);
         if (r->stage_is_over && !r->is_over) {
             write_stage(w);
             fputs(s->begun ? "\n" : "", stderr);
             if (s->shown)
-                describe_stage(r->p, r->p->now + 1, i->step);
+                describe_stage(r->p, r->p->now + 1, r->p->m->info.step);
         }
-        warn_in_step(r->p, w->source, i->step, &s->warned);
+        warn_in_step(r, w->source, &s->warned);
         show_progress(s, r);
     }
     return status;
 }
 
 /* The message of a run that failed or was stopped. */
-static void report(const run *r, bbm_status status, const arguments *a)
+static void report(const run *r, bbm_status status, const write_results *w)
 {
     const bbm_model *m = r->p->m;
     char text[500];
@@ -303,10 +286,10 @@ static void report(const run *r, bbm_status status, const arguments *a)
     run_says(r, status, text);
     if (stopped)
         fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until "
-                "then is in %s\n", a->model, r->has_begun ? "" : "settling, ", m->info.step,
-                r->has_begun ? m->par.steps : r->p->settle, m->info.t, a->folder);
+                "then is in %s\n", w->source, r->has_begun ? "" : "settling, ", m->info.step,
+                r->has_begun ? m->par.steps : r->p->settle, m->info.t, w->folder);
     else if (status)
-        fprintf(stderr, "%s: %s\n", a->model, text);
+        fprintf(stderr, "%s: %s\n", w->source, text);
 }
 
 /* Looked at before each solution: the matrix if there are results and it is wanted, and whether to
@@ -329,20 +312,19 @@ static void stop(int number)
 
     if (stopped && (number != stopped || time(NULL) > first + 1))
         _Exit(128 + number);
-    if (!stopped)
-        first = time(NULL);
+    first = stopped ? first : time(NULL);
     stopped = number;
     signal(number, stop);                       /* some systems forget it */
 }
 
+#ifndef SIGHUP
+#define SIGHUP SIGTERM          /* Windows has none */
+#endif
+
 /* What is ignored (nohup) stays ignored. */
 static void catch_signals(void)
 {
-    static const int caught[] = { SIGINT, SIGTERM,
-#ifdef SIGHUP
-        SIGHUP,
-#endif
-    };
+    static const int caught[] = { SIGINT, SIGTERM, SIGHUP };
 
     for (int k = 0; k < LENGTH(caught); k++)
         if (signal(caught[k], stop) == SIG_IGN)
@@ -350,63 +332,53 @@ static void catch_signals(void)
 }
 
 /* What the model is, block by block, and a picture of it. */
-static int check(model *p, const arguments *a)
+static int check(write_results *w, int quiet)
 {
+    const model *p = w->p;
     bbm_model *m = p->m;
-    const bbm_parameters *par = &m->par;
-    write_results w = { .p = p, .source = a->model, .folder = a->folder };
     int touching = 0;
 
     m->h = INFINITY;                            /* contacts that touch are closed in statics */
     bbm_foresee_step(m);
     const bbm_status status = bbm_detect_contacts(m, &(int){ 0 });
-    for (int k = 0; k < m->scratch->contacts && !status; k++)
-        touching += m->scratch->contact[k].state != BBM_OPEN;
     if (status)
-        return fprintf(stderr, "%s: %s\n", a->model, bbm_status_text(status)), 1;
-    warn_before(p, a->model);
-    if (!a->quiet) {
-        describe(p, a->model);
-        for (int k = 1; k <= p->stages; k++)
-            describe_stage(p, k, p->stage[k - 1].par.steps);
-        describe_blocks(p);
-        printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s "
-               "of other strength\n", touching, plural(touching), par->p_n, par->p_s, par->friction,
-               m->beyond->joints, plural(m->beyond->joints));
-    }
-    if (!write_check(&w))
-        return 1;
-    if (!a->quiet)
-        printf("nothing was computed; a picture is in %s/model.svg\n", a->folder);
+        return fprintf(stderr, "%s: %s\n", w->source, bbm_status_text(status)), 1;
+    for (int k = 0; k < m->scratch->contacts; k++)
+        touching += m->scratch->contact[k].state != BBM_OPEN;
+    if (!write_check(w) || quiet)
+        return w->status;
+    for (int k = 1; k <= p->stages; k++)
+        describe_stage(p, k, p->stage[k - 1].par.steps);
+    describe_blocks(p, touching);
+    printf("nothing was computed; a picture is in %s/model.svg\n", w->folder);
     return 0;
 }
 
-static int run_model(model *p, const arguments *a, clock_t start)
+static int run_model(write_results *w, int quiet)
 {
-    write_results w = { .p = p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
-                        .start = start, .reading = clock() - start };
-    progress s = { .shown = !a->quiet, .last = now() };
+    model *p = w->p;
+    progress s = { .shown = !quiet, .line = time(NULL) };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
 
     catch_signals();
-    warn_before(p, a->model);
     p->m->monitor = before_solution;
-    p->m->monitor_context = &w;
-    if (!a->quiet)
-        describe(p, a->model);
-    if (write_open(&w)) {
-        status = run_all(&r, &w, &s);
+    p->m->monitor_context = w;
+    if (write_open(w)) {
+        status = run_all(&r, w, &s);
         fputs(s.begun ? "\n" : "", stderr);
-        write_close(&w);
-        report(&r, status, a);
+        write_close(w);
+        report(&r, status, w);
     }
-    if (stopped || status || w.status)
+    for (int k = 0; k < p->bolts && !quiet; k++)
+        if (p->bolt[k].k == 0)
+            printf("bolt %d holds no more since t = %.6g s\n", k + 1, p->bolt[k].until);
+    if (stopped || status || w->status)
         return stopped ? 128 + (int)stopped : 1;
-    if (!a->quiet)
-        summarise(p, a->folder);
-    warn_after(p, a->model);
-    return report_expectations(p, a->quiet) > 0 ? 3 : 0;
+    if (!quiet)
+        summarise(p, w->folder);
+    warn_after(p, w->source);
+    return report_expectations(p, quiet) > 0 ? 3 : 0;
 }
 
 static int read_and_run(const arguments *a, clock_t start)
@@ -419,12 +391,18 @@ static int read_and_run(const arguments *a, clock_t start)
         return stopped ? 128 + (int)stopped : status;
     }
     int status = model_read(a->model, a->lets, a->let, &p);
+    write_results w = { .p = &p, .source = a->model, .folder = a->folder, .matrix = a->matrix,
+                        .start = start, .reading = clock() - start };
     for (int k = 0; k < p.notes && !status; k++)
         fprintf(stderr, "%s\n", p.note[k]);
-    if (status)
+    if (status) {
         fprintf(stderr, "%s\n", p.message);
-    else
-        status = a->check ? check(&p, a) : run_model(&p, a, start);
+    } else {
+        warn_before(&p, a->model);
+        if (!a->quiet)
+            describe(&p, a->model);
+        status = a->check ? check(&w, a->quiet) : run_model(&w, a->quiet);
+    }
     model_free(&p);
     return status;
 }
@@ -433,14 +411,12 @@ static int read_and_run(const arguments *a, clock_t start)
  * it, which cannot be written. */
 static void fill_streams(void)
 {
-#ifndef _WIN32
-    FILE *f;
+    FILE *f = fopen("/dev/null", "r");
 
-    while ((f = fopen("/dev/null", "r")) != NULL && fileno(f) < 3)
-        continue;
+    while (f && fileno(f) < 3)
+        f = fopen("/dev/null", "r");
     if (f)
         fclose(f);
-#endif
 }
 
 int main(int argc, char *argv[])

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "length.h"
 #include "model.h"
 
 /* The next words of the library's text in those of the file; how many letters they had. */

@@ -25,7 +25,7 @@ typedef struct {
 typedef struct {                /* of library nodes, or of the joint of two blocks, -1: any */
     const char *name;
     const model_followed *of;
-    int nodes, *node, block[2];
+    int nodes, *node, block[2], touched;        /* touched: whether the joint ever had a force */
 } model_monitor;
 
 typedef struct { double V[3]; int given; } model_velocity;                  /* m/s, m/s, rad/s */

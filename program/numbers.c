@@ -291,8 +291,8 @@ static const char *new_number(model_reader *r)
     return word;
 }
 
-/* The number is the word behind the name, or the last one of the command line in its place. In a
- * round it is the round's. */
+/* The number is the word behind the name, or that of the command line in its place. In a round it
+ * is the round's. */
 static int read_let(model_reader *r)
 {
     const char *word = new_number(r);
@@ -302,6 +302,9 @@ static int read_let(model_reader *r)
 
     for (int k = 0; k < r->lets && n > 0 && !r->round && model_look(r); k++)
         if (strncmp(r->let[k], word, n) == 0 && r->let[k][n] == '=') {
+            if (strcmp(r->word[at].source, "-d or --find") == 0)
+                return model_fail(r, (model_place){ .file = r->path },
+                                  "-d or --find give '%.60s' twice, expected once", word);
             r->word[at].source = "-d or --find";
             if (!(r->word[at].text = expand(r, r->let[k] + n + 1, &r->word[at].glued)))
                 return 0;

@@ -18,7 +18,7 @@
 #ifndef PLOT_H
 #define PLOT_H
 
-#include "length.h"
+#include "../base/base.h"
 #include "output.h"
 
 typedef enum {

@@ -13,7 +13,6 @@
 
 #include <stddef.h>
 
-#include "length.h"
 #include "model.h"
 
 /* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */

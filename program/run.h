@@ -24,12 +24,11 @@ void run_says(const run *r, bbm_status status, char out[500]);      /* why a run
 int  run_is_met(const model *p, int k, char out[300]);  /* expectation k beside what came out */
 
 typedef struct {                /* what the command line asks for */
-    const char *model;
+    const char *model, *find;   /* find: a `let` whose limit between two ends is wanted, or NULL */
     char *matrix, folder[1024];
     int  lets, quiet, check, exit;      /* exit: its status, or -1: go on */
     char **let;                 /* [lets]       NAME=VALUE; room for one more */
-    const char *find;           /* a `let` whose limit between low and high is wanted, or NULL */
-    double low, high;
+    double end[2];
     int  (*stop)(const bbm_model *m, void *none);       /* looked at before each solution */
 } arguments;
 

@@ -129,7 +129,7 @@ void model_next_stage(model *p)
     for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
         if (b->k > 0 && (field_is_gone(m, b->end[0].vertex[0])
                          || field_is_gone(m, b->end[1].vertex[0])))
-            b->k = 0, b->until = m->info.t;
+            b->k = b->strength = 0, b->until = m->info.t;
     for (int k = 0; k < m->gaps; k++)
         if (m->gap[k].j < 0 || field_is_gone(m, m->element[m->gap[k].i].first))
             m->gap[k].own = (bbm_multiplier){ 0 };

@@ -9,7 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "length.h"
 #include "plot.h"
 #include "write.h"
 
@@ -149,7 +148,7 @@ static void put_bolts(FILE *f, const write_results *w)
     for (const scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
         fprintf(f, "%d,%s,%s,%.15g,%s\n", (int)(b - p->bolt) + 1, p->block[b->end[0].block],
                 p->block[b->end[1].block], model_bolt_force(p->m, b, &(bbm_direction){ 0 }),
-                b->until < INFINITY ? "BROKEN" : "HOLDS");
+                b->strength == 0 ? "REMOVED" : b->until < INFINITY ? "BROKEN" : "HOLDS");
 }
 
 /* Static steps take no time: t stays 0. */

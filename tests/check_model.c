@@ -238,7 +238,7 @@ START_TEST(statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps)
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e9\nstatic steps 2\n"), 0);
     check_text("out/model/few.err", "way of all: no equilibrium yet");
     ck_assert_int_eq(run_text("few", STRIP "load node 6 0 -1e6\nstatic\npcg iterations 1 coarse off\n"), 1);
-    check_text("out/model/few.err", "step 1, 1 iterations");
+    check_text("out/model/few.err", "step 1, iteration 1");
 }
 END_TEST
 

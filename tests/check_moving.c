@@ -82,13 +82,8 @@ START_TEST(a_block_that_is_thrown_stops_where_it_should)
         { 30, 10, 1, 1, 1e-9 },             /* it goes on */
     };
     const double v = thrown[_i % 3].v, dt = _i < 3 ? 0.01 : 0.002;
-    const slope s = { thrown[_i % 3].angle,
-                      thrown[_i % 3].phi,
-                      dt,
-                      1e10,
-                      13,
-                      (int)(thrown[_i % 3].time / dt + 0.5),
-                      20 };
+    const slope s = { thrown[_i % 3].angle, thrown[_i % 3].phi, dt, 1e10, 13,
+                      (int)(thrown[_i % 3].time / dt + 0.5), 20 };
     const double a = s.angle * RAD, g = pull(s.angle, s.phi, v > 0 ? 1 : -1);
     FILE *f = begin_slope(&s);
 
@@ -146,9 +141,7 @@ START_TEST(a_shaken_block_slips_once_in_each_period)
     };
     const double period = 2 * acos(-1) / table[_i].w, dt = table[_i].dt;
     const shaking k = { { table[_i].angle, table[_i].phi, dt, table[_i].p_n, 5,
-                          (int)(5 * period / dt + 0.5), 50 },
-                        table[_i].A,
-                        table[_i].w };
+                          (int)(5 * period / dt + 0.5), 50 }, table[_i].A, table[_i].w };
     FILE *f = begin_slope(&k.s);
 
     fprintf(f, "shake %g 0 %g\n", k.A, k.w);
@@ -238,10 +231,7 @@ static int stack_stands(double f)
  * together 25/24 m, the half of 1 + 1/2 + 1/3 + 1/4. Near the limit a fall takes long to begin. */
 START_TEST(a_stack_leans_as_far_as_its_centres_of_mass_allow)
 {
-    static const struct {
-        double f;
-        int stands;
-    } table[] = { { 0.98, 1 }, { 0.999, 1 }, { 1.001, 0 }, { 1.02, 0 } };
+    static const struct { double f; int stands; } table[] = { { 0.98, 1 }, { 0.999, 1 }, { 1.001, 0 }, { 1.02, 0 } };
 
     ck_assert_int_eq(stack_stands(table[_i].f), table[_i].stands);
 }
