@@ -61,7 +61,7 @@ gallery: bbm
 	@mkdir -p out/models
 	@for m in cases/models/*.model; do ./bbm $$m -o out/models/$$(basename $$m .model) || exit 1; done
 	@for f in $(BEYOND_LIMITS); do m=$${f%%:*}; printf '%s: beyond its limit ' $$f; \
-	./bbm -q cases/models/$$m.model $$(echo $${f#$$m} | sed 's/:/ -d /g') -o out/models/$$m-beyond > out/models/beyond; \
+	./bbm -q cases/models/$$m.model $$(echo $${f#$$m} | sed 's/:/ -d /g') -o out/models/$$m-beyond > out/models/beyond 2>&1; \
 	[ $$? = 3 ] || { cat out/models/beyond; echo "$$f: not as it should be"; exit 1; }; \
 	echo "it does not do what is expected, as it should be"; done
 	@./bbm -q cases/models/arch.model -d steps=400 --find t 0.95 1.2
