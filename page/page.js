@@ -30,7 +30,7 @@ function makeSliders() {
     `(?:#.*?(${NUMBER})\\s*\\.\\.\\s*(${NUMBER}).*|#.*)?$`, 'gm');
   fill('lets', [...is('text').value.matchAll(form)].map(([, let_, name, word, from, to]) => {
     const [low, high] = from ? [+from, +to] : +word ? [0, 2 * word].sort((a, b) => a - b) : [-1, 1];
-    const isWhole = [+word, low, high].every(Number.isInteger) && high - low >= 20;
+    const isWhole = [+word, low, high].every(Number.isInteger) && high - low >= 6;
     const number = make('input', { value: word, ariaLabel: name });
     const slide = make('input', { type: 'range', min: low, max: high, ariaLabel: name,
       step: isWhole ? 1 : (high - low) / 200, value: word });

@@ -516,13 +516,15 @@ int model_monitors(model_reader *r)
     const int joint = m.name && model_skip(r, "joint");
 
     m.of = joint ? &model_force : &model_displacement;
-    if (!m.name || !(joint ? read_blocks(r, m.block) : where(r, 1))
+    r->chosen = 0;
+    if (!m.name || (joint && !read_blocks(r, m.block))
+        || ((!joint || model_look(r)) && !where(r, !joint))
         || !model_enter(r, &r->monitor_of, m.name, p->monitors)
         || !(m.node = model_keep(r, r->chosen, sizeof *m.node)))
         return 0;
     if (m.block[0] < 0 && m.block[1] < 0)
         return model_blame(r, "a joint of any block with any, expected one block at least");
-    for (; m.nodes < r->chosen && !joint; m.nodes++)
+    for (; m.nodes < r->chosen; m.nodes++)
         m.node[m.nodes] = r->chosen_node[m.nodes];
     return model_add(r, &p->monitor, &p->monitors, sizeof m, &m);
 }

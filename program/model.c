@@ -67,26 +67,30 @@ int model_fits(const int block[2], int i, int j)
 }
 
 /* The shear of a contact is the same from both sides: where each of two blocks has corners on the
- * other one, all of them add up. */
-void model_follow(const model *p, const model_monitor *m, double x[MODEL_FOLLOWED])
+ * other one, all of them add up; or those of the nodes alone. */
+void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED])
 {
     const bbm_model *b = p->m;
 
     memset(x, 0, MODEL_FOLLOWED * sizeof *x);
-    for (int n = 0; n < m->nodes; n++) {
+    for (int n = 0; n < m->nodes && m->of == &model_displacement; n++) {
         bbm_result r;
         bbm_nodal_result(b, m->node[n], -1, &r);
         x[0] += r.u / m->nodes;
         x[1] += r.v / m->nodes;
     }
-    for (const bbm_contact *c = b->contact; c < b->contact + b->contacts && !m->nodes; c++) {
+    for (int k = 0; k < b->contacts && m->of == &model_force; k++) {
+        const bbm_contact *c = &b->contact[k];
         const int i = b->edge[c->corner].block, j = b->edge[c->edge].block,
                   sign = model_fits(m->block, i, j) - model_fits(m->block, j, i);
-        double f[2];
-        field_contact_force(b, c, c->N, c->T, f);
-        const double of[] = { c->N, c->T, sign * f[0], sign * f[1] };
-        for (int k = 0; k < LENGTH(of) && sign; k++)
-            x[k] += of[k];
+        int here = m->nodes == 0;
+        for (int n = 0; n < m->nodes; n++)
+            here |= m->node[n] == bbm_start_of(b, c->corner)->node;
+        double of[] = { c->N, c->T, 0, 0 };
+        field_contact_force(b, c, sign * c->N, sign * c->T, of + 2);
+        for (int a = 0; a < LENGTH(of) && sign && here; a++)
+            x[a] += of[a];
+        m->touched |= sign && here && c->state != BBM_OPEN;
     }
 }
 

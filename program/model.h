@@ -98,7 +98,7 @@ void model_move_supports(model *p);     /* to where they are after the next step
 void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */
 extern const model_followed model_displacement, model_force;
 /* u, v of nodes; of a joint normal, shear, and fx, fy of its second block on the first; and 0. */
-void model_follow(const model *p, const model_monitor *m, double x[MODEL_FOLLOWED]);
+void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED]);
 /* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);
 void model_free(model *p);

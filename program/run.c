@@ -41,11 +41,6 @@ bbm_status run_step(run *r)
         return BBM_STEPS_EXHAUSTED;
     model_move_supports(r->p);
     const bbm_status status = bbm_step(m);
-    for (model_monitor *w = r->p->monitor; w < r->p->monitor + r->p->monitors; w++) {
-        double x[MODEL_FOLLOWED];
-        model_follow(r->p, w, x);
-        w->touched |= x[0] != 0 || x[1] != 0;
-    }
     r->stage_is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
                                                       : m->info.step == par->steps);
     for (int k = 0; k < r->p->bolts && !r->p->dynamic; k++)     /* one breaks in the next step */
@@ -75,7 +70,7 @@ void run_says(const run *r, bbm_status status, char out[500])
 int run_is_met(const model *p, int k, char out[300])
 {
     const model_expected *e = &p->expected[k];
-    const model_monitor *m = &p->monitor[e->monitor];
+    model_monitor *m = &p->monitor[e->monitor];
     const int value = e->kind < m->of->values;
     char what[100];
     double x[MODEL_FOLLOWED];

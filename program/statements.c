@@ -466,7 +466,7 @@ static const struct kind {
       0 },
     { "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, DYNAMIC },
     { "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
-    { "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK", model_monitors, MODEL,
+    { "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK [WHERE]", model_monitors, MODEL,
       0 },
     { "expect NAME u|v|normal|shear|fx|fy VALUE within TOLERANCE [%], or expect NAME moves|stays "
       "by TOLERANCE", read_expect, MONITORS, 0 },

@@ -297,8 +297,7 @@ void warn_in_step(const run *r, const char *path, int *said)
     for (int e = 0; e < p->m->elements && p->dynamic && !*said; e++) {
         const bbm_element *i = &p->m->element[e];
         const double way = hypot(i->D[0], i->D[1]);
-        *said = way * way > i->A0;
-        if (*said)
+        if ((*said = way * way > i->A0))
             warn(path, "step %d: element %.60s of block '%.60s' moved by %.3g m, more than its own "
                        "size; a smaller dt misses no contact", info->step, p->element[e],
                  p->block[i->block], way);
@@ -310,8 +309,8 @@ void warn_after(const model *p, const char *path)
     double most = 0;
 
     for (int k = 0; k < p->monitors; k++)
-        if (p->monitor[k].nodes == 0 && !p->monitor[k].touched)
-            warn(path, "monitor %.60s: its blocks never touched", p->monitor[k].name);
+        if (p->monitor[k].of == &model_force && !p->monitor[k].touched)
+            warn(path, "monitor %.60s: nothing touched in its joint", p->monitor[k].name);
     for (int e = 0; e < p->m->elements && !p->dynamic; e++)
         most = fmax(most, fabs(p->m->element[e].sum[2]));
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */

@@ -265,7 +265,8 @@ START_TEST(a_joint_carries_the_weight_of_its_block)
         "let a %g\nlet l %g\nlet c $(cos(a))\nlet s $(sin(a))\nfixblock base\ncontact kn 1e14 friction 40\n"
         "block base rigid $(-9*c) $(-9*s) $(9*c) $(9*s) $(9*c + s) $(9*s - c) $(s - 9*c) $(-9*s - c)\n%s"
         "gravity $(-10*sin(l)) $(-10*cos(l))\ndynamic dt 0.01 steps 40 velocity_factor 0\noutput svg\n"
-        "monitor on joint stone base\nmonitor all joint * stone\nexpect all fy -5e4 within 10%%\n",
+        "monitor on joint stone base\nmonitor all joint * stone\nexpect all fy -5e4 within 10%%\n"
+        "monitor left joint stone base at 0 0\nmonitor rest joint stone base box 0.1 -9 9 9\n",
         slope[_i][0], slope[_i][1], _i == 3 ? "grid stone rock 0 0 2 1 4 2\n"
         : "block stone rock 0 0 $(2*c) $(2*s) $(2*c - s) $(2*s + c) $(-s) $c\n"), 0);
     const struct { const char *on, *all; double value, sign; } of[] = {
@@ -276,6 +277,9 @@ START_TEST(a_joint_carries_the_weight_of_its_block)
         ck_near(cell("on", "history.csv", "", of[k].on), of[k].value, W, 1e-6);
         ck_near(cell("on", "history.csv", "", of[k].all), of[k].sign * of[k].value, W, 1e-6);
     }
+    const double left = cell("on", "history.csv", "", "left_normal"), rest = cell("on", "history.csv", "", "rest_normal");
+    ck_assert_double_gt(left, 0.1 * W / (_i == 3 ? 4 : 1));
+    ck_near(left + rest, W * cos(a), W, 1e-6);
     check_text("out/model/on/history.svg", ">force [kN]<");
     check_text("out/model/on/history.svg", ">fy expected, -5.5e+04 to -4.5e+04 N<");
     if (_i == 3)
@@ -417,7 +421,7 @@ static const struct { const char *text, *said; } doubtful[] = {
     { STONE REST "stage oops remove base\nend\n", "model: warning: stage oops: nothing is fixed: under gravity all blocks fall" },
     { STONE REST "shake 4 0 200\n", "a step of 0.01 s is long: the period of shake is 0.0314 s\n" }, { STONE REST "shake 4 0 99\n", NULL },
     { STONE REST "shake ../../tests/late.csv\n", "shake has 3 rows from 100 s to 102 s and the scale 1: steps of 0.01 s to 0.02 s do not" },
-    { STONE REST "block cap rock 4 2 5 2 5 3 4 3\nmonitor j joint cap base\nmonitor k joint cap stone\n", "warning: monitor j: its blocks never touched\n" },
+    { STONE REST "block cap rock 4 2 5 2 5 3 4 3\nmonitor j joint cap base\nmonitor k joint cap stone\n", "warning: monitor j: nothing touched in its joint\n" },
     { STONE "gravity 0 -9.81\ndynamic dt 1e-5 steps 99 settle 9\ncontact friction 30\n", "settling is not at rest: more steps or a longer dt\n" },
     { STONE "gravity 0 -9.81\ndynamic dt 1 steps 2\ncontact friction 30\n", "a step of 1 s is long: a block falls by its size in 0.45 s" },
     { STONE "gravity 0 -9.81\ndynamic dt 1e-9 steps 2\ncontact friction 30\n", "the run of 2e-09 s is short: a wave needs 0.0005 s through an element" },
