@@ -303,8 +303,7 @@ static int read_let(model_reader *r)
     for (int k = 0; k < r->lets && n > 0 && !r->round && model_look(r); k++)
         if (strncmp(r->let[k], word, n) == 0 && r->let[k][n] == '=') {
             if (strcmp(r->word[at].source, "-d or --find") == 0)
-                return model_fail(r, (model_place){ .file = r->path },
-                                  "-d or --find give '%.60s' twice, expected once", word);
+                return model_fail(r, r->s->at, "-d or --find give '%.60s' twice", word);
             r->word[at].source = "-d or --find";
             if (!(r->word[at].text = expand(r, r->let[k] + n + 1, &r->word[at].glued)))
                 return 0;

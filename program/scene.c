@@ -660,7 +660,7 @@ static void draw_thrust(film *f, int frame)
         for (int i = 0; i < 2; i++)
             k->at[i] = (point){ k->at[i].x / k->N[i], k->at[i].y / k->N[i] };
         const point *x = k->at, *F = k->force;
-        k->line = k->n == 2 && k->N[0] > 0 && k->N[1] > 0
+        k->line = k->n == 2 && !f->body[k - b].fixed && k->N[0] > 0 && k->N[1] > 0
                   && (F[0].x - F[1].x) * (x[1].x - x[0].x) + (F[0].y - F[1].y) * (x[1].y - x[0].y)
                      > 0.5 * gap(x[0], x[1]) * (hypot(F[0].x, F[0].y) + hypot(F[1].x, F[1].y));
     }

@@ -11,6 +11,8 @@ enum { NAMED = 10 };            /* pieces of a block that a warning names       
  * all of them are alike, which is 1, something slides freely. */
 #define UNSETTLED 0.01
 #define DRIFT 0.05
+/* Of its size: an element that moves by less in a step is at rest but for rounding. */
+#define STILL 1e-10
 
 #define warn(path, ...) \
     (fprintf(stderr, "%s: warning: ", path), fprintf(stderr, __VA_ARGS__), fputc('\n', stderr))
@@ -171,7 +173,7 @@ static void compare(bodies *s, const char *path, int i, int j)
     if (count[0] > 4 && count[1] > 3 && a->elements > 1 && b->elements > 1 && a->free && b->free
         && r->E == q->E && r->density == q->density && !m->beyond->joints
         && m->beyond->tension + m->beyond->cohesion <= 0 && s->alike++ == 0)
-        warn(path, "blocks '%.60s' and '%.60s' share a side; only elements of one block are bonded",
+        warn(path, "blocks '%.60s' and '%.60s' share a side, not bonded; if meant so, `joint` says it",
              s->p->block[j], s->p->block[i]);
 }
 
@@ -289,19 +291,20 @@ void warn_before(const model *p, const char *path)
 void warn_in_step(const run *r, const char *path, int *said)
 {
     const model *p = r->p;
-    const bbm_info *info = &p->m->info;
-    const double drift = info->step * info->change;
+    const double drift = p->m->info.step * p->m->info.change;
+    int moves = 0;
 
-    if (!r->has_begun && r->settling == 0 && drift > DRIFT && drift < 0.999)
-        warn(path, "settling is not at rest: more steps or a longer dt");
-    for (int e = 0; e < p->m->elements && p->dynamic && !*said; e++) {
+    for (int e = 0; e < p->m->elements && p->dynamic; e++) {
         const bbm_element *i = &p->m->element[e];
         const double way = hypot(i->D[0], i->D[1]);
-        if ((*said = way * way > i->A0))
+        moves |= way * way > i->A0 * STILL * STILL;
+        if (!*said && (*said = way * way > i->A0))
             warn(path, "step %d: element %.60s of block '%.60s' moved by %.3g m, more than its own "
-                       "size; a smaller dt misses no contact", info->step, p->element[e],
+                       "size; a smaller dt misses no contact", p->m->info.step, p->element[e],
                  p->block[i->block], way);
     }
+    if (!r->has_begun && r->settling == 0 && drift > DRIFT && drift < 0.999 && moves)
+        warn(path, "settling is not at rest: what can stand needs more steps or a longer dt");
 }
 
 void warn_after(const model *p, const char *path)
