@@ -803,17 +803,18 @@ static void arrange(film *f, int n)
     f->h = f->scale * h + over;
 }
 
-/* Crosses of blocks that are held, and where one before them is nearer than the longest arrow. */
+/* Crosses of blocks that are held, and where one before them, half as large at least, is nearer than
+ * the longest arrow. */
 static void hide_crosses(film *f)
 {
     const scene_force *cross = f->s->frame[f->s->frames - 1].force;
 
-    for (int i = 0; i < f->m->elements; i++) {
-        f->hidden[i] = f->body[cross[2 * i].block[0]].held;
-        for (int k = i - 1; k >= 0 && !f->hidden[i]; k--)
-            f->hidden[i] = !f->hidden[k] && gap(cross[2 * i].at, cross[2 * k].at) * f->scale
-                                            < f->length[TENSION];
-    }
+    for (int i = 0; i < f->m->elements; i++)
+        for (int k = i; k >= 0 && !f->hidden[i]; k--)
+            f->hidden[i] = k == i ? f->body[cross[2 * i].block[0]].held : !f->hidden[k]
+                && gap(cross[2 * i].at, cross[2 * k].at) * f->scale < f->length[TENSION]
+                && gap(cross[2 * i].force, cross[2 * i + 1].force)
+                   < 2 * gap(cross[2 * k].force, cross[2 * k + 1].force);
 }
 
 /* Window and scale. How long an arrow is in metres depends on the scale of the panel, and that on
