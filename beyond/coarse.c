@@ -54,7 +54,7 @@
 
 /* Nodes of a large model: measured, where a solution takes as long both ways, alpha = 100 to
  * 1000. */
-#define LARGE 2000
+#define LARGE 3750
 
 typedef struct {
     int n;                      /* nodes, some without a corner                                 */
