@@ -121,12 +121,9 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->back = K->component + n;
     K->L = K->D + n;
     K->inverse = K->L + blocks;
-    K->r = K->x + 6 * n;
-    K->u = K->r + 6 * n;
-    K->p = K->u + 6 * n;
-    K->q = K->p + 6 * n;
-    K->y = K->q + 6 * n;
-    K->forces = K->y + 6 * n;
+    double **const vector[] = { &K->r, &K->u, &K->p, &K->q, &K->y, &K->forces };
+    for (size_t k = 0; k < sizeof vector / sizeof *vector; k++)
+        *vector[k] = K->x + 6 * n * (k + 1);
     return BBM_OK;
 }
 

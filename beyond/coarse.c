@@ -40,7 +40,8 @@
  *     P_i^T K_ij P_j - (P_i - R_i)^T K_ij (P_j - R_j),
  *
  * and Kc still is positive semidefinite. At alpha = 100 a large model takes a third more iterations
- * and 0.6 of the time. A small one would gain nothing, and keeps K_ij whole.
+ * and 0.6 of the time. A small one would gain nothing, one with contacts lose, and they keep K_ij
+ * whole.
  *
  * Displacements of the nodes that move no element (the hourglass of quadrilaterals) have no
  * stiffness: of their pivots rounding is left, some eps of what was summed up before it cancelled.
@@ -58,6 +59,7 @@
 
 typedef struct {
     int n;                      /* nodes, some without a corner                                 */
+    int large;                  /* of many nodes, and without contacts                          */
     int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
                                 /*           start[i] .. start[j]-1                             */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
@@ -83,18 +85,20 @@ static int find_side(const coarse_space *c, int i, int j, int corner[2])
         for (int b = c->first[j]; b < c->first[j + 1]; b++)
             if (c->node[a] == c->node[b])
                 corner[common++ % 2] = a;
-    return common == 2 && ni > 2 && nj > 2 && (ni + nj == 6 || c->n > LARGE) ? ni + nj : 0;
+    return common == 2 && ni > 2 && nj > 2 && (ni + nj == 6 || c->large) ? ni + nj : 0;
 }
 
 /* The entries of Kc below its diagonal: the pairs of nodes that meet in an element, or in elements
- * that a block of K joins without a common side, some several times. entry NULL: counts them. */
-static int list_entries(const bbm_matrix *K, const coarse_space *c, int (*entry)[2])
+ * that a block of K joins without a common side, some several times. entry NULL: counts them. Such
+ * a block is a contact's: with one, a model would take far more iterations by the smaller Kc. */
+static int list_entries(const bbm_matrix *K, coarse_space *c, int (*entry)[2])
 {
     int n = 0, p[2];
 
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
             const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = find_side(c, i, j, p);
+            c->large &= side > 0 || i == j;
             for (int a = c->first[i]; a < c->first[i + 1] && !side; a++)
                 for (int b = i == j ? a + 1 : c->first[j]; b < c->first[j + 1]; b++, n++)
                     if (entry)
@@ -168,6 +172,8 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
         c->first[i + 1] = c->first[i] + from[1] - from[0];
         memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
     }
+    c->large = nodes > LARGE;
+    list_entries(K, c, NULL);
     const int entries = list_entries(K, c, NULL);
     int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
     long long (*key)[KEYS] = calloc((size_t)nodes, sizeof *key);
