@@ -122,8 +122,8 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->L = K->D + n;
     K->inverse = K->L + blocks;
     double **const vector[] = { &K->r, &K->u, &K->p, &K->q, &K->y, &K->forces };
-    for (size_t k = 0; k < sizeof vector / sizeof *vector; k++)
-        *vector[k] = K->x + 6 * n * (k + 1);
+    for (int k = 0; k < LENGTH(vector); k++)
+        *vector[k] = K->x + 6 * n * (size_t)(k + 1);
     return BBM_OK;
 }
 

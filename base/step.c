@@ -123,8 +123,8 @@ bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
                         step);
     if (i->element >= 0)
         return bbm_fail(m, status, "step %d, element %d of block %d: it is free to move, it has "
-                        "turned over, or the stiffnesses that meet there are too far apart", step, i->element,
-                        m->element[i->element].block);
+                        "turned over, or the stiffnesses that meet there are too far apart",
+                        step, i->element, m->element[i->element].block);
     return bbm_fail(m, status, "step %d, iteration %d, residual %.2g%s", step, i->iterations,
                     i->residual, status == BBM_NOT_CONVERGED
                                      ? "; more iterations or a smaller alpha help" : "");

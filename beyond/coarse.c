@@ -173,7 +173,7 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
         memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
     }
     c->large = nodes > LARGE;
-    list_entries(K, c, NULL);
+    list_entries(K, c, NULL);                       /* finds contacts, with which it is not large */
     const int entries = list_entries(K, c, NULL);
     int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
     long long (*key)[KEYS] = calloc((size_t)nodes, sizeof *key);

@@ -411,7 +411,7 @@ static void print_steps(void)
         { "wall", add_wall_at_rest, 45 }, { "wall", add_wall_at_rest, 100 },
         { "jointed rock, kn = 0.5 E", add_jointed_rock, 0.5 }, { "5 E", add_jointed_rock, 5 },
         { "50 E", add_jointed_rock, 50 }, { "500 E", add_jointed_rock, 500 },
-        { "tunnel", add_tunnel, 2 }, { "tunnel", add_tunnel, 3 }, { "exp3.model", add_slider, 5e11 },
+        { "tunnel", add_tunnel, 2 }, { "tunnel", add_tunnel, 7 }, { "exp3.model", add_slider, 5e11 },
     };
     double last[2] = { 0 };
 
