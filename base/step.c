@@ -190,8 +190,7 @@ bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[])
     return BBM_OK;
 }
 
-/* What must hold before a step: a prepared model, and parameters in their ranges. Counting begins.
- * */
+/* What must hold before a step: a prepared model, parameters in their ranges. Counting begins. */
 bbm_status bbm_check_step(bbm_model *m)
 {
     const bbm_parameters *p = &m->par;

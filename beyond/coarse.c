@@ -40,8 +40,7 @@
  *     P_i^T K_ij P_j - (P_i - R_i)^T K_ij (P_j - R_j),
  *
  * and Kc still is positive semidefinite. At alpha = 100 a large model takes a third more iterations
- * and 0.6 of the time. A small one would gain nothing, one with contacts lose, and they keep K_ij
- * whole.
+ * and 0.6 of the time. Small ones would gain nothing, contacts lose: these keep K_ij whole.
  *
  * Displacements of the nodes that move no element (the hourglass of quadrilaterals) have no
  * stiffness: of their pivots rounding is left, some eps of what was summed up before it cancelled.
@@ -53,9 +52,8 @@
 
 #include "beyond.h"
 
-/* Nodes of a large model: measured, where a solution takes as long both ways, alpha = 100 to
- * 1000. */
-#define LARGE 3750
+/* Nodes of a large model, of so many a solution takes as long both ways, alpha = 100 to 1000. */
+#define LARGE 2500
 
 typedef struct {
     int n;                      /* nodes, some without a corner                                 */

@@ -118,8 +118,7 @@ double *bbm_entry(const bbm_factor *f, int i, int j)
 /* ----------------------------------------------------------------------------------- the factor */
 
 /* s += the products of two rows at a with two at b over n columns, an even number; the second row
- * lies m or l behind the first. Each has two partial sums: one alone would wait for each addition.
- */
+ * lies m or l behind the first. Each has two partial sums: one would wait for each addition. */
 static void add_products(size_t n, const double *a, size_t m, const double *b, size_t l,
                          double s[4])
 {

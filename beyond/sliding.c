@@ -32,6 +32,7 @@
  *
  * In statics a block that all its contacts let slide is held by nothing, and K is singular. But no
  * force asks for that motion, and it is in no residual: where there is an equilibrium it is found.
+ * Where there is none, the iteration with M factored ends soon after one for each unknown.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -79,7 +80,6 @@ static bbm_status factor(const bbm_matrix *K, bbm_factor *f)
 {
     const int rows = K->to - K->from, blocks = K->first[K->to] - K->first[K->from];
     int (*entry)[2] = calloc(9 * (size_t)(rows + blocks), sizeof *entry), n = 0;
-    bbm_status status = BBM_NO_MEMORY;
 
     for (int i = 0; i < rows && entry; i++)
         for (int k = K->first[K->from + i]; k <= K->first[K->from + i + 1]; k++)
@@ -87,8 +87,7 @@ static bbm_status factor(const bbm_matrix *K, bbm_factor *f)
                 entry[n][0] = 3 * (k < K->first[K->from + i + 1] ? i - K->back[k] : i) + a % 3;
                 entry[n][1] = 3 * i + a / 3;
             }
-    if (entry)
-        status = bbm_factor_lay_out(f, 3 * rows, n, entry);
+    bbm_status status = entry ? bbm_factor_lay_out(f, 3 * rows, n, entry) : BBM_NO_MEMORY;
     for (int i = 0; i < rows && !status; i++) {
         put_block(f, i, i, K->D[K->from + i]);
         for (int k = K->first[K->from + i]; k < K->first[K->from + i + 1]; k++)
@@ -103,12 +102,11 @@ static bbm_status factor(const bbm_matrix *K, bbm_factor *f)
 /* u = M^-1 r. f->A: NULL, too large to be factored. */
 static void precondition(const bbm_matrix *K, const bbm_factor *f, const double *r, double *u)
 {
-    if (!f->A) {
+    if (f->A) {
+        bbm_combine(K, r, 0, r, u);
+        bbm_substitute(f, 0, f->n, u + 6 * K->from);
+    } else
         bbm_precondition(K, r, u);
-        return;
-    }
-    bbm_combine(K, r, 0, r, u);
-    bbm_substitute(f, 0, f->n, u + 6 * K->from);
 }
 
 /* ------------------------------------------------------------------------------- the iteration */
@@ -152,19 +150,22 @@ static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, double 
 }
 
 /* K x = F for the rows in hand. */
-static bbm_status solve(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info)
+static bbm_status solve(bbm_matrix *K, const bbm_pcg *wanted, bbm_pcg_info *info)
 {
+    const int rows = K->to - K->from, few = 6 * rows + 100;
+    bbm_pcg pcg = *wanted;
     bbm_factor f = { 0 };
     double *d = malloc(24 * (size_t)K->n * sizeof *d), stop = 0;
 
     if (!d)
         return BBM_NO_MEMORY;
     bbm_combine(K, K->r, 0, K->r, d + 18 * K->n);
-    bbm_status status = K->to - K->from <= SMALL ? factor(K, &f) : BBM_OK;
+    bbm_status status = rows <= SMALL ? factor(K, &f) : BBM_OK;
+    pcg.iterations = f.A && few < pcg.iterations ? few : pcg.iterations;
     for (int turn = 0; turn < 2 && !status; turn++) {
         bbm_multiply(K, K->x, K->q);
         bbm_combine(K, d + 18 * K->n, -1, K->q, K->r);
-        status = iterate(K, &f, d, &stop, pcg, info);
+        status = iterate(K, &f, d, &stop, &pcg, info);
     }
     bbm_factor_free(&f);
     free(d);
