@@ -331,7 +331,8 @@ START_TEST(of_blocks_that_go_together_the_one_that_parts_is_named)
 END_TEST
 
 /* A bar on two supports, whose lower side grows and slides outwards on both: as one contact may
- * have to hold it again in the next step, or in the first one of a stone on a plate that bends. */
+ * have to hold it again in the next step, or in the first one of a stone on a plate that bends. A
+ * matrix that has no solution costs an iteration or two for each unknown, of 252. */
 START_TEST(statics_goes_on_where_all_contacts_of_a_block_slide)
 {
     bbm_model *m = new_rock();
@@ -339,15 +340,14 @@ START_TEST(statics_goes_on_where_all_contacts_of_a_block_slide)
     const int right = add_rows(m, 1, 9.2, -1, 0.5, 1, 1, 1, 0);
 
     add_rows(m, 2, 0, 0, 10, 0.5, 20, 2, 0);
-    for (int k = 0; k < 4; k++) {
-        ck_ok(bbm_fix_node(m, left + k, BBM_XY, 0, 0), m);
-        ck_ok(bbm_fix_node(m, right + k, BBM_XY, 0, 0), m);
-    }
+    for (int k = 0; k < 8; k++)
+        ck_ok(bbm_fix_node(m, k < 4 ? left + k : right + k - 4, BBM_XY, 0, 0), m);
     m->par.gravity[1] = -9.81;
     m->par.friction = 45;
     set_springs(m, 1e11, 4e10);
-    m->par.steps = 5;
-    run(m);
+    run_steps(m, 2);
+    ck_assert_int_lt(m->info.iterations, 1000);
+    run_steps(m, 3);
     double N = 0;
     for (int k = 0; k < m->contacts; k++)
         N += m->contact[k].N;
