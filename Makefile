@@ -21,7 +21,7 @@ CC      ?= cc
 CFLAGS  ?= -O2
 STRICT   = -std=c99 -ffp-contract=off -Wall -Wextra -pedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 PAPER    = bbm contact solver
-BASE     = build detect order step
+BASE     = build cut detect open_close order solve step
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
 BEYOND   = beyond bending coarse energy factor impact interpolation joints mesh multipliers overlap refuse rotation sliding statics \
@@ -247,14 +247,14 @@ check-documents: $O/figures $O/bbm experiments
 	@rm -rf $O/drawn && mkdir $O/drawn && $O/figures $O/drawn && diff -r $O/drawn doc/figures || \
 	{ echo "doc/figures is not what the program draws: make figures"; exit 1; }
 	@for f in $$(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do \
-	grep -q "[ *]$$f(" bbm.c || { echo "doc/figures/flow.svg names $$f, which bbm.c does not have"; exit 1; }; done
+	grep -q "[ *]$$f(" base/step.c || { echo "doc/figures/flow.svg names $$f, which base/step.c does not have"; exit 1; }; done
 	@[ $$($(HOUSE) | wc -l) -gt 30 ] && for w in $$($(HOUSE)); do \
 	grep -qw $$w bbm.h bbm.c contact.c solver.c base/base.h base/build.c beyond/beyond.c || { echo "doc/house.svg names $$w"; exit 1; }; done
 	@for f in $$(grep -owE '[a-z0-9_]+[.]c' doc/house.svg); do [ -f $$f ] || [ -f base/$$f ] || [ -f beyond/$$f ] || \
 	{ echo "doc/house.svg names $$f"; exit 1; }; done
 	@for f in beyond/*.c; do grep -qw $${f#*/} doc/house.svg || { echo "doc/house.svg lacks $$f"; exit 1; }; done
 	@awk -f tests/equations.awk doc/equations.md *.c */*.c
-	@sed -n '/no error/!s/.*\[BBM_[A-Z_]*\] = "\([^"]*\)".*/\1/p' base/step.c | while read -r text; do \
+	@sed -n '/no error/!s/.*\[BBM_[A-Z_]*\] = "\([^"]*\)".*/\1/p' base/cut.c | while read -r text; do \
 	grep -qF -- "- **$$text**" doc/failures.md || { echo "doc/failures.md has no \"$$text\""; exit 1; }; done
 	@awk -v O=$O -f tests/documents.awk README.md doc/*.md
 
@@ -333,7 +333,7 @@ without-beyond: $(PLAIN)
 
 # Which file calls which: from the object files.
 check-arrows: $(LIBRARY:%=$O/%.o)
-	@nm -A $^ | awk -f tests/arrows.awk bbm.h base/base.h -
+	@nm -A $^ | awk -f tests/arrows.awk
 
 # Not optimized, since compiling takes most of it.
 check-smoke:

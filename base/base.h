@@ -292,6 +292,8 @@ void       bbm_force_submatrix(double f, const double v[6], double F[6]);       
 double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
+int        bbm_is_strong(const bbm_contact *c);
+int        bbm_is_strengthless(const bbm_contact *c, double N);
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 void       bbm_assemble_contacts(bbm_model *m);
 double     bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D);
@@ -389,6 +391,8 @@ void       bbm_multiply(const bbm_matrix *K, const double *p, double *q);       
 void       bbm_precondition(const bbm_matrix *K, const double *r, double *u);   /* u = M^-1 r   */
 double     bbm_dot_rows(const bbm_matrix *K, const double *x, const double *y); /* x.y          */
 void       bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z);
+int        bbm_invert(double w, double D[6][6], double B[6][6]);                /* (D/w)^-1     */
+bbm_status bbm_iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);  /* x = K^-1 r   */
 bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
 
 #endif

@@ -1,4 +1,4 @@
-/* order.c - the pattern of K, the order of its rows, and which of them hang together.
+/* order.c - the pattern of K, the order of its rows, which of them hang together, and its entries.
  *
  * Pattern. K consists of 6x6 blocks, a block row for each element. An element has three or four
  * neighbours, so that most blocks are zero for ever, and an iteration, unlike a factorisation,
@@ -14,6 +14,7 @@
  * order puts the rows of a component one after the other.
  */
 #include <stdlib.h>
+#include <string.h>
 
 #include "base.h"
 
@@ -179,4 +180,78 @@ void bbm_matrix_free(bbm_matrix *K)
     free(K->x);
     free(K->term);
     free(K);
+}
+
+/* ----------------------------------------------------------------------------------- its entries */
+
+void bbm_matrix_clear(bbm_matrix *K)
+{
+    memset(K->D, 0, (size_t)(K->n + K->first[K->n]) * sizeof *K->D);
+    K->ready = K->terms = K->lacks = 0;
+}
+
+/* Where K_ij is stored, or K_ji if row i comes before row j; NULL: nowhere. Most rows have one to
+ * three blocks left of the diagonal, so that all are looked at. */
+static double (*find_block(const bbm_matrix *K, int i, int j))[6]
+{
+    if (i < 0 || i >= K->n || j < 0 || j >= K->n)
+        return NULL;
+    const int a = K->place[i], b = K->place[j], row = a > b ? a : b, left = abs(a - b);
+
+    for (int k = K->first[row]; k < K->first[row + 1]; k++)
+        if (K->back[k] == left)
+            return K->L[k];
+    return left == 0 ? K->D[row] : NULL;
+}
+
+/* K_ij += B; if K_ji is stored, K_ji += B^T. */
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
+{
+    double (*to)[6] = find_block(K, i, j);
+
+    K->lacks |= !to;
+    if (!to)
+        return BBM_BAD_INDEX;
+    const int right = K->place[i] < K->place[j];
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            to[a][b] += right ? B[b][a] : B[a][b];
+    K->ready = 0;
+    return BBM_OK;
+}
+
+/* ------------------------------------------------------------------- K for the contacts in hand */
+
+/* Lays out K: a submatrix for each element, each gap between two of them and each two elements of a
+ * contact, Eq. (5). Without memory the old one stays. */
+bbm_status bbm_lay_out_matrix(bbm_model *m)
+{
+    const int contacts = m->scratch ? m->scratch->contacts : 0;
+    const int most = contacts * (BBM_PARTS * (BBM_PARTS - 1) / 2) + m->gaps;
+    int (*link)[2] = calloc((size_t)most + 1, sizeof *link), n = 0;
+    bbm_matrix *K;
+
+    if (!link)
+        return BBM_NO_MEMORY;
+    for (int k = 0; k < contacts; k++) {
+        const bbm_contact *c = &m->scratch->contact[k];
+        for (int j = 1; j < c->parts; j++)
+            for (int i = 0; i < j; i++)
+                memcpy(link[n++], (int [2]){ c->element[i], c->element[j] }, sizeof *link);
+    }
+    for (int g = 0; g < m->gaps; g++) {
+        memcpy(link[n], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);
+        n += m->gap[g].j >= 0;
+    }
+    const int same = m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0;
+    if (same || bbm_matrix_new(m->elements, n, link, &K)) {
+        free(link);
+        return same ? BBM_OK : BBM_NO_MEMORY;
+    }
+    bbm_matrix_free(m->K);
+    free(m->link);
+    m->K = K;
+    m->link = link;
+    m->links = n;
+    return BBM_OK;
 }

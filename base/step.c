@@ -1,246 +1,367 @@
-/* step.c - what stands around the step of Fig. 8: messages, what must hold before it, K for the
- * contacts that may close in it, how it is cut and tried again, and what it counts.
+/* step.c - the time step: here the parts of the paper come together.
  *
- * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
- * half of dt, down to dt/4096, as long as that takes no more than some solutions. The nominal step
- * is completed in parts, which grow again. A static step has no parts; a hook may know another way.
+ *     bbm_assemble    K and F of all submatrices of section 3, Eq. (5)
+ *     bbm_try_step    Fig. 8: contacts, K D = F, the open-close iteration, the update
+ *     bbm_step        one time step: a step that fails is done again in halves
+ *     bbm_run         all steps, or up to the criterion (71) of statics
+ *     bbm_nodal_result, bbm_mises    the results of section 4
+ *
+ * Statics is without inertia: each step is one iteration of Newton-Raphson on the geometry that the
+ * last step left.
  */
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base.h"
 
-/* A step that has taken more work than this does not settle.
- * SOLUTIONS   in all its parts: several times what the worst walls needed
- * ITERATIONS  in all solutions, as a multiple of what one solution may take
- * HALVINGS    of dt, to the shortest part */
-enum { SOLUTIONS = 10000, ITERATIONS = 10, HALVINGS = 12 };
+/* ------------------------------------------------------------------- assembly, Eq. (5) */
 
-/* ------------------------------------------------------------------------------------ messages */
-
-const char *bbm_status_text(bbm_status s)
+/* The next gap of the list, between the elements i and j. A hook's `own` stays from list to list.
+ * bbm_prepare has made room for two gaps at each bond and three at each vertex. */
+bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 {
-    static const char *const text[BBM_STATUS_COUNT] = {
-        [BBM_OK] = "no error",
-        [BBM_NO_MEMORY] = "out of memory",
-        [BBM_NO_ELEMENT] = "the model has no element",
-        [BBM_NOT_FINITE] = "a number is NaN or infinite",
-        [BBM_BAD_INDEX] = "no such node, element or material",
-        [BBM_BAD_MATERIAL] = "a material is impossible",
-        [BBM_BAD_PARAMETER] = "a parameter is outside its range",
-        [BBM_BAD_ELEMENT] = "an element is no polygon",
-        [BBM_SELF_CROSSING] = "the boundary of an element meets itself",
-        [BBM_OVERLAP] = "elements of one block overlap",
-        [BBM_BLOCKS_OVERLAP] = "blocks overlap",
-        [BBM_UNUSED_NODE] = "a node belongs to no element",
-        [BBM_NOT_BOUNDARY] = "a line load needs a boundary edge",
-        [BBM_FREE_TO_MOVE] = "statics needs bodies that are held",
-        [BBM_NOT_POSITIVE_DEFINITE] = "the stiffness matrix is not positive definite",
-        [BBM_NOT_CONVERGED] = "the equations were not solved",
-        [BBM_STEPS_EXHAUSTED] = "no equilibrium in the given steps",
-        [BBM_NO_EQUILIBRIUM] = "it falls",
-        [BBM_STEP_TOO_LONG] = "the step is too long",
-        [BBM_OPEN_CLOSE] = "the open-close iteration does not settle",
-        [BBM_TOO_SOFT] = "the contacts are too soft",
-        [BBM_ENERGY] = "the step makes energy",
-        [BBM_STOPPED] = "stopped from outside",
-    };
-
-    return s >= 0 && s < BBM_STATUS_COUNT ? text[s] : "unknown status";
+    bbm_gap *g = &m->gap[m->gaps++];
+    *g = (bbm_gap){ .i = i, .j = j, .own = g->own };
+    return g;
 }
 
-const char *bbm_message(const bbm_model *m) { return m->message; }
-
-/* Puts the sentence "TEXT OF THE STATUS: details" into the model and returns the status. */
-bbm_status bbm_fail(bbm_model *m, bbm_status s, const char *format, ...)
+/* Lists the springs of a bond, one at each vertex. */
+void bbm_list_bond(bbm_model *m, const bbm_bond *b)
 {
-    const int n = snprintf(m->message, sizeof m->message, "%s: ", bbm_status_text(s));
-    va_list args;
+    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
 
-    va_start(args, format);
-    vsnprintf(m->message + n, sizeof m->message - (size_t)n, format, args);
-    va_end(args);
-    return s;
+    for (int end = 0; end < 2; end++)
+        bbm_bonding_gap(i, &m->vertex[b->p[end]], j, &m->vertex[b->q[end]],
+                        bbm_bonding_stiffness(m->par.alpha, i, j), bbm_add_gap(m, b->i, b->j));
 }
 
-bbm_status bbm_out_of_memory(bbm_model *m)
+/* Lists the spring of a vertex at a fixed point. */
+void bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W)
 {
-    return bbm_fail(m, BBM_NO_MEMORY, "%d elements, %d nodes", m->elements, m->nodes);
+    const bbm_vertex *P = &m->vertex[v];
+    const bbm_element *e = &m->element[P->element];
+
+    if (W->held)
+        bbm_fixed_gap(e, P, W, bbm_fixed_stiffness(m->par.alpha, e),
+                      bbm_add_gap(m, P->element, -1));
 }
 
-/* Puts a copy of an entry at the end of an array of *count entries, whose room is the next power of
- * two. Its index goes through the last pointer, which may be NULL; so may the model, which gets the
- * message. */
-bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const void *entry,
-                      int *index)
+/* Lists the gaps of bonds and fixed points, or those of a hook. */
+void bbm_list_gaps(bbm_model *m)
 {
-    const size_t n = (size_t)*count;
-    void *room = *array;
+    m->gaps = 0;
+    if (m->hook->list_gaps) {
+        m->hook->list_gaps(m);
+        return;
+    }
+    for (int b = 0; b < m->bonds; b++)
+        bbm_list_bond(m, &m->bond[b]);
+    for (int v = 0; v < m->vertices; v++)
+        bbm_list_fixed_point(m, v, &m->node[m->vertex[v].node]);
+}
 
-    if (n == 0 || (n >= 16 && (n & (n - 1)) == 0))
-        room = realloc(*array, (n == 0 ? 16 : 2 * n) * size);
-    if (!room)
-        return m ? bbm_out_of_memory(m) : BBM_NO_MEMORY;
-    *array = room;
-    memcpy((char *)room + n * size, entry, size);
-    ++*count;
-    if (index)
-        *index = (int)n;
+/* The part of F that comes from outside: gravity (3.6), loads at nodes and along lines (3.5). The
+ * elements that meet at a node share its load equally. */
+static void gather_loads(bbm_model *m)
+{
+    memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
+    for (int i = 0; i < m->elements; i++)
+        bbm_gravity_submatrix(&m->element[i], m->acceleration, &m->load[6 * i]);
+    for (int v = 0; v < m->vertices; v++) {
+        const int i = m->vertex[v].element, n = m->vertex[v].node;
+        const int adjacent = m->adjacent_first[n + 1] - m->adjacent_first[n];
+        const double share[2] = { m->node[n].load[0] / adjacent, m->node[n].load[1] / adjacent };
+        bbm_point_load(&m->element[i], m->vertex[v].x, m->vertex[v].y, share, &m->load[6 * i]);
+    }
+    for (int l = 0; l < m->line_loads; l++) {
+        const bbm_line_load *line = &m->line_load[l];
+        const bbm_vertex *a = &m->vertex[line->a], *b = &m->vertex[line->b];
+        const bbm_element *e = &m->element[a->element];
+        if (line->constant)
+            bbm_constant_load_submatrix(e, a, b, line->f[0], &m->load[6 * a->element]);
+        else
+            bbm_varying_load_submatrix(e, a, b, line->f, &m->load[6 * a->element]);
+    }
+    if (m->hook->load)
+        m->hook->load(m);
+}
+
+/* Adds the submatrices of two elements, or of i and the wall (j < 0), to K and F. */
+void bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
+{
+    bbm_matrix_add(m->K, i, i, s->Kii);
+    for (int a = 0; a < 6; a++)
+        m->F[6 * i + a] += s->Fi[a];
+    if (j < 0)
+        return;
+    bbm_matrix_add(m->K, i, j, s->Kij);
+    bbm_matrix_add(m->K, j, j, s->Kjj);
+    for (int a = 0; a < 6; a++)
+        m->F[6 * j + a] += s->Fj[a];
+}
+
+static void assemble_element(bbm_model *m, int i)
+{
+    bbm_submatrix s = { { { 0 } }, { 0 } };
+
+    bbm_elastic_submatrix(&m->element[i], &s);
+    if (!bbm_is_static(m))
+        bbm_inertia_submatrix(&m->element[i], m->h, &s);
+    bbm_matrix_add(m->K, i, i, s.K);
+    for (int a = 0; a < 6; a++)
+        m->F[6 * i + a] += s.F[a];
+}
+
+static void assemble_gap(bbm_model *m, const bbm_gap *g)
+{
+    bbm_submatrices s = { .Fi = { 0 } };
+
+    bbm_bonding_submatrices(g, &s);
+    bbm_add_submatrices(m, g->i, g->j, &s);
+}
+
+/* K and F, Eq. (5), for the positions at the start of the step and the present contact states. */
+void bbm_assemble(bbm_model *m)
+{
+    const clock_t start = clock();
+    int g = 0;
+
+    gather_loads(m);
+    bbm_matrix_clear(m->K);
+    memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
+    for (int i = 0; i < m->elements; i++)
+        assemble_element(m, i);
+    for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds: their rounding is in the forces */
+        assemble_gap(m, &m->gap[g]);
+    bbm_matrix_measure(m->K, m->F);
+    for (; g < m->gaps; g++)                        /* fixed points */
+        assemble_gap(m, &m->gap[g]);
+    bbm_assemble_contacts(m);
+    bbm_count_time(m, BBM_ASSEMBLE, start);
+}
+
+/* ------------------------------------------------------------- the parts of a time step */
+
+/* Geometry of the elements, and a first guess at D for the detection: by velocity and gravity, or
+ * in statics the D of the last step. */
+bbm_status bbm_begin_step(bbm_model *m)
+{
+    m->detections = 0;
+    for (int i = 0; i < m->elements; i++)
+        bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
+    memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
+    const bbm_status status = m->hook->begin ? m->hook->begin(m) : BBM_OK;
+    bbm_foresee_step(m);
+    return status;
+}
+
+/* Lists the contacts that may close in the step, and lays out K for them: at first for the guess at
+ * D, later for a solution that moves further than the list allows. `same`: the list has not
+ * changed, so the solution counts. */
+bbm_status bbm_detect(bbm_model *m, int *same)
+{
+    const clock_t start = clock();
+
+    *same = 1;
+    if (m->detections > 0 && !bbm_moved_too_far(m))
+        return BBM_OK;
+    if (m->detections++ == BBM_MAX_DETECTIONS)
+        return bbm_say_what_failed(m, BBM_OPEN_CLOSE);
+    bbm_status status = bbm_detect_contacts(m, same);
+    bbm_count_time(m, BBM_DETECT, start);
+    if (status || *same)
+        return status;
+    bbm_list_gaps(m);
+    status = bbm_lay_out_matrix(m);
+    return status || !m->hook->listed ? status : m->hook->listed(m);
+}
+
+/* Solves K D = F, Eq. (5), section 4. */
+static bbm_status solve(bbm_model *m)
+{
+    if (m->hook->before_solution)
+        m->hook->before_solution(m);
+    if (m->monitor && m->monitor(m, m->monitor_context))
+        return bbm_fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
+    return bbm_note_solution(m, bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg));
+}
+
+/* One pass of the open-close iteration. A step that has taken too much work ends as one that does
+ * not settle. */
+static bbm_status open_close(bbm_model *m, bbm_pass *pass)
+{
+    *pass = bbm_open_close(m);
+    return *pass == BBM_PASS_GIVE_UP || (*pass == BBM_PASS_AGAIN && bbm_is_spent(m))
+         ? bbm_say_what_failed(m, BBM_OPEN_CLOSE) : BBM_OK;
+}
+
+/* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
+static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
+{
+    const bbm_element start = *e;
+    double E[3][3], u[2];
+
+    for (int k = 0; k < e->n; k++) {
+        bbm_vertex *p = &vertex[k];
+        bbm_move(m, e, e->D, p->x, p->y, u);
+        p->u += u[0];
+        p->v += u[1];
+        p->x = m->node[p->node].x - m->origin[0] + p->u;
+        p->y = m->node[p->node].y - m->origin[1] + p->v;
+    }
+    bbm_elastic_matrix(&e->material, E);
+    for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++)
+            e->stress[a] += E[a][b] * e->D[3 + b];
+        e->sum[a] += e->D[a];
+    }
+    if (bbm_is_static(m))
+        memset(e->V, 0, sizeof e->V);
+    else
+        bbm_newmark_velocity(e, m->h, m->par.velocity_factor);
+    if (bbm_motion_of(m))
+        bbm_motion_of(m)->turn(&start, e, vertex);
+}
+
+/* Moves the elements and vertices of the model, or of a copy, by the D of the model, Eq. (3). */
+void bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[])
+{
+    for (int i = 0; i < m->elements; i++) {
+        memcpy(element[i].D, &m->D[6 * i], sizeof element[i].D);
+        update_element(m, &element[i], &vertex[element[i].first]);
+    }
+}
+
+/* Moves the model by its D, Eq. (3), unless a hook refuses the solution. info.change becomes the
+ * left side of Eq. (71) over the right side without its tolerance. */
+static bbm_status update(bbm_model *m)
+{
+    const bbm_status status = m->hook->move ? m->hook->move(m) : BBM_OK;
+    double step2 = 0, sum2 = 0;
+
+    if (status)
+        return status;
+    if (!m->hook->move)
+        bbm_move_elements(m, m->element, m->vertex);
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
+        step2 += e->D[0] * e->D[0] + e->D[1] * e->D[1];
+        sum2 += e->sum[0] * e->sum[0] + e->sum[1] * e->sum[1];
+    }
+    m->info.change = sum2 > 0 ? sqrt(step2 / sum2) : 0;
+    m->info.t += bbm_is_static(m) ? 0 : m->h;
+    bbm_store_contacts(m);
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------------------- what a step counts */
+/* --------------------------------------------------------------- the time step, Fig. 8 */
 
-/* Counts the CPU time since `since` for a phase. */
-void bbm_count_time(bbm_model *m, int phase, clock_t since)
+/* Fig. 8 once, with the step m->h. The model moves in `update` alone, when all has settled. */
+bbm_status bbm_try_step(bbm_model *m)
 {
-    m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
+    bbm_status status = bbm_begin_step(m);
+    bbm_pass pass = BBM_PASS_DONE;
+    int same = 1;
+
+    if (!status)
+        status = bbm_detect(m, &same);              /* 3.7: which contacts may close            */
+    do {
+        do {
+            if (!status && pass != BBM_PASS_SAME_K)
+                bbm_assemble(m);                    /* K, F: 3.1 to 3.8                         */
+            if (!status)
+                status = solve(m);                  /* K D = F: section 4                       */
+            if (!status)
+                status = open_close(m, &pass);      /* 3.8: do the contacts fit the solution?   */
+        } while (!status && pass != BBM_PASS_DONE);
+        if (!status)
+            status = bbm_detect(m, &same);          /* too far for the list of contacts?        */
+    } while (!status && !same);
+    return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 
-/* Whether the step has had all the work that it may take. */
-int bbm_is_spent(const bbm_model *m)
+/* One part of a step, of length h. If it fails it is done again as two halves, down to dt/4096. A
+ * static step has no halves. */
+static bbm_status take_part(bbm_model *m, double h, int tries)
 {
-    return m->info.passes >= SOLUTIONS || m->info.iterations / ITERATIONS >= m->par.pcg.iterations;
+    m->h = h;
+    bbm_status status = bbm_try_step(m);
+    const int parts = bbm_parts_to_try(m, status, tries);
+
+    for (int k = 0; k < parts && (k == 0 || !status); k++)
+        status = take_part(m, h / parts, tries + 1);
+    return status;
 }
 
-/* What went wrong in a solution, or in the open-close iteration, becomes a sentence with numbers.
- * */
-bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
+/* One time step, Fig. 8. If it fails, the model stays as the last part that went well left it. */
+bbm_status bbm_step(bbm_model *m)
 {
-    const bbm_pcg_info *i = &m->info.pcg;
-    const int step = m->info.step + 1;
+    const bbm_status status = bbm_check_step(m);
 
-    if (status == BBM_OPEN_CLOSE && bbm_is_static(m))
-        return bbm_fail(m, status, "step %d, %d passes, %d contacts", step, m->info.passes,
-                        m->scratch->contacts);
-    if (status == BBM_OPEN_CLOSE)
-        return bbm_fail(m, status, "step %d at t = %g, dt cut to %g, %d passes, %d contacts", step,
-                        m->info.t, m->h, m->info.passes, m->scratch->contacts);
-    if (status == BBM_NOT_FINITE)
-        return bbm_fail(m, status, "step %d, a load, velocity, stress or stiffness is too large",
-                        step);
-    if (i->element >= 0)
-        return bbm_fail(m, status, "step %d, element %d of block %d: it is free to move, it has "
-                        "turned over, or the stiffnesses that meet there are too far apart",
-                        step, i->element, m->element[i->element].block);
-    return bbm_fail(m, status, "step %d, iteration %d, residual %.2g%s", step, i->iterations,
-                    i->residual, status == BBM_NOT_CONVERGED
-                                     ? "; more iterations or a smaller alpha help" : "");
+    return bbm_end_step(m, status ? status : take_part(m, m->par.dt, 0));
 }
 
-/* Counts the work of a solution; what went wrong in it becomes a sentence. */
-bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
+/* All time steps. With a tolerance they end when the last step is small against the sum of all
+ * steps, Eq. (71): sqrt(sum |step_i|^2) <= tolerance sqrt(sum |total_i|^2), over the barycentres i.
+ * `update` computes the two sides. */
+bbm_status bbm_run(bbm_model *m)
 {
-    const bbm_pcg_info *i = &m->info.pcg;
+    const int last = m->info.step + m->par.steps;
 
-    m->info.iterations += i->iterations;
-    m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
-    m->info.seconds[BBM_ITERATE] += i->seconds[1];
-    return status ? bbm_say_what_failed(m, status) : BBM_OK;
-}
-
-/* ------------------------------------------------------------------- K for the contacts in hand */
-
-/* Lays out K: a submatrix for each element, each gap between two of them and each two elements of a
- * contact, Eq. (5). Without memory the old one stays. */
-bbm_status bbm_lay_out_matrix(bbm_model *m)
-{
-    const int contacts = m->scratch ? m->scratch->contacts : 0;
-    const int most = contacts * (BBM_PARTS * (BBM_PARTS - 1) / 2) + m->gaps;
-    int (*link)[2] = calloc((size_t)most + 1, sizeof *link), n = 0;
-    bbm_matrix *K;
-
-    if (!link)
-        return BBM_NO_MEMORY;
-    for (int k = 0; k < contacts; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
-        for (int j = 1; j < c->parts; j++)
-            for (int i = 0; i < j; i++)
-                memcpy(link[n++], (int [2]){ c->element[i], c->element[j] }, sizeof *link);
-    }
-    for (int g = 0; g < m->gaps; g++) {
-        memcpy(link[n], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);
-        n += m->gap[g].j >= 0;
-    }
-    const int same = m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0;
-    if (same || bbm_matrix_new(m->elements, n, link, &K)) {
-        free(link);
-        return same ? BBM_OK : BBM_NO_MEMORY;
-    }
-    bbm_matrix_free(m->K);
-    free(m->link);
-    m->K = K;
-    m->link = link;
-    m->links = n;
+    do {
+        const bbm_status status = bbm_step(m);
+        if (status)
+            return status;
+        if (m->par.tolerance > 0 && m->info.change <= m->par.tolerance)
+            return BBM_OK;
+    } while (m->info.step < last);
+    if (m->par.tolerance > 0)
+        return bbm_fail(m, BBM_STEPS_EXHAUSTED, "change %.2g after step %d, expected %.2g",
+                        m->info.change, m->info.step, m->par.tolerance);
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------------------- the parts of a step */
+/* ------------------------------------------------------------------ results, section 4 */
 
-/* Refuses the first value that is outside its range; a comparison with NaN is false, so NaN is
- * refused, too. */
-bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[])
+/* Stress out of the plane, 0 in plane stress. */
+double bbm_stress_out_of_plane(const bbm_element *e)
 {
-    for (const bbm_range *r = range; r < range + n; r++)
-        if (!(r->value >= r->low && r->value <= r->high))
-            return bbm_fail(m, BBM_BAD_PARAMETER, "%s = %g, expected %s", r->name, r->value,
-                            r->expected);
+    return e->out_of_plane * (e->stress[0] + e->stress[1]);
+}
+
+/* von Mises stress. */
+double bbm_mises(const double s[3], double szz)
+{
+    return sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]
+                + szz * (szz - s[0] - s[1]));
+}
+
+/* Displacement and nodal stress: the mean over the elements that meet at a node, those of one block
+ * or of all (-1). */
+bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r)
+{
+    int count = 0;
+
+    *r = (bbm_result){ 0 };
+    if (!m->is_prepared || node < 0 || node >= m->nodes)
+        return BBM_BAD_INDEX;
+    for (int a = m->adjacent_first[node]; a < m->adjacent_first[node + 1]; a++) {
+        const bbm_vertex *v = &m->vertex[m->adjacent[a]];
+        const bbm_element *e = &m->element[v->element];
+        if (block >= 0 && e->block != block)
+            continue;
+        r->u += v->u;
+        r->v += v->v;
+        for (int k = 0; k < 3; k++)
+            r->stress[k] += e->stress[k];
+        r->szz += bbm_stress_out_of_plane(e);
+        count++;
+    }
+    if (count == 0)
+        return BBM_BAD_INDEX;
+    r->u /= count;
+    r->v /= count;
+    for (int k = 0; k < 3; k++)
+        r->stress[k] /= count;
+    r->szz /= count;
+    r->mises = bbm_mises(r->stress, r->szz);
     return BBM_OK;
-}
-
-/* What must hold before a step: a prepared model, parameters in their ranges. Counting begins. */
-bbm_status bbm_check_step(bbm_model *m)
-{
-    const bbm_parameters *p = &m->par;
-    const double over = nextafter(0, 1), most = nextafter(INFINITY, 0);
-    const bbm_range range[] = {
-        { "dt", p->dt, over, INFINITY, "more than 0" },
-        { "steps", p->steps, 1, most, "1 or more" },
-        { "tolerance", p->tolerance, 0, most, "0 or more" },
-        { "velocity_factor", p->velocity_factor, 0, 1, "0 to 1" },
-        { "alpha", p->alpha, over, most, "more than 0" },
-        { "gravity[0]", p->gravity[0], -most, most, "a finite number" },
-        { "gravity[1]", p->gravity[1], -most, most, "a finite number" },
-        { "p_n", p->p_n, over, most, "more than 0" },
-        { "p_s", p->p_s, over, most, "more than 0" },
-        { "friction", p->friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
-        { "pcg.omega", p->pcg.omega, over, nextafter(2, 0), "more than 0, less than 2" },
-        { "pcg.tolerance", p->pcg.tolerance, over, 1e-6, "more than 0, at most 1e-6" },
-        { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },
-    };
-
-    m->info.passes = m->info.cuts = m->info.iterations = 0;
-    if (m->status)
-        return m->status;
-    if (!m->is_prepared)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again after "
-                        "what is added");
-    return bbm_check_ranges(m, LENGTH(range), range);
-}
-
-/* In how many parts a part that has ended with `status` is tried again: 2, or 0 if it is done, or
- * as short as it may be, or static. What may go well otherwise: the equations, or the states of the
- * contacts, had no end, it makes energy, or something goes too far. */
-int bbm_parts_to_try(bbm_model *m, bbm_status status, int tries)
-{
-    const int may = status == BBM_NOT_POSITIVE_DEFINITE || status == BBM_NOT_CONVERGED
-                 || status == BBM_NOT_FINITE || status == BBM_OPEN_CLOSE || status == BBM_ENERGY
-                 || status == BBM_STEP_TOO_LONG;
-
-    if (!may || tries == HALVINGS || bbm_is_static(m) || bbm_is_spent(m))
-        return 0;
-    m->info.cuts++;
-    m->message[0] = '\0';
-    return 2;
-}
-
-/* Counts the step, or says why it failed, if no hook finds another way. */
-bbm_status bbm_end_step(bbm_model *m, bbm_status status)
-{
-    if (status && m->K && m->hook->failed)
-        status = m->hook->failed(m, status);
-    m->info.step += !status;
-    return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }

@@ -1,0 +1,336 @@
+/* open_close.c - the open-close iteration of Shi (1988), which the paper takes for granted: which
+ * contacts are open, locked or slide in a step. The table of states is in contact.c.
+ *
+ * The iteration. N of a sliding contact depends on its friction, and the friction on N. So solve
+ * with the friction of the last N until both agree; a hook may need fewer solutions. Only then look
+ * at the states: all that do not fit their forces change, and a new solution follows. If a set of
+ * states comes back, the iteration would cycle. Then, for as many passes as there have been, only
+ * the contact that fits worst changes. A contact that closes with more shear than friction can
+ * hold, or for the second time in the step, starts as SLIDE. Without friction and cohesion a
+ * contact never stays locked.
+ *
+ * Nothing moves before all contacts fit. If they never do, the step is done again as if it had not
+ * been tried: in halves, or in statics in another way.
+ */
+#include <string.h>
+
+#include "base.h"
+
+/* AGREE  [-]  forces agree if they differ by less than this share of the largest force in their
+ *             component of K: the solver is not more exact
+ * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
+ *             it counts as no force
+ * ROUGH  [-]  but at most this share of the largest force does. Stiffer springs do not settle */
+#define AGREE 1e-9
+#define DIGITS 1e-15
+#define ROUGH 1e-3
+
+/* The most passes in a row that change friction forces alone. */
+enum { FRICTION_PASSES = 100 };
+
+/* --------------------------------------------------------------------- the contacts of a step */
+
+/* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s. */
+static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
+{
+    const double s = bbm_way_along(m, c->corner, c->edge);
+
+    c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
+}
+
+/* The elements of a contact: i and j, and those that share P1, P2 or P3 with them. */
+static void find_elements(const bbm_model *m, bbm_contact *c)
+{
+    const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
+
+    c->element[0] = bbm_element_of(m, c->corner);
+    c->element[1] = bbm_element_of(m, c->edge);
+    c->parts = 2;
+    for (int k = 0; k < 3; k++)
+        if (bbm_partner_of(m, P[k]) != P[k])
+            c->element[c->parts++] = m->vertex[bbm_partner_of(m, P[k])].element;
+}
+
+/* The state with which a contact begins the step: that of its last step. But one that touches when
+ * the run begins is closed: what lies flush is so under load. In dynamics it is open where P can
+ * come in over several lines of a corner, unless its joint has a strength: its way shows over which
+ * one. One that P1 has left past the end of the edge is open. It can carry friction by the model's
+ * angle, or what a hook says. The anchor is placed anew if the contact is open or its edge is
+ * another one. */
+static void begin_contact(const bbm_model *m, bbm_contact *c)
+{
+    int lines = 0;
+
+    find_elements(m, c);
+    c->time_left = 1;
+    c->N_of_friction = c->N;
+    c->closings = 0;
+    for (int k = 0; k < 4; k++)
+        lines += c->entrance[k] >= 0;
+    if (c->has_left) {
+        c->state = BBM_OPEN;
+        c->N = c->T = c->slip = c->was_closed = c->inside = 0;
+    }
+    c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
+    if (m->hook->strength)
+        m->hook->strength(m, c);
+    if (c->touches && !c->has_left)
+        c->state = lines == 0 || bbm_is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
+    if (!c->carried || c->state == BBM_OPEN) {
+        place_anchor(m, c, c->T);
+        c->rest = bbm_motion_of(m) ? fmin(0, c->d_n0 + c->N / m->par.p_n) : 0;
+    }
+}
+
+/* Lists the contacts that may be closed in this step, each with the state with which it begins.
+ * `same`: the list of this step was the same already, and stays. */
+bbm_status bbm_detect_contacts(bbm_model *m, int *same)
+{
+    bbm_contact_scratch *w = m->scratch;
+    const bbm_status status = bbm_list_pairs(m, same);
+
+    if (status || *same)
+        return status;
+    for (int k = 0; k < w->contacts; k++)
+        begin_contact(m, &w->contact[k]);
+    w->passes = w->friction_passes = w->one_until = 0;
+    return BBM_OK;
+}
+
+/* ------------------------------------------------------------- the open-close iteration: forces */
+
+/* d_n and d_s, from an anchor, by these vectors. */
+static void vector_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
+{
+    bbm_spring v[2];
+
+    bbm_contact_vectors(m, c, anchor, v);
+    for (int k = 0; k < 2; k++)
+        d[k] = bbm_length_of(&v[k], c->parts, c->element, m->D);
+}
+
+/* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
+ * points. With an anchor at P3, -d_s is how far P1 lies from P3 along the edge; with one at P2, d_s
+ * is how far it lies from P2. */
+static void measure(const bbm_model *m, bbm_contact *c)
+{
+    const int open = c->state == BBM_OPEN, moved = open && bbm_motion_of(m);
+    void (*distances)(const bbm_model *, const bbm_contact *, double, double [2]) =
+        moved ? bbm_end_distances : vector_distances;
+    double d[2];
+
+    if (open) {
+        distances(m, c, 1, d);
+        c->past[1] = -d[1];
+        c->anchor = 0;
+        c->time_left = 1;
+    }
+    distances(m, c, c->anchor, d);
+    c->past[0] = d[1];
+    c->d_n = d[0];
+    c->d_s = c->time_left * d[1];
+    c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
+    c->T = open ? 0 : m->par.p_s * c->d_s;
+    if (c->friction_in_K && !bbm_is_strengthless(c, c->N))
+        c->N_of_friction = c->N;
+}
+
+/* The force tolerance of each contact: a share of the largest force in its component of K. That is
+ * the force on an element, inertia included, or in a contact. The solver's residual, and with it
+ * the error of every N, is small against this force alone. What the spring makes of the rounding of
+ * positions is added. */
+static void find_tolerances(const bbm_model *m)
+{
+    const bbm_contact_scratch *w = m->scratch;
+
+    memcpy(w->force, m->K->forces, (size_t)m->K->components * sizeof *w->force);
+    for (int k = 0; k < w->contacts; k++) {
+        double *most = &w->force[bbm_component_of(m->K, w->contact[k].element[0])];
+        *most = fmax(*most, fabs(w->contact[k].N));
+    }
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
+        const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
+        const double force = w->force[bbm_component_of(m->K, c->element[0])];
+        const double digits = m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y)) * DIGITS;
+        c->force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
+    }
+}
+
+/* Takes the N of this solution for the friction of the next one. Returns whether an N is not the
+ * one that its friction was taken for. */
+static int renew_friction(const bbm_model *m)
+{
+    int renewed = 0;
+
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
+        renewed |= c->state == BBM_SLIDE && c->strength.tan_phi != 0
+                && !(fabs(c->N - c->N_of_friction) <= c->force_tolerance);
+        c->N_of_friction = c->N;
+    }
+    return renewed;
+}
+
+/* ------------------------------------------------------------- the open-close iteration: states */
+
+/* Gives a contact its next state. When it closes, P1 hits at the fraction d0/(d0 - d_n) of the
+ * step, d0 the distance at the start. Until the end of the step the anchor is where P1 stood at the
+ * start. The slip from there lies between those from P3 and from P2, for (53) is linear in the
+ * anchor. The shear spring feels the share of it after the hit: so it never drives the slip. The
+ * contact starts as SLIDE if its shear spring would carry more than friction can hold, or if it
+ * closes for the second time in the step: the shear spring had opened it. */
+static void change_state(const bbm_model *m, bbm_contact *c)
+{
+    const double at = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
+    const double d0 = fmax(0, c->d_n0);
+    const int closes = c->state == BBM_OPEN;
+    const double slip = closes ? (1 - at) * c->past[0] - at * c->past[1] : c->T;
+
+    if (closes) {
+        c->time_left = 1 - d0 / (d0 - c->d_n);
+        c->anchor = at;
+        const double T = c->time_left * m->par.p_s * fabs(slip);
+        const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
+        const int slides = ++c->closings > 1 || T > bbm_shear_strength(&c->strength, N);
+        c->next_state = slides ? BBM_SLIDE : BBM_LOCK;
+    }
+    if (c->next_state == BBM_SLIDE)
+        c->sign = copysign(1, slip);
+    c->state = c->next_state;
+}
+
+/* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
+ * may have been pulled open by its shear spring. If that carries more than friction would hold
+ * under as much pressure, the contact slides first, which removes the spring. */
+static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->force_tolerance);
+    const double strength = bbm_shear_strength(&c->strength, fabs(c->N));
+
+    if (c->state == BBM_OPEN && next != BBM_OPEN && bbm_is_blocked(m, c))
+        return BBM_OPEN;
+    if (c->state == BBM_LOCK && next == BBM_OPEN && fabs(c->T) > strength && strength > 0)
+        return BBM_SLIDE;
+    return next;
+}
+
+/* The force by which a state fails to fit the solution. */
+static double misfit(const bbm_model *m, const bbm_contact *c)
+{
+    if (c->state == BBM_OPEN)
+        return m->par.p_n * (c->rest - c->d_n);
+    if (c->next_state == BBM_OPEN && c->N < 0)
+        return -c->N;
+    return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
+}
+
+/* Whether P crosses more than one line of a corner, so that one of them counts. */
+static int is_at_corner(const bbm_model *m, const bbm_contact *c)
+{
+    int crossed = 0;
+
+    for (int k = 0; k < 4; k++)
+        crossed |= c->entrance[k] >= 0 && m->scratch->contact[c->entrance[k]].d_n < 0;
+    return crossed && c->state == BBM_OPEN;
+}
+
+/* Changes all states that do not fit the solution, or only the one that fits worst. A contact whose
+ * P crosses several lines of a corner waits until all others fit, since they change the way of P.
+ * The worst is the same in any order of the blocks, but for a tie. Returns the number of changes.
+ */
+static int change_states(bbm_model *m)
+{
+    bbm_contact_scratch *w = m->scratch;
+    const int one = w->passes < w->one_until;
+    bbm_contact *worst = NULL;
+    int changes = 0, sure = 0;
+
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
+        c->next_state = find_next_state(m, c);
+        if (c->next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
+            worst = c;
+        sure |= c->next_state != c->state && !is_at_corner(m, c);
+    }
+    for (int k = 0; k < w->contacts; k++) {
+        bbm_contact *c = &w->contact[k];
+        if (c->next_state == c->state || (one ? c != worst : sure && is_at_corner(m, c)))
+            continue;
+        change_state(m, c);
+        changes++;
+    }
+    return changes;
+}
+
+/* Notes the states of this pass, and which way each contact slides, as one number, a hash (FNV-1a).
+ * It takes no negative numbers, whose hashes collide. If an earlier pass had the same states, the
+ * iteration cycles, unless that was the last pass: then only T of the step was new. */
+static void note_states(bbm_contact_scratch *w)
+{
+    uint64_t hash = 14695981039346656037u;
+
+    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const int direction = c->state == BBM_SLIDE && c->sign < 0 ? -1 : 1;
+        hash = (hash ^ (uint64_t)(3 + direction * (int)c->state)) * 1099511628211u;
+    }
+    for (int p = 0; p < w->passes; p++)
+        if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)
+            w->one_until = 2 * w->passes;
+    w->seen[w->passes] = hash;
+}
+
+/* Checks a solution: first whether the friction forces agree with their N, then whether the states
+ * fit the forces. A hook may find more to do. */
+bbm_pass bbm_open_close(bbm_model *m)
+{
+    bbm_contact_scratch *w = m->scratch;
+
+    m->info.passes++;
+    for (int k = 0; k < w->contacts; k++)
+        measure(m, &w->contact[k]);
+    bbm_note_depths(m);
+    find_tolerances(m);
+    if (renew_friction(m))
+        return ++w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
+    w->friction_passes = 0;
+    note_states(w);
+    bbm_pass next = change_states(m) ? BBM_PASS_AGAIN : BBM_PASS_DONE;
+    if (m->hook->renew)
+        next = m->hook->renew(m, next);
+    return next == BBM_PASS_AGAIN && ++w->passes > BBM_MAX_PASSES ? BBM_PASS_GIVE_UP : next;
+}
+
+/* ------------------------------------------------------------------------------ end of the step */
+
+/* When the model has moved: the anchor of a sliding contact follows, so that a shear spring would
+ * carry the friction force. It has slid by as much as the anchor moved. A joint that has opened, or
+ * slid against a shear strength, is broken. */
+static void store_contact(bbm_model *m, bbm_contact *c)
+{
+    const double strength = bbm_shear_strength(&c->strength, c->N);
+
+    if (c->state == BBM_SLIDE) {
+        c->T = c->sign * strength;
+        c->slip += fabs(c->d_s - c->T / m->par.p_s);
+    }
+    if (c->state == BBM_SLIDE || c->time_left < 1)
+        place_anchor(m, c, c->T);
+    if (c->state == BBM_OPEN || (c->state == BBM_SLIDE && strength > 0))
+        c->area = 0;
+    c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->was_closed || c->inside);
+    if (c->state != BBM_OPEN) {
+        m->info.contacts++;
+        m->info.penetration = fmax(m->info.penetration, -c->d_n);
+    }
+}
+
+/* Ends the step: its contacts become those of the model, which has moved. */
+void bbm_store_contacts(bbm_model *m)
+{
+    m->info.contacts = 0;
+    m->info.penetration = 0;
+    bbm_keep_contacts(m);
+    for (int k = 0; k < m->contacts; k++)
+        store_contact(m, &m->contact[k]);
+}
