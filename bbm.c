@@ -1,6 +1,6 @@
-/* bbm.c - the formulas of the bonding block model: sections 2 and 3.1 to 3.6 of the paper in their
- * order. Sections 3.7 and 3.8, contacts, are in contact.c. Section 4, the solution of K D = F, is in
- * solver.c. base/step.c calls all of them in a time step (Fig. 8); base/build.c builds a model.
+/* bbm.c - the formulas of the bonding block model: sections 2 and 3.1 to 3.6 of the paper, in their
+ * order. Sections 3.7 and 3.8, contacts, are in contact.c, section 4, the solution of K D = F, in
+ * solver.c. base/step.c calls all of them in a time step (Fig. 8). base/build.c builds a model.
  *
  * Sun, Chen, Feng, Wang 2015, doi:10.1155/2015/723263. Read it with the paper open: each formula is
  * a function of its own, with the number of its equation above it.
@@ -15,8 +15,8 @@
  * at D = 0 is added to F. A spring k over a gap d = d0 + T D has the energy k/2 d.d, so that
  * K += k T^T T and F -= k T^T d0. Bonding springs, fixed points and contacts differ in d alone.
  *
- * Statics is without inertia, Eq. (16), (17). `middle` is NULL in the paper: with it a hook takes T at
- * another moment of the step. A reader of the paper may pass over it.
+ * Statics is without inertia, Eq. (16), (17). `middle` is NULL in the paper. With it a hook takes T
+ * at another moment of the step, and a reader of the paper may pass over it.
  */
 #include <string.h>
 
@@ -59,7 +59,7 @@ void bbm_element_geometry(bbm_element *e, const bbm_vertex v[])
     e->Sxy = sxy;
 }
 
-/* Displacement mode matrix: u(x, y) = T D, Eq. (1)-(3). */
+/* Displacement mode matrix: u(x, y) = T D, Eq. (1), (2), (3). */
 void bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6])
 {
     const double X = x - e->x, Y = y - e->y;
@@ -118,7 +118,7 @@ void bbm_elastic_matrix(const bbm_material *m, double E[3][3])
     memcpy(E, matrix, sizeof matrix);
 }
 
-/* Pi_e = t A (1/2 e.E e + e.stress0), Eq. (6)-(9)
+/* Pi_e = t A (1/2 e.E e + e.stress0), Eq. (6), (7), (8), (9)
  *     ->   K_ii += t A E, F_i -= t A stress0, Eq. (10).
  * Deviation: with bbm_motion the A of K_ii is the starting area. The forces of Hooke's law have a
  * potential then: a body that is strained and comes back makes no energy. */
@@ -162,7 +162,7 @@ void bbm_mode_integral(const bbm_element *e, double M[6][6])
 }
 
 /* Pi_i = int u.M u'' dA with the acceleration at the end of the step, u'' = 2/dt^2 D - 2/dt V,
- * Eq. (11)-(13) (Newmark, beta = 1/2, gamma = 1)
+ * Eq. (11), (12), (13) (Newmark, beta = 1/2, gamma = 1)
  *     ->   K_ii += 2 M/dt^2 int T^T T dA, Eq. (16),  F_i += 2 M/dt (int T^T T dA) V, Eq. (17).
  * The inertia force M u'' counts as a given load: Eq. (15) is differentiated by the D of u alone,
  * not by the D of u''. */
@@ -211,7 +211,8 @@ void bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6])
 
 /* A spring k between the vertices P of element i and Q of element j, which were one point at the
  * start of the run. Its elongation at the end of the step is |d|,
- *     d = d0 + Ti(P) Di - Tj(Q) Dj,  d0 = P - Q,  Eq. (18)-(23);   Pi_b = k/2 d.d,  Eq. (24)-(26).
+ *     d = d0 + Ti(P) Di - Tj(Q) Dj,  d0 = P - Q,   Eq. (18), (19), (20), (21), (22), (23),
+ *     Pi_b = k/2 d.d,                              Eq. (24), (25), (26).
  * d0 is computed from displacements: the difference of coordinates has more round-off. */
 void bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
                      const bbm_vertex *Q, double k, bbm_gap *g)
@@ -254,7 +255,8 @@ double bbm_fixed_stiffness(double alpha, const bbm_element *e)
     return alpha * shear_modulus(&e->material) * e->material.thickness;
 }
 
-/* A spring k between the vertex P and the wall point W, d = d0 + T(P) D, d0 = P - W, Eq. (30)-(36)
+/* A spring k between the vertex P and the wall point W,
+ *     d = d0 + T(P) D,  d0 = P - W,            Eq. (30), (31), (32), (33), (34), (35), (36)
  *     ->   K_ii += k T^T T,  F_i -= k T^T d0,  Eq. (37): (27), (28) with T_j = 0.
  * A point held in one direction alone, as on a line of symmetry, has k = 0 in the other. */
 void bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k,
@@ -292,8 +294,10 @@ void bbm_gauss_point(int g, double *s, double *weight)
     *weight = (18 + (g == 0 || g == 3 ? -1 : 1) * sqrt(30)) / 72;
 }
 
-/* A load f(s) [N/m] that varies along x(s) = xa + (xb - xa) s, y(s) likewise, Eq. (38)-(41):
- * F_i += int_0^1 T^T(x(s), y(s)) f(s) l ds, Eq. (42). `f` has its values at the Gauss points. */
+/* A load f(s) [N/m] that varies along a line from a to b,
+ *     x(s) = xa + (xb - xa) s,  y(s) likewise,             Eq. (38), (39), (40), (41)
+ *     ->   F_i += int_0^1 T^T(x(s), y(s)) f(s) l ds,       Eq. (42).
+ * `f` has its values at the Gauss points. */
 void bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
                                 const double f[BBM_GAUSS][2], double F[6])
 {
@@ -320,9 +324,9 @@ void bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, cons
 
 /* ------------------------------------------------------------ 3.6 Volume force submatrix */
 
-/* A volume force f(x, y) [N/m^2] that varies: F_i += int T^T f dA, Eq. (44)-(46). Each edge and the
- * barycentre make a signed triangle of area c/2. The midpoints of its sides integrate it exactly if
- * f is linear in x and y. */
+/* A volume force f(x, y) [N/m^2] that varies: F_i += int T^T f dA, Eq. (44), (45), (46). Each
+ * edge and the barycentre make a signed triangle of area c/2. The midpoints of its sides integrate
+ * it exactly if f is linear in x and y. */
 void bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex v[], bbm_field *f,
                                   const void *context, double F[6])
 {

@@ -30,7 +30,11 @@
 #ifndef BBM_H
 #define BBM_H
 
-#define BBM_VERSION "0.1"
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define BBM_VERSION "1.0"
 
 #if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
 #error "bbm needs infinity and NaN: compile without -Ofast, -ffast-math, -ffinite-math-only"
@@ -102,7 +106,8 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step              */
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
     double D[6];                /* of the last step: u0, v0 [m], r0 [rad], ex, ey, gxy [-]      */
-    double out_of_plane;        /* -        szz/(sx + sy); 0: plane stress                      */
+    double szz, out_of_plane;   /* Pa, -    stress out of the plane, carried as well; of a step, its */
+                                /*          share in that of sx + sy; 0, 0: plane stress        */
     const bbm_middle *middle;   /* NULL: T is (2); else the T of a hook                         */
 } bbm_element;
 
@@ -219,7 +224,6 @@ bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8 
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
 void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
                              double u[2]);                  /* (1)                              */
-double      bbm_stress_out_of_plane(const bbm_element *e);  /* Pa                               */
 double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */
@@ -268,5 +272,9 @@ void   bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex verte
                                     const void *context, double F[6]);          /* (46)         */
 void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]);      /* (47) */
 void   bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6]);     /* (47) */
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,5 +1,5 @@
-/* contact.c - contacts between blocks: sections 3.7 and 3.8 of the paper, and what contacts add to K
- * and F.
+/* contact.c - contacts between blocks: sections 3.7 and 3.8 of the paper, and what contacts add to
+ * K and F.
  *
  * Blocks touch where a vertex P1 of one meets an edge P2 P3 of another. A stiff spring p_n then
  * resists penetration, a spring p_s resists slip, and where Mohr and Coulomb's bound is passed,
@@ -23,15 +23,16 @@
  * When the slip turns round, s T falls below the bound and the contact locks with the force that it
  * had.
  *
- * base/detect.c finds which corners may touch which edges. base/open_close.c iterates with the table
- * of states until all contacts fit the solution.
+ * base/detect.c finds which corners may touch which edges. base/open_close.c changes the states by
+ * this table until all contacts fit the solution.
  */
 #include "base/base.h"
 
 /* --------------------------------------------------------------------- 3.7.1 Normal submatrices */
 
-/* The normal distance of P1 from P2 P3, positive outside. The points move by T D, Eq. (48)-(50),
- * and the terms of second order are dropped: d_n = S/l = S0/l + e.D_i + g.D_j, Eq. (52)-(57), (59):
+/* The normal distance of P1 from P2 P3, positive outside, d_n = S/l, Eq. (52). The points move by
+ * T D, Eq. (48), (49), (50), and the terms of second order are dropped, Eq. (54), (55), (56):
+ *     d_n = S0/l + e.D_i + g.D_j, Eq. (57), (59),
  *     S0 = det [1 x1 y1; 1 x2 y2; 1 x3 y3],   e = T_i^T(P1) (y2 - y3, x3 - x2)/l,
  *     g = T_j^T(P2) (y3 - y1, x1 - x3)/l + T_j^T(P3) (y1 - y2, x2 - x1)/l.
  * In e and g a hook has T and the points p1, p2, p3 of another moment of the step. */
@@ -52,6 +53,12 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
     }
 }
 
+/* The normal law: the force of the normal spring, N = -p_n d_n, positive in compression, Eq. (65).
+ * Its energy is Pi_n of Eq. (51). The stiffness in K is -dN/dd_n. */
+double bbm_normal_force(double p_n, double d_n) { return -p_n * d_n; }
+
+double bbm_normal_energy(double p_n, double N) { return N * N / (2 * p_n); }
+
 /* A spring p, normal or shear, over d = d0 + e.D_i + g.D_j: Pi = p/2 d^2, Eq. (51)   ->
  * Eq. (58), (58a-f), (63): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T. v and w: e or g. */
 void bbm_spring_submatrix(double p, const double v[6], const double w[6], double K[6][6])
@@ -63,7 +70,7 @@ void bbm_spring_submatrix(double p, const double v[6], const double w[6], double
 
 /* The force f of a contact at D = 0 is a load on both sides: F_i -= f e, F_j -= f g. A spring has
  * f = p d0, Eq. (59), (64). The friction force Fr of Eq. (65), positive when P1 slips towards P3,
- * has the e and g of the shear spring, Eq. (66)-(69). */
+ * has the e and g of the shear spring, Eq. (66), (67), (68), (69). */
 void bbm_force_submatrix(double f, const double v[6], double F[6])
 {
     for (int a = 0; a < 6; a++)
@@ -73,7 +80,8 @@ void bbm_force_submatrix(double f, const double v[6], double F[6])
 /* ---------------------------------------------------------------------- 3.7.2 Shear submatrices */
 
 /* The displacement of P1 along the edge against the anchor P0 = P3 + anchor (P2 - P3), a point of
- * the edge's material: d_s = S1 + e.D_i + g.D_j, Eq. (48)-(50), (53), (60)-(62), (64), (67), (68):
+ * the edge's material, Eq. (53). The points move as in Eq. (48), (49), (50), and as there
+ *     d_s = S1 + e.D_i + g.D_j, Eq. (60), (61), (62), (64), (67), (68),
  *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m.
  * Deviation: with the T and the points of a hook g has what (60) drops, the turning of m, as well:
  * (T_j(P3) - T_j(P2))^T (P1 - P0)/l. Without it friction does not keep angular momentum. */
@@ -125,6 +133,12 @@ double bbm_shear_strength(const bbm_strength *s, double N)
     return fmax(0, N * s->tan_phi + s->shear);
 }
 
+/* The shear force of a contact: what its spring carries, or friction while it slides, Eq. (65). */
+double bbm_shear_force(const bbm_contact *c)
+{
+    return c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N) : c->T;
+}
+
 /* The figure on top as a table: the state that follows from d_n, N and T. Forces that differ by
  * less than the tolerance agree. A closed contact opens without a tolerance: it would be a hidden
  * tensile strength. */
@@ -133,7 +147,7 @@ bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolera
     const double strength = bbm_shear_strength(&c->strength, c->N);
 
     if (c->state == BBM_OPEN)
-        return -p_n * (c->d_n - c->rest) > tolerance ? BBM_LOCK : BBM_OPEN;
+        return bbm_normal_force(p_n, c->d_n - c->rest) > tolerance ? BBM_LOCK : BBM_OPEN;
     if (c->N < -c->strength.tension)
         return BBM_OPEN;
     if (c->strength.tan_phi == 0 && c->strength.shear == 0)
@@ -163,10 +177,10 @@ int bbm_is_strengthless(const bbm_contact *c, double N)
  * the last. A strong joint may stay in tension, so it has its strength instead. */
 static double find_friction(bbm_model *m, bbm_contact *c, const bbm_spring v[2])
 {
-    const double N = c->N_of_friction, strength = bbm_shear_strength(&c->strength, N);
+    const double N = c->trial.N_of_friction, strength = bbm_shear_strength(&c->strength, N);
 
-    c->friction_in_K = m->hook->friction && !bbm_is_strengthless(c, N);
-    return c->friction_in_K ? m->hook->friction(m, c, v)
+    c->trial.friction_in_K = m->hook->friction && !bbm_is_strengthless(c, N);
+    return c->trial.friction_in_K ? m->hook->friction(m, c, v)
          : c->sign * (bbm_is_strong(c) ? strength : N * c->strength.tan_phi);
 }
 
@@ -191,7 +205,7 @@ void bbm_assemble_contacts(bbm_model *m)
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
-        const double p_s = c->state == BBM_LOCK ? c->time_left * m->par.p_s : 0;
+        const double p_s = c->state == BBM_LOCK ? c->trial.time_left * m->par.p_s : 0;
         bbm_spring v[2];
         if (c->state == BBM_OPEN)
             continue;
@@ -206,7 +220,7 @@ void bbm_assemble_contacts(bbm_model *m)
                 bbm_spring_submatrix(p_s, v[1].v[a], v[1].v[b], K);
                 bbm_matrix_add(m->K, c->element[a], c->element[b], K);
             }
-            bbm_force_submatrix(m->par.p_n * v[0].d, v[0].v[a], F);
+            bbm_force_submatrix(-bbm_normal_force(m->par.p_n, v[0].d), v[0].v[a], F);
             bbm_force_submatrix(T, v[1].v[a], F);
             for (int x = 0; x < 6; x++)
                 m->F[6 * c->element[a] + x] += F[x];

@@ -25,8 +25,8 @@
  * M often has a factor 1/(2-w). It is left out, for it changes neither x nor the number of
  * iterations.
  *
- * K falls into components, which are solved one by one; `from` to `to` - 1 are the rows of the one in
- * hand. base/solve.c does what stands around the iteration.
+ * K falls into components, which are solved one by one. The rows of the one in hand are `from` to
+ * `to` - 1. base/solve.c does what stands around the iteration.
  */
 #include <string.h>
 

@@ -1,10 +1,10 @@
-/* base.h - the data of 3.3 and 3.7, and what the files of the library share.
+/* base.h - the data of 3.3, 3.7 and section 4, and what the files of the library share.
  *
  * The first part is what the paper's formulas take: the gap of a bond or fixed point (3.3, 3.4), a
- * boundary edge, a contact and its three points (3.7). A reader of the paper may stop at the hooks,
- * which are for what the paper does not have. After them come the functions that the files of the
- * library share, from the bottom up, and the matrix K. A program that looks at bonds, edges,
- * contacts or K includes this file in place of bbm.h.
+ * boundary edge, a contact and its three points (3.7), the matrix K (section 4). A reader of the
+ * paper may stop at the hooks, which are for what the paper does not have. After them come the
+ * functions that the files of the library share, from the bottom up. A program that looks at bonds,
+ * edges, contacts or K includes this file in place of bbm.h.
  */
 #ifndef BBM_BASE_H
 #define BBM_BASE_H
@@ -75,27 +75,9 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    contact;             /* where those of the corner a begin in model.contact           */
 };
 
-struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
-    /* --- identity: two boundary edges. P1 starts `corner`; P3 starts `edge`, P2 ends it --- */
-    int    corner, edge;
-    /* --- state, carried from step to step --- */
-    bbm_contact_state state;
-    double sign;                /* of the slip while it slides: 1 towards P3                    */
-    double anchor;              /* -        where P0 is: P0 = P3 + anchor (P2 - P3)             */
-    double rest;                /* m        d_n at which the normal spring carries nothing; in  */
-                                /*          the paper 0; with bbm_motion less, if it closed     */
-                                /*          with P1 inside: its spring then starts unloaded     */
-    double N, T;                /* N        normal force; what the shear spring carries or      */
-                                /*          would carry                                         */
-    double slip;                /* m        how far it has slid in all steps since it closed    */
-    double area;                /* m^2      its share of an unbroken joint, or 0                */
-    int    inside;              /* it is open, but P1 is inside since it was closed             */
-    int    hit;                 /* a hook has given it an impulse in place of its spring's      */
-    /* --- of the step --- */
-    bbm_strength strength;
-    int    parts, element[BBM_PARTS];           /* i, j, and in the paper no more               */
-    /* --- of the step, by detect.c --- */
-    int    carried;             /* the last step had it, with this edge                         */
+typedef struct {                /* what the detection and the open-close iteration note in a step */
+    /* --- detect.c --- */
+    int    carried;             /* the last step had the contact, with this edge                */
     int    touches;             /* P1 lies on the edge when the run begins                      */
     int    has_left;            /* P1 was on the edge and has gone past its end                 */
     int    was_closed;          /* at the start                                                 */
@@ -103,16 +85,38 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     int    entrance[4];         /* the other entrance lines, two at P3 and two at P2: places in */
                                 /*          the list of contacts, or -1                         */
     double d_n0;                /* m        d_n at the start                                    */
-    /* --- of the step, by the open-close iteration --- */
+    /* --- open_close.c --- */
     double time_left;           /* -        share of the step after P1 hit: the slip of this    */
                                 /*          share loads the shear spring                        */
-    double d_n, d_s;            /* m        normal distance and slip at the end                 */
     double past[2];             /* m        how far P1 is past P3 and P2 at the end, if open    */
     double N_of_friction;       /* N        the N that friction is taken for                    */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
     bbm_contact_state next_state;               /* in the next pass                             */
     int    closings;            /* how often it has closed in the step                          */
+} bbm_trial;
+
+struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
+    /* --- identity: two boundary edges. P1 starts `corner`; P3 starts `edge`, P2 ends it --- */
+    int    corner, edge;
+    int    parts, element[BBM_PARTS];           /* i, j, and in the paper no more               */
+    bbm_strength strength;
+    /* --- at the end of the step; carried from step to step --- */
+    bbm_contact_state state;
+    double d_n, d_s;            /* m        normal distance and slip                            */
+    double N, T;                /* N        normal force; what the shear spring carries or      */
+                                /*          would carry                                         */
+    double sign;                /* of the slip while it slides: 1 towards P3                    */
+    double anchor;              /* -        where P0 is: P0 = P3 + anchor (P2 - P3)             */
+    double slip;                /* m        how far it has slid in all steps since it closed    */
+    /* --- beyond the paper; carried, too --- */
+    double rest;                /* m        d_n at which the normal spring carries nothing; in  */
+                                /*          the paper 0; with bbm_motion less, if it closed     */
+                                /*          with P1 inside: its spring then starts unloaded     */
+    double area;                /* m^2      its share of an unbroken joint, or 0                */
+    int    inside;              /* it is open, but P1 is inside since it was closed             */
+    int    hit;                 /* a hook has given it an impulse in place of its spring's      */
+    bbm_trial trial;
 };
 
 typedef struct {                /* what the formulas of 3.7 take                                */
@@ -146,6 +150,53 @@ struct bbm_contact_scratch {
     int pairs;
     struct bbm_pair *pair;      /* [pairs]    a corner and an edge that may touch, sorted       */
     struct bbm_reach *reach;    /* [elements] how far a block may move, at its element `first`  */
+};
+
+/* ----------------------------------------------------------------------- the data of section 4
+ * K has n block rows of six. Block rows are numbered in two ways: by the caller, and by their place
+ * in the order of base/order.c. The functions of order.c and solve.c take the caller's numbers,
+ * those of solver.c the places; so do their vectors, of 6 n entries. */
+
+/* What is not symmetric in K: K += u v^T. */
+typedef struct {
+    int    parts, row[BBM_PARTS];               /* places of the rows of the elements           */
+    double p;                   /* u = p v of the shear spring                                  */
+    bbm_spring s, n;            /* v of the normal one, whose d is 0                            */
+} bbm_term;
+
+struct bbm_matrix {
+    int n;                      /* block rows                                                   */
+    int *place, *caller;        /* [n]       place[caller's row], and back                      */
+    int *first;                 /* [n+1]     row i of L: the blocks first[i] .. first[i+1]-1    */
+    int *back;                  /* [blocks]  its row less its column                            */
+    int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
+    int *component;             /* [n]       of a caller's row: 0 .. components-1               */
+    double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
+    double *forces;             /* [n]       of each component, see bbm_matrix_measure; 0: none */
+    int lacks;                  /* what was added to a block that the pattern does not have     */
+    /* --- scratch of bbm_solve --- */
+    int from, to;               /* the rows of the component in hand: from .. to-1              */
+    double (*inverse)[6][6];    /* [n]       (D_i/omega)^-1                                     */
+    double *x, *r, *u, *p, *q;  /* [6 n]     solution, residual, M^-1 r, direction, K p         */
+    double *y;                  /* [6 n]     result of the sweep forward                        */
+    const bbm_method *method;
+    double omega;
+    int ready;                  /* `inverse` and what the method made belong to D, L and these  */
+    void *extra;                /* what a method keeps with K                                   */
+    void (*free_extra)(void *extra);
+    /* --- what a hook adds to D, L and L^T; it solves components with terms --- */
+    int terms;
+    bbm_term *term;             /* [terms]   NULL, or by malloc and released with K             */
+    int (*add_terms)(const bbm_matrix *K, const double *x, double *y);  /* y += u v^T x of the  */
+                                /*           rows in hand; returns the number of terms          */
+    bbm_status (*solve_terms)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
+};
+
+/* A method other than the paper's. */
+struct bbm_method {
+    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);  /* changes method or omega              */
+    void (*make_ready)(bbm_matrix *K);                  /* for a new K                          */
+    void (*correct)(const bbm_matrix *K, const double *y, double *f);   /* f, (D/w) y between   */
 };
 
 /* ----------------------------------------------------------------------------------- the hooks */
@@ -221,6 +272,21 @@ static inline const bbm_vertex *bbm_end_of(const bbm_model *m, int edge)
 
 static inline int bbm_element_of(const bbm_model *m, int edge) { return m->edge[edge].element; }
 
+/* The d_n from which the normal spring of a contact counts, so that it carries N at d_n. In the
+ * paper 0; with a hook's motion a corner that closes inside starts unloaded. */
+static inline double bbm_rest_of(const bbm_model *m, double d_n, double N)
+{
+    return bbm_motion_of(m) ? fmin(0, d_n + N / m->par.p_n) : 0;
+}
+
+/* A contact that opens carries nothing and remembers nothing. */
+static inline void bbm_forget(bbm_contact *c)
+{
+    c->state = BBM_OPEN;
+    c->N = c->T = c->slip = 0;
+    c->trial.was_closed = c->inside = 0;
+}
+
 /* The vertex that shares a corner of the boundary with v; in the paper none does, and it is v. */
 static inline int bbm_partner_of(const bbm_model *m, int v)
 {
@@ -246,7 +312,45 @@ static inline void bbm_move(const bbm_model *m, const bbm_element *e, const doub
         bbm_displacement(e, D, x, y, u);
 }
 
-/* step.c: around a step */
+/* bbm.c: 3.3, 3.4 */
+void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
+void       bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6]);
+double     bbm_mass_per_area(const bbm_element *e);                             /* M of (11)    */
+void       bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
+                           const bbm_vertex *Q, double k, bbm_gap *g);          /* (22)         */
+void       bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s);       /* (27), (28)   */
+void       bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k,
+                         bbm_gap *g);                                           /* (36)         */
+
+/* order.c: a new K, of one row or more. `link` lists the i, j whose submatrix K_ij is not zero, in
+ * any order, either way round, repeats allowed. Then its entries. */
+bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
+void       bbm_matrix_free(bbm_matrix *K);                      /* takes NULL                   */
+int        bbm_compare_pairs(const void *p, const void *q);     /* by their first two integers  */
+static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
+void       bbm_matrix_clear(bbm_matrix *K);
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
+                                   what the pattern does not have fails here and in bbm_solve   */
+bbm_status bbm_lay_out_matrix(bbm_model *m);                    /* for the gaps and contacts    */
+
+/* solver.c: section 4, for the rows in hand */
+void       bbm_add_lower(const bbm_matrix *K, const double *x, double *y);      /* y += L x     */
+void       bbm_add_upper(const bbm_matrix *K, const double *x, double *y);      /* y += L^T x   */
+void       bbm_multiply(const bbm_matrix *K, const double *p, double *q);       /* q = K p      */
+double     bbm_dot_rows(const bbm_matrix *K, const double *x, const double *y); /* x.y          */
+void       bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z);
+int        bbm_invert(double w, double D[6][6], double B[6][6]);                /* (D/w)^-1     */
+void       bbm_precondition(const bbm_matrix *K, const double *r, double *u);   /* u = M^-1 r   */
+bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
+bbm_status bbm_iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);  /* x = K^-1 r   */
+
+/* solve.c: K D = F. Rows that no pairs connect, however indirectly, are solved apart: neither
+ * changes a bit of the other's D. */
+void       bbm_matrix_measure(bbm_matrix *K, const double *F);
+bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
+                     bbm_pcg_info *info);
+
+/* cut.c: around a step */
 typedef struct {                /* of a parameter, low and high included                        */
     const char *name;
     double value, low, high;
@@ -265,7 +369,6 @@ int        bbm_is_spent(const bbm_model *m);                    /* too much work
 bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status);
 bbm_status bbm_note_solution(bbm_model *m, bbm_status status);
 void       bbm_count_time(bbm_model *m, int phase, clock_t since);
-bbm_status bbm_lay_out_matrix(bbm_model *m);                    /* for the gaps and contacts    */
 
 /* detect.c: which corner may touch which edge */
 bbm_status bbm_detect_new(bbm_model *m);
@@ -283,33 +386,30 @@ void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double an
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
 void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
 
-/* contact.c: 3.7 and 3.8 */
-void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               /* (52)-(57)    */
-void       bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (60)-(62)    */
+/* contact.c: 3.7, 3.8 */
+void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               /* (57)         */
+void       bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (61)         */
+double     bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D);
+double     bbm_normal_force(double p_n, double d_n);                            /* N, (65)      */
+double     bbm_normal_energy(double p_n, double N);                             /* (51)         */
 void       bbm_spring_submatrix(double p, const double v[6], const double w[6], double K[6][6]);
                                                                                 /* (58), (63)   */
-void       bbm_force_submatrix(double f, const double v[6], double F[6]);       /* (59)-(69)    */
+void       bbm_force_submatrix(double f, const double v[6], double F[6]);       /* (59), (69)   */
 double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
+double     bbm_shear_force(const bbm_contact *c);                               /* T or (65)    */
 bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
 int        bbm_is_strong(const bbm_contact *c);
 int        bbm_is_strengthless(const bbm_contact *c, double N);
-bbm_status bbm_detect_contacts(bbm_model *m, int *same);
-void       bbm_assemble_contacts(bbm_model *m);
-double     bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D);
 void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2]);
+void       bbm_assemble_contacts(bbm_model *m);
+
+/* open_close.c: the contacts of a step, and their states */
+bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 bbm_pass   bbm_open_close(bbm_model *m);
 void       bbm_store_contacts(bbm_model *m);
 
-/* bbm.c: 3.3, 3.4, assembly, the step */
-void       bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2]);
-void       bbm_step_matrix(const bbm_element *e, double x, double y, double T[2][6]);
-double     bbm_mass_per_area(const bbm_element *e);                             /* M of (11)    */
-void       bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_element *j,
-                           const bbm_vertex *Q, double k, bbm_gap *g);          /* (18)-(23)    */
-void       bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s);       /* (27), (28)   */
-void       bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k,
-                         bbm_gap *g);                                           /* (30)-(36)    */
+/* step.c: assembly (5), the step */
 bbm_gap   *bbm_add_gap(bbm_model *m, int i, int j);
 void       bbm_list_gaps(bbm_model *m);
 void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
@@ -320,79 +420,5 @@ void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vert
 bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *same);                 /* and K for the contacts       */
 bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, with m->h       */
-
-/* ------------------------------------------------------------------ the matrix and the solver
- * K has n block rows of six. Block rows are numbered in two ways: by the caller, and by their place
- * in the order of base/order.c. The functions of the first two groups take the caller's numbers,
- * those of the third the places; so do their vectors, of 6 n entries. */
-
-/* What is not symmetric in K: K += u v^T. */
-typedef struct {
-    int    parts, row[BBM_PARTS];               /* places of the rows of the elements           */
-    double p;                   /* u = p v of the shear spring                                  */
-    bbm_spring s, n;            /* v of the normal one, whose d is 0                            */
-} bbm_term;
-
-struct bbm_matrix {
-    int n;                      /* block rows                                                   */
-    int *place, *caller;        /* [n]       place[caller's row], and back                      */
-    int *first;                 /* [n+1]     row i of L: the blocks first[i] .. first[i+1]-1    */
-    int *back;                  /* [blocks]  its row less its column                            */
-    int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
-    int *component;             /* [n]       of a caller's row: 0 .. components-1               */
-    double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
-    double *forces;             /* [n]       of each component, see bbm_matrix_measure; 0: none */
-    int lacks;                  /* what was added to a block that the pattern does not have     */
-    /* --- scratch of bbm_solve --- */
-    int from, to;               /* the rows of the component in hand: from .. to-1              */
-    double (*inverse)[6][6];    /* [n]       (D_i/omega)^-1                                     */
-    double *x, *r, *u, *p, *q;  /* [6 n]     solution, residual, M^-1 r, direction, K p         */
-    double *y;                  /* [6 n]     result of the sweep forward                        */
-    const bbm_method *method;
-    double omega;
-    int ready;                  /* `inverse` and what the method made belong to D, L and these  */
-    void *extra;                /* what a method keeps with K                                   */
-    void (*free_extra)(void *extra);
-    /* --- what a hook adds to D, L and L^T; it solves components with terms --- */
-    int terms;
-    bbm_term *term;             /* [terms]   NULL, or by malloc and released with K             */
-    int (*add_terms)(const bbm_matrix *K, const double *x, double *y);  /* y += u v^T x of the  */
-                                /*           rows in hand; returns the number of terms          */
-    bbm_status (*solve_terms)(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);
-};
-
-/* A method other than the paper's. */
-struct bbm_method {
-    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);  /* changes method or omega              */
-    void (*make_ready)(bbm_matrix *K);                  /* for a new K                          */
-    void (*correct)(const bbm_matrix *K, const double *y, double *f);   /* f, (D/w) y between   */
-};
-
-/* order.c: a new K, of one row or more. `link` lists the i, j whose submatrix K_ij is not zero, in
- * any order, either way round, repeats allowed. */
-bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
-void       bbm_matrix_free(bbm_matrix *K);                              /* takes NULL           */
-int        bbm_compare_pairs(const void *p, const void *q);     /* by their first two integers  */
-static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
-
-/* solver.c: K D = F, section 4. Rows that no pairs connect, however indirectly, are solved apart:
- * neither changes a bit of the other's D. */
-void       bbm_matrix_clear(bbm_matrix *K);
-bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
-                                   what the pattern does not have fails here and in bbm_solve   */
-void       bbm_matrix_measure(bbm_matrix *K, const double *F);
-bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *pcg,
-                     bbm_pcg_info *info);
-
-/* Inside the solver, for the rows in hand. */
-void       bbm_add_lower(const bbm_matrix *K, const double *x, double *y);      /* y += L x     */
-void       bbm_add_upper(const bbm_matrix *K, const double *x, double *y);      /* y += L^T x   */
-void       bbm_multiply(const bbm_matrix *K, const double *p, double *q);       /* q = K p      */
-void       bbm_precondition(const bbm_matrix *K, const double *r, double *u);   /* u = M^-1 r   */
-double     bbm_dot_rows(const bbm_matrix *K, const double *x, const double *y); /* x.y          */
-void       bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z);
-int        bbm_invert(double w, double D[6][6], double B[6][6]);                /* (D/w)^-1     */
-bbm_status bbm_iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);  /* x = K^-1 r   */
-bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
 
 #endif

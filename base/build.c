@@ -134,6 +134,8 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
     if (material < 0 || material >= m->materials)
         return REFUSE(m, BBM_BAD_INDEX, "element %d has material %d of %d", e, material,
                       m->materials);
+    if (block < 0)
+        return REFUSE(m, BBM_BAD_INDEX, "element %d has block %d, expected 0 or more", e, block);
     if (n < 3)
         return REFUSE(m, BBM_BAD_ELEMENT, "element %d has %d vertices, expected 3 or more", e, n);
     for (int i = 0; i < n; i++)

@@ -1,5 +1,5 @@
-/* cut.c - what stands around the step of Fig. 8: messages, what must hold before it, what it counts,
- * what went wrong in it, and when it is cut in two and tried again.
+/* cut.c - what stands around the step of Fig. 8: messages, what must hold before it, what it
+ * counts, what went wrong in it, and when it is cut in two and tried again.
  *
  * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
  * half of dt, down to dt/4096, as long as that takes no more than some solutions. The nominal step

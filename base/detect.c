@@ -549,14 +549,14 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     int lines = 0;
 
     for (int k = 0; k < 4; k++) {
-        if (c->entrance[k] < 0)
+        if (c->trial.entrance[k] < 0)
             continue;
-        const pair r = m->scratch->pair[c->entrance[k]];
+        const pair r = m->scratch->pair[c->trial.entrance[k]];
         if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, 0, PARALLEL))
             return 1;
         lines++;
     }
-    return c->beyond_end && lines == 0;
+    return c->trial.beyond_end && lines == 0;
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A projection beyond the end
@@ -570,20 +570,22 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     const double touch = touch_between(m, p.corner, p.edge);
 
     *c = old ? *old : (bbm_contact){ 0 };
-    c->carried = old && old->corner == p.corner && old->edge == p.edge;
-    c->touches = !old && m->info.step == 0 && m->info.t == 0 && fmax(fabs(f.d), f.beyond) <= touch;
+    c->trial.carried = old && old->corner == p.corner && old->edge == p.edge;
+    c->trial.touches = !old && m->info.step == 0 && m->info.t == 0
+                    && fmax(fabs(f.d), f.beyond) <= touch;
     c->corner = p.corner;
     c->edge = p.edge;
-    c->d_n0 = f.d;
-    c->was_closed = c->state != BBM_OPEN;
-    c->beyond_end = f.beyond > touch && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
+    c->trial.d_n0 = f.d;
+    c->trial.was_closed = c->state != BBM_OPEN;
+    c->trial.beyond_end = f.beyond > touch
+                       && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
     for (int k = 0; k < 4; k++) {
         const pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
-        c->entrance[k] = is_convex(m, Q) && !coincide(m, p.edge, other.edge) ? find_pair(m, other)
-                                                                             : -1;
+        const int meets = is_convex(m, Q) && !coincide(m, p.edge, other.edge);
+        c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
     }
-    c->has_left = has_left(m, c);
+    c->trial.has_left = has_left(m, c);
 }
 
 /* Lists the contacts that may be closed in this step, from the present positions and the contacts
@@ -648,10 +650,10 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
  * more than 1 if it ends the step no deeper. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
-    const double above = c->d_n0 + surface_depth(m, c->corner, c->edge);
-    const double touch = touch_between(m, c->corner, c->edge);
+    const double above = c->trial.d_n0 + surface_depth(m, c->corner, c->edge);
+    const double touch = touch_between(m, c->corner, c->edge), way = c->trial.d_n0 - c->d_n;
 
-    return above <= touch ? 0 : c->d_n0 > c->d_n ? above / (c->d_n0 - c->d_n) : INFINITY;
+    return above <= touch ? 0 : way > 0 ? above / way : INFINITY;
 }
 
 /* Whether the corner, as it is turned at the end of the step, can enter there. */
@@ -667,7 +669,7 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
 {
     const double s = project(m, c->corner, c->edge).s, l = m->edge[c->edge].along.length;
 
-    return (1 - t) * s - t * c->past[0] >= 0 && (1 - t) * (l - s) - t * c->past[1] >= 0;
+    return (1 - t) * s - t * c->trial.past[0] >= 0 && (1 - t) * (l - s) - t * c->trial.past[1] >= 0;
 }
 
 /* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where
@@ -675,9 +677,11 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
  * at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
-    if (!c->was_closed && !c->inside && c->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
+    const bbm_trial *t = &c->trial;
+
+    if (!t->was_closed && !c->inside && t->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
-    return (c->was_closed || !c->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
+    return (t->was_closed || !t->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
             || is_on_edge(m, c, 1)) && enters_at_end(m, c);
 }
 
@@ -698,19 +702,21 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return r->d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->d_n0) >= 0 && enters_at_end(m, r);
-    if (fabs(later) > TIE || r->was_closed != c->was_closed)
-        return (fabs(later) > TIE ? later > 0 : r->was_closed) && admits(m, r);
+        return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= 0
+            && enters_at_end(m, r);
+    if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
+        return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
 }
 
 /* Whether an open contact, though crossed, may not close. */
 int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 {
+    const int *line = c->trial.entrance;
     int blocked = !admits(m, c);
 
     for (int k = 0; k < 4 && !blocked; k++)
-        blocked = c->entrance[k] >= 0 && counts(m, &m->scratch->contact[c->entrance[k]], c);
+        blocked = line[k] >= 0 && counts(m, &m->scratch->contact[line[k]], c);
     return blocked;
 }
 
@@ -729,7 +735,7 @@ void bbm_note_depths(bbm_model *m)
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         const int of[3] = { c->edge, c->corner, m->edge[c->corner].before };
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
-        const double inside = c->hit && (c->was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
+        const double inside = c->hit && (c->trial.was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
         const double depth = c->state == BBM_OPEN ? inside : fabs(c->d_n);
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
@@ -753,12 +759,11 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
     *r = *c;
     r->edge = edge;
     r->d_n = g.d;
-    r->rest = bbm_motion_of(m) ? fmin(0, g.d + r->N / m->par.p_n) : 0;
-    r->time_left = 0;                                       /* the anchor is placed anew        */
+    r->rest = bbm_rest_of(m, g.d, r->N);
+    r->trial.time_left = 0;                                 /* the anchor is placed anew        */
     reach_of(m, edge)->depth = fmax(reach_of(m, edge)->depth, -g.d);
     reach_of(m, c->corner)->depth = fmax(reach_of(m, c->corner)->depth, -g.d);
-    c->state = BBM_OPEN;
-    c->N = c->T = c->slip = c->was_closed = c->inside = 0;
+    bbm_forget(c);
 }
 
 /* The list of the step becomes that of the model, which has moved. */

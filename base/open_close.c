@@ -62,23 +62,22 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     int lines = 0;
 
     find_elements(m, c);
-    c->time_left = 1;
-    c->N_of_friction = c->N;
-    c->closings = 0;
+    c->trial.time_left = 1;
+    c->trial.N_of_friction = c->N;
+    c->trial.closings = 0;
     for (int k = 0; k < 4; k++)
-        lines += c->entrance[k] >= 0;
-    if (c->has_left) {
-        c->state = BBM_OPEN;
-        c->N = c->T = c->slip = c->was_closed = c->inside = 0;
+        lines += c->trial.entrance[k] >= 0;
+    if (c->trial.has_left) {
+        bbm_forget(c);
     }
     c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
     if (m->hook->strength)
         m->hook->strength(m, c);
-    if (c->touches && !c->has_left)
+    if (c->trial.touches && !c->trial.has_left)
         c->state = lines == 0 || bbm_is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
-    if (!c->carried || c->state == BBM_OPEN) {
+    if (!c->trial.carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
-        c->rest = bbm_motion_of(m) ? fmin(0, c->d_n0 + c->N / m->par.p_n) : 0;
+        c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);
     }
 }
 
@@ -121,18 +120,18 @@ static void measure(const bbm_model *m, bbm_contact *c)
 
     if (open) {
         distances(m, c, 1, d);
-        c->past[1] = -d[1];
+        c->trial.past[1] = -d[1];
         c->anchor = 0;
-        c->time_left = 1;
+        c->trial.time_left = 1;
     }
     distances(m, c, c->anchor, d);
-    c->past[0] = d[1];
+    c->trial.past[0] = d[1];
     c->d_n = d[0];
-    c->d_s = c->time_left * d[1];
-    c->N = open ? 0 : -m->par.p_n * (c->d_n - c->rest);
+    c->d_s = c->trial.time_left * d[1];
+    c->N = open ? 0 : bbm_normal_force(m->par.p_n, c->d_n - c->rest);
     c->T = open ? 0 : m->par.p_s * c->d_s;
-    if (c->friction_in_K && !bbm_is_strengthless(c, c->N))
-        c->N_of_friction = c->N;
+    if (c->trial.friction_in_K && !bbm_is_strengthless(c, c->N))
+        c->trial.N_of_friction = c->N;
 }
 
 /* The force tolerance of each contact: a share of the largest force in its component of K. That is
@@ -153,7 +152,7 @@ static void find_tolerances(const bbm_model *m)
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         const double force = w->force[bbm_component_of(m->K, c->element[0])];
         const double digits = m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y)) * DIGITS;
-        c->force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
+        c->trial.force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
     }
 }
 
@@ -166,8 +165,8 @@ static int renew_friction(const bbm_model *m)
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         renewed |= c->state == BBM_SLIDE && c->strength.tan_phi != 0
-                && !(fabs(c->N - c->N_of_friction) <= c->force_tolerance);
-        c->N_of_friction = c->N;
+                && !(fabs(c->N - c->trial.N_of_friction) <= c->trial.force_tolerance);
+        c->trial.N_of_friction = c->N;
     }
     return renewed;
 }
@@ -183,21 +182,21 @@ static int renew_friction(const bbm_model *m)
 static void change_state(const bbm_model *m, bbm_contact *c)
 {
     const double at = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
-    const double d0 = fmax(0, c->d_n0);
+    const double d0 = fmax(0, c->trial.d_n0);
     const int closes = c->state == BBM_OPEN;
-    const double slip = closes ? (1 - at) * c->past[0] - at * c->past[1] : c->T;
+    const double slip = closes ? (1 - at) * c->trial.past[0] - at * c->trial.past[1] : c->T;
 
     if (closes) {
-        c->time_left = 1 - d0 / (d0 - c->d_n);
+        c->trial.time_left = 1 - d0 / (d0 - c->d_n);
         c->anchor = at;
-        const double T = c->time_left * m->par.p_s * fabs(slip);
-        const double N = -m->par.p_n * (c->d_n - fmin(0, c->rest));
-        const int slides = ++c->closings > 1 || T > bbm_shear_strength(&c->strength, N);
-        c->next_state = slides ? BBM_SLIDE : BBM_LOCK;
+        const double T = c->trial.time_left * m->par.p_s * fabs(slip);
+        const double N = bbm_normal_force(m->par.p_n, c->d_n - fmin(0, c->rest));
+        const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
+        c->trial.next_state = slides ? BBM_SLIDE : BBM_LOCK;
     }
-    if (c->next_state == BBM_SLIDE)
+    if (c->trial.next_state == BBM_SLIDE)
         c->sign = copysign(1, slip);
-    c->state = c->next_state;
+    c->state = c->trial.next_state;
 }
 
 /* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
@@ -205,7 +204,7 @@ static void change_state(const bbm_model *m, bbm_contact *c)
  * under as much pressure, the contact slides first, which removes the spring. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->force_tolerance);
+    const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->trial.force_tolerance);
     const double strength = bbm_shear_strength(&c->strength, fabs(c->N));
 
     if (c->state == BBM_OPEN && next != BBM_OPEN && bbm_is_blocked(m, c))
@@ -219,8 +218,8 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
-        return m->par.p_n * (c->rest - c->d_n);
-    if (c->next_state == BBM_OPEN && c->N < 0)
+        return bbm_normal_force(m->par.p_n, c->d_n - c->rest);
+    if (c->trial.next_state == BBM_OPEN && c->N < 0)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
@@ -231,7 +230,7 @@ static int is_at_corner(const bbm_model *m, const bbm_contact *c)
     int crossed = 0;
 
     for (int k = 0; k < 4; k++)
-        crossed |= c->entrance[k] >= 0 && m->scratch->contact[c->entrance[k]].d_n < 0;
+        crossed |= c->trial.entrance[k] >= 0 && m->scratch->contact[c->trial.entrance[k]].d_n < 0;
     return crossed && c->state == BBM_OPEN;
 }
 
@@ -248,14 +247,14 @@ static int change_states(bbm_model *m)
 
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        c->next_state = find_next_state(m, c);
-        if (c->next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
+        c->trial.next_state = find_next_state(m, c);
+        if (c->trial.next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
             worst = c;
-        sure |= c->next_state != c->state && !is_at_corner(m, c);
+        sure |= c->trial.next_state != c->state && !is_at_corner(m, c);
     }
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        if (c->next_state == c->state || (one ? c != worst : sure && is_at_corner(m, c)))
+        if (c->trial.next_state == c->state || (one ? c != worst : sure && is_at_corner(m, c)))
             continue;
         change_state(m, c);
         changes++;
@@ -310,15 +309,14 @@ static void store_contact(bbm_model *m, bbm_contact *c)
 {
     const double strength = bbm_shear_strength(&c->strength, c->N);
 
-    if (c->state == BBM_SLIDE) {
-        c->T = c->sign * strength;
+    c->T = bbm_shear_force(c);
+    if (c->state == BBM_SLIDE)
         c->slip += fabs(c->d_s - c->T / m->par.p_s);
-    }
-    if (c->state == BBM_SLIDE || c->time_left < 1)
+    if (c->state == BBM_SLIDE || c->trial.time_left < 1)
         place_anchor(m, c, c->T);
     if (c->state == BBM_OPEN || (c->state == BBM_SLIDE && strength > 0))
         c->area = 0;
-    c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->was_closed || c->inside);
+    c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->trial.was_closed || c->inside);
     if (c->state != BBM_OPEN) {
         m->info.contacts++;
         m->info.penetration = fmax(m->info.penetration, -c->d_n);

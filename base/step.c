@@ -214,6 +214,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
             e->stress[a] += E[a][b] * e->D[3 + b];
         e->sum[a] += e->D[a];
     }
+    for (int b = 0; b < 3; b++)
+        e->szz += e->out_of_plane * (E[0][b] + E[1][b]) * e->D[3 + b];
     if (bbm_is_static(m))
         memset(e->V, 0, sizeof e->V);
     else
@@ -321,13 +323,7 @@ bbm_status bbm_run(bbm_model *m)
 
 /* ------------------------------------------------------------------ results, section 4 */
 
-/* Stress out of the plane, 0 in plane stress. */
-double bbm_stress_out_of_plane(const bbm_element *e)
-{
-    return e->out_of_plane * (e->stress[0] + e->stress[1]);
-}
-
-/* von Mises stress. */
+/* von Mises stress. In the paper szz = 0. */
 double bbm_mises(const double s[3], double szz)
 {
     return sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]
@@ -346,13 +342,13 @@ bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result 
     for (int a = m->adjacent_first[node]; a < m->adjacent_first[node + 1]; a++) {
         const bbm_vertex *v = &m->vertex[m->adjacent[a]];
         const bbm_element *e = &m->element[v->element];
-        if (block >= 0 && e->block != block)
+        if (block != -1 && e->block != block)
             continue;
         r->u += v->u;
         r->v += v->v;
         for (int k = 0; k < 3; k++)
             r->stress[k] += e->stress[k];
-        r->szz += bbm_stress_out_of_plane(e);
+        r->szz += e->szz;
         count++;
     }
     if (count == 0)

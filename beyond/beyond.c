@@ -58,6 +58,7 @@ static bbm_status begin(bbm_model *m)
     for (int a = 0; a < 2; a++)
         m->acceleration[a] -= b->shake[a] * swing;
     b->made *= m->h < m->par.dt;                    /* a step begins whole */
+    b->passed[0] = -1;
     return BBM_OK;
 }
 
@@ -127,6 +128,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
     }
     m->par.pcg.method = &bbm_two_level;
     m->beyond->reach = INFINITY;
+    m->beyond->passed[0] = -1;
     m->beyond->restitution = -1;
     *m->hook = (bbm_hooks){
         .release = release,

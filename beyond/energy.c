@@ -92,9 +92,9 @@ void bbm_note_springs(bbm_model *m, int when)
                     * (g->own.f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]);
     }
     for (; c < m->scratch->contact + m->scratch->contacts; c++) {
-        const double T = c->state == BBM_SLIDE ? bbm_shear_strength(&c->strength, c->N) : c->T;
+        const double T = bbm_shear_force(c);
         a[bbm_element_of(m, c->corner)].springs[when] += c->state == BBM_OPEN ? 0
-            : c->N * c->N / (2 * m->par.p_n) + T * T / (2 * m->par.p_s);
+            : bbm_normal_energy(m->par.p_n, c->N) + T * T / (2 * m->par.p_s);
     }
 }
 

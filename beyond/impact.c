@@ -50,15 +50,15 @@ static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bb
     return velocity;
 }
 
-static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->was_closed; }
+static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->trial.was_closed; }
 
 /* h/2 times the normal velocity with which P1 came. It has changed evenly until P1 hit, after the
  * share t of the step and the way d0. */
 static double approach(const bbm_model *m, const bbm_contact *c)
 {
-    const double t = 1 - c->time_left;
+    const double t = 1 - c->trial.time_left;
 
-    return (1 - 2 * t) * m->h / 2 * normal_velocity(m, c, m->element) - fmax(0, c->d_n0);
+    return (1 - 2 * t) * m->h / 2 * normal_velocity(m, c, m->element) - fmax(0, c->trial.d_n0);
 }
 
 /* 1/mass of an element that is free to move. */
@@ -90,8 +90,7 @@ static void take_back(bbm_model *m)
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
-        const double T = c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N)
-                       : c->T;
+        const double T = bbm_shear_force(c);
         bbm_spring v[2];
         bbm_contact_vectors(m, c, c->anchor, v);
         for (int i = 0; i < 6 * c->parts && isfinite(m->scratch->contact[k].rest); i++)
@@ -164,11 +163,11 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
         }
-        c->was_closed = 1;
-        c->closings = 0;
-        c->time_left = 1;
-        c->d_n0 = 0;
-        memset(c->entrance, -1, sizeof c->entrance);
+        c->trial.was_closed = 1;
+        c->trial.closings = 0;
+        c->trial.time_left = 1;
+        c->trial.d_n0 = 0;
+        memset(c->trial.entrance, -1, sizeof c->trial.entrance);
     }
 }
 
@@ -256,7 +255,7 @@ static void take(bbm_model *m, bbm_model *end)
         c->hit = 1;
         c->area = 0;
         c->rest = fmin(0, c->d_n);
-        c->N = c->T = c->time_left = 0;
+        c->N = c->T = c->trial.time_left = 0;
     }
 }
 

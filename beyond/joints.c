@@ -81,7 +81,7 @@ void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
     for (int k = b->joints - 1; k >= 0; k--)
         if (fits(b->joint[k].block, i, j) || fits(b->joint[k].block, j, i))
             joint = b->joint[k];
-    if (c->touches)
+    if (c->trial.touches)
         c->area = joint_area(m, c->corner, c->edge);
     c->strength = (bbm_strength){ bbm_tangent(joint.friction), joint.cohesion * c->area,
                                   joint.tension * c->area };

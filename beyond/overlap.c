@@ -301,7 +301,7 @@ bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
 
     for (const bbm_contact *c = list; c < list + n; c++) {
         int nearest = c->edge;
-        if (c->state != BBM_OPEN || c->d_n >= 0 || c->was_closed || c->inside)
+        if (c->state != BBM_OPEN || c->d_n >= 0 || c->trial.was_closed || c->inside)
             continue;
         const double depth = depth_behind(end, c->corner, c->edge, &nearest);
         if (depth > DEEPER * fmax(0, depth_between(m, list, n, c->corner, c->edge)))

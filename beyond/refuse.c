@@ -71,8 +71,8 @@ static int curving_element(const bbm_model *m)
 
     for (int k = 0; k < m->scratch->contacts && far < 0 && bbm_motion_of(m); k++) {
         const double size = bbm_size_at(m, &c[k]);
-        const double along = bbm_way_along(m, c[k].corner, c[k].edge) + c[k].past[0];
-        const double way = hypot(c[k].d_n - c[k].d_n0, along);
+        const double along = bbm_way_along(m, c[k].corner, c[k].edge) + c[k].trial.past[0];
+        const double way = hypot(c[k].d_n - c[k].trial.d_n0, along);
         const double ri = fabs(m->D[6 * c[k].element[0] + 2]);
         const double rj = fabs(m->D[6 * c[k].element[1] + 2]);
         if (c[k].state == BBM_OPEN && way * (ri + rj) / 8 > CURVE * size)

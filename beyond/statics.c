@@ -143,7 +143,7 @@ static double find_most_parted(const bbm_model *from, const bbm_model *to, const
 
     for (const bbm_contact *c = list; c < list + n; c++) {
         const double parted = find_parting(from, to, c, u, &turn);
-        if ((c->state != BBM_OPEN || c->was_closed || c->touches) && parted > most) {
+        if ((c->state != BBM_OPEN || c->trial.was_closed || c->trial.touches) && parted > most) {
             most = parted;
             *worst = *c;
         }

@@ -181,11 +181,13 @@ void bbm_stop_supports(bbm_model *m)
 
 /* --------------------------------------------------------------------------------- plane strain */
 
-/* All elements of a prepared model, once. */
+/* All elements of a prepared model that are not yet in plane strain. */
 void bbm_set_plane_strain(bbm_model *m)
 {
     for (int i = 0; i < m->elements; i++) {
         bbm_material *a = &m->element[i].material;
+        if (m->element[i].out_of_plane != 0)
+            continue;
         a->E /= 1 - a->nu * a->nu;
         a->nu /= 1 - a->nu;
         m->element[i].out_of_plane = a->nu / (1 + a->nu);

@@ -72,7 +72,6 @@ bbm_status bbm_find_near_pairs(bbm_model *m, double search)
     bbm_box *b = malloc(((size_t)m->edges + 1) * sizeof *b);
     bbm_status status = b ? BBM_OK : BBM_NO_MEMORY;
 
-    m->beyond->passed[0] = -1;
     for (int e = 0; e < m->edges && !status; e++) {
         const bbm_vertex *P = bbm_start_of(m, e), *Q = bbm_end_of(m, e);
         b[e] = bbm_empty_box(e);

@@ -138,11 +138,10 @@ static void put_vertices(page *g, const bbm_model *m)
 static void put_elements(page *g, const bbm_model *m)
 {
     for (const bbm_element *e = m->element; e < m->element + m->elements; e++) {
-        const double szz = bbm_stress_out_of_plane(e);
         put(&g->out, 6, e->D);
         put(&g->out, 6, e->V);
         put(&g->out, 3, e->stress);
-        PUT(&g->out, szz, bbm_mises(e->stress, szz), hypot(e->sum[0], e->sum[1]), e->material.E,
+        PUT(&g->out, e->szz, bbm_mises(e->stress, e->szz), hypot(e->sum[0], e->sum[1]), e->material.E,
             e->material.nu, e->material.density, e->material.thickness, e->block, e->first, e->n,
             m->K->place[e - m->element]);
     }

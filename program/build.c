@@ -505,6 +505,7 @@ int model_stress(model_reader *r)
         bbm_element *i = &r->p->m->element[e];
         for (int k = 0; k < 3 && (star ? !r->block[i->block].stressed : i->block == block); k++)
             i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
+        i->szz = i->out_of_plane * (i->stress[0] + i->stress[1]);
     }
     return 1;
 }

@@ -60,7 +60,7 @@ double field_of_element(const field *f, const bbm_model *m, int element)
     const bbm_element *e = &m->element[element];
     const double *s = e->stress;
     const bbm_result r = { .u = e->sum[0], .v = e->sum[1], .stress = { s[0], s[1], s[2] },
-                           .mises = bbm_mises(s, bbm_stress_out_of_plane(e)) };
+                           .mises = bbm_mises(s, e->szz) };
 
     return value(f, &r, (double[]){ e->sum[2], e->V[0], e->V[1], e->V[2] });
 }

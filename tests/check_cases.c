@@ -237,6 +237,19 @@ START_TEST(the_core_names_nothing_of_what_stands_beside_it)
 }
 END_TEST
 
+/* Where there is a compiler for C++, a program in it builds, runs and reads a model. */
+START_TEST(a_program_in_cplusplus_links_with_the_library)
+{
+    ck_assert_int_eq(shell("command -v g++ > /dev/null || exit 0; echo '#include \"bbm.h\"\n"
+        "int main() { bbm_model *m; bbm_material a = { 1e9, 0, 1, 1 }; int at[] = { 0, 1, 2 };\n"
+        "bbm_model_new(&m); bbm_add_material(m, &a, 0); for (int k = 0; k < 3; k++) {\n"
+        "bbm_add_node(m, k == 1, k == 2, 0); bbm_fix_node(m, k, BBM_XY, 0, 0); }\n"
+        "bbm_add_element(m, 0, 0, 3, at, 0); int s = bbm_prepare(m) || bbm_run(m);\n"
+        "bbm_model_free(m); return s; }' > out/plus.cc && g++ -I. -o out/plus out/plus.cc "
+        "%s/bbm.o %s/contact.o %s/solver.o %s/base/*.o -lm && out/plus", BUILD, BUILD, BUILD, BUILD), 0);
+}
+END_TEST
+
 /* --------------------------------------------------------------------------------- the programs */
 
 /* `make check` has run the experiments; without it this does. */
@@ -265,5 +278,6 @@ Suite *cases_suite(void)
     tcase_add_test(t, without_beyond_the_same_files_are_written);
     tcase_add_test(t, without_beyond_the_formulas_are_tested);
     tcase_add_test(t, the_core_names_nothing_of_what_stands_beside_it);
+    tcase_add_test(t, a_program_in_cplusplus_links_with_the_library);
     return s;
 }

@@ -146,11 +146,11 @@ static int check_entrances(const bbm_model *m)
             for (int r = 0; r < m->contacts; r++)
                 lines += is_other_line(m, c, Q, &m->contact[r]);
             for (int r = 2 * end; r < 2 * end + 2; r++)
-                found += c->entrance[r] >= 0 && is_other_line(m, c, Q, &m->contact[c->entrance[r]]);
+                found += c->trial.entrance[r] >= 0 && is_other_line(m, c, Q, &m->contact[c->trial.entrance[r]]);
             ck_assert_int_eq(found, lines);
-            ck_assert(c->entrance[2 * end] < 0 || c->entrance[2 * end] != c->entrance[2 * end + 1]);
+            ck_assert(c->trial.entrance[2 * end] < 0 || c->trial.entrance[2 * end] != c->trial.entrance[2 * end + 1]);
             for (int r = 2 * end; r < 2 * end + 2; r++)
-                ck_assert(c->entrance[r] < 0 || is_other_line(m, c, Q, &m->contact[c->entrance[r]]));
+                ck_assert(c->trial.entrance[r] < 0 || is_other_line(m, c, Q, &m->contact[c->trial.entrance[r]]));
             others += lines;
         }
     return others;
@@ -478,8 +478,8 @@ START_TEST(a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line)
     bbm_contact *c[2];
     bbm_model *m = tip_at(side, x, y, c);
 
-    ck_assert(c[side] && c[side]->state == BBM_LOCK && c[side]->was_closed && c[side]->rest == 0);
-    ck_assert(c[!side] && c[!side]->state == BBM_OPEN && !c[!side]->was_closed);
+    ck_assert(c[side] && c[side]->state == BBM_LOCK && c[side]->trial.was_closed && c[side]->rest == 0);
+    ck_assert(c[!side] && c[!side]->state == BBM_OPEN && !c[!side]->trial.was_closed);
     ck_assert_int_eq(look_at(m, 1, 0.01, 0.01), 0);
     ck_assert_int_eq(look_at(m, 1, 0, 0), 1);
     ck_assert(c[side]->state != BBM_OPEN && c[!side]->state == BBM_OPEN);
@@ -498,8 +498,8 @@ START_TEST(nothing_comes_in_from_behind)
     bbm_contact *c[2];
     bbm_model *m = tip_at(was, was == TOP ? out : deep, was == TOP ? deep : out, c);
 
-    ck_assert(c[was] && c[was]->state == BBM_OPEN && !c[was]->was_closed);
-    ck_assert(c[was]->rest == c[was]->d_n0);             /* nor would it have a force there */
+    ck_assert(c[was] && c[was]->state == BBM_OPEN && !c[was]->trial.was_closed);
+    ck_assert(c[was]->rest == c[was]->trial.d_n0);             /* nor would it have a force there */
     ck_assert_int_eq(look_at(m, 1, -2e-3, -2e-3), 1);
     ck_assert(c[other]->state != BBM_OPEN);
 }

@@ -250,7 +250,7 @@ START_TEST(an_inner_corner_is_no_corner)
     for (int k = 0; k < m->contacts; k++) {
         notch += corner_block(m, &m->contact[k]) == 0;
         for (int r = 0; r < 4; r++)
-            ck_assert_int_lt(m->contact[k].entrance[r], 0);        /* both walls hold at once */
+            ck_assert_int_lt(m->contact[k].trial.entrance[r], 0);        /* both walls hold at once */
     }
     ck_assert_int_eq(notch, 0);
     ck_assert_int_eq(m->contacts, 4);  /* two corners on each wall; the inner one on both */

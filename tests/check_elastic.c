@@ -431,6 +431,32 @@ START_TEST(bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_ov
 }
 END_TEST
 
+/* Heat strains alpha dT = 1e-3 in all directions, as an initial strain: the stress that would hold
+ * all three, -E alpha dT/(1 - 2 nu). Free in the plane, held out of it, there is szz = -E alpha dT
+ * alone; ex = ey = (1 + nu) alpha dT. Plane strain that is set twice is the same. */
+START_TEST(heat_in_plane_strain_leaves_its_stress_out_of_the_plane)
+{
+    const double E = 1e9, nu = 0.3, heat = 1e-3, all = -E * heat / (1 - 2 * nu);
+    bbm_model *m = new_model(&(bbm_material){ E, nu, 1, 1 });
+    bbm_result r;
+
+    add_rectangle(m, 0, 0, (rectangle){ .w = 2, .h = 1, .nx = 2 });
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 1, BBM_Y, 0, 0);
+    ck_ok(bbm_prepare(m), m);
+    for (int times = 0; times <= _i; times++)
+        bbm_set_plane_strain(m);
+    for (bbm_element *e = m->element; e < m->element + m->elements; e++)
+        e->stress[0] = e->stress[1] = e->szz = all;
+    ck_ok(bbm_run(m), m);
+    ck_ok(bbm_nodal_result(m, 1, -1, &r), m);
+    ck_near(r.stress[0], 0, E * heat, SOLVED);
+    ck_relative(r.szz, -E * heat, SOLVED);
+    ck_relative(r.mises, E * heat, SOLVED);
+    ck_relative(m->element[0].D[3], (1 + nu) * heat, SOLVED);
+}
+END_TEST
+
 Suite *elastic_suite(void)
 {
     Suite *s = suite_create("elastic");
@@ -443,7 +469,8 @@ Suite *elastic_suite(void)
         { an_irregular_patch_under_uniform_traction_has_that_stress_in_every_element,
           COUNT(STRESSES) },
         { a_body_under_pressure_all_round_has_that_stress, COUNT(SHAPES) },
-        { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 });
+        { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 },
+        { heat_in_plane_strain_leaves_its_stress_out_of_the_plane, 2 });
     add_case(s, "bars",
         { a_bonded_bar_stretches_by_its_strain_and_its_springs, 1 },
         { a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_parts, 1 },

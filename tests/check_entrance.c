@@ -54,7 +54,7 @@ START_TEST(what_hits_an_edge_is_a_corner_with_its_foot_on_it)
                 continue;
             const double i_back = held_back(m, (const double (*)[6])V, m->edge[c->corner].element);
             const double j_back = held_back(m, (const double (*)[6])V, m->edge[c->edge].element);
-            ck_assert_msg(!c->beyond_end || beyond < i_back + j_back, "step %d: beyond %g", i, beyond);
+            ck_assert_msg(!c->trial.beyond_end || beyond < i_back + j_back, "step %d: beyond %g", i, beyond);
             ck_assert_msg(clear > -0.02, "step %d: clear %g", i, clear);
             hits++;
         }
@@ -360,7 +360,7 @@ START_TEST(a_millionth_of_an_edge_is_allowed_for_to_the_last_bit)
         ck_assert_int_eq(find_listed(m, 1, 0, 0, 2) != NULL, _i % 2);
         shift_element(m, 1, 0, 0.011);                  /* now before it */
         start_step(m, &n);
-        ck_assert_int_eq(find_listed(m, 1, 0, 0, 2)->beyond_end, _i % 2);
+        ck_assert_int_eq(find_listed(m, 1, 0, 0, 2)->trial.beyond_end, _i % 2);
     }
 }
 END_TEST
@@ -549,8 +549,8 @@ START_TEST(a_corner_that_opens_inside_may_close_again)
     bbm_contact *c = list_contacts(m, &n);
 
     ck_assert_int_eq(n, 1);
-    ck_assert(c->state == BBM_LOCK && c->was_closed && !c->inside);
-    c->was_closed = _i != 1;
+    ck_assert(c->state == BBM_LOCK && c->trial.was_closed && !c->inside);
+    c->trial.was_closed = _i != 1;
     for (int again = 0; again < 2; again++) {
         c->state = BBM_OPEN;
         c->N = 0;
@@ -563,7 +563,7 @@ START_TEST(a_corner_that_opens_inside_may_close_again)
         ck_assert_int_eq(n, inside);
         if (!inside)
             break;
-        ck_assert(c->state == BBM_OPEN && !c->was_closed && c->inside);
+        ck_assert(c->state == BBM_OPEN && !c->trial.was_closed && c->inside);
         ck_near(c->rest, -3e-3, 3e-3, ROUNDING);
         ck_assert_int_eq(look_at(m, 1, 0, -1e-4), 1);
     }

@@ -159,6 +159,7 @@ static bbm_status call_wrongly(bbm_model *m, int which)
     case 21: return bbm_add_varying_line_load(m, 2, 1, not_a_number, &COMPONENT[0]);
     case 22: return bbm_add_varying_line_load(m, 1, 2, not_a_number, &COMPONENT[1]);
     case 23: return bbm_add_element(m, 0, 0, 2, corners, NULL);
+    case 24: return bbm_add_element(m, -1, 0, 4, corners, NULL);
     default: return bbm_add_element(m, 0, 0, 3, flat, NULL);
     }
 }
@@ -188,6 +189,7 @@ static const struct { bbm_status status; const char *named; } WRONG_CALLS[] = {
     { BBM_NOT_FINITE, "nodes 2, 1" },
     { BBM_NOT_FINITE, "nodes 1, 2" },
     { BBM_BAD_ELEMENT, "element 1 has 2 vertices" },
+    { BBM_BAD_INDEX, "element 1 has block -1, expected 0 or more" },
     { BBM_BAD_ELEMENT, "element 1 has no area, 0 m^2" },
 };
 

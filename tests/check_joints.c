@@ -40,7 +40,7 @@ START_TEST(a_joint_may_gape_by_a_millionth_of_an_edge)
         int off = 0;
         for (int c = 0; c < m->contacts; c++) {
             ck_assert(_i || (m->contact[c].area > 0) == (k == 0));
-            off |= m->contact[c].beyond_end;
+            off |= m->contact[c].trial.beyond_end;
         }
         ck_assert_int_eq(off, _i && k);
         release(m);

@@ -60,7 +60,7 @@ END_TEST
 START_TEST(blocks_that_lie_on_one_another_are_sorted_apart)
 {
     const double top[4][2] = { { 0, 1 }, { 1, 1 }, { 0, -1 }, { 1, -1 } };
-    bbm_model *m = fan(4, top, (int[]){ 0, 1, 0, 1 }), *n = fan(4, top, (int[]){ 3, -1, -1, 3 });
+    bbm_model *m = fan(4, top, (int[]){ 0, 1, 0, 1 }), *n = fan(4, top, (int[]){ 3, 0, 0, 3 });
 
     ck_assert_int_eq(bbm_prepare(m), BBM_BLOCKS_OVERLAP);
     ck_assert_int_eq(bbm_prepare(n), BBM_BLOCKS_OVERLAP);
@@ -88,6 +88,7 @@ START_TEST(nodal_results_are_the_mean_over_the_elements_of_a_block_that_meet)
     ck_relative(r.mises, sqrt(9 - 6 + 4 + 3.0), ROUNDING);
     ck_assert_int_eq(bbm_nodal_result(m, 4, 2, &r), BBM_OK);
     ck_assert(r.u == 3 && r.v == 20 && r.stress[0] == 1 && r.stress[1] == 2 && r.stress[2] == 3);
+    ck_assert_int_eq(bbm_nodal_result(m, 4, -2, &r), BBM_BAD_INDEX);
     ck_assert_int_eq(bbm_nodal_result(m, 4, 3, &r), BBM_OK);
     ck_assert(r.u == 8 && r.v == 70 && r.stress[0] == 5 && r.stress[1] == 2 && r.stress[2] == -1);
     ck_assert_int_eq(bbm_nodal_result(m, 0, 2, &r), BBM_OK);

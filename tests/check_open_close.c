@@ -510,7 +510,7 @@ START_TEST(vectors_may_be_wrong_by_a_share_of_the_forces_on_their_blocks)
     c->N = WRONG[_i].N;
     c->d_n = WRONG[_i].told / p;
     c->anchor = 0.25;                                   /* 2.5 m from the table's end at x = 5 */
-    c->time_left = 0.5;
+    c->trial.time_left = 0.5;
     c->d_s = 0.5 * (1 - 2.5) + WRONG[_i].slip / p;
     ck_assert_int_eq(bbm_contacts_are_off(m, 0.25), WRONG[_i].off);
 }

@@ -440,7 +440,7 @@ START_TEST(a_corner_that_slides_on_along_a_bent_side_keeps_its_contact)
     start_step(m, &n);
     c = find_listed(m, 2, 0, 1, 2);
     ck_assert_int_eq(c != NULL, was_closed_here);
-    ck_assert(!c || (c->state == BBM_LOCK && c->was_closed));
+    ck_assert(!c || (c->state == BBM_LOCK && c->trial.was_closed));
     if (c)
         ck_near(c->rest, -5e-4 + 1e-4, 1e-4, ROUNDING);         /* so that it has its N */
 }
@@ -496,7 +496,7 @@ START_TEST(the_springs_of_a_support_that_moves_let_no_contact_leave_its_cone)
     run_steps(m, 1);
     ck_assert_int_gt(m->contacts, 0);
     for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++)
-        ck_assert(c->force_tolerance < 1e-2);           /* N; the block weighs 10^4 N */
+        ck_assert(c->trial.force_tolerance < 1e-2);           /* N; the block weighs 10^4 N */
 }
 END_TEST
 

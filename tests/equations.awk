@@ -3,7 +3,7 @@
 # a comment that cites an equation of the row; each test of the row is there:
 #     awk -f tests/equations.awk doc/equations.md SOURCES
 #
-# A citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)",
+# Each number stands as such, "(35)", in the comment of a function: a search for it finds the place. A citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)",
 # "Eq. (57) and (61)", "Eq. (58a-f)".
 
 # The numbers that a text cites, as " 4 5 18 ".
@@ -37,8 +37,10 @@ function check_function(row, name, file,    n, number, found)
         fail(row ": " file " does not define " name)
     n = split(cited(row), number, " ")
     for (; n > 0; n--)
-        if (index(cited(comment[file, name]), " " number[n] " "))
-            found = noted[number[n]] = 1
+        if (index(cited(comment[file, name]), " " number[n] " ")) {
+            found = 1
+            noted[number[n]] += index(comment[file, name], "(" number[n] ")")
+        }
     if (cited(row) != " " && !found)
         fail(row ": the comment of " name " in " file " cites none of it")
 }

@@ -632,7 +632,7 @@ bbm_contact *start_step(bbm_model *m, int *n)
     memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
     bbm_contact *list = list_contacts(m, n);
     for (int k = 0; k < *n; k++)
-        list[k].state = list[k].touches ? BBM_OPEN : list[k].state;
+        list[k].state = list[k].trial.touches ? BBM_OPEN : list[k].state;
     return list;
 }
 
