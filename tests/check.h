@@ -57,15 +57,18 @@ void matrix_multiply(const bbm_matrix *K, const double *x, double *y);
  * takes the place of b. */
 void eliminate(int n, double *A, double *b);
 
-/* In the order in which check_main.c runs them. */
 typedef Suite *make_suite(void);
 
-make_suite formulas_suite, elastic_suite, steps_suite, mesh_suite, input_suite, detection_suite,
-    corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite, blocks_suite,
-    repeat_suite, solver_suite, coarse_suite, beyond_suite, motion_suite, bars_suite,
-    statics_suite, refused_suite, theory_suite, run_suite, impact_suite,
-    scenes_suite, cases_suite, model_suite, statements_suite, moving_suite, files_suite,
-    pictures_suite, page_suite;
+/* Each suite of suites.h. */
+#define FORMULAS(name) Suite *name##_suite(void);
+#define QUICK FORMULAS
+#define LIBRARY FORMULAS
+#define PROGRAM FORMULAS
+#include "suites.h"
+#undef FORMULAS
+#undef QUICK
+#undef LIBRARY
+#undef PROGRAM
 
 /* test_alloc.c: malloc and its kin as the library sees them in the tests. */
 #define TEST_ALLOCATIONS_UNLIMITED INT_MAX

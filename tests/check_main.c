@@ -15,12 +15,11 @@
 
 /* s of the processor, which other work on the machine does not change: for a test, or a program that
  * it runs, and for all of them; the quick ones take 15. Tests that hang end after their SHARE, and
- * when hundreds hang, one after the other, all end after LIMIT. PROGRAMS: so many of the suites, the
- * last, run programs. */
+ * when hundreds hang, one after the other, all end after LIMIT. */
 #ifdef CASES
-enum { SHARE = 60, LIMIT = 1200, PROGRAMS = 7 };
+enum { SHARE = 60, LIMIT = 1200 };
 #else
-enum { SHARE = 4, LIMIT = 80, PROGRAMS = 0 };
+enum { SHARE = 4, LIMIT = 80 };
 #endif
 
 /* Before each group, in the process that runs them all. */
@@ -54,38 +53,45 @@ void add_tests(TCase *c, const loop_test e[], int count)
         tcase_add_loop_test(c, e[i].test, 0, e[i].times);
 }
 
-static make_suite *const SUITES[] = {
-    formulas_suite,
-#ifndef PAPER
-    elastic_suite, steps_suite, mesh_suite, input_suite,
-    detection_suite, corners_suite, entrance_suite, open_close_suite, sliding_suite, joints_suite,
-    blocks_suite, repeat_suite,
-    solver_suite, coarse_suite,
-    beyond_suite, motion_suite, bars_suite, statics_suite, refused_suite,
-    theory_suite, run_suite, impact_suite,
+/* Of suites.h those that this program has: with PAPER the formulas alone, with CASES all. */
+#ifdef PAPER
+#define QUICK(name)
+#else
+#define QUICK FORMULAS
 #endif
 #ifdef CASES
-    scenes_suite, cases_suite, model_suite, statements_suite, moving_suite, files_suite,
-    pictures_suite, page_suite,
+#define LIBRARY FORMULAS
+#define PROGRAM(name) { name##_suite, 1 },
+#else
+#define LIBRARY(name)
+#define PROGRAM(name)
 #endif
+#define FORMULAS(name) { name##_suite, 0 },
+
+static const struct { make_suite *make; int runs_programs; } SUITES[] = {
+#include "suites.h"
 };
+
+/* Whether a suite belongs to the part `library`, `programs` or `all`. */
+static int belongs(int suite, const char *part)
+{
+    return strcmp(part, "all") == 0 || SUITES[suite].runs_programs == (strcmp(part, "library") != 0);
+}
 
 /* libcheck's limits are by the clock, on a machine that may have other work to do: they are for what
  * waits for ever. */
 int main(int count, char **argument)
 {
     const char *part = count > 1 ? argument[1] : "all";
-    const int library = COUNT(SUITES) - PROGRAMS;
-    const int first = strcmp(part, "library") != 0 && strcmp(part, "all") != 0 ? library : 0;
-    const int end = strcmp(part, "library") == 0 ? library : COUNT(SUITES);
     const char *forks = getenv("CK_FORK");
 
     setenv("CK_DEFAULT_TIMEOUT", "60", 0);
     setenv("CK_TIMEOUT_MULTIPLIER", "10", 0);
-    SRunner *runner = srunner_create(SUITES[first]());
+    SRunner *runner = srunner_create(NULL);
 
-    for (int k = first + 1; k < end; k++)
-        srunner_add_suite(runner, SUITES[k]());
+    for (int k = 0; k < COUNT(SUITES); k++)
+        if (belongs(k, part))
+            srunner_add_suite(runner, SUITES[k].make());
     if (!forks || strcmp(forks, "no") != 0)
         setrlimit(RLIMIT_CPU, &(struct rlimit){ SHARE, SHARE });
     srunner_run_all(runner, CK_ENV);

@@ -1,0 +1,37 @@
+/* suites.h - the test suites, in the order in which they run; tests/check_NAME.c has NAME_suite. The
+ * Makefile and check_main.c take the names from here.
+ *
+ * FORMULAS  tested without beyond/, too     LIBRARY  of the library, but long
+ * QUICK     of the library, in seconds      PROGRAM  of the programs, from outside
+ */
+FORMULAS(formulas)
+QUICK(elastic)
+QUICK(steps)
+QUICK(mesh)
+QUICK(input)
+QUICK(detection)
+QUICK(corners)
+QUICK(entrance)
+QUICK(open_close)
+QUICK(sliding)
+QUICK(joints)
+QUICK(blocks)
+QUICK(repeat)
+QUICK(solver)
+QUICK(coarse)
+QUICK(beyond)
+QUICK(motion)
+QUICK(bars)
+QUICK(statics)
+QUICK(refused)
+QUICK(theory)
+QUICK(run)
+QUICK(impact)
+LIBRARY(scenes)
+PROGRAM(cases)
+PROGRAM(model)
+PROGRAM(statements)
+PROGRAM(moving)
+PROGRAM(files)
+PROGRAM(pictures)
+PROGRAM(page)
