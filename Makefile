@@ -99,4 +99,4 @@ clean:
 .PHONY: all run gallery converge bench paper paper-run windows clean
 .DELETE_ON_ERROR:
 
-include $(wildcard tests/*.mk page/page.mk doc/doc.mk)
+include $(wildcard page/page.mk doc/doc.mk tests/*.mk)

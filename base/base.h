@@ -418,7 +418,7 @@ void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); 
 void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
 void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[]);
 bbm_status bbm_begin_step(bbm_model *m);
-bbm_status bbm_detect(bbm_model *m, int *same);                 /* and K for the contacts       */
+bbm_status bbm_detect(bbm_model *m, int *holds);                /* and K for the contacts       */
 bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, with m->h       */
 
 #endif

@@ -8,19 +8,23 @@
  * if it does not lie behind it from the start: blocks do not overlap then, but for the depth of
  * closed contacts.
  *
- * Where two corners P and Q meet, several of these pairs describe one contact. The entrance lines,
- * along which P can come in, are
+ * Where two corners P and Q meet, several of these pairs describe one contact. P can come in along
+ * two entrance lines: the two edges of Q (left), or one edge of each block (right).
  *
- *          \  P  /              |   A            the two edges of Q (left), or one edge of each
- *           \   /               P______          block (right). The blocks overlap when both are
- *            \ /                 Q_____          crossed, and the spring goes on the one that is
- *      _______Q                  |               crossed last, where P comes in. Two lines that
- *             |                  |   B           coincide are one contact: of P on Q's edge and Q
- *        B    |                  |               on P's edge that one stays whose projection is
+ *          \  P  /              |   A
+ *           \   /               P______
+ *            \ /                 Q_____
+ *      _______Q                  |
+ *             |                  |   B
+ *        B    |                  |
  *
- * on its edge; at a tie, the one that it was before, or else the edge that faces up. Both lines at
- * the same time: the one that was closed or else the flatter one counts, the same in any order of
- * the blocks.
+ * The blocks overlap when P has crossed both lines. The spring goes on the line that is crossed
+ * last, where P comes in. If both are crossed at the same time, the one that was closed counts, or
+ * else the flatter one, the same in any order of the blocks.
+ *
+ * Two lines that coincide are one contact, of P on Q's edge or of Q on P's. That one stays whose
+ * projection is on its edge. At a tie it is the one that it was before, or else the one whose edge
+ * faces up.
  */
 #include <stdlib.h>
 
@@ -441,9 +445,10 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
     return bbm_append(m, (void **)&w->pair, &w->pairs, sizeof found, &found, NULL);
 }
 
-/* All pairs that may touch. The hook gets a search distance. Two blocks may approach each other,
- * and a vertex lie inside, by six times the longest way together; seen along an axis from a
- * slanting edge that is nine times at most. */
+/* All pairs that may touch. The hook gets a search distance, within which it looks at the edges of
+ * a corner along x and y. Two blocks approach each other by two ways, and a vertex lies inside by
+ * its depth, which is at most the four ways of start_depth: together six times the longest way from
+ * the edge. Seen along an axis from a slanting edge that is sqrt(2) times as far, nine at most. */
 static bbm_status find_pairs(bbm_model *m)
 {
     const double search = 9 * foresee(m);
@@ -484,11 +489,13 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
     return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
 }
 
-/* Whether the pair p gives way to the pair that it meets, where both are one contact. On a straight
- * side it does if P lies before the end of the other edge. Where both corners see the same joint, P
- * at Q and the edges in line, the contact that was closed stays; otherwise the one whose edge faces
- * up. Where two corners lie side by side, the one stays that has its projection on the other's
- * edge; both stay if neither was closed and they may pass each other in the step. */
+/* Whether the pair p gives way to the pair that it meets, where both are one contact. There are three
+ * such places.
+ * On one straight side (NEXT): p gives way if P lies before the end of the other edge.
+ * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one whose
+ * edge faces up.
+ * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
+ * was closed and the corners may pass each other in the step. */
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);

@@ -51,30 +51,34 @@ static void find_elements(const bbm_model *m, bbm_contact *c)
             c->element[c->parts++] = m->vertex[bbm_partner_of(m, P[k])].element;
 }
 
-/* The state with which a contact begins the step: that of its last step. But one that touches when
- * the run begins is closed: what lies flush is so under load. In dynamics it is open where P can
- * come in over several lines of a corner, unless its joint has a strength: its way shows over which
- * one. One that P1 has left past the end of the edge is open. It can carry friction by the model's
- * angle, or what a hook says. The anchor is placed anew if the contact is open or its edge is
- * another one. */
-static void begin_contact(const bbm_model *m, bbm_contact *c)
+/* Whether a contact that touches when the run begins is closed: what lies flush is under load. In
+ * dynamics it stays open where P1 can come in over more than one line of a corner, for its way will
+ * show over which one. An unbroken joint is closed in any case. */
+static int starts_closed(const bbm_model *m, const bbm_contact *c)
 {
     int lines = 0;
 
-    find_elements(m, c);
-    c->trial.time_left = 1;
-    c->trial.N_of_friction = c->N;
-    c->trial.closings = 0;
     for (int k = 0; k < 4; k++)
         lines += c->trial.entrance[k] >= 0;
-    if (c->trial.has_left) {
+    return lines == 0 || bbm_is_strong(c) || isinf(m->par.dt);
+}
+
+/* A contact begins the step with the state of its last step. It begins open if P1 has left it past
+ * the end of the edge. Its strength is the model's friction angle, or what a hook says. If it is
+ * open or its edge is another one, its anchor is placed anew. */
+static void begin_contact(const bbm_model *m, bbm_contact *c)
+{
+    find_elements(m, c);
+    c->trial.time_left = 1;
+    c->trial.closings = 0;
+    c->trial.N_of_friction = c->N;
+    if (c->trial.has_left)
         bbm_forget(c);
-    }
     c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
     if (m->hook->strength)
         m->hook->strength(m, c);
     if (c->trial.touches && !c->trial.has_left)
-        c->state = lines == 0 || bbm_is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
+        c->state = starts_closed(m, c) ? BBM_LOCK : BBM_OPEN;
     if (!c->trial.carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);
@@ -108,28 +112,39 @@ static void vector_distances(const bbm_model *m, const bbm_contact *c, double an
         d[k] = bbm_length_of(&v[k], c->parts, c->element, m->D);
 }
 
-/* d_n, d_s, N and T of the solution. An open contact is measured where a hook's motion puts the
- * points. With an anchor at P3, -d_s is how far P1 lies from P3 along the edge; with one at P2, d_s
- * is how far it lies from P2. */
-static void measure(const bbm_model *m, bbm_contact *c)
+/* d_n of an open contact, and how far P1 lies past either end of its edge in the solution: d_s from
+ * an anchor at P3, and minus d_s from one at P2. A hook's motion says where the points are. */
+static void measure_open(const bbm_model *m, bbm_contact *c)
 {
-    const int open = c->state == BBM_OPEN, moved = open && bbm_motion_of(m);
-    void (*distances)(const bbm_model *, const bbm_contact *, double, double [2]) =
-        moved ? bbm_end_distances : vector_distances;
+    double from_P3[2], from_P2[2];
+
+    if (bbm_motion_of(m)) {
+        bbm_end_distances(m, c, 0, from_P3);
+        bbm_end_distances(m, c, 1, from_P2);
+    } else {
+        vector_distances(m, c, 0, from_P3);
+        vector_distances(m, c, 1, from_P2);
+    }
+    c->anchor = 0;
+    c->trial.time_left = 1;
+    c->trial.past[0] = from_P3[1];
+    c->trial.past[1] = -from_P2[1];
+    c->d_n = from_P3[0];
+    c->d_s = from_P3[1];
+    c->N = c->T = 0;
+}
+
+/* d_n, d_s, N and T of a closed contact. The slip of the share of the step after it closed is what
+ * loads its shear spring. */
+static void measure_closed(const bbm_model *m, bbm_contact *c)
+{
     double d[2];
 
-    if (open) {
-        distances(m, c, 1, d);
-        c->trial.past[1] = -d[1];
-        c->anchor = 0;
-        c->trial.time_left = 1;
-    }
-    distances(m, c, c->anchor, d);
-    c->trial.past[0] = d[1];
+    vector_distances(m, c, c->anchor, d);
     c->d_n = d[0];
     c->d_s = c->trial.time_left * d[1];
-    c->N = open ? 0 : bbm_normal_force(m->par.p_n, c->d_n - c->rest);
-    c->T = open ? 0 : m->par.p_s * c->d_s;
+    c->N = bbm_normal_force(m->par.p_n, c->d_n - c->rest);
+    c->T = m->par.p_s * c->d_s;
     if (c->trial.friction_in_K && !bbm_is_strengthless(c, c->N))
         c->trial.N_of_friction = c->N;
 }
@@ -173,30 +188,38 @@ static int renew_friction(const bbm_model *m)
 
 /* ------------------------------------------------------------- the open-close iteration: states */
 
-/* Gives a contact its next state. When it closes, P1 hits at the fraction d0/(d0 - d_n) of the
- * step, d0 the distance at the start. Until the end of the step the anchor is where P1 stood at the
- * start. The slip from there lies between those from P3 and from P2, for (53) is linear in the
- * anchor. The shear spring feels the share of it after the hit: so it never drives the slip. The
- * contact starts as SLIDE if its shear spring would carry more than friction can hold, or if it
- * closes for the second time in the step: the shear spring had opened it. */
-static void change_state(const bbm_model *m, bbm_contact *c)
+/* Closes a contact. Along the line from its distance d0 at the start to d_n at the end P1 hits at the
+ * fraction d0/(d0 - d_n) of the step. The slip counts from where P1 stood at the start, which lies
+ * between P3 and P2: so does the slip, for (53) is linear in the anchor. The shear spring gets the
+ * share of the slip after the hit, so that it never drives the slip. The contact begins to slide if
+ * that is more than friction can hold, or if it closes for the second time in the step, since its
+ * shear spring has opened it then. */
+static void close_contact(const bbm_model *m, bbm_contact *c)
 {
     const double at = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
     const double d0 = fmax(0, c->trial.d_n0);
-    const int closes = c->state == BBM_OPEN;
-    const double slip = closes ? (1 - at) * c->trial.past[0] - at * c->trial.past[1] : c->T;
+    const double slip = (1 - at) * c->trial.past[0] - at * c->trial.past[1];
 
-    if (closes) {
-        c->trial.time_left = 1 - d0 / (d0 - c->d_n);
-        c->anchor = at;
-        const double T = c->trial.time_left * m->par.p_s * fabs(slip);
-        const double N = bbm_normal_force(m->par.p_n, c->d_n - fmin(0, c->rest));
-        const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
-        c->trial.next_state = slides ? BBM_SLIDE : BBM_LOCK;
-    }
-    if (c->trial.next_state == BBM_SLIDE)
+    c->anchor = at;
+    c->trial.time_left = 1 - d0 / (d0 - c->d_n);
+    const double T = c->trial.time_left * m->par.p_s * fabs(slip);
+    const double N = bbm_normal_force(m->par.p_n, c->d_n - fmin(0, c->rest));
+    const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
+    c->state = slides ? BBM_SLIDE : BBM_LOCK;
+    if (slides)
         c->sign = copysign(1, slip);
+}
+
+/* Gives a contact its next state. */
+static void change_state(const bbm_model *m, bbm_contact *c)
+{
+    if (c->state == BBM_OPEN) {
+        close_contact(m, c);
+        return;
+    }
     c->state = c->trial.next_state;
+    if (c->state == BBM_SLIDE)
+        c->sign = copysign(1, c->T);
 }
 
 /* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
@@ -262,9 +285,11 @@ static int change_states(bbm_model *m)
     return changes;
 }
 
-/* Notes the states of this pass, and which way each contact slides, as one number, a hash (FNV-1a).
- * It takes no negative numbers, whose hashes collide. If an earlier pass had the same states, the
- * iteration cycles, unless that was the last pass: then only T of the step was new. */
+/* Notes the states of this pass, with the direction of each slip, as one number, a hash (FNV-1a). An
+ * earlier pass with the same number had the same states: the iteration cycles, and from now on one
+ * contact alone changes in each pass, for as many passes as there have been. The last pass may have
+ * had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative numbers
+ * would collide. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;
@@ -287,7 +312,7 @@ bbm_pass bbm_open_close(bbm_model *m)
 
     m->info.passes++;
     for (int k = 0; k < w->contacts; k++)
-        measure(m, &w->contact[k]);
+        (w->contact[k].state == BBM_OPEN ? measure_open : measure_closed)(m, &w->contact[k]);
     bbm_note_depths(m);
     find_tolerances(m);
     if (renew_friction(m))

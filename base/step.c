@@ -155,20 +155,20 @@ bbm_status bbm_begin_step(bbm_model *m)
 }
 
 /* Lists the contacts that may close in the step, and lays out K for them: at first for the guess at
- * D, later for a solution that moves further than the list allows. `same`: the list has not
- * changed, so the solution counts. */
-bbm_status bbm_detect(bbm_model *m, int *same)
+ * D, later for a solution that moves further than the list allows. `holds`: the list was right for
+ * the solution in hand, which therefore holds. */
+bbm_status bbm_detect(bbm_model *m, int *holds)
 {
     const clock_t start = clock();
 
-    *same = 1;
+    *holds = 1;
     if (m->detections > 0 && !bbm_moved_too_far(m))
         return BBM_OK;
     if (m->detections++ == BBM_MAX_DETECTIONS)
         return bbm_say_what_failed(m, BBM_OPEN_CLOSE);
-    bbm_status status = bbm_detect_contacts(m, same);
+    bbm_status status = bbm_detect_contacts(m, holds);
     bbm_count_time(m, BBM_DETECT, start);
-    if (status || *same)
+    if (status || *holds)
         return status;
     bbm_list_gaps(m);
     status = bbm_lay_out_matrix(m);
@@ -261,10 +261,10 @@ bbm_status bbm_try_step(bbm_model *m)
 {
     bbm_status status = bbm_begin_step(m);
     bbm_pass pass = BBM_PASS_DONE;
-    int same = 1;
+    int holds = 1;
 
     if (!status)
-        status = bbm_detect(m, &same);              /* 3.7: which contacts may close            */
+        status = bbm_detect(m, &holds);              /* 3.7: which contacts may close            */
     do {
         do {
             if (!status && pass != BBM_PASS_SAME_K)
@@ -275,8 +275,8 @@ bbm_status bbm_try_step(bbm_model *m)
                 status = open_close(m, &pass);      /* 3.8: do the contacts fit the solution?   */
         } while (!status && pass != BBM_PASS_DONE);
         if (!status)
-            status = bbm_detect(m, &same);          /* too far for the list of contacts?        */
-    } while (!status && !same);
+            status = bbm_detect(m, &holds);          /* too far for the list of contacts?        */
+    } while (!status && !holds);
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 

@@ -18,7 +18,7 @@ function set_bounds()
     bound["beyond"] = 5500
     bound["program"] = 7000
     bound["page"] = 1650
-    words_bound = 33000
+    words_bound = 30000
     says["base"] = " with the paper"
     says["beyond"] = " with both: the library"
     says["program"] = " with `cases/`"
