@@ -447,8 +447,8 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
 
 /* All pairs that may touch. The hook gets a search distance, within which it looks at the edges of
  * a corner along x and y. Two blocks approach each other by two ways, and a vertex lies inside by
- * its depth, which is at most the four ways of start_depth: together six times the longest way from
- * the edge. Seen along an axis from a slanting edge that is sqrt(2) times as far, nine at most. */
+ * its depth, which is at most the four ways of start_depth: together six times the longest way. As
+ * far across the edge as along it that is sqrt(2) times as much, nine at most. */
 static bbm_status find_pairs(bbm_model *m)
 {
     const double search = 9 * foresee(m);
@@ -489,11 +489,11 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
     return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
 }
 
-/* Whether the pair p gives way to the pair that it meets, where both are one contact. There are three
- * such places.
+/* Whether the pair p gives way to the pair that it meets, where both are one contact. There are
+ * three such places.
  * On one straight side (NEXT): p gives way if P lies before the end of the other edge.
- * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one whose
- * edge faces up.
+ * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one
+ * whose edge faces up.
  * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
  * was closed and the corners may pass each other in the step. */
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)

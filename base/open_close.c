@@ -188,8 +188,8 @@ static int renew_friction(const bbm_model *m)
 
 /* ------------------------------------------------------------- the open-close iteration: states */
 
-/* Closes a contact. Along the line from its distance d0 at the start to d_n at the end P1 hits at the
- * fraction d0/(d0 - d_n) of the step. The slip counts from where P1 stood at the start, which lies
+/* Closes a contact. P1 comes from d0 at the start to d_n at the end, so that it hits at the fraction
+ * d0/(d0 - d_n) of the step. The slip counts from where P1 stood at the start, which lies
  * between P3 and P2: so does the slip, for (53) is linear in the anchor. The shear spring gets the
  * share of the slip after the hit, so that it never drives the slip. The contact begins to slide if
  * that is more than friction can hold, or if it closes for the second time in the step, since its
@@ -285,11 +285,11 @@ static int change_states(bbm_model *m)
     return changes;
 }
 
-/* Notes the states of this pass, with the direction of each slip, as one number, a hash (FNV-1a). An
- * earlier pass with the same number had the same states: the iteration cycles, and from now on one
- * contact alone changes in each pass, for as many passes as there have been. The last pass may have
- * had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative numbers
- * would collide. */
+/* Notes the states of this pass, with the direction of each slip, as one number, a hash (FNV-1a).
+ * An earlier pass with the same number had the same states: the iteration cycles, and from now on
+ * one contact alone changes in each pass, for as many passes as there have been. The last pass may
+ * have had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative
+ * numbers would collide. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;

@@ -264,7 +264,7 @@ bbm_status bbm_try_step(bbm_model *m)
     int holds = 1;
 
     if (!status)
-        status = bbm_detect(m, &holds);              /* 3.7: which contacts may close            */
+        status = bbm_detect(m, &holds);             /* 3.7: which contacts may close            */
     do {
         do {
             if (!status && pass != BBM_PASS_SAME_K)
@@ -275,7 +275,7 @@ bbm_status bbm_try_step(bbm_model *m)
                 status = open_close(m, &pass);      /* 3.8: do the contacts fit the solution?   */
         } while (!status && pass != BBM_PASS_DONE);
         if (!status)
-            status = bbm_detect(m, &holds);          /* too far for the list of contacts?        */
+            status = bbm_detect(m, &holds);         /* too far for the list of contacts?        */
     } while (!status && !holds);
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
