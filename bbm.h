@@ -106,8 +106,8 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step              */
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
     double D[6];                /* of the last step: u0, v0 [m], r0 [rad], ex, ey, gxy [-]      */
-    double szz, out_of_plane;   /* Pa, -    stress out of the plane, carried as well; of a step, its */
-                                /*          share in that of sx + sy; 0, 0: plane stress        */
+    double szz;                 /* Pa       stress out of the plane, carried as well            */
+    double out_of_plane;        /* -        its change against that of sx + sy; 0: plane stress */
     const bbm_middle *middle;   /* NULL: T is (2); else the T of a hook                         */
 } bbm_element;
 

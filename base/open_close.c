@@ -188,12 +188,12 @@ static int renew_friction(const bbm_model *m)
 
 /* ------------------------------------------------------------- the open-close iteration: states */
 
-/* Closes a contact. P1 comes from d0 at the start to d_n at the end, so that it hits at the fraction
- * d0/(d0 - d_n) of the step. The slip counts from where P1 stood at the start, which lies
- * between P3 and P2: so does the slip, for (53) is linear in the anchor. The shear spring gets the
- * share of the slip after the hit, so that it never drives the slip. The contact begins to slide if
- * that is more than friction can hold, or if it closes for the second time in the step, since its
- * shear spring has opened it then. */
+/* Closes a contact. P1 comes from d0 at the start to d_n at the end, so that it hits at the
+ * fraction d0/(d0 - d_n) of the step. The slip counts from where P1 stood at the start, which lies
+ * between P3 and P2. Since (53) is linear in the anchor, this slip lies between those from P3 and
+ * from P2. The shear spring gets the share of it after the hit, so that it never drives the slip.
+ * The contact begins to slide if that is more than friction can hold. It also does if it closes for
+ * the second time in the step, since then its shear spring has opened it. */
 static void close_contact(const bbm_model *m, bbm_contact *c)
 {
     const double at = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
