@@ -11,6 +11,7 @@
 # make converge            refines the meshes of the experiments
 # make memcheck, sanitize  the tests under valgrind; programs and tests under ASan and UBSan
 # make torture             scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
+# make limit               statics beside a linear program of limit analysis (SEED, SCENES, TIME)
 # make fuzz                arbitrary bytes for the readers of files, ten minutes (clang)
 # make figures             draws doc/figures
 # make size                counts the lines and writes them into the README

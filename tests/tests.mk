@@ -184,7 +184,11 @@ torture: $O/torture $O/hostile bbm
 $O/torture: $O/tests/torture.o $(TORTURE:%=$O/tests/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-$O/hostile: $O/tests/hostile.o
+# Statics of ./bbm beside a linear program of limit analysis.
+limit: $O/limit bbm
+	@$O/limit check && $O/limit $(HOSTILE)
+
+$O/hostile $O/limit: $O/%: $O/tests/%.o
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 fuzz:
@@ -194,5 +198,5 @@ fuzz:
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=600 -artifact_prefix=out/ \
 	out/corpus tests/bad tests/mesh cases/models
 
-.PHONY: quick check memcheck sanitize smoke fuzz torture libcheck size check-size check-smoke check-arrows experiments
+.PHONY: quick check memcheck sanitize smoke fuzz torture limit libcheck size check-size check-smoke check-arrows experiments
 .PHONY: $(PARTS:%=check-%) $(CALLS)
