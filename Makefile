@@ -34,7 +34,7 @@ O        = out/build
 PAPER    = bbm contact solver
 BASE     = build cut detect open_close order solve step
 BEYOND   = beyond bending coarse energy factor impact interpolation joints mesh multipliers overlap refuse \
-           rotation sliding statics surroundings sweep
+           rotation sliding stability statics surroundings sweep
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)
 CASES    = exp1 exp2 exp3

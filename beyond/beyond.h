@@ -185,6 +185,9 @@ bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model  
 bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end);
 bbm_status bbm_try_otherwise(bbm_model *m, bbm_status s);
 
+/* stability.c */
+bbm_status bbm_find_stability(bbm_model *m, int *stable);       /* of a static answer           */
+
 /* overlap.c */
 typedef struct {                /* elements i < j that overlap                                  */
     int    i, j;

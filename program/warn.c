@@ -310,6 +310,7 @@ void warn_in_step(const run *r, const char *path, int *said)
 void warn_after(const model *p, const char *path)
 {
     double most = 0;
+    int stable = 1;
 
     for (int k = 0; k < p->monitors; k++)
         if (p->monitor[k].of == &model_force && !p->monitor[k].touched)
@@ -319,6 +320,8 @@ void warn_after(const model *p, const char *path)
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         warn(path, "elements turn by more than 0.1 rad, which statics takes as small: lengths are "
                    "wrong; dynamic with velocity_factor 0 has them right");
+    if (!p->dynamic && bbm_find_stability(p->m, &stable) == BBM_OK && !stable)
+        warn(path, "in equilibrium, but not stable: a push, however small, moves it on and on");
     if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)
         warn(path, "the last step was %.2g of the way of all: no equilibrium yet: more steps help",
              p->m->info.change);

@@ -457,6 +457,63 @@ START_TEST(heat_in_plane_strain_leaves_its_stress_out_of_the_plane)
 }
 END_TEST
 
+/* A cantilever of 1 x 20 stands on its end, drawn upright or turned by 35 degrees, and carries a
+ * share of Euler's load E I (pi/2L)^2 there. Bonds give way by 1 %, and forty quadrilaterals bend as
+ * a beam, so that 0.97 is stable and 1.02 is not. */
+START_TEST(a_column_is_stable_up_to_eulers_load)
+{
+    const double L = 20, E = 2e9, turn = _i % 2 * 35 * acos(-1) / 180, share = _i < 2 ? 0.97 : 1.02;
+    const double c = cos(turn), s = sin(turn), P = share * E / 12 * pow(acos(-1) / (2 * L), 2);
+    bbm_model *m = new_model(&(bbm_material){ E, 0, 1, 1 });
+    int stable = -1;
+
+    m->beyond->bonding = BBM_MOMENT;
+    for (int k = 0; k <= 40; k++) {
+        const double y = k * L / 40;
+        bbm_add_node(m, -s * y, c * y, NULL);
+        bbm_add_node(m, c - s * y, s + c * y, NULL);
+        if (k > 0)
+            bbm_add_element(m, 0, 0, 4, (int[]){ 2 * k - 2, 2 * k - 1, 2 * k + 1, 2 * k }, NULL);
+    }
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 1, BBM_XY, 0, 0);
+    bbm_add_line_load(m, 80, 81, s * P, -c * P);
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+    ck_ok(bbm_find_stability(m, &stable), m);
+    ck_assert_int_eq(stable, _i < 2);
+}
+END_TEST
+
+/* A block of the weight W, 2 a wide and h high, stands on a table. Two contacts p_n with an arm of a
+ * resist a turn, the weight at h/2 drives it: 2 p_n a^2 = W h/2 is the limit. The block is so stiff
+ * that 1 % on either side decides. On a corner it is in equilibrium, and not stable. */
+START_TEST(a_block_is_stable_by_the_springs_of_its_base)
+{
+    const double a = 0.05, h = 8, W = 2 * a * h * 2000 * 10, limit = W * h / (4 * a * a);
+    const double p_n[3] = { 1.01 * limit, 0.99 * limit, 1e3 * limit };
+    const double on_side[4][2] = { { -a, 0 }, { a, 0 }, { a, h }, { -a, h } };
+    const double on_corner[4][2] = { { 0, 0 }, { a, h / 2 }, { 0, h }, { -a, h / 2 } };
+    bbm_model *m = new_model(&(bbm_material){ 1e13, 0.2, 2000, 1 });
+    int stable = -1;
+
+    add_rectangle(m, 0, 0, (rectangle){ .x = -3, .y = -1, .w = 6, .h = 1 });
+    for (int k = 0; k < 4; k++) {
+        const double *at = _i < 2 ? on_side[k] : on_corner[k];
+        bbm_fix_node(m, k, BBM_XY, 0, 0);
+        bbm_add_node(m, at[0], at[1], NULL);
+    }
+    bbm_add_element(m, 1, 0, 4, (int[]){ 4, 5, 6, 7 }, NULL);
+    m->par.gravity[1] = -10;
+    m->par.friction = 30;
+    m->par.p_n = m->par.p_s = p_n[_i];
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+    ck_ok(bbm_find_stability(m, &stable), m);
+    ck_assert_int_eq(stable, _i == 0);
+}
+END_TEST
+
 Suite *elastic_suite(void)
 {
     Suite *s = suite_create("elastic");
@@ -475,7 +532,9 @@ Suite *elastic_suite(void)
         { a_bonded_bar_stretches_by_its_strain_and_its_springs, 1 },
         { a_bar_of_two_materials_and_thicknesses_stretches_by_the_sum_of_its_parts, 1 },
         { a_displaced_wall_takes_the_body_along, 1 },
-        { a_node_may_be_held_in_x_and_y_by_separate_calls, 1 });
+        { a_node_may_be_held_in_x_and_y_by_separate_calls, 1 },
+        { a_column_is_stable_up_to_eulers_load, 4 },
+        { a_block_is_stable_by_the_springs_of_its_base, 3 });
     add_case(s, "loads",
         { a_load_that_varies_is_asked_for_at_the_gauss_points_alone, 1 },
         { a_load_that_varies_reaches_the_element_whichever_end_is_named_first, 2 },
