@@ -93,6 +93,12 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return BBM_PASS_AGAIN;
 }
 
+static void before_solution(bbm_model *m)
+{
+    bbm_stiffen(m);
+    bbm_interpolate_elements(m);
+}
+
 /* Moves the model to the end of the step, with the velocities after the jump, if the step went
  * well: right as far as one can tell, no corner passed, no energy from nowhere. */
 static bbm_status move(bbm_model *m)
@@ -144,7 +150,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .motion = bbm_find_motion,
-        .before_solution = bbm_interpolate_elements,
+        .before_solution = before_solution,
         .renew = renew,
         .move = move,
         .failed = bbm_try_otherwise,

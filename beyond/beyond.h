@@ -29,6 +29,8 @@ typedef struct {                /* energy.c: of an element, and of the component
                                 /*          and in the solution in hand                         */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
     int    jumps;               /* impact.c: the component does; -1: and nothing is kept        */
+    double asked;               /* -        of the energy that hits are to give back            */
+    double mass;                /* kg       in a hit: what is free to move                      */
 } bbm_account;
 
 typedef struct {                /* joints.c: a joint of its own strength                        */
@@ -172,6 +174,7 @@ void       bbm_stop_supports(bbm_model *m);
 void       bbm_set_plane_strain(bbm_model *m);
 
 /* impact.c */
+void       bbm_stiffen(bbm_model *m);                   /* K of a step with a hit               */
 bbm_status bbm_jump(bbm_model *m, bbm_model *end);      /* of a step that has settled           */
 
 /* refuse.c, statics.c */

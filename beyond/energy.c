@@ -122,7 +122,8 @@ static void add_work(bbm_account *a, double work)
 }
 
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
- * touch, are near or are bonded. In statics, and where velocities are not kept, nothing is
+ * touch, are near or are bonded. The force of a contact works along what rounding leaves of its
+ * length, too: that is no gain. In statics, and where velocities are not kept, nothing is
  * there. */
 void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
@@ -142,6 +143,12 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         of->there += before + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
         for (int a = 0; a < 6; a++)
             add_work(of, load[a] * m->D[6 * i + a]);
+    }
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        const bbm_contact *c = &m->scratch->contact[k];
+        const bbm_vertex *P = bbm_start_of(m, c->corner);
+        b->account[bbm_component_of(m->K, P->element)].gain -= ROUNDING * fabs(c->N)
+                                                              * hypot(P->x, P->y);
     }
     for (int n = 0; n < m->nodes; n++) {
         const int i = m->vertex[m->adjacent[m->adjacent_first[n]]].element;

@@ -12,7 +12,10 @@
  *
  * and K has the same elastic, bonding, normal and shear submatrices as ever. Only what they count
  * from is another. Elements and bonds count from h/2 V', so that they resist a change of their
- * shape. A held point counts from h/2 w, w the velocity of its support. A closed contact counts
+ * shape. K h^2/2 alone would do so in long steps only. So where there is a hit with a restitution
+ * Young's modulus counts as at least so large that bodies move as rigid ones, in the step and in
+ * the jump. What the hit gives back depends neither on dt nor on the mesh then, and leaves no body
+ * vibrating. A held point counts from h/2 w, w the velocity of its support. A closed contact counts
  * from h/2 v, v the velocity that is asked for: 0; or, if it has closed in this step, -E times the
  * normal velocity with which it came. The open-close iteration finds which contacts stay closed and
  * which slide. It judges the forces of the step and of the jump together, for they act in the same
@@ -21,8 +24,9 @@
  *
  * A contact that has closed, or that the jump opens, has had its impulse: its spring starts
  * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
- * where several points hit together or rub. Such a jump is done again with 0 for all that is asked
- * of contacts, elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion.
+ * where several points hit together or rub, and a little by the order of the step. Such a jump is
+ * done again with less asked of the contacts, in the end with 0 for all that is asked of contacts,
+ * elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
@@ -34,8 +38,14 @@
 
 /* STIFF [-]     springs of contacts in the jump, against 2 m/h^2 of the heaviest element that is
  *               not held: velocities are right to its inverse
+ * RIGID [-]     E t in a hit, against 2 m/h^2 of what its component has that is free to move: what
+ *               hits give back is right to 1e-3. A hundred times as much, and rounding in bonds
+ *               costs momentum
+ * EARLY [-]     of a step: what would hit so soon hits with the others
  * GAIN [-]      energy that a jump may make, against what was there: rounding */
 #define STIFF 1e5
+#define RIGID 1e4
+#define EARLY 1e-2
 #define GAIN 1e-9
 
 /* The normal velocity of P1, where elements move as those of `of`. */
@@ -69,10 +79,10 @@ static double mobility(const bbm_model *m, int i)
     return bbm_is_held_all_round(m, e) ? 0 : 1 / (bbm_mass_per_area(e) * e->A);
 }
 
-/* Whether the component of an element jumps: 1; -1: and nothing is kept. */
-static int *jumps(const bbm_model *m, int i)
+/* Of the component of an element. */
+static bbm_account *account_of(const bbm_model *m, int i)
 {
-    return &m->beyond->account[bbm_component_of(m->K, i)].jumps;
+    return &m->beyond->account[bbm_component_of(m->K, i)];
 }
 
 /* The velocity of a support at the end of the step. One that stands has none. */
@@ -82,6 +92,60 @@ static double support_velocity(const bbm_model *m, int node, int a)
     const double r = m->beyond->share * s->moved[a] / m->h;
 
     return r == 0 ? 0 : r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
+}
+
+/* Marks the components with a hit that has a restitution, also with one that an earlier pass had,
+ * and finds the mass in them that is free to move. */
+static void find_hits(const bbm_model *m)
+{
+    const bbm_contact *c = m->scratch->contact;
+
+    for (int i = 0; i < m->elements; i++)
+        m->beyond->account[i].mass = m->beyond->account[i].jumps = 0;
+    for (; c < m->scratch->contact + m->scratch->contacts && m->beyond->restitution >= 0; c++)
+        account_of(m, bbm_element_of(m, c->corner))->jumps |=
+            has_closed(c) || (c->trial.closings > 0 && !c->trial.was_closed);
+    for (int i = 0; i < m->elements; i++)
+        if (account_of(m, i)->jumps && mobility(m, i) > 0)
+            account_of(m, i)->mass += 1 / mobility(m, i);
+}
+
+/* By how much an element is stiffer in a hit, so that its component moves as rigid bodies do. */
+static double rigidity(const bbm_model *m, int i)
+{
+    const bbm_material *of = &m->element[i].material;
+
+    return fmax(1, RIGID * 2 * account_of(m, i)->mass / (m->h * m->h * of->E * of->thickness));
+}
+
+/* Adds to K what makes bodies rigid in a step with a hit: they resist strain and the opening of
+ * bonds, from what they have at its start. Springs of bonds, not their moments, are alpha times as
+ * stiff by themselves. */
+void bbm_stiffen(bbm_model *m)
+{
+    if (m->beyond->restitution < 0 || bbm_is_static(m) || m->par.velocity_factor < 1
+        || m->beyond->jump_of)
+        return;
+    find_hits(m);
+    for (int i = 0; i < m->elements; i++) {
+        bbm_element e = m->element[i];
+        bbm_submatrix s = { { { 0 } }, { 0 } };
+        e.material.E *= rigidity(m, i) - 1;
+        bbm_elastic_submatrix(&e, &s);
+        bbm_matrix_add(m->K, i, i, s.K);
+    }
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
+        const double stiffer = fmax(1, rigidity(m, g->i) / (g->elastic ? 1 : m->par.alpha)) - 1;
+        bbm_gap more = *g;
+        bbm_submatrices s = { .Fi = { 0 } };
+        if (stiffer == 0 || g->j < 0 || m->element[g->i].block != m->element[g->j].block)
+            continue;
+        memset(more.d0, 0, sizeof more.d0);
+        for (int a = 0; a < 4; a++)
+            more.W[a / 2][a % 2] *= stiffer;
+        bbm_bonding_submatrices(&more, &s);
+        bbm_add_submatrices(m, g->i, g->j, &s);
+    }
 }
 
 /* F takes back the contact forces of the step. */
@@ -102,25 +166,29 @@ static void take_back(bbm_model *m)
 /* The elements at the end of the step. */
 static void start_elements(bbm_model *m, const bbm_model *end)
 {
-    double heaviest = 0, E[3][3];
+    double heaviest = 0, least = m->par.alpha, E[3][3];
 
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
-        const int kept = *jumps(m, i) > 0;
+        const int kept = account_of(m, i)->jumps > 0;
         *e = end->element[i];
         e->middle = NULL;
         bbm_element_geometry(e, &m->vertex[e->first]);
+        const double s = rigidity(end, i);
+        e->material.E *= s;
+        least = fmin(least, s);
         bbm_elastic_matrix(&e->material, E);
         memset(e->stress, 0, sizeof e->stress);
         for (int a = 0; a < 6; a++) {
-            e->V[a] *= *jumps(m, i) ? 0.5 : 0;
+            e->V[a] *= account_of(m, i)->jumps ? 0.5 : 0;
             m->D[6 * i + a] = m->h * e->V[a];
         }
         for (int a = 0; a < 9; a++)
             e->stress[a / 3] -= kept * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
-        if (*jumps(m, i) && mobility(m, i) > 0)
+        if (account_of(m, i)->jumps && mobility(m, i) > 0)
             heaviest = fmax(heaviest, 1 / mobility(m, i));
     }
+    m->par.alpha = end->par.alpha / least;
     m->par.p_n = m->par.p_s = fmax(end->par.p_n, STIFF * 2 * heaviest / (m->h * m->h));
 }
 
@@ -135,7 +203,7 @@ static void start_gaps(bbm_model *m)
         for (int a = 0; a < 2; a++) {
             const double w0 = support_velocity(m, g->node[0], a);
             const double w1 = support_velocity(m, g->node[1], a);
-            g->d0[a] = g->j >= 0 ? -(*jumps(m, g->i) > 0) * d[a]
+            g->d0[a] = g->j >= 0 ? -(account_of(m, g->i)->jumps > 0) * d[a]
                      : -m->h / 4 * (g->elastic ? w0 - w1 : w0 + w1);
         }
     }
@@ -150,16 +218,16 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         *c = m->beyond->jump_of[k];
-        const int jumps_by = *jumps(m, bbm_element_of(m, c->corner));
+        const bbm_account *of = account_of(m, bbm_element_of(m, c->corner));
         const double came = approach(step, c);
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         bbm_spring v[2];
         bbm_contact_vectors(m, c, 0, v);
         c->anchor = -v[1].d / hypot(P3->x - P2->x, P3->y - P2->y);
         const double asked = !has_closed(c) ? 0 : E < 0 ? m->h * normal_velocity(m, c, m->element)
-                           : came < -slow ? -E * came : 0;
-        c->rest = v[0].d + (jumps_by > 0) * asked;
-        if (c->state == BBM_OPEN || jumps_by == 0) {
+                           : came < -slow ? -E * sqrt(of->asked) * came : 0;
+        c->rest = v[0].d + (of->jumps > 0) * asked;
+        if (c->state == BBM_OPEN || of->jumps == 0) {
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
         }
@@ -203,22 +271,25 @@ static int moves(const bbm_model *m, int node)
 }
 
 /* Which components jump: those with a hit with a restitution, or a support that moves. Returns
- * whether there is one, or a hit. */
-static int find_causes(const bbm_model *m)
+ * whether there is one. What would hit in the next small share of a step hits as well: rounding
+ * does not decide which corner of a flat block is first. */
+static int find_causes(const bbm_model *m, const bbm_model *end)
 {
-    const bbm_contact_scratch *w = m->scratch;
+    bbm_contact *c = m->scratch->contact;
     int any = 0;
 
-    for (int c = 0; c < m->elements; c++)
-        m->beyond->account[c].jumps = 0;
-    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++)
-        if (has_closed(c)) {
-            *jumps(m, bbm_element_of(m, c->corner)) |= m->beyond->restitution >= 0;
-            any = 1;
+    find_hits(m);
+    for (; c < m->scratch->contact + m->scratch->contacts; c++)
+        if (account_of(m, c->element[0])->jumps && c->state == BBM_OPEN && !c->trial.was_closed
+            && c->d_n < -EARLY * m->h * normal_velocity(m, c, end->element)
+            && !bbm_is_blocked(m, c)) {
+            c->state = BBM_LOCK;
+            c->trial.time_left = 0;
         }
-    for (int v = 0; v < m->vertices; v++)
-        if (moves(m, m->vertex[v].node))
-            any = *jumps(m, m->vertex[v].element) = 1;
+    for (int v = 0; v < m->vertices; v++) {
+        bbm_account *of = account_of(m, m->vertex[v].element);
+        any |= of->jumps |= moves(m, m->vertex[v].node);
+    }
     return any;
 }
 
@@ -244,7 +315,7 @@ static void take(bbm_model *m, bbm_model *end)
 {
     find_work(m, end);
     for (int a = 0; a < 6 * m->elements; a++)
-        if (*jumps(m, a / 6))
+        if (account_of(m, a / 6)->jumps)
             end->element[a / 6].V[a % 6] = 2 / m->h * m->D[a];
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
@@ -275,25 +346,30 @@ static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model
     }
 }
 
-/* The jump that is asked for; where it makes energy, the one in which nothing is. */
+/* The jump that is asked for. Where it makes energy, contacts are to give back less: by twice the
+ * share that it makes, and in each further try by twice as much again, for what hits have may be a
+ * small part of all. In the end nothing is asked, and then nothing is kept. */
 static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 {
     bbm_account *of = m->beyond->account;
     bbm_status status = BBM_OK;
-    int again = 0;
+    int again = 1;
 
     for (int c = 0; c < m->elements; c++)
-        again |= of[c].jumps;
-    while (again) {
+        of[c].asked = 1;
+    for (int tries = 1; again; tries++) {
         *end = bbm_end_of_step(step);
         status = solve(m, step, end);
         take(m, end);
         bbm_find_accounts(step, end);
         again = 0;
-        for (int c = 0; c < m->elements; c++) {
-            const int wrong = of[c].jumps > 0 && (status || of[c].gain > GAIN * of[c].there);
-            of[c].jumps = wrong ? -1 : of[c].jumps;
-            again |= wrong;
+        for (bbm_account *a = of; a < of + m->elements; a++) {
+            const double less = a->asked - ldexp(a->gain / a->there, tries);
+            if (a->jumps <= 0 || (!status && a->gain <= GAIN * a->there))
+                continue;
+            a->jumps = a->asked > 0 ? 1 : -1;
+            a->asked = status ? 0 : fmax(0, less);
+            again = 1;
         }
     }
     return status ? bbm_say_what_failed(step, status) : BBM_OK;
@@ -309,7 +385,7 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end)
     bbm_hooks hook = *m->hook;
     bbm_model jump = *end;
 
-    if (bbm_is_static(m) || m->par.velocity_factor < 1 || !find_causes(m))
+    if (bbm_is_static(m) || m->par.velocity_factor < 1 || !find_causes(m, end))
         return BBM_OK;
     hook.motion = NULL;
     hook.renew = NULL;

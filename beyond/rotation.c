@@ -36,7 +36,7 @@
  *               contact's spring
  * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is
  *               1e-5 of that */
-#define TURN 1e-7
+#define TURN 1e-8
 #define SHARE 3e-6
 #define DIRECTION 1e-4
 

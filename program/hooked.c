@@ -7,10 +7,15 @@
 
 #include "reader.h"
 
+/* What a bolt's direction in the middle of a step may be off [rad]: so much of the moment of its
+ * force goes into the angular momentum. */
+#define DIRECTION 1e-10
+
 typedef struct {
     bbm_beyond library;
     model *p;
-    bbm_status (*begin)(bbm_model *m);          /* the library's hook */
+    bbm_status (*begin)(bbm_model *m);          /* the library's hooks */
+    bbm_pass (*renew)(bbm_model *m, bbm_pass next);
 } hooked;
 
 static hooked *hooked_of(const bbm_model *m) { return (hooked *)m->beyond; }
@@ -89,28 +94,46 @@ double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *
     return b->k * (length - b->rest);
 }
 
-/* Behind the library's own gaps: a bolt along n with the force F at the length L resists by k along
- * n, and across it a force that pulls turns back with F/L,
- *     W = k n n^T + F/L (1 - n n^T),  d0 = n F/k. */
+/* A bolt as a gap: along n with the force F at the length L it resists by k along n, and in statics
+ * across it a force that pulls turns back with F/L,
+ *     W = k n n^T + F/L (1 - n n^T),  d0 = n F/k.
+ * With exact rotations n is the direction in the middle of the step. The vector P from end to end
+ * becomes P1, and L1^2 - L^2 = (P1 + P).(P1 - P). So the length changes by c n.(P1 - P), with n
+ * along P1 + P and c = |P1 + P|/(L1 + L): the work is what the bolt loses, and the force keeps
+ * angular momentum. */
+static void find_gap(const bbm_model *m, const scene_bolt *b, bbm_gap *g)
+{
+    const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
+    const bbm_element *i = &m->element[P.element], *j = &m->element[Q.element];
+    bbm_direction n;
+    const double force = model_bolt_force(m, b, &n), L = n.length,
+                 across = bbm_find_motion(m) ? 0 : fmax(0, force) / L;
+    double c = 1, d[2];
+
+    bbm_bonding_gap(i, &P, j, &Q, 0, g);
+    g->elastic = 1;
+    if (i->middle) {
+        bbm_gap_length(m, g, d);                                /* P1 - P */
+        const double x = 2 * L * n.x + d[0], y = 2 * L * n.y + d[1], sum = hypot(x, y);
+        c = sum / (L + hypot(x - L * n.x, y - L * n.y));
+        n = (bbm_direction){ x / sum, y / sum, L };
+    }
+    for (int a = 0; a < 4; a++) {
+        const double row = a < 2 ? n.x : n.y, column = a % 2 ? n.y : n.x;
+        g->W[a / 2][a % 2] = (b->k * c * c - across) * row * column + across * (a % 3 == 0);
+        g->d0[a / 2] = (L - b->rest) / c * row;
+    }
+}
+
+/* The bolts stand behind the library's own gaps. */
 static void list_gaps(bbm_model *m)
 {
     const model *p = hooked_of(m)->p;
 
     bbm_list_edge_gaps(m);
-    for (int k = 0; k < p->bolts; k++) {
-        const scene_bolt *b = &p->bolt[k];
-        const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
-        bbm_gap *g = bbm_add_gap(m, P.element, Q.element);
-        bbm_direction along;
-        const double across = fmax(0, model_bolt_force(m, b, &along)) / along.length,
-                     n[2] = { along.x, along.y };
-        bbm_bonding_gap(&m->element[g->i], &P, &m->element[g->j], &Q, 0, g);
-        g->elastic = 1;
-        for (int a = 0; a < 4; a++) {
-            g->W[a / 2][a % 2] = (b->k - across) * n[a / 2] * n[a % 2] + across * (a % 3 == 0);
-            g->d0[a / 2] = (along.length - b->rest) * n[a / 2];
-        }
-    }
+    for (const scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
+        find_gap(m, b, bbm_add_gap(m, point_of(m, &b->end[0]).element,
+                                   point_of(m, &b->end[1]).element));
 }
 
 /* ------------------------------------------------------------------------------------ the hooks */
@@ -137,6 +160,26 @@ static bbm_status begin(bbm_model *m)
     return status;
 }
 
+/* After a pass: where all has settled, but a bolt has another direction than in the solution, all
+ * vectors of the step are renewed. */
+static bbm_pass renew(bbm_model *m, bbm_pass next)
+{
+    const model *p = hooked_of(m)->p;
+
+    next = hooked_of(m)->renew(m, next);
+    for (int k = 0; k < p->bolts && next == BBM_PASS_DONE && bbm_find_motion(m); k++) {
+        const bbm_gap *g = &m->gap[m->gaps - p->bolts + k];
+        bbm_gap now = *g;
+        find_gap(m, &p->bolt[k], &now);
+        if (hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1]) > DIRECTION * p->bolt[k].k) {
+            bbm_set_middle(m);
+            bbm_list_gaps(m);
+            next = BBM_PASS_AGAIN;
+        }
+    }
+    return next;
+}
+
 int model_hook(model_reader *r)
 {
     model *p = r->p;
@@ -154,8 +197,9 @@ int model_hook(model_reader *r)
     if (!b || !gap)
         return model_out_of_memory(r);
     memset(gap + gaps, 0, bolts * sizeof *gap);
-    *b = (hooked){ b->library, p, m->hook->begin };
+    *b = (hooked){ b->library, p, m->hook->begin, m->hook->renew };
     m->hook->begin = begin;
+    m->hook->renew = renew;
     m->hook->list_gaps = list_gaps;
     bbm_list_gaps(m);
     bbm_note_springs(m, 0);             /* the energy of bolts that are tight */
