@@ -143,7 +143,7 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
     vector_distances(m, c, c->anchor, d);
     c->d_n = d[0];
     c->d_s = c->trial.time_left * d[1];
-    c->N = bbm_normal_force(m->par.p_n, c->d_n - c->rest);
+    c->N = bbm_normal_force(m, c->d_n - c->rest);
     c->T = m->par.p_s * c->d_s;
     if (c->trial.friction_in_K && !bbm_is_strengthless(c, c->N))
         c->trial.N_of_friction = c->N;
@@ -203,7 +203,7 @@ static void close_contact(const bbm_model *m, bbm_contact *c)
     c->anchor = at;
     c->trial.time_left = 1 - d0 / (d0 - c->d_n);
     const double T = c->trial.time_left * m->par.p_s * fabs(slip);
-    const double N = bbm_normal_force(m->par.p_n, c->d_n - fmin(0, c->rest));
+    const double N = bbm_normal_force(m, c->d_n - fmin(0, c->rest));
     const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
     c->state = slides ? BBM_SLIDE : BBM_LOCK;
     if (slides)
@@ -222,12 +222,19 @@ static void change_state(const bbm_model *m, bbm_contact *c)
         c->sign = copysign(1, c->T);
 }
 
+/* The normal force that an open contact would have if it were closed. */
+static double N_if_closed(const bbm_model *m, const bbm_contact *c)
+{
+    return bbm_normal_force(m, c->d_n - c->rest);
+}
+
 /* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
  * may have been pulled open by its shear spring. If that carries more than friction would hold
  * under as much pressure, the contact slides first, which removes the spring. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->trial.force_tolerance);
+    const double N = c->state == BBM_OPEN ? N_if_closed(m, c) : c->N;
+    const bbm_contact_state next = bbm_next_state(c, N, c->trial.force_tolerance);
     const double strength = bbm_shear_strength(&c->strength, fabs(c->N));
 
     if (c->state == BBM_OPEN && next != BBM_OPEN && bbm_is_blocked(m, c))
@@ -241,7 +248,7 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
-        return bbm_normal_force(m->par.p_n, c->d_n - c->rest);
+        return N_if_closed(m, c);
     if (c->trial.next_state == BBM_OPEN && c->N < 0)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
