@@ -143,8 +143,8 @@ double bbm_shear_force(const bbm_contact *c)
 }
 
 /* The figure on top as a table: the state that follows from N and T. N of an open contact is what
- * it would be if it were closed. Forces that differ by less than the tolerance agree. A closed contact
- * opens without a tolerance: it would be a hidden tensile strength. */
+ * it would be if it were closed. Forces that differ by less than the tolerance agree. A closed
+ * contact opens without a tolerance: it would be a hidden tensile strength. */
 bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double tolerance)
 {
     const double strength = bbm_shear_strength(&c->strength, N);
