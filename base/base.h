@@ -421,4 +421,7 @@ bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *holds);                /* and K for the contacts       */
 bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, with m->h       */
 
+/* build.c */
+size_t     bbm_most_gaps(const bbm_model *m);                   /* once bonds are found         */
+
 #endif

@@ -16,8 +16,7 @@
 /* ------------------------------------------------------------------- assembly, Eq. (5) */
 
 /* The next gap of the list, between the elements i and j. A hook's `own` stays from list to list.
- * bbm_prepare has made room for two gaps at each bond, and at each vertex for one of the paper's
- * and two of a hook. */
+ * bbm_prepare has made room for bbm_most_gaps. */
 bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 {
     bbm_gap *g = &m->gap[m->gaps++];

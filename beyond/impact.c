@@ -138,7 +138,8 @@ void bbm_stiffen(bbm_model *m)
         const double stiffer = fmax(1, rigidity(m, g->i) / (g->elastic ? 1 : m->par.alpha)) - 1;
         bbm_gap more = *g;
         bbm_submatrices s = { .Fi = { 0 } };
-        if (stiffer == 0 || g->j < 0 || m->element[g->i].block != m->element[g->j].block)
+        const int holds = g->j < 0 || g->W[0][0] + g->W[1][1] < 0;      /* a node: bending.c */
+        if (stiffer == 0 || holds || m->element[g->i].block != m->element[g->j].block)
             continue;
         memset(more.d0, 0, sizeof more.d0);
         for (int a = 0; a < 4; a++)
@@ -203,7 +204,7 @@ static void start_gaps(bbm_model *m)
         for (int a = 0; a < 2; a++) {
             const double w0 = support_velocity(m, g->node[0], a);
             const double w1 = support_velocity(m, g->node[1], a);
-            g->d0[a] = g->j >= 0 ? -(account_of(m, g->i)->jumps > 0) * d[a]
+            g->d0[a] = g->j >= 0 ? -(account_of(m, g->i)->jumps > 0 && g->W[a][a] >= 0) * d[a]
                      : -m->h / 4 * (g->elastic ? w0 - w1 : w0 + w1);
         }
     }
