@@ -144,7 +144,6 @@ struct bbm_contact_scratch {
     int passes, friction_passes;
     int one_until;              /* before this pass one contact alone changes its state in each */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
-    double *force;              /* [elements] N: the largest force in each component of K       */
     /* --- detect.c --- */
     int pairs;
     struct bbm_pair *pair;      /* [pairs]    a corner and an edge that may touch, sorted       */
@@ -170,6 +169,8 @@ struct bbm_matrix {
     int *back;                  /* [blocks]  its row less its column                            */
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
     int *component;             /* [n]       of a caller's row: 0 .. components-1               */
+    int *body;                  /* [n]       of a caller's row: its component, or by a hook a   */
+                                /*           number below n; -1: of a body that is held         */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
     double *forces;             /* [n]       of each component, see bbm_matrix_measure; 0: none */
     int lacks;                  /* what was added to a block that the pattern does not have     */

@@ -16,11 +16,11 @@
 
 #include "base.h"
 
-/* AGREE  [-]  forces agree if they differ by less than this share of the largest force in their
- *             component of K: the solver is not more exact
+/* AGREE  [-]  forces agree if they differ by less than this share of N, or of the force by which
+ *             their component of K is solved: the solver is not more exact
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
- * ROUGH  [-]  but at most this share of the largest force does. Stiffer springs do not settle */
+ * ROUGH  [-]  but at most this share of that force does. Stiffer springs do not settle */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define ROUGH 1e-3
@@ -149,23 +149,15 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
         c->trial.N_of_friction = c->N;
 }
 
-/* The force tolerance of each contact: a share of the largest force in its component of K. That is
- * the force on an element, inertia included, or in a contact. The solver's residual, and with it
- * the error of every N, is small against this force alone. What the spring makes of the rounding of
- * positions is added. */
+/* The force tolerance of each contact: a share of its own force, or of the force on a body by which
+ * its component is solved. The error of every N is small against this force alone. What the spring
+ * makes of the rounding of positions is added. */
 static void find_tolerances(const bbm_model *m)
 {
-    const bbm_contact_scratch *w = m->scratch;
-
-    memcpy(w->force, m->K->forces, (size_t)m->K->components * sizeof *w->force);
-    for (int k = 0; k < w->contacts; k++) {
-        double *most = &w->force[bbm_component_of(m->K, w->contact[k].element[0])];
-        *most = fmax(*most, fabs(w->contact[k].N));
-    }
-    for (int k = 0; k < w->contacts; k++) {
-        bbm_contact *c = &w->contact[k];
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        const double force = w->force[bbm_component_of(m->K, c->element[0])];
+        const double force = fmax(fabs(c->N), m->K->forces[bbm_component_of(m->K, c->element[0])]);
         const double digits = m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y)) * DIGITS;
         c->trial.force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
     }

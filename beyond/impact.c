@@ -155,12 +155,10 @@ static void take_back(bbm_model *m)
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
-        const double T = bbm_shear_force(c);
-        bbm_spring v[2];
-        bbm_contact_vectors(m, c, c->anchor, v);
+        double F[BBM_PARTS][6];
+        bbm_contact_forces(m, c, F);
         for (int i = 0; i < 6 * c->parts && isfinite(m->scratch->contact[k].rest); i++)
-            m->load[6 * c->element[i / 6] + i % 6] += T * v[1].v[i / 6][i % 6]
-                                                    - c->N * v[0].v[i / 6][i % 6];
+            m->load[6 * c->element[i / 6] + i % 6] -= F[i / 6][i % 6];
     }
 }
 
