@@ -159,6 +159,14 @@ START_TEST(a_joint_holds_by_its_own_tensile_strength)
 }
 END_TEST
 
+/* A joint that loses its cohesion point by point says so where it gives way. */
+START_TEST(a_joint_that_breaks_says_how)
+{
+    ck_assert_int_eq(shell("%s/bbm -q doc/shear.model -d s=2e5 -o out/model/shear > out/model/said 2>&1", BUILD), 1);
+    ck_assert(strstr(slurp("out/model/said"), "slides on block 'base' (element 1), and goes on; a joint breaks point by point"));
+}
+END_TEST
+
 /* A block of 24.5 kN hangs on a bolt of 1 MN/m; one that is tight by as much holds it where it is. One
  * that breaks at 20 kN has grown by 0.02 m = W/K (1 - cos 20 t), t = 0.0693 s, from where the block falls on
  * with 0.482 m/s; the 10 mm are what steps of 1 ms make of when it breaks. */
@@ -832,6 +840,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_support_that_moves_pulls_its_bar, 0, 3);
     tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
     tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
+    tcase_add_test(t, a_joint_that_breaks_says_how);
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 4);
     tcase_add_loop_test(t, a_bolt_ends_anywhere_in_a_block, 0, 2);
