@@ -44,6 +44,10 @@ int model_stage_head(model_reader *r)
         p->gone[block] = r->s->stage;
     } while (model_look(r));
     for (int b = 0; b < p->blocks; b++)
+        if (p->gone[b] != p->gone[p->body[b]])
+            return model_blame(r, "block '%.60s' is bonded to '%.60s', expected both removed",
+                               p->block[b], p->block[p->body[b]]);
+    for (int b = 0; b < p->blocks; b++)
         if (!p->gone[b])
             return 1;
     return model_blame(r, "the last block is removed, expected one that stays");
@@ -60,9 +64,10 @@ void model_keep_stage(model_reader *r, int k)
         m->par.friction = m->beyond->cohesion = 0;
     r->p->stage[k] = (model_stage){ r->p->stage[k].name, m->par, m->beyond->cohesion,
                                     m->beyond->tension, m->beyond->edge_loads, node };
+    for (int v = 0; v < m->vertices && k == 0; v++)
+        if (r->block[m->element[m->vertex[v].element].block].fixed)
+            m->node[m->vertex[v].node].held = BBM_XY;
     for (int n = 0; n < m->nodes && node; n++) {
-        if (k == 0 && r->block[r->p->node_block[n]].fixed)
-            m->node[n].held = BBM_XY;
         node[n] = m->node[n];
         m->node[n].wall[0] = m->node[n].wall[1] = 0;
     }
@@ -123,7 +128,7 @@ void model_next_stage(model *p)
         size = fmax(size, hypot(m->node[n].x - m->node[0].x, m->node[n].y - m->node[0].y));
     for (int i = 0; i < m->elements && p->now; i++)
         if (p->gone[m->element[i].block] == p->now)
-            carry_away(m, i, FAR * size * (m->element[i].block + 1));
+            carry_away(m, i, FAR * size * (p->body[m->element[i].block] + 1));
     for (int n = 0; n < m->nodes; n++)
         change_node(m, n, &s->node[n]);
     for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)

@@ -133,6 +133,27 @@ static const struct { const char *model; int only; } matrices[] = {
     { "dam", 1 }, { "exp3", 0 }, { "incline", 0 }, { "overhang", 0 }, { "wall", 0 },
 };
 
+/* One block, 2 x 1 m and 2500 kg/m^3, whose form of inertia about its middle is known: m for u and v, m (a^2 + b^2)/12
+ * for the rotation (-y, x), m a^2/12 and m b^2/12 for the strains (x, 0) and (0, y), a quarter of the rotation's for the
+ * shear (y, x)/2, which meets the rotation with m (a^2 - b^2)/24. */
+START_TEST(the_masses_beside_the_matrix_are_those_of_a_rectangle)
+{
+    const double m = 5000, expected[6] = { m, m, m*5/12, m*4/12, m/12, m*5/48 };
+
+    ck_assert_int_eq(shell("mkdir -p out/model; printf 'material m E 1e9 nu 0 density 2500\nblock b m 3 5 5 5 5 6 3 6\n"
+                           "fixblock b\ngravity 0 -1\nstatic\n' > out/model/heavy.model; %s/bbm -q out/model/heavy.model "
+                           "-o out/model/heavy -m out/model/heavy.mtx", BUILD), 0);
+    FILE *f = fopen("out/model/heavy.mtx.mass", "r");
+    int n, i, j, entries = 0;
+    double x;
+    ck_assert(f && fscanf(f, "%%%%MatrixMarket matrix coordinate real symmetric %d 6 21", &n) == 1 && n == 6);
+    for (; fscanf(f, "%d %d %lf", &i, &j, &x) == 3; entries++)
+        ck_near(x, i == j ? expected[i - 1] : i == 6 && j == 3 ? m*3/24 : 0, m, 1e-12);
+    ck_assert_int_eq(entries, 21);
+    fclose(f);
+}
+END_TEST
+
 START_TEST(the_matrix_leads_to_the_displacements_that_the_program_writes)
 {
     const char *name = matrices[_i].model;
@@ -659,6 +680,7 @@ Suite *files_suite(void)
 
     tcase_set_timeout(t, 120);
     tcase_add_unchecked_fixture(t, make_folder, NULL);
+    tcase_add_test(t, the_masses_beside_the_matrix_are_those_of_a_rectangle);
     tcase_add_loop_test(t, the_matrix_leads_to_the_displacements_that_the_program_writes, 0,
                         COUNT(matrices));
     tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
