@@ -526,7 +526,8 @@ int model_joint(model_reader *r)
     double friction = r->p->m->par.friction, cohesion = b->cohesion, tension = b->tension;
     model_option o[] = { ANGLE("friction", &friction), FROM_ZERO("cohesion", &cohesion),
                          FROM_ZERO("tension", &tension) };
-    int block[2];
+    int block[2], above = 0;
+    const char *key = NULL;
 
     if (!read_blocks(r, block) || !model_options(r, 0, LENGTH(o), o)
         || !model_note_friction(r, friction))
@@ -534,10 +535,14 @@ int model_joint(model_reader *r)
     if (!o[0].seen && !o[1].seen && !o[2].seen)
         model_note(r, "warning: this joint has what `contact` has, without friction, cohesion or "
                    "tension of its own");
-    for (int k = 0; k < b->joints; k++)
-        if (model_fits(b->joint[k].block, block[0], block[1])
-            || model_fits(b->joint[k].block, block[1], block[0]))
-            model_note(r, "warning: this joint never counts, below one that fits the same blocks");
+    for (int k = 7; k >= 0; k--) {              /* with a * or two and the other way; as it stands */
+        key = model_print(r, "%d %d", k & 1 ? -1 : block[k / 4], k & 2 ? -1 : block[1 - k / 4]);
+        above |= key && model_find(&r->joint_of, key) >= 0;
+    }
+    if (above)
+        model_note(r, "warning: this joint never counts, below one that fits the same blocks");
+    if (!key || !model_enter(r, &r->joint_of, key, 0))
+        return 0;
     r->p->slippery = 0;
     if (r->no_shear)
         friction = cohesion = 0;
@@ -718,7 +723,7 @@ int model_pins(model_reader *r)
     return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }
 
-/* A body is free: which block of another one is nearest to it. */
+/* A body is free: which block of another one is nearest to its first element. */
 static int blame_free(model_reader *r)
 {
     const bbm_model *m = r->p->m;
@@ -727,14 +732,14 @@ static int blame_free(model_reader *r)
     double gap = INFINITY;
 
     for (int e = 0; e < m->edges; e++)
-        for (int f = 0; f < m->edges; f++) {
-            const int i = bbm_element_of(m, e), j = bbm_element_of(m, f);
+        for (int f = 0; f < m->edges && bbm_element_of(m, e) == loose; f++) {
+            const int other = bbm_element_of(m, f);
             const double d = fmin(model_distance(m, e, f), model_distance(m, f, e));
-            if (bbm_component_of(m->K, i) != body || bbm_component_of(m->K, j) == body || d >= gap)
+            if (bbm_component_of(m->K, other) == body || d >= gap)
                 continue;
             gap = d;
-            snprintf(near, sizeof near, "; block '%.60s' is %.3g m away",
-                     r->p->block[m->element[j].block], gap);
+            snprintf(near, sizeof near, "; element %.60s is %.3g m away from block '%.60s'",
+                     r->p->element[loose], gap, r->p->block[m->element[other].block]);
         }
     if (model_touches_itself(r->p, touch))
         snprintf(near, sizeof near, "; %.290s", touch);

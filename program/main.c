@@ -6,6 +6,7 @@
  * is not met; 130, 143: interrupted (Ctrl-C, kill), with what was computed until then in the
  * files. Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
 #define _POSIX_C_SOURCE 200809L
+#define _DEFAULT_SOURCE                 /* else glibc takes a handler away when it is called */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -74,11 +75,12 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     int options = 1;
 
     *a = (arguments){ .exit = -1, .let = argv };
-    for (int k = 1; k < argc; k++) {
 #ifdef _WIN32
+    for (int k = 1; k < argc; k++)
         for (char *c = argv[k]; *c; c++)
             *c = *c == '\\' ? '/' : *c;        /* both part folders there */
 #endif
+    for (int k = 1; k < argc; k++) {
         char *word = argv[k];
         if (!options || word[0] != '-' || word[1] == '\0') {
             if (a->model)
@@ -272,7 +274,7 @@ static void report(const run *r, bbm_status status, const write_results *w)
     char text[500];
 
     run_says(r, status, text);
-    if (stopped)
+    if (stopped && !w->status)
         fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until "
                 "then is in %s\n", w->source, r->has_begun ? "" : "settling, ", m->info.step,
                 r->has_begun ? m->par.steps : r->p->settle, m->info.t, w->folder);

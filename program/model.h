@@ -80,6 +80,8 @@ typedef struct {
     scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
     model_kept *kept;           /* all that is allocated for the file: arrays, and the texts of
                                                 which names and ids are words */
+    int    inputs;
+    const char **input;         /* [inputs]     the files that were read */
     int    notes;
     const char **note;          /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
     int    status;              /* 0, 1: failed, 2: the input is wrong */

@@ -231,6 +231,14 @@ static const char *evaluate(model_reader *r, const char *text, char number[NUMBE
 
 /* ------------------------------------------------------------------------- a word, a statement */
 
+/* So many more bytes are taken. */
+static int grow(model_reader *r, size_t bytes)
+{
+    return (r->grown += (double)bytes) <= MOST_BYTES
+           || model_blame(r, "the values of numbers take more than %d bytes, expected less",
+                          MOST_BYTES);
+}
+
 /* The word with the value in place of each piece $NAME or $(...); NULL after an error. glued: it
  * has several pieces, but for a sign or %, and is no number. */
 static char *expand(model_reader *r, char *word, int *glued)
@@ -252,9 +260,8 @@ static char *expand(model_reader *r, char *word, int *glued)
         }
         from += n;
         pieces += length != 1 || !strchr("+-%", *value);
-        if ((r->grown += (double)length) > MOST_BYTES)
-            return model_blame(r, "the values of numbers take more than %d bytes, expected less",
-                               MOST_BYTES), NULL;
+        if (!grow(r, length))
+            return NULL;
         while (length-- > 0)
             model_add(r, &text, &letters, 1, value++);
     }
@@ -375,7 +382,7 @@ static int repeat(model_reader *r, int from, int end)
                            DEEPEST_REPEAT);
     for (int i = low; i <= high; i++) {
         if (!(r->round = model_print(r, "%s%s%s = %d", outer ? outer : "", outer ? ", " : "", word,
-                                     i)))
+                                     i)) || !grow(r, strlen(r->round)))
             return 0;
         const model_local l = { word, strrchr(r->round, ' ') + 1, 1 };
         r->own = locals;

@@ -195,6 +195,8 @@ char *model_load(model_reader *r, const char *path, size_t *size)
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
     if (f && f != stdin)
         fclose(f);
+    path = f == stdin ? "/dev/stdin" : path;
+    model_add(r, &r->p->input, &r->p->inputs, sizeof path, &path);
     *size = n;
     if (!r->p->status)
         text[n] = '\0';

@@ -65,7 +65,7 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    int cuts, cut_words, locals, own, depth, repeated, stage;   /* own: locals before the round */
+    int cuts, cut_words, locals, own, depth, repeated, removed, stage;   /* own: locals before the round */
     model_statement *cut;                   /* [cuts]       as the file has them, and their words */
     char **cut_word;                        /* [cut_words]  */
     model_local *local;                     /* [locals]     of the round in hand */
@@ -82,7 +82,8 @@ typedef struct {
     model_copy *copy;
     int bonds, bonding;                     /* bonding: whether `bond` has its options */
     model_bond *bond;                       /* [bonds] */
-    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of, stage_of;
+    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of, stage_of,
+                joint_of;                   /* of the numbers of blocks: "1 -1" */
     long long last_node, last_element;      /* the largest ids */
     model_block any;                        /* `*`: the blocks without their own */
     int plane_strain, no_shear;             /* no_shear: ks is 0 */

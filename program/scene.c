@@ -31,7 +31,8 @@
 #include "field.h"
 #include "plot.h"
 
-enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
+/* Kept; values repeated at the end; blocks that a tint looks at. */
+enum { FRAMES = 64, HOLD = 6, TINTS = 6, NEIGHBOURS = 300 };
 enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMBOL, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 /* One of so many values may lie beyond each end of the colours, and be larger than a cross. */
@@ -199,7 +200,8 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
 
 static void put_contact_forces(scene_frame *f, const bbm_model *m)
 {
-    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
         const bbm_edge *corner = &m->edge[c->corner];
         double force[2];
         field_contact_force(m, c, c->N, c->T, force);
@@ -245,7 +247,8 @@ static point pixel(const film *f, point a)
 
 static point at(const film *f, int frame, int v) { return pixel(f, position(f, frame, v)); }
 
-/* The distance of two blocks is that of their boxes, and a little of that of their centres. */
+/* The distance of two blocks is that of their boxes, and a little of that of their centres. The
+ * last ones before the block are looked at. */
 static int choose_tint(const film *f, const body *b)
 {
     double nearest[TINTS], apart[2], way[2];
@@ -253,7 +256,7 @@ static int choose_tint(const film *f, const body *b)
 
     for (int k = 0; k < TINTS; k++)
         nearest[k] = INFINITY;
-    for (const body *a = f->body; a < b; a++) {
+    for (const body *a = b - f->body > NEIGHBOURS ? b - NEIGHBOURS : f->body; a < b; a++) {
         for (int k = 0; k < 2; k++) {
             apart[k] = fmax(0, fmax(a->box[k][0] - b->box[k][1], b->box[k][0] - a->box[k][1]));
             way[k] = (a->box[k][0] + a->box[k][1] - b->box[k][0] - b->box[k][1]) / 2;
@@ -269,29 +272,41 @@ static int choose_tint(const film *f, const body *b)
 /* Block by block, which are numbered from 0, in the order of their elements. Held: each of its
  * vertices, in both directions, where it was, in each frame in which it is there. Those that are
  * gone in the first frame are held and have no vertices. */
+static body *body_of(const film *f, int v)
+{
+    return &f->body[f->m->element[f->m->vertex[v].element].block];
+}
+
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
 
-    for (int n = 0; n < m->vertices; f->bodies++) {
-        body *b = &f->body[f->bodies];
-        const scene_frame *first = f->s->frame, *end = first + f->s->frames;
-        *b = (body){ n, 0, 1, 0, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
-        for (int v = 0; v < m->vertices; v++) {
-            if (m->element[m->vertex[v].element].block != f->bodies)
-                continue;
-            f->vertex[n++] = v;
-            for (const scene_frame *g = first; g < end; g++)
-                b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
-            b->fixed |= f->s->frame[f->s->frames - 1].held[v] & BBM_XY;
-            plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
-        }
-        b->n = first->held[f->vertex[b->first]] == SCENE_GONE ? 0 : n - b->first;
+    const scene_frame *first = f->s->frame, *end = first + f->s->frames;
+
+    for (int v = 0; v < m->vertices; v++) {
+        body *b = body_of(f, v);
+        for (; f->bodies <= b - f->body; f->bodies++)
+            f->body[f->bodies] = (body){ 0, 0, 1, 0, 0, { { INFINITY, -INFINITY },
+                                                          { INFINITY, -INFINITY } } };
+        b->n++;
+    }
+    for (body *b = f->body + 1; b < f->body + f->bodies; b++)
+        b->first = b[-1].first + b[-1].n, b[-1].n = 0;
+    f->body[f->bodies - 1].n = 0;
+    for (int v = 0; v < m->vertices; v++) {
+        body *b = body_of(f, v);
+        f->vertex[b->first + b->n++] = v;
+        for (const scene_frame *g = first; g < end; g++)
+            b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
+        b->fixed |= f->s->frame[f->s->frames - 1].held[v] & BBM_XY;
+        plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
+    }
+    for (body *b = f->body; b < f->body + f->bodies; b++) {
+        b->n *= first->held[f->vertex[b->first]] != SCENE_GONE;
         f->held |= b->held && b->n > 0;
         f->whole |= !b->held && b->n == m->element[m->vertex[f->vertex[b->first]].element].n;
-    }
-    for (body *b = f->body; b < f->body + f->bodies; b++)
         b->tint = choose_tint(f, b);
+    }
 }
 
 /* Of boundary edges whose two ends are held alike, or else of all: where supports stand. */
@@ -358,10 +373,10 @@ static void put_outline(film *f, int frame, const body *b)
 
     for (int k = b->first; k < b->first + b->n; k++) {
         const int first = f->m->vertex[f->vertex[k]].edge;
-        int e = first;
-        while (e >= 0 && edge[e].after > first)
-            e = edge[e].after;
-        if (first < 0 || edge[e].after < first)
+        int e = first, back = first;
+        while (e >= 0 && edge[e].after > first && edge[back].before > first)
+            e = edge[e].after, back = edge[back].before;
+        if (first < 0 || edge[e].after != first)
             continue;
         do {                                            /* e is the last one */
             e = edge[e].after;

@@ -127,7 +127,8 @@ static int read_contact(model_reader *r)
 static int read_static(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
-    model_option o[] = { COUNT("steps", &p->steps, 1), ABOVE_ZERO("tolerance", &p->tolerance) };
+    model_option o[] = { COUNT("steps", &p->steps, 1),
+                         RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1") };
 
     p->steps = 1;
     return model_options(r, 0, LENGTH(o), o);
@@ -612,12 +613,15 @@ static int cut_file(model_reader *r, char *text, size_t size)
     return 1;
 }
 
-static int read_phase(model_reader *r, int phase, int stage)
+/* The statements of a stage stand together, from its head on. */
+static int read_phase(model_reader *r, int phase, int stage, int from)
 {
-    for (int k = 0; k < r->statements && !r->p->status; k++) {
+    for (int k = from; k < r->statements && !r->p->status; k++) {
         r->s = &r->statement[k];
         r->next = r->ahead = 0;
         const struct kind *kind = &kinds[r->s->kind];
+        if (stage && r->s->stage > stage)
+            break;
         if (kind->phase != phase || r->s->stage != stage)
             continue;
         if (kind->may & DYNAMIC && !r->p->dynamic)
@@ -654,9 +658,11 @@ static int read_all(model_reader *r)
     if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;
     p->stage = model_keep(r, p->stages, sizeof *p->stage);
-    for (int stage = 0; stage <= p->stages && !p->status; stage++) {
+    for (int stage = 0, from = 0; stage <= p->stages && !p->status; stage++) {
+        while (r->statement[from].stage < stage)
+            from++;
         for (int phase = NUMBERS + 1; phase < PHASES; phase++)
-            if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage))
+            if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage, from))
                 return 0;
         model_keep_stage(r, stage);
     }

@@ -61,13 +61,15 @@ static void warn_of_loads(const model *p, const char *path)
 /* A block. A gap is to a block before it that it faces: below CLOSE, of the size of the smaller
  * one, it is hardly meant, and below MODEL_TOUCH it is none. */
 typedef struct {
-    double box[4], size, gap;   /* m            x and y from, to; size: root of its area        */
+    bbm_box box;
+    double size, gap;           /* m            size: root of its area                          */
     int    elements, pieces, free, held, thrown, edge, near;        /* free, held: its nodes;   */
 } body;                         /*              edge: the first; near: the block at the gap     */
 
 /* next: edge; group: of blocks that touch; piece: of elements that are bonded; met: pairs that are
  * close; alike: pairs of meshes of one material with a side in common. */
-typedef struct { const model *p; body *body; int *next, *group, *piece, met, alike; } bodies;
+typedef struct { const model *p; body *body; bbm_box *box; int *next, *group, *piece, met, alike; }
+bodies;
 
 #define CLOSE 0.01
 
@@ -76,8 +78,8 @@ static void measure(bodies *s)
     const bbm_model *m = s->p->m;
 
     for (int b = 0; b < s->p->blocks; b++) {
-        s->body[b] = (body){ .box = { INFINITY, -INFINITY, INFINITY, -INFINITY }, .gap = INFINITY,
-                             .edge = -1, .thrown = s->p->velocity[b].given };
+        s->body[b] = (body){ .box = bbm_empty_box(b), .gap = INFINITY, .edge = -1,
+                             .thrown = s->p->velocity[b].given };
         s->group[b] = b;
     }
     for (int e = 0; e < m->elements; e++) {
@@ -85,17 +87,21 @@ static void measure(bodies *s)
         b->size = hypot(b->size, sqrt(m->element[e].A0));
         b->elements++;
         b->pieces += s->piece[e] == e;
-        for (int k = m->element[e].first; k < m->element[e].first + m->element[e].n; k++) {
-            const bbm_vertex *v = &m->vertex[k];
-            b->box[0] = fmin(b->box[0], v->x), b->box[1] = fmax(b->box[1], v->x);
-            b->box[2] = fmin(b->box[2], v->y), b->box[3] = fmax(b->box[3], v->y);
-        }
+        for (int k = m->element[e].first; k < m->element[e].first + m->element[e].n; k++)
+            bbm_widen_box(&b->box, m->vertex[k].x, m->vertex[k].y, 0);
     }
     for (int n = 0; n < m->nodes; n++)
         *(m->node[n].held ? &s->body[s->p->node_block[n]].held
                           : &s->body[s->p->node_block[n]].free) += 1;
     for (int k = 0; k < 2 * s->p->bolts; k++)       /* what a bolt holds is not said to fall */
         s->body[s->p->bolt[k / 2].end[k % 2].block].thrown = 1;
+    for (int b = 0; b < s->p->blocks; b++) {
+        const bbm_box *of = &s->body[b].box;
+        s->box[b] = *of;
+        bbm_widen_box(&s->box[b], of->low[1], of->low[2], CLOSE * s->body[b].size);
+        bbm_widen_box(&s->box[b], of->high[1], of->high[2], CLOSE * s->body[b].size);
+    }
+    bbm_sort_boxes(s->p->blocks, s->box);
     for (int e = 0; e < m->edges; e++) {
         int *first = &s->body[m->edge[e].block].edge;
         s->next[e] = *first;
@@ -131,8 +137,8 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
     for (int e = a->edge; e >= 0; e = s->next[e]) {
         const bbm_vertex *P = bbm_start_of(m, e);
         double least = far;
-        if (P->x < b->box[0] - far || P->x > b->box[1] + far || P->y < b->box[2] - far
-            || P->y > b->box[3] + far)
+        if (P->x < b->box.low[1] - far || P->x > b->box.high[1] + far
+            || P->y < b->box.low[2] - far || P->y > b->box.high[2] + far)
             continue;
         for (int f = b->edge; f >= 0; f = s->next[f]) {
             const double way = bbm_way_along(m, e, f), d = model_distance(m, e, f);
@@ -150,15 +156,13 @@ static body *group_of(const bodies *s, int b) { return &s->body[bbm_root_of(s->g
 
 /* Blocks that touch are a group, which is held if one of them is. Two meshes with a side in
  * common, from end to end, were hardly meant as two if they have one material or no friction. */
-static void compare(bodies *s, const char *path, int i, int j)
+static void compare(bodies *s, const char *path, int one, int two)
 {
+    const int i = one > two ? one : two, j = one + two - i;
     body *a = &s->body[i], *b = &s->body[j], *of = group_of(s, i), *to = group_of(s, j);
     const double size = fmin(a->size, b->size), far = CLOSE * size;
     int count[2] = { 0 };
 
-    if (a->box[0] > b->box[1] + far || b->box[0] > a->box[1] + far || a->box[2] > b->box[3] + far
-        || b->box[2] > a->box[3] + far)
-        return;
     const double gap = fmin(find_gap(s, a, b, far, count), find_gap(s, b, a, far, count));
     s->met += gap < far;
     if (gap <= MODEL_TOUCH * size) {
@@ -215,7 +219,7 @@ static void warn_of_times(const bodies *s, const char *path)
         const bbm_element *i = &m->element[e];
         const body *b = &s->body[i->block];
         const bbm_material *r = &i->material;
-        const double squeezed = r->density * g * (b->box[3] - b->box[2]) / r->E;
+        const double squeezed = r->density * g * (b->box.high[2] - b->box.low[2]) / r->E;
         if (!b->free)
             continue;
         fall = fmin(fall, sqrt(2 * b->size / g));
@@ -234,11 +238,12 @@ static void warn_of_bodies(const model *p, const char *path)
     const bbm_model *m = p->m;
     const int weighs = m->par.gravity[0] != 0 || m->par.gravity[1] != 0;
     bodies s = { .p = p, .body = malloc((size_t)p->blocks * sizeof *s.body),
+                 .box = malloc((size_t)p->blocks * sizeof *s.box),
                  .next = malloc((size_t)(m->edges + p->blocks + m->elements) * sizeof *s.next) };
     char text[300];
     int held = 0;
 
-    if (s.body && s.next) {
+    if (s.body && s.box && s.next) {
         s.group = s.next + m->edges;
         s.piece = s.group + p->blocks;
         bbm_find_pieces(m, s.piece);
@@ -246,17 +251,17 @@ static void warn_of_bodies(const model *p, const char *path)
         warn_of_pieces(&s, path);
         if (model_touches_itself(p, text))
             warn(path, "%s; blocks of their own touch", text);
-        for (int i = 0; i < p->blocks; i++) {
-            held |= s.body[i].held;
-            for (int j = 0; j < i; j++)
-                compare(&s, path, i, j);
-        }
+        for (int b = 0; b < p->blocks; b++)
+            held |= s.body[b].held;
+        for (int i = 0, j = 0; bbm_next_meeting(p->blocks, s.box, &i, &j);)
+            compare(&s, path, s.box[i].of, s.box[j].of);
         warn_of_gaps(&s, path, p->dynamic && held && weighs);
         if (p->slippery && (p->dynamic || s.met))
             warn(path, "no friction between blocks: `contact friction DEGREES` gives it");
         warn_of_times(&s, path);
     }
     free(s.body);
+    free(s.box);
     free(s.next);
 }
 

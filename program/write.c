@@ -43,14 +43,14 @@ static const char *path_of(write_results *w, const char *form)
 
 static int open_file(write_results *w, output *f, const char *path)
 {
-    return output_open(f, path) ? 1 : fail(w, path, strerror(errno));
+    return w->lock && (output_open(f, path) || fail(w, path, strerror(errno)));
 }
 
 static int close_file(write_results *w, output *f)
 {
     char why[200];
 
-    if (output_close(f))
+    if (output_close(f) || !w->lock)
         return 1;
     snprintf(why, sizeof why, "%.100s%s", strerror(errno),
              f->kept > 0 ? "; it ends before that" : "");
@@ -120,7 +120,8 @@ static void put_contacts(FILE *f, const write_results *w)
     const bbm_model *m = p->m;
 
     fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
-    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
         const bbm_edge *corner = &m->edge[c->corner];
         const bbm_vertex *P1 = &m->vertex[corner->a];
         const bbm_node *start = &m->node[P1->node];
@@ -284,8 +285,8 @@ static void put_vtk(FILE *f, const write_results *w)
 static void put_vtk_contacts(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
-    const bbm_contact *end = m->contact + m->contacts;
     const int n = m->info.contacts;
+    const bbm_contact *end = n ? m->contact + m->contacts : m->contact;
     double force[2];
 
     put_head(f, w, "POLYDATA", n);
@@ -514,8 +515,22 @@ static int is_ours(const char *name)
     return ours;
 }
 
-/* Removes what an earlier run left in the folder, so that all that stands there is of one run. */
-static int empty_folder(write_results *w)
+/* Whether the run has read no such file, by this name or another one. (On Windows files have no
+ * number; size and time tell.) */
+static int spare_input(write_results *w, const char *path)
+{
+    struct stat a, b;
+
+    for (int k = 0; k < w->p->inputs && !w->status && stat(path, &a) == 0; k++)
+        if (stat(w->p->input[k], &b) == 0 && a.st_ino == b.st_ino && a.st_dev == b.st_dev
+            && a.st_size == b.st_size && a.st_mtime == b.st_mtime)
+            fail(w, path, "this run reads it; another name or folder may be given");
+    return !w->status;
+}
+
+/* Removes what an earlier run left in the folder, so that all that stands there is of one run; or
+ * looks whether it may. */
+static int empty_folder(write_results *w, int look)
 {
     struct stat what;
     DIR *folder = opendir(w->folder);
@@ -524,16 +539,28 @@ static int empty_folder(write_results *w)
         return fail(w, w->folder, strerror(errno));
     for (struct dirent *entry; !w->status && (entry = readdir(folder)) != NULL; )
         if (is_ours(entry->d_name) && stat(path_of(w, entry->d_name), &what) == 0
-            && S_ISREG(what.st_mode) && remove(w->path))
+            && S_ISREG(what.st_mode) && spare_input(w, w->path) && !look && remove(w->path))
             fail(w, w->path, strerror(errno));
     closedir(folder);
     return !w->status;
 }
 
+/* Whether the folder is still that of the run: somebody may have removed it, and another run may
+ * have made it anew. If not, the run has none from now on. */
+static int holds_folder(write_results *w)
+{
+    if (w->lock && !output_holds(w->lock, path_of(w, LOCK))) {
+        fail(w, w->folder, "it was removed while the run was at work");
+        fclose(w->lock);
+        w->lock = NULL;
+    }
+    return w->lock != NULL;
+}
+
 /* The end of a run; whether all went well. */
 static int leave_folder(write_results *w)
 {
-    if (w->lock)
+    if (holds_folder(w))
         output_unlock(w->lock, path_of(w, LOCK));
     return !w->status;
 }
@@ -547,6 +574,8 @@ static int open_folder(write_results *w)
         return fail(w, w->folder,
                     errno == EEXIST ? "it is there and no folder; another one may be given with -o"
                                     : strerror(errno));
+    if (!spare_input(w, path_of(w, LOCK)) || !empty_folder(w, 1))
+        return 0;
     w->lock = output_lock(path_of(w, LOCK));
     return w->lock ? 1 : fail(w, w->folder, errno == EBUSY
                                   ? "another run is at work there; another folder may be given "
@@ -563,7 +592,12 @@ int write_check(write_results *w)
 
 int write_open(write_results *w)
 {
-    if (!open_folder(w) || !empty_folder(w)
+    char side[LONGEST];
+
+    snprintf(side, sizeof side, "%s.rhs", w->matrix ? w->matrix : "");
+    if (w->matrix && (!spare_input(w, w->matrix) || !spare_input(w, side)))
+        return 0;
+    if (!open_folder(w) || !empty_folder(w, 0)
         || !open_file(w, &w->history, path_of(w, "history.csv"))
         || !open_file(w, &w->summary, path_of(w, "summary.csv"))) {
         output_note(&w->history, 0);
@@ -571,9 +605,9 @@ int write_open(write_results *w)
         return leave_folder(w);
     }
     fprintf(w->history.file, "step,t");
-    for (const model_monitor *m = w->p->monitor; m < w->p->monitor + w->p->monitors; m++)
-        for (int k = 0; k < m->of->values; k++)
-            fprintf(w->history.file, ",%s_%s", m->name, m->of->name[k]);
+    for (int m = 0; m < w->p->monitors; m++)
+        for (int k = 0; k < w->p->monitor[m].of->values; k++)
+            fprintf(w->history.file, ",%s_%s", w->p->monitor[m].name, w->p->monitor[m].of->name[k]);
     fprintf(w->history.file, "\n");
     fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,"
                              "springs,external,gained\n");
@@ -592,6 +626,8 @@ void write_step(write_results *w, int step)
     const model *p = w->p;
 
     w->step = step;
+    if (!holds_folder(w))
+        return;
     if (step > (ROWS - 1) << w->halved) {               /* every second row goes */
         for (int k = 0; k < MONITORS + MODEL_FOLLOWED * p->monitors && w->kept; k++)
             for (int r = 1; r <= ROWS / 2; r++)
@@ -622,6 +658,7 @@ void write_close(write_results *w)
         { "bolts.csv", p->bolts ? put_bolts : NULL },
     };
 
+    holds_folder(w);
     close_file(w, &w->history);
     close_file(w, &w->summary);
     for (int k = 0; k < LENGTH(table); k++)
@@ -629,7 +666,7 @@ void write_close(write_results *w)
             write_file(w, path_of(w, table[k].name), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);
-    if (p->svg)
+    if (p->svg && w->lock)
         draw_pictures(w);
     scene_free(&w->film);
     free(w->kept);
