@@ -2,6 +2,7 @@
  * where it is held and loaded, WHERE by its nodes. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "reader.h"
@@ -172,18 +173,24 @@ static int add_element(model_reader *r, const model_element *e)
 static int name_blocks(model_reader *r)
 {
     bbm_model *m = r->p->m;
+    int (*side)[2] = model_keep(r, m->bonds + 1, sizeof *side);      /* blocks that bonds join */
 
+    if (!side)
+        return 0;
     for (int e = 0; e < m->elements; e++)
         m->element[e].block = r->element[e].block;
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->element[bbm_element_of(m, e)].block;
+    for (int k = 0; k < m->bonds; k++) {
+        const int i = m->element[m->bond[k].i].block, j = m->element[m->bond[k].j].block;
+        side[k][0] = i < j ? i : j;
+        side[k][1] = i + j - side[k][0];
+    }
+    qsort(side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs);
     for (const model_bond *b = r->bond; b < r->bond + r->bonds; b++) {
-        int found = 0;
-        for (int k = 0; k < m->bonds; k++) {
-            const int i = m->element[m->bond[k].i].block, j = m->element[m->bond[k].j].block;
-            found |= model_fits(b->block, i, j) || model_fits(b->block, j, i);
-        }
-        if (!found)
+        const int first = b->block[0] > b->block[1];
+        const int pair[2] = { b->block[first], b->block[!first] };
+        if (!bsearch(pair, side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs))
             return model_fail(r, b->at, "no side of block '%.60s' has the ends of one of block "
                               "'%.60s', expected sides that meet from node to node",
                               r->block[b->block[0]].name, r->block[b->block[1]].name);
@@ -202,7 +209,7 @@ int model_build(model_reader *r)
     p->gone = model_keep(r, r->blocks, sizeof *p->gone);
     p->body = model_keep(r, r->blocks, sizeof *p->body);
     for (int b = 0; b < r->blocks && p->body; b++)
-        p->body[b] = r->block[b].body;
+        p->body[b] = r->block[b].body = r->block[r->block[b].body].body;
     if (!p->gone || !p->body || !copy_nodes(r) || !add_nodes(r))
         return 0;
     for (int k = 0; k < r->materials; k++)

@@ -170,9 +170,12 @@ static int read_bond(model_reader *r)
                 return 0;
         if (two.block[0] == two.block[1])
             return model_blame(r, "bond of a block with itself, expected two blocks");
-        const int from = r->block[two.block[0]].body, to = r->block[two.block[1]].body;
-        for (model_block *k = r->block; k < r->block + r->blocks; k++)
-            k->body = k->body == (from > to ? from : to) ? (from < to ? from : to) : k->body;
+        int body[2] = { two.block[0], two.block[1] };       /* a forest: the first block is the root */
+        for (int k = 0; k < 2; k++)
+            while (r->block[body[k]].body != body[k])
+                body[k] = r->block[body[k]].body = r->block[r->block[body[k]].body].body;
+        const int last = body[1] > body[0];
+        r->block[body[last]].body = body[!last];
         return model_add(r, &r->bond, &r->bonds, sizeof two, &two);
     }
     if (r->bonding++)
