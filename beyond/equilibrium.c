@@ -22,7 +22,7 @@
 #define NO_FORCE 1e-60
 #define ROUNDING (64 * DBL_EPSILON)
 
-/* Centre and size of each body, the side of a square with its polar moment of area. No forces. */
+/* Centre and size of each body, the side of a square of its area. No forces. */
 static void begin_bodies(bbm_model *m)
 {
     bbm_balance *body = m->beyond->balance;
@@ -35,13 +35,7 @@ static void begin_bodies(bbm_model *m)
         b->area += e->A;
         b->x += (e->x - b->x) * e->A / b->area;
         b->y += (e->y - b->y) * e->A / b->area;
-    }
-    for (int i = 0; i < m->elements; i++) {
-        bbm_balance *b = &body[m->beyond->body[i]];
-        const bbm_element *e = &m->element[i];
-        const double X = e->x - b->x, Y = e->y - b->y;
-        b->size = sqrt(b->size * b->size
-                       + 6 * (e->Sxx + e->Syy + e->A * (X * X + Y * Y)) / b->area);
+        b->size = sqrt(b->area);
     }
 }
 

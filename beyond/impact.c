@@ -397,7 +397,6 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end)
         jump.D = jump.F + 6 * n;
         jump.load = jump.D + 6 * n;
         memcpy(list, m->scratch->contact, contacts * sizeof *list);
-        start_elements(&jump, end);
         status = choose(&jump, m, end);
         note_hits(&jump, m, end);
     }
