@@ -380,6 +380,7 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may t
 int        bbm_carries(const bbm_model *m, int corner, int edge);
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
+double     bbm_rounding(const bbm_model *m, int corner);       /* m                            */
 double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);

@@ -318,8 +318,8 @@ static bbm_status place_line_loads(bbm_model *m)
     return BBM_OK;
 }
 
-/* The most gaps that there may be. A bond has two. A vertex that is held has one, and a hook may add
- * two of the edge that starts there, and one between each two corners of a node. */
+/* The most gaps that there may be. A bond has two. A vertex that is held has one, and a hook may
+ * add two of the edge that starts there, and one between each two corners of a node. */
 size_t bbm_most_gaps(const bbm_model *m)
 {
     size_t most = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices;

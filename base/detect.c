@@ -19,8 +19,11 @@
  *        B    |                  |
  *
  * The blocks overlap when P has crossed both lines. The spring goes on the line that is crossed
- * last, where P comes in. If both are crossed at the same time, the one that was closed counts, or
- * else the flatter one, the same in any order of the blocks.
+ * last, where P comes in. A line is crossed when P is deeper behind it than at the surface, which
+ * has the depth of contacts and the rounding of the corners. So whatever slides over a seam or a
+ * low ledge stays on top: there it is at the surface of the next block. If both are crossed at the
+ * same time, the one that was closed counts, or else the flatter one, the same in any order of the
+ * blocks.
  *
  * Two lines that coincide are one contact, of P on Q's edge or of Q on P's. That one stays whose
  * projection is on its edge. At a tie it is the one that it was before, or else the one whose edge
@@ -41,14 +44,14 @@
  * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
  *                 projection closer to the end of an edge is at the end: rounding of a model file,
  *                 elastic strain
- * LEVEL    [-]    a lip up to this, in the girth of the smaller block, is no step: elastic strain
- * TIE      [-]    fractions of a step that differ less are the same moment: rounding */
+ * TIE      [-]    fractions of a step that differ less are the same moment: rounding
+ * ROUND    [-]    par.round where none is given, in the shorter side of a corner */
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define BENT 0.1
 #define TOUCH 1e-6
-#define LEVEL 1e-5
 #define TIE 1e-9
+#define ROUND 2e-3
 
 typedef struct bbm_pair { int corner, edge, dropped; } pair;    /* what may touch               */
 
@@ -280,38 +283,27 @@ static double touch_between(const bbm_model *m, int c, int e)
     return (rounding_of(m, c) + rounding_of(m, e)) / 2;
 }
 
-/* How deep a corner that lies on an edge with one of its sides may be and still be at the surface:
- * twice as deep as closed contacts in this line are, on either side, and a lip; else 0. */
-static double surface_depth(const bbm_model *m, int c, int e)
+/* The rounding of a corner: par.round, but at most a quarter of its shorter side. A grid point
+ * inside a straight side has none. */
+double bbm_rounding(const bbm_model *m, int c)
 {
-    const int of[2] = { c, m->edge[c].before };
-    const double there = m->edge[m->edge[e].side].deep;
+    const double before = m->edge[m->edge[m->edge[c].before].side].span;
+    const double shorter = fmin(before, m->edge[m->edge[c].side].span);
+
+    return !is_corner(m, c) ? 0
+         : m->par.round < 0 ? ROUND * shorter : fmin(m->par.round, shorter / 4);
+}
+
+/* Twice as deep as closed contacts at the sides of two corners are. */
+static double contact_depth(const bbm_model *m, int P, int Q)
+{
+    const int of[4] = { P, m->edge[P].before, Q, m->edge[Q].before };
     double deep = 0;
 
-    for (int k = 0; k < 2; k++)
-        if (coincide(m, of[k], e))
-            deep = fmax(deep, fmax(m->edge[m->edge[of[k]].side].deep, there));
-    return deep > 0 ? 2 * deep + LEVEL * fmin(bbm_girth(m, c), bbm_girth(m, e)) : 0;
+    for (int k = 0; k < 4; k++)
+        deep = fmax(deep, m->edge[m->edge[of[k]].side].deep);
+    return 2 * deep + touch_between(m, P, Q);
 }
-
-/* How deep a vertex that comes to an edge may lie behind it at the start of a step: as deep as
- * closed contacts of the two blocks do. Where points move by T of the start of the step, a corner
- * may also have ended the last step inside, by as much as it moved. */
-static double start_depth(const bbm_model *m, int c, int e)
-{
-    const reach *i = reach_of(m, c), *j = reach_of(m, e);
-
-    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e)
-         + (bbm_motion_of(m) ? 0 : i->travel + j->travel);
-}
-
-/* The same, or at the surface. Deeper no corner comes in: it would from behind the edge. */
-double bbm_allowed_depth(const bbm_model *m, int c, int e)
-{
-    return fmax(start_depth(m, c, e), surface_depth(m, c, e));
-}
-
-/* ---------------------------------------------------------------- detection: who may touch whom */
 
 typedef struct {                /* of P1 on an edge, m                                          */
     double d, s, beyond;        /* distance; way along the edge from P3; how far beyond an end  */
@@ -333,6 +325,48 @@ double bbm_way_along(const bbm_model *m, int corner, int edge)
 {
     return project(m, corner, edge).s;
 }
+
+/* The end of an edge that is nearer to a corner: the edge that starts there. */
+static int end_near(const bbm_model *m, int corner, int e)
+{
+    return 2 * project(m, corner, e).s < m->edge[e].along.length ? e : m->edge[e].after;
+}
+
+/* By how much a corner P and the end Q of an edge may overlap and pass each other all the same: the
+ * smaller of their roundings. A lower ledge is no obstacle. */
+static double rounding_between(const bbm_model *m, int P, int e)
+{
+    return fmin(bbm_rounding(m, P), bbm_rounding(m, end_near(m, P, e)));
+}
+
+/* How deep a corner may lie behind an edge near its end and still be at the surface: by the
+ * rounding and the depth of contacts. So deep it is where it has come past the end. */
+static double surface_depth(const bbm_model *m, int c, int e)
+{
+    const double deep = contact_depth(m, c, end_near(m, c, e)) + rounding_between(m, c, e);
+    const double travel = reach_of(m, c)->travel + reach_of(m, e)->travel;
+
+    return -project(m, c, e).beyond <= deep + travel ? deep : 0;
+}
+
+/* How deep a vertex that comes to an edge may lie behind it at the start of a step: as deep as
+ * closed contacts of the two blocks do. Where points move by T of the start of the step, a corner
+ * may also have ended the last step inside, by as much as it moved. */
+static double start_depth(const bbm_model *m, int c, int e)
+{
+    const reach *i = reach_of(m, c), *j = reach_of(m, e);
+
+    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e)
+         + (bbm_motion_of(m) ? 0 : i->travel + j->travel);
+}
+
+/* The same, or at the surface. Deeper no corner comes in: it would from behind the edge. */
+double bbm_allowed_depth(const bbm_model *m, int c, int e)
+{
+    return fmax(start_depth(m, c, e), surface_depth(m, c, e));
+}
+
+/* ---------------------------------------------------------------- detection: who may touch whom */
 
 /* Whether a corner can enter over an edge. Neither of its two sides points into the edge by more
  * than an angle, after its block has turned by r against that of the edge, and the block is convex
@@ -418,14 +452,15 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const reach *of = m->scratch->reach;
     const double turns = of[bbm_element_of(m, corner)].turn + of[bbm_element_of(m, e)].turn;
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
-    const double deep = start_depth(m, corner, e);
+    const double deep = bbm_allowed_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (fmax(fabs(f.d), f.beyond) > approach + deep || (f.beyond <= touch_between(m, corner, e)
-        && f.d < -deep && !find_closed(m, corner, e, LINE)))
+    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e) || -f.d > approach + deep
+        || (f.beyond <= touch_between(m, corner, e) && f.d < -deep
+            && !find_closed(m, corner, e, LINE)))
         return 0;
     return find_closed(m, corner, e, ITSELF)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -443,10 +478,11 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
     return bbm_append(m, (void **)&w->pair, &w->pairs, sizeof found, &found, NULL);
 }
 
-/* All pairs that may touch. The hook gets a search distance, within which it looks at the edges of
- * a corner along x and y. Two blocks approach each other by two ways, and a vertex lies inside by
- * its depth, which is at most the four ways of start_depth: together six times the longest way. As
- * far across the edge as along it that is sqrt(2) times as much, nine at most. */
+/* All pairs that may touch. The hook gets a search distance, within which, and the rounding of its
+ * corners, it looks at the edges of a corner along x and y. Two blocks approach each other by two
+ * ways, and a vertex lies inside by its depth, which is at most the four ways of start_depth:
+ * together six times the longest way. As far across the edge as along it that is sqrt(2) times as
+ * much, nine at most. */
 static bbm_status find_pairs(bbm_model *m)
 {
     const double search = 9 * foresee(m);
@@ -564,10 +600,11 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     return c->trial.beyond_end && lines == 0;
 }
 
-/* Makes a pair a contact that goes on from the one that it continues. A projection beyond the end
- * of the edge is off it, but not in a notch, where it lies inside the block. An entrance is another
- * line of the list on which P and an end Q of its edge can enter each other, if both are convex
- * corners. In a notch Q both edges hold P at once. */
+/* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
+ * rounded one is inside. A projection beyond the end of the edge is off it, but not in a notch,
+ * where it lies inside the block. An entrance is another line of the list on which P and an end Q
+ * of its edge can enter each other, if both are convex corners; where the blocks are flush each
+ * line is one of P or one of Q. In a notch Q both edges hold P at once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
@@ -575,6 +612,8 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     const double touch = touch_between(m, p.corner, p.edge);
 
     *c = old ? *old : (bbm_contact){ 0 };
+    c->inside |= !old && f.d < -touch && f.beyond <= 0
+              && f.d >= -surface_depth(m, p.corner, p.edge);
     c->trial.carried = old && old->corner == p.corner && old->edge == p.edge;
     c->trial.touches = !old && m->info.step == 0 && m->info.t == 0
                     && fmax(fabs(f.d), f.beyond) <= touch;
@@ -585,7 +624,9 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->trial.beyond_end = f.beyond > touch
                        && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
     for (int k = 0; k < 4; k++) {
-        const pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
+        const pair flush = meet(m, p, k / 2, FLUSH);
+        const pair other = k % 2 == 0 ? meet(m, p, k / 2, NEXT)
+                         : coincide(m, p.edge, flush.edge) ? meet(m, p, k / 2, OTHER) : flush;
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
         const int meets = is_convex(m, Q) && !coincide(m, p.edge, other.edge);
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
@@ -650,9 +691,8 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
     d[1] = (s[0] * x[0] + s[1] * x[1]) / m->edge[c->edge].along.length;
 }
 
-/* The fraction of the step at which P crosses a line; 0 for one that it starts on, or inside as
- * contacts are. Where closed contacts lie in the line: at which it is deeper than at the surface;
- * more than 1 if it ends the step no deeper. */
+/* The fraction of the step at which P gets deeper behind a line than at the surface: 0 if it starts
+ * so deep, more than 1 if it ends the step no deeper. */
 static double crossed_at(const bbm_model *m, const bbm_contact *c)
 {
     const double above = c->trial.d_n0 + surface_depth(m, c->corner, c->edge);
@@ -698,8 +738,9 @@ static double steepness(bbm_direction p)
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
- * crosses last. Of two lines crossed at the same time the one counts that was closed at the start
- * of the step, or else the flatter one. */
+ * crosses last. Neither closes while P is behind both by less than the rounding of the corners.
+ * What was closed keeps its line until P crosses the other one. Of two lines crossed at the same
+ * time the one counts that was closed at the start of the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
@@ -709,6 +750,10 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (r->d_n >= 0)
         return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= 0
             && enters_at_end(m, r);
+    if (c->trial.was_closed && crossed_at(m, r) > 1)
+        return 0;
+    if (!c->trial.was_closed && fmin(c->d_n, r->d_n) > -rounding_between(m, c->corner, c->edge))
+        return 1;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
@@ -745,8 +790,7 @@ void bbm_note_depths(bbm_model *m)
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
         for (int k = 0; k < 3; k++)
-            if (coincide(m, of[k], c->edge))
-                m->edge[m->edge[of[k]].side].deep = fmax(m->edge[m->edge[of[k]].side].deep, depth);
+            m->edge[m->edge[of[k]].side].deep = fmax(m->edge[m->edge[of[k]].side].deep, depth);
     }
 }
 

@@ -145,6 +145,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
     m->beyond->reach = INFINITY;
     m->beyond->passed[0] = -1;
     m->beyond->restitution = -1;
+    m->par.round = -1;
     *m->hook = (bbm_hooks){
         .release = release,
         .check_polygon = bbm_check_polygon,

@@ -100,8 +100,8 @@ bbm_status bbm_find_near_pairs(bbm_model *m, double search)
     for (int e = 0; e < m->edges && !status; e++) {
         const bbm_vertex *P = bbm_start_of(m, e), *Q = bbm_end_of(m, e);
         b[e] = bbm_empty_box(e);
-        bbm_widen_box(&b[e], P->x, P->y, search);
-        bbm_widen_box(&b[e], Q->x, Q->y, search);
+        bbm_widen_box(&b[e], P->x, P->y, search + bbm_rounding(m, e));
+        bbm_widen_box(&b[e], Q->x, Q->y, search + bbm_rounding(m, m->edge[e].after));
     }
     if (!status)
         bbm_sort_boxes(m->edges, b);

@@ -112,15 +112,16 @@ static int read_contact(model_reader *r)
     model_option o[] = {
         FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s),
         RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
+        FROM_ZERO("round", &p->round),
         FROM_ZERO("cohesion", &b->cohesion), FROM_ZERO("tension", &b->tension),
         ANGLE("friction", &p->friction),
     };
 
     if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, p->friction))
         return 0;
-    if (r->s->stage && (o[0].seen || o[1].seen || o[2].seen))
-        return model_blame(r, "kn, ks or restitution in a stage, expected friction, cohesion or "
-                              "tension");
+    if (r->s->stage && (o[0].seen || o[1].seen || o[2].seen || o[3].seen))
+        return model_blame(r, "kn, ks, restitution or round in a stage, expected friction, "
+                              "cohesion or tension");
     return 1;
 }
 
@@ -458,7 +459,7 @@ static const struct kind {
     { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NODES,
       ONCE | DYNAMIC },
     { "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
-      "[restitution E]", read_contact, ALONE, ONCE | STAGED },
+      "[restitution E] [round LENGTH]", read_contact, ALONE, ONCE | STAGED },
     { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
     { "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]", read_dynamic, ALONE,
       ONCE },

@@ -865,7 +865,7 @@ static const char *const bad_stages[][2] = {
     { "stage x remove c\nload set c 1 0\nend\n", ":12: no node there of block c" },
     { "stage x remove b\nend\n", ":11: monitor 'top' is on block 'b'" },
     { "stage x\nstage y\nend\nend\n", ":12: a stage in a stage" },
-    { "stage x\ncontact ks 1\nend\n", ":12: kn, ks or restitution in a stage" },
+    { "stage x\ncontact ks 1\nend\n", ":12: kn, ks, restitution or round in a stage" },
     { "bolt at 0.5 0.5 at 0.5 2.5 stiffness 1e16\n", ":11: stiffness is 1e+16, expected 1e-100 to 1e15" },
 };
 

@@ -223,6 +223,20 @@ static void find_bending(const bbm_model *m, double bending[])
     }
 }
 
+/* How much corners of two blocks may overlap and pass each other: a corner's rounding is a share of its shorter side, which
+ * is no longer than the extent of an element of one piece; of many, at most SCENE_CORNERS in a row. */
+static double rounding_of(const bbm_model *m, const bbm_element *e, const bbm_element *f)
+{
+    double extent[2] = { 0, 0 };
+
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < (k ? f : e)->n; i++) {
+            const bbm_vertex *a = corner(m, k ? f : e, 0), *b = corner(m, k ? f : e, i);
+            extent[k] = fmax(extent[k], hypot(a->x - b->x, a->y - b->y));
+        }
+    return m->par.round < 0 ? 2e-3 * fmin(extent[0], extent[1]) * (m->bonds > 0 ? SCENE_CORNERS : 1) : m->par.round;
+}
+
 /* The deepest overlap of two blocks less the depth of their deepest contact that is closed, or was since they were last
  * apart: a contact that opens leaves them where they are, and no spring starts loaded that closes there. What rides over
  * the joint of two blocks is as deep in the next one as it is in the contacts that it has with others. */
@@ -251,7 +265,7 @@ void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS
                 deepest[p][q] = deepest[q][p] = fmax(deepest[p][q], fmax(deep[p], deep[q]));
                 apart[p][q] = apart[q][p] = 0;
             }
-            const double d = all - deepest[p][q] - bending[p] - bending[q];
+            const double d = all - deepest[p][q] - bending[p] - bending[q] - rounding_of(m, e, f);
             if (all > 0 && d > l->overlap)
                 l->overlap = d, l->pair[0] = p, l->pair[1] = q;
         }
