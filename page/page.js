@@ -2,7 +2,8 @@
 'use strict';
 
 const is = id => document.getElementById(id);
-const WORK = 12, LARGE = 5000;  /* ms of steps between two pictures; unknowns */
+/* ms of steps between two pictures; unknowns; s by which real time may lag */
+const WORK = 12, LARGE = 5000, LAG = 0.05;
 const NUMBER = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
 const EXERCISES = {};                           /* of the chapters: title, model, text */
 let playing = false, turns = 0, task = null, hasPredicted = false;
@@ -48,6 +49,7 @@ function makeSliders() {
 /* Reads the text; the model that was there stays if it is wrong. */
 function load() {
   play(false);
+  Object.assign(hands, { grip: null, said: '' });
   const said = loadModel(task?.model ?? is('gallery').value, is('text').value);
   showError(said && run ? `${said} (what is shown is the model before)` : said);
   if (said)
@@ -106,27 +108,38 @@ function play(on, once = false) {
     requestAnimationFrame(() => setTimeout(() => turn === turns && work(once)));
 }
 
+/* In real time no step begins before its time has come; a delay is not made up for. After a pull
+ * time is real. */
 function work(once) {
-  const start = performance.now();
+  const start = performance.now(), before = run.frames.at(-1), due = run.due;
+  const { t, dynamic, begun } = before;
+  const isPaced = dynamic && begun && !once && (run.isPulled || is('paced').checked);
+  const passed = due?.turn === turns ? (start - due.start) / 1e3 : 0;
+  const until = isPaced ? Math.min(t + LAG, (due?.until ?? t) + passed) : Infinity;
   let more = true;
-  while (more && performance.now() - start < WORK)
+  while (more && performance.now() - start < WORK && run.frames.at(-1).t < until)
     more = stepModel() && !(once && run.frames.at(-1).begun);
+  feel(before);
   play(more, once);
+  run.due = { turn: turns, start, until: isPaced ? Math.max(t, until) : run.frames.at(-1).t };
   setView(NEWEST);
 }
 
 function show() {
-  const f = shown(), isOver = run.state === 1 && view.at < 0, isInside = is('inside').checked;
+  const f = shown(), isInside = is('inside').checked;
+  const isOver = run.state === 1 && view.at < 0 && !run.isPulled;
   is('when').max = run.frames.length - 1;
   is('when').value = view.at < 0 ? run.frames.length - 1 : view.at;
   is('say').textContent = !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}`
-    : `step ${f.step} of ${f.steps}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
+    : `step ${f.step}${run.isPulled ? '' : ` of ${f.steps}`}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
     (f.failure && '  failed');
   if (f.failure)
     showError(`${run.name}: ${f.failure}`);
-  fill('expected', [...warnings.split('\n').filter(word => word).map(word => make('div', {}, word)),
-    ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
-      `${isOver ? 'expected' : 'so far'}: ${f.said[k]}`))]);
+  const byHand = run.isPulled ? 'Pulled by hand: ./bbm knows nothing of that, so nothing is judged.' : '';
+  fill('expected', [...`${byHand}\n${warnings}`.split('\n').filter(word => word)
+    .map(word => make('div', {}, word)), ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
+      run.isPulled ? `by hand: ${f.said[k].replace(/: (ok|NOT MET)$/, '')}`
+        : `${isOver ? 'expected' : 'so far'}: ${f.said[k]}`))]);
   drawPicture(f, isInside && tellLook(f));
   tell(f);
   if (!isInside)
@@ -184,20 +197,27 @@ function pressKey(event) {
   KEYS[key] ? KEYS[key]() : button.click();
 }
 
-/* Drags the picture, or picks what a click is at. */
+/* Drags what a hand takes, or else the picture; picks what a click is at. */
 function listenToPicture(canvas) {
-  let from, last;
+  let from, last, isDrag;
   canvas.onpointerdown = e => {
     from = last = [e.offsetX, e.offsetY];
+    isDrag = false;
     canvas.setPointerCapture(e.pointerId);
+    grab(...from);
   };
   canvas.onpointermove = e => {
-    if (e.buttons)
-      setView({ x: view.x + e.offsetX - last[0], y: view.y + e.offsetY - last[1] });
-    last = [e.offsetX, e.offsetY];
+    const here = [e.offsetX, e.offsetY], [dx, dy] = here.map((a, k) => a - last?.[k]);
+    isDrag ||= e.buttons && Math.hypot(here[0] - from[0], here[1] - from[1]) >= 4;
+    if (e.buttons && isDrag && hands.grip)
+      drag(...here);
+    else if (e.buttons && isDrag)
+      setView({ x: view.x + dx, y: view.y + dy });
+    if (isDrag || !e.buttons)
+      last = here;
   };
-  canvas.onclick = e => Math.hypot(e.offsetX - from[0], e.offsetY - from[1]) < 4 &&
-    pick(...findAt(shown(), e.offsetX, e.offsetY));
+  canvas.onpointerup = canvas.onpointercancel = drop;
+  canvas.onclick = e => isDrag || pick(...findAt(shown(), e.offsetX, e.offsetY));
   canvas.onwheel = e => { e.preventDefault(); zoom(Math.exp(-e.deltaY / 500)); };
 }
 
@@ -211,12 +231,13 @@ function readExercises(text) {
 }
 
 async function start() {
-  const models = [], bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
+  const models = [], unpack = text => new Response(new Blob([Uint8Array.from(atob(text),
+    c => c.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream('gzip')));
   let later;
   for (const kind of ['error', 'unhandledrejection'])
     addEventListener(kind, e => showError(`The page has failed: ${e.reason ?? e.message}`));
   for (const { dataset: { file }, textContent } of document.querySelectorAll('[data-file]')) {
-    const text = new TextDecoder().decode(bytes(textContent));
+    const text = await unpack(textContent).text();
     files.set(file, text).set('gallery/' + file, text);
     if (file.endsWith('.model'))
       models.push(new Option(file.replace('.model', ''), file));
@@ -225,7 +246,8 @@ async function start() {
     { label: 'exercises: predict' }, ...readExercises(files.get('exercises.txt'))));
   ROWS.unshift(...files.get('states.txt').trim().split('\n')
     .map(row => row.split(/ *\| */).slice(1, 4)));
-  await startLibrary(bytes(document.querySelector('[data-file="bbm.wasm"]').textContent));
+  await startLibrary(await unpack(document.querySelector('[data-file="bbm.wasm"]').textContent)
+    .arrayBuffer());
   is('text').oninput = () => {
     clearTimeout(later);
     later = setTimeout(() => { makeSliders(); load(); }, 400);

@@ -1,7 +1,7 @@
 # page.mk - the page: the same sources as WebAssembly, in one HTML file that needs nothing else.
 PAGE       = page/page $(READER) $(addprefix program/,run warn edge_load)
 PAGE_CC    = clang --target=wasm32-wasi -mexec-model=reactor -flto -D_WASI_EMULATED_PROCESS_CLOCKS
-PAGE_CALLS = malloc free $(addprefix page_,load free state step text numbers data)
+PAGE_CALLS = malloc free $(addprefix page_,load free state step hold pull text numbers data)
 PAGE_FILES = $(addprefix page/,page.html style.css assemble.awk) $(wildcard page/*.js)
 PAGE_DATA  = out/bbm.wasm $(wildcard cases/models/*.model cases/models/*.msh) doc/by-hand.model out/exercises.txt \
              out/states.txt

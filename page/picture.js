@@ -109,7 +109,7 @@ function findScale(w, h) {
   const [x0, y0, x1, y1] = run.box, s = view.zoom * Math.min((w - 60) / (x1 - x0),
     (h - 130) / (y1 - y0));
   const x = w / 2 + view.x - s * (x0 + x1) / 2, y = h / 2 + 10 + view.y + s * (y0 + y1) / 2;
-  return { s, to: (X, Y) => [x + s * X, y - s * Y] };
+  return { s, to: (X, Y) => [x + s * X, y - s * Y], from: (X, Y) => [(X - x) / s, (y - Y) / s] };
 }
 
 function viridis(share) {
@@ -119,7 +119,7 @@ function viridis(share) {
 
 /* What draws a frame: g, the canvas; at[v], the pixels of a vertex; the outline of an element. */
 function painter(frame) {
-  const p = { ...begin('view'), frame, magnify: view.magnify || findMagnification(frame) };
+  const p = { ...begin('view'), frame, magnify: view.magnify || run.magnify || findMagnification(frame) };
   const { s, to } = findScale(p.w, p.h), m = p.magnify - 1;
   const at = rows(frame, 'v').map(([x, y, u, v]) => to(x + m * u, y + m * v));
   const outline = ([, first, n]) => trace(p.g, at.slice(first, first + n), true);
@@ -257,15 +257,21 @@ function drawPicture(frame, look) {
   if (view.contact)
     paint(g, () => g.arc(...p.corner(view.contact[0]), 12, 0, 7), { line, width: 3 });
   drawLegend(p, legend, field);
+  drawHands(p);
+}
+
+/* The element at a pixel, or -1. */
+function findElement(frame, x, y, p = painter(frame)) {
+  return rows(frame, 'e').findLastIndex(e => {
+    p.g.beginPath();
+    p.outline(e.subarray(22));
+    return p.g.isPointInPath(x * devicePixelRatio, y * devicePixelRatio);
+  });
 }
 
 /* What lies at a pixel: an element, -1 if there is none; and a contact. */
 function findAt(frame, x, y) {
   const p = painter(frame), far = c => Math.hypot(p.corner(c[0])[0] - x, p.corner(c[0])[1] - y);
   const near = rows(frame, 'c').find(c => c[2] && far(c) < 10);
-  return near ? [-1, near] : [rows(frame, 'e').findLastIndex(e => {
-    p.g.beginPath();
-    p.outline(e.subarray(22));
-    return p.g.isPointInPath(x * devicePixelRatio, y * devicePixelRatio);
-  }), null];
+  return near ? [-1, near] : [findElement(frame, x, y, p), null];
 }
