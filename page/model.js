@@ -50,7 +50,8 @@ function loadModel(name, text) {
   wasm.page_free(said ? handle : run?.handle ?? 0);
   if (said)
     return said;
-  run = { handle, name, frames: [], bytes: 0, state: 0, warned: warnings };
+  run = { handle, name, frames: [], bytes: 0, state: 0, warned: warnings,
+    curves: {} };
   run.d = numbersOf('d');
   keepFrame();
   run.monitors = times(run.frames[0].o.length / 4, k =>
@@ -69,8 +70,10 @@ function keepFrame() {
   frame.said = rows(frame, 'x').map((_, k) => textOf('x', k));
   if (failure)
     frame.step = Math.min(frame.step + 1, frame.steps);
-  if (run.frames.at(-1)?.begun === 0)
+  if (run.frames.at(-1)?.begun === 0) {
     run.frames.pop();
+    run.curves = {};
+  }
   run.frames.push(frame);
   run.bytes += ARRAYS.reduce((sum, what) => sum + frame.begun * frame[what].byteLength, 0);
   if (run.bytes > ROOM) {

@@ -287,8 +287,9 @@ int page_step(page *g)
 static void put_vertices(page *g, const bbm_model *m)
 {
     for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        PUT(&g->out, field_place(m, (int)(v - m->vertex), 0), field_place(m, (int)(v - m->vertex), 1),
-            v->u, v->v, m->node[v->node].held, m->element[v->element].block);
+        PUT(&g->out, field_place(m, (int)(v - m->vertex), 0),
+            field_place(m, (int)(v - m->vertex), 1), v->u, v->v, m->node[v->node].held,
+            m->element[v->element].block);
 }
 
 static void put_elements(page *g, const bbm_model *m)
@@ -297,9 +298,9 @@ static void put_elements(page *g, const bbm_model *m)
         put(&g->out, 6, e->D);
         put(&g->out, 6, e->V);
         put(&g->out, 3, e->stress);
-        PUT(&g->out, e->szz, bbm_mises(e->stress, e->szz), hypot(e->sum[0], e->sum[1]), e->material.E,
-            e->material.nu, e->material.density, e->material.thickness, e->block, e->first, e->n,
-            m->K->place[e - m->element]);
+        PUT(&g->out, e->szz, bbm_mises(e->stress, e->szz), hypot(e->sum[0], e->sum[1]),
+            e->material.E, e->material.nu, e->material.density, e->material.thickness, e->block,
+            e->first, e->n, m->K->place[e - m->element]);
     }
 }
 

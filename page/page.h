@@ -21,9 +21,9 @@ void  page_free(page *g);
 int   page_state(const page *g);
 int   page_step(page *g);       /* one step, if there is one left; the state */
 
-/* A hand takes the point (x, y) [m] of an element, -1: lets go; and pulls it to a place, by a damped
- * spring that takes part in each step. A run that is over goes on. Where a step fails by the pull,
- * the hand lets go. */
+/* A hand takes the point (x, y) [m] of an element, -1: lets go; and pulls it to a place, by a
+ * damped spring that takes part in each step. A run that is over goes on. Where a step fails by the
+ * pull, the hand lets go. */
 void  page_hold(page *g, int element, double x, double y);
 void  page_pull(page *g, double x, double y);
 

@@ -2,11 +2,10 @@
 'use strict';
 
 const is = id => document.getElementById(id);
-/* ms of steps between two pictures; unknowns; s by which real time may lag */
-const WORK = 12, LARGE = 5000, LAG = 0.05;
-const NUMBER = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
+/* ms of steps between two pictures; unknowns; s by which real time may lag; ms */
+const WORK = 12, LARGE = 5000, LAG = 0.05, SLOW = 150;
 const EXERCISES = {};                           /* of the chapters: title, model, text */
-let playing = false, turns = 0, task = null, hasPredicted = false;
+let playing = false, turns = 0, task = null, hasPredicted = false, predictions = 0;
 
 /* The frame in hand, or the one before that has kept its arrays. */
 const shown = () => run.frames.slice(0, view.at < 0 ? undefined : view.at + 1).findLast(f => f.v);
@@ -22,6 +21,7 @@ function showError(said) {
   is('lines').replaceChildren(...lines.map((_, k) =>
     make('div', { className: `${k + 1}` === bad ? 'bad' : '' }, `${k + 1}`)));
   document.querySelector('.bad')?.scrollIntoView({ block: 'nearest' });
+  tellStatement(bad - 1);
 }
 
 /* A slider for each `let` with a number. Its range is in a comment `# 0 .. 60`, or from 0 to twice
@@ -39,6 +39,7 @@ function makeSliders() {
       const again = playing || run.frames.length > 1;
       is('text').value = is('text').value.replace(let_ + word, let_ + value);
       word = slide.value = number.value = value;
+      rememberSoon();
       if (load() && again)
         play(true);
     };
@@ -49,8 +50,8 @@ function makeSliders() {
 /* Reads the text; the model that was there stays if it is wrong. */
 function load() {
   play(false);
-  Object.assign(hands, { grip: null, said: '' });
-  const said = loadModel(task?.model ?? is('gallery').value, is('text').value);
+  Object.assign(hands, IDLE);
+  const said = loadModel(task?.model ?? past.name.replace(OWN, ''), is('text').value);
   showError(said && run ? `${said} (what is shown is the model before)` : said);
   if (said)
     return false;
@@ -63,20 +64,35 @@ function load() {
   return true;
 }
 
-/* A model of the gallery, or an exercise with its model, without the answers that it comes with. */
+/* A model of the gallery, one of a person's own, or an exercise with its model, without the answers
+ * that it comes with. */
 function choose(name, text) {
-  task = EXERCISES[name];
-  text ??= files.get(`gallery/${task?.model ?? name}`) ?? `# there is no ${name} here`;
-  is('gallery').value = name;
-  is('text').value = task ? text.replace(/^ *(#|expect).*\n/gm, '') : text;
-  is('edit').scrollTop = 0;
+  const model = EXERCISES[name] || /\.model/.test(name) ? name : `${name}.model`;
+  text ??= files.get(`gallery/${EXERCISES[model]?.model ?? model}`) ?? `# there is no ${name} here`;
+  if (past.list.length)
+    remember();
   Object.assign(view, WHOLE);
+  is('edit').scrollTop = 0;
+  setText(model, EXERCISES[model] ? text.replace(/^ *(#|expect).*\n/gm, '') : text);
+  kept.bbm = model;
+  remember(false);
+}
+
+function setText(name, text) {
+  task = EXERCISES[name];
+  past.name = is('gallery').value = name;
+  is('text').value = text;
   is('exercise').reset();
   is('exercise').hidden = !task;
+  predictions = 0;
   fill('task', [make('b', {}, task?.title ?? ''), make('p', {}, task?.text ?? '')]);
   makeSliders();
   load();
 }
+
+/* The first prediction, if it is wrong, does not bring the number, but a picture of itself. */
+const isSecret = () => task && predictions < 2 &&
+  !(run.state === 1 && rows(run.frames.at(-1), 'x').every(x => x[4]));
 
 /* An exercise runs when what will come out has been written down. */
 function predict() {
@@ -84,6 +100,7 @@ function predict() {
   is('text').value = is('text').value.replace(/\n*expect .*\n*$/, '') +
     `\n\nexpect ${what} ${number} within ${within}\n`;
   hasPredicted = load();
+  predictions += hasPredicted;
   play(true);
   return false;
 }
@@ -125,26 +142,38 @@ function work(once) {
   setView(NEWEST);
 }
 
+/* What is expected, and what has come out. What a hand has pulled is not judged. */
+function tellExpected(f) {
+  const isOver = run.state === 1 && view.at < 0 && !run.isPulled;
+  const head = run.isPulled ? 'by hand' : isOver ? 'expected' : 'so far';
+  const words = run.isPulled ? /: (ok|NOT MET)$/ : isSecret() ? /; computed.*$/ : /$/;
+  const note = run.isPulled ? 'Pulled by hand: ./bbm knows nothing of that, so nothing is judged.'
+    : isOver && isSecret() ? 'Not so: the ring is where your number has it. Try once more.' : '';
+  fill('expected', [...`${note}\n${warnings}`.split('\n').filter(word => word)
+    .map(word => make('div', {}, word)),
+  ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
+    `${head}: ${f.said[k].replace(words, '')}`))]);
+}
+
+/* All but the picture need not be as quick, and is drawn each SLOW ms while it plays. */
 function show() {
   const f = shown(), isInside = is('inside').checked;
-  const isOver = run.state === 1 && view.at < 0 && !run.isPulled;
+  const look = isInside && looksOf(f)[view.look];
   is('when').max = run.frames.length - 1;
   is('when').value = view.at < 0 ? run.frames.length - 1 : view.at;
   is('say').textContent = !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}`
-    : `step ${f.step}${run.isPulled ? '' : ` of ${f.steps}`}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
-    (f.failure && '  failed');
+    : `step ${f.step}${run.isPulled ? '' : ` of ${f.steps}`}` +
+    (f.dynamic ? `  t = ${format(f.t)} s` : '') + (f.failure && '  failed');
+  drawPicture(f, look);
+  if (playing && performance.now() < run.slow)
+    return;
   if (f.failure)
     showError(`${run.name}: ${f.failure}`);
-  const byHand = run.isPulled ? 'Pulled by hand: ./bbm knows nothing of that, so nothing is judged.' : '';
-  fill('expected', [...`${byHand}\n${warnings}`.split('\n').filter(word => word)
-    .map(word => make('div', {}, word)), ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
-      run.isPulled ? `by hand: ${f.said[k].replace(/: (ok|NOT MET)$/, '')}`
-        : `${isOver ? 'expected' : 'so far'}: ${f.said[k]}`))]);
-  drawPicture(f, isInside && tellLook(f));
+  tellExpected(f);
   tell(f);
-  if (!isInside)
-    drawGraphs(f);
+  isInside ? tellLook(f) : drawGraphs(f);
   drawPattern();
+  run.slow = performance.now() + SLOW;
 }
 
 /* ------------------------------------------------------------------------ hands */
@@ -169,28 +198,35 @@ const moveLook = by =>
 
 /* The link has a name of the gallery, and the text. */
 function makeLink() {
-  const link = new URLSearchParams({ model: is('gallery').value, text: is('text').value });
+  const link = new URLSearchParams({ model: past.name.replace(OWN, ''), text: is('text').value });
   history.replaceState(null, '', '#' + link);
-  navigator.clipboard?.writeText(location.href).catch(() => {});
+  navigator.clipboard?.writeText(location.href).then(() => sayHand('the link is copied'),
+    () => sayHand('the link is in the line of the address'));
 }
 
 function followLink() {
   const link = new URLSearchParams(location.hash.slice(1));
   is('full').checked = link.has('full');
-  choose(link.get('model') ?? 'arch.model', link.get('text') ?? undefined);
+  choose(link.get('model') ?? kept.bbm ?? 'arch.model', link.get('text') ?? undefined);
 }
 
 /* Of the keys: what has no button or box with data-key. */
-const KEYS = { 0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
-  Escape: () => is('full').checked && is('full').click(),
+const KEYS = { Delete: deletePicked, Backspace: deletePicked,
+  0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
+  Escape: () => hands.corners ? toggleDrawing() : is('full').checked && is('full').click(),
   ArrowLeft: () => goTo((view.at < 0 ? run.frames.length : view.at + 1) - 2),
   ArrowRight: () => view.at >= 0 && goTo(view.at + 1) };
 
 function pressKey(event) {
-  const { key, target, ctrlKey, metaKey } = event, isPressed = key === ' ' || key === 'Enter';
+  const { target, ctrlKey, metaKey } = event, isPressed = /^( |Enter)$/.test(event.key);
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const isOwn = target.matches('textarea, select, input:not([type=checkbox])') ||
     isPressed && target.matches('button, input');
   const button = document.querySelector(`[data-key=${CSS.escape(key)}]`);
+  if ((ctrlKey || metaKey) && /^[zy]$/.test(key) && !target.matches('input:not([type]), #notes')) {
+    event.preventDefault();
+    undo(key === 'y' || event.shiftKey ? 1 : -1);
+  }
   if (!KEYS[key] && !button || ctrlKey || metaKey || isOwn && key !== 'Escape')
     return;
   event.preventDefault();
@@ -204,20 +240,30 @@ function listenToPicture(canvas) {
     from = last = [e.offsetX, e.offsetY];
     isDrag = false;
     canvas.setPointerCapture(e.pointerId);
-    grab(...from);
+    if (!hands.corners)
+      grab(...from);
   };
   canvas.onpointermove = e => {
-    const here = [e.offsetX, e.offsetY], [dx, dy] = here.map((a, k) => a - last?.[k]);
+    const here = hands.place = [e.offsetX, e.offsetY], [dx, dy] = here.map((a, k) => a - last?.[k]);
     isDrag ||= e.buttons && Math.hypot(here[0] - from[0], here[1] - from[1]) >= 4;
     if (e.buttons && isDrag && hands.grip)
       drag(...here);
-    else if (e.buttons && isDrag)
+    else if (e.buttons && isDrag) {
+      hands.said = hands.why;
       setView({ x: view.x + dx, y: view.y + dy });
+    } else if (isAtStart())
+      lookUnder(...here);
     if (isDrag || !e.buttons)
       last = here;
   };
   canvas.onpointerup = canvas.onpointercancel = drop;
-  canvas.onclick = e => isDrag || pick(...findAt(shown(), e.offsetX, e.offsetY));
+  canvas.onclick = e => {
+    if (hands.corners && !isDrag)
+      setCorner(e.offsetX, e.offsetY, false);
+    else if (!isDrag)
+      pick(...findAt(shown(), e.offsetX, e.offsetY));
+  };
+  canvas.ondblclick = e => hands.corners && setCorner(e.offsetX, e.offsetY, true);
   canvas.onwheel = e => { e.preventDefault(); zoom(Math.exp(-e.deltaY / 500)); };
 }
 
@@ -233,7 +279,6 @@ function readExercises(text) {
 async function start() {
   const models = [], unpack = text => new Response(new Blob([Uint8Array.from(atob(text),
     c => c.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream('gzip')));
-  let later;
   for (const kind of ['error', 'unhandledrejection'])
     addEventListener(kind, e => showError(`The page has failed: ${e.reason ?? e.message}`));
   for (const { dataset: { file }, textContent } of document.querySelectorAll('[data-file]')) {
@@ -242,20 +287,23 @@ async function start() {
     if (file.endsWith('.model'))
       models.push(new Option(file.replace('.model', ''), file));
   }
-  is('gallery').append(make('optgroup', { label: 'models' }, ...models), make('optgroup',
-    { label: 'exercises: predict' }, ...readExercises(files.get('exercises.txt'))));
+  is('gallery').append(make('optgroup', { id: 'own', label: 'own, kept in this browser' }),
+    make('optgroup', { label: 'models' }, ...models), make('optgroup',
+      { label: 'exercises: predict' }, ...readExercises(files.get('exercises.txt'))));
+  listOwn();
+  readStatements(files.get('statements.txt'));
   ROWS.unshift(...files.get('states.txt').trim().split('\n')
     .map(row => row.split(/ *\| */).slice(1, 4)));
   await startLibrary(await unpack(document.querySelector('[data-file="bbm.wasm"]').textContent)
     .arrayBuffer());
-  is('text').oninput = () => {
-    clearTimeout(later);
-    later = setTimeout(() => { makeSliders(); load(); }, 400);
-  };
+  is('text').oninput = () => rememberSoon(() => { makeSliders(); load(); });
+  is('text').onkeyup = is('text').onclick = tellCursor;
   listenToPicture(is('view'));
   document.onkeydown = pressKey;
   onresize = show;
+  matchMedia('(prefers-color-scheme: dark)').onchange = show;
   onhashchange = followLink;
+  setText('arch.model', files.get('gallery/arch.model'));   /* is there if what follows is wrong */
   followLink();
 }
 

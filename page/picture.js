@@ -119,7 +119,8 @@ function viridis(share) {
 
 /* What draws a frame: g, the canvas; at[v], the pixels of a vertex; the outline of an element. */
 function painter(frame) {
-  const p = { ...begin('view'), frame, magnify: view.magnify || run.magnify || findMagnification(frame) };
+  const magnify = view.magnify || run.magnify || findMagnification(frame);
+  const p = { ...begin('view'), frame, magnify };
   const { s, to } = findScale(p.w, p.h), m = p.magnify - 1;
   const at = rows(frame, 'v').map(([x, y, u, v]) => to(x + m * u, y + m * v));
   const outline = ([, first, n]) => trace(p.g, at.slice(first, first + n), true);
@@ -145,12 +146,11 @@ function drawBlocks({ g, frame, outline, at, thin }) {
   const low = Math.abs(least) < 1e-6 * high ? 0 : least;
   values.forEach((a, k) => paint(g, () => outline(free[k]),
     { fill: viridis((a - low) / (high - low || 1)) }));
-  for (const block of run.blocks) {
-    const fill = block.held ? held : of ? null : TINTS[block.tint];
-    paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5 * thin, fill });
-    paint(g, () => block.edges.forEach(([a, b]) => trace(g, [at[a], at[b]])),
-      { line: css('--ink'), width: 1.3 * thin });
-  }
+  Map.groupBy(run.blocks, b => b.held ? held : of ? null : TINTS[b.tint]).forEach((blocks, fill) =>
+    paint(g, () => blocks.forEach(b => b.elements.forEach(outline)),
+      { line: '#667788', width: 0.5 * thin, fill }));
+  paint(g, () => run.blocks.forEach(b => b.edges.forEach(([p, q]) => trace(g, [at[p], at[q]]))),
+    { line: css('--ink'), width: 1.3 * thin });
   return name && { name, unit, low, high };
 }
 
@@ -210,6 +210,47 @@ function drawForces(p) {
   });
 }
 
+/* Through each block that two others press together, from where the force of the one acts to that
+ * of the other, as draw_thrust in scene.c. */
+function drawThrust({ g, frame, corner }) {
+  const felt = run.blocks.map(() => new Map()), line = css('--thrust');
+  for (const [c, e, state, fx, fy, N] of rows(frame, 'c')) {
+    const pair = [c, e].map(d => run.d[3 * d + 2]), [x, y] = corner(c);
+    [1, -1].forEach((sign, k) => state && felt[pair[k]].set(pair[1 - k], [N * x, N * y, sign * fx,
+      -sign * fy, N].map((a, i) => a + (felt[pair[k]].get(pair[1 - k])?.[i] ?? 0))));
+  }
+  let lines = felt.map((by, k) => {
+    const [[x, y, fx, fy, N], [X, Y, FX, FY, M]] = [...by.values(), [], []];
+    const way = [X / M - x / N, Y / M - y / N], force = Math.hypot(fx, fy) + Math.hypot(FX, FY);
+    return by.size === 2 && !run.blocks[k].held && N > 0 && M > 0 && (fx - FX) * way[0] +
+      (fy - FY) * way[1] > 0.5 * Math.hypot(...way) * force && [[x / N, y / N], [X / M, Y / M]];
+  });
+  const ends = (l, k) => l && [...felt[k].keys()].some(o => !lines[o] && !run.blocks[o].held &&
+    felt[o].size > 1);
+  while (lines.some(ends))
+    lines = lines.map((l, k) => !ends(l, k) && l);
+  paint(g, () => lines.forEach(l => l && trace(g, l)), { line, width: 2.5 });
+  return lines.some(l => l) ? [{ name: 'line of thrust', line }] : [];
+}
+
+function drawBolts({ g, frame, at }) {
+  const ends = rows(frame, 'b').map(([a, b, c, ...share]) => [0, 1].map(k =>
+    share[0] * at[a][k] + share[1] * at[b][k] + share[2] * at[c][k]));
+  paint(g, () => ends.forEach((end, k) => k % 2 && trace(g, [ends[k - 1], end])),
+    { line: css('--ink'), width: 3 });
+}
+
+/* A ring where a prediction that was wrong has the node of its monitor. */
+function drawPrediction({ g, frame, s, magnify, h, w }) {
+  const [k, kind, value] = rows(frame, 'x').at(-1) ?? [], name = run.monitors[k]?.[0];
+  const place = is('text').value.match(
+    RegExp(`^\\s*monitor\\s+${name}\\s+at\\s+(${NUMBER})\\s+(${NUMBER})`, 'm'));
+  const way = [0, 1].map(a => magnify * (a === kind ? value : frame.o[4 * k + a]));
+  if (place && isSecret() && run.state === 1)
+    paint(g, () => g.arc(0, 0, 8, 0, 7), { line: css('--pick'), width: 3 },
+      findScale(w, h).to(+place[1] + way[0], +place[2] + way[1]));
+}
+
 /* A state as a shape, so that colour alone says nothing: a ring, a square, a triangle. */
 function drawState(g, place, state, r) {
   paint(g, [() => g.arc(0, 0, r - 1, 0, 7), () => g.rect(-r, -r, 2 * r, 2 * r),
@@ -249,13 +290,15 @@ function drawLegend({ g, w, h, s, magnify }, legend, field) {
 function drawPicture(frame, look) {
   const p = painter(frame), { g } = p, field = drawBlocks(p), line = css('--pick');
   drawSupports(p);
-  const legend = is('forces').checked && !look ? drawForces(p) : [];
+  drawBolts(p);
+  const legend = is('forces').checked && !look ? [...drawForces(p), ...drawThrust(p)] : [];
   for (const [corner, , from, to] of look?.contacts ?? [])
     drawState(g, p.corner(corner), to, from === to ? 4 : 7);
   if (view.element >= 0)
     paint(g, () => p.outline(rows(frame, 'e')[view.element].subarray(22)), { line, width: 4 });
   if (view.contact)
     paint(g, () => g.arc(...p.corner(view.contact[0]), 12, 0, 7), { line, width: 3 });
+  drawPrediction(p);
   drawLegend(p, legend, field);
   drawHands(p);
 }

@@ -133,10 +133,11 @@ const cells = id => p.do(`Object.fromEntries([...document.getElementById('${id}'
   [r.cells[0].innerText, [...r.cells].slice(1).map(c => c.innerText)]))`);
 
 /* The mouse, at a place of the model. */
-async function mouse(type, X, Y, clickCount = 1) {
+async function mouse(type, X, Y, clickCount = 1, buttons = 1) {
   const [x, y] = await p.do(`(r => { const q = findScale(r.width, r.height).to(${X}, ${Y});
     return [r.x + q[0], r.y + q[1]]; })(document.getElementById('view').getBoundingClientRect())`);
-  await p.send('Input.dispatchMouseEvent', { type: `mouse${type}`, x, y, button: 'left', buttons: 1,
+  await p.send('Input.dispatchMouseEvent', { type: `mouse${type}`, x, y, buttons,
+    button: buttons ? 'left' : 'none',
     clickCount });
 }
 
@@ -285,10 +286,6 @@ async function checkExercises() {
 }
 
 async function checkKeys() {
-  const press = async key => {
-    await p.send('Input.dispatchKeyEvent', { type: 'keyDown', key, text: key });
-    await p.until('!playing');
-  };
   await p.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme',
     value: 'dark' }] });
   await p.go(`${url}#model=dominoes.model`);
@@ -319,13 +316,118 @@ async function checkPull() {
   await p.until('run.frames.at(-1).h.length === 0 && run.frames.at(-1).o[1] < 1');
 }
 
+const press = async (key, modifiers = 0) => {
+  await p.send('Input.dispatchKeyEvent', { type: 'keyDown', key, modifiers,
+    text: modifiers ? '' : key.length === 1 ? key : '' });
+  await p.until('!playing');
+};
+const model = () => p.do('is("text").value');
+const lineOf = async name => (await model()).split('\n').find(l => l.startsWith(name));
+const shape = async name => (await lineOf(`block ${name}`)).split(/\s+/).slice(3).map(Number);
+
+async function drop(X, Y, x, y, shot) {
+  await dragFrom(X, Y, x, y);
+  if (shot)
+    await p.shot(shot);
+  await mouse('Released', x, y);
+}
+
+/* Corners and blocks by the mouse: what they touch, what follows, what is refused, what undoes it. */
+async function checkEdit() {
+  await type('#gallery', 'incline.model');
+  const before = await model(), block = [0, 0, 0.8660254038, 0.5, 0.6160254038, 0.9330127019,
+    -0.25, 0.4330127019];
+  await drop(-0.25, 0.4330127019, -1.98, 3.03, 'corner');
+  const [X, Y] = (await shape('block')).slice(6);
+  assert(Math.hypot(X + 2, Y - 3) < 1e-9, `corner at ${X} ${Y}`);         /* of the grid */
+  assert.deepEqual((await shape('block')).slice(0, 6), block.slice(0, 6));
+  assert(await p.do('document.querySelector("#lines .now").innerText.trim()') ===
+    `${before.split('\n').findIndex(l => l.startsWith('block block')) + 1}`);
+  await press('z', 2);
+  assert.equal(await model(), before);
+  await drop(0.3, 0.5, 0.3 + 1.75, 0.5 + 0.99);          /* nearly along the slope: snaps to it */
+  const moved = await shape('block'), s = 0.5, c = Math.sqrt(0.75);
+  assert(Math.abs(moved[1] * c - moved[0] * s) < 1e-8 && moved[0] > 1, `${moved}`);
+  moved.forEach((x, k) => near(x - moved[k % 2], block[k]));
+  assert.equal(await lineOf('monitor'), `monitor corner at ${moved[0]} ${moved[1]} of block`);
+  assert.equal(await text('error'), '');
+  await drop(moved[0] + 0.3, moved[1] + 0.5, moved[0] + 0.2, moved[1] - 0.3);       /* into it */
+  assert.match(await text('error'), /overlap/);
+  await p.shot('overlap');
+  const [x, y] = await shape('block');
+  await drop(x + 0.3, y + 0.5, x + 0.3, y + 2);
+  assert.equal(await text('error'), '');
+  await drop(-2, -1.3, -3, -1.3);                        /* the block that is fixed, too */
+  assert((await shape('incline'))[0] < -10.5);
+  for (let k = 0; k < 4; k++)
+    await press('z', 2);
+  assert.equal(await model(), before);
+  await press('y', 2);
+  assert.equal(await lineOf('monitor'), `monitor corner at ${moved[0]} ${moved[1]} of block`);
+}
+
+/* A new block is drawn, falls, is deleted; a block of `repeat` says why it stays. */
+async function checkDraw() {
+  await type('#gallery', 'incline.model');
+  const before = await model();
+  await push('draw');
+  for (const [x, y] of [[1, 3], [2, 3], [2, 4]])
+    await clickAt(x, y);
+  await mouse('Moved', 1, 4, 0, 0);
+  await p.shot('draw');
+  await clickAt(1, 4);
+  await clickAt(1, 4, 2);
+  assert.deepEqual(await shape('new1'), [1, 3, 2, 3, 2, 4, 1, 4]);
+  assert.equal(await text('error'), '');
+  await push('run');
+  await p.until('!playing');
+  assert(await p.do('run.blocks.length === 3 && rows(run.frames.at(-1), "v").at(-1)[3] < -0.5'));
+  await press('R');
+  await clickAt(1.5, 3.5);
+  await press('Delete');
+  assert.equal(await model(), before);
+  await type('#gallery', 'arch.model');
+  const arch = await model(), row = arch.split('\n').findIndex(l => l.includes('block v$i')) + 1;
+  await clickAt(0, 10);
+  await press('Delete');
+  assert(await p.do(`hands.said === 'block v8 cannot be deleted: line ${row} is in \`repeat\`'`));
+  assert.equal(await model(), arch);
+}
+
+/* What a person has written is there after a choice and a reload; files come in. */
+async function checkOwn() {
+  const own = read(`${models}column.model`).replace(/^title.*/m, 'title My own');
+  await type('#gallery', 'column.model');
+  await type('#text', own, 'input');
+  await p.until('document.title.startsWith("My own")');
+  await p.until('is("gallery").value === "column.model (own)"');
+  await type('#gallery', 'arch.model');
+  await type('#gallery', 'column.model (own)');
+  assert.equal(await model(), own);
+  await p.go(url);
+  assert.equal(await model(), own);
+  fs.writeFileSync(`${folder}/my.msh`, read(`${models}dam.msh`));
+  fs.writeFileSync(`${folder}/my.model`, read(`${models}dam.model`).replace('dam.msh', 'my.msh'));
+  const { root } = await p.send('DOM.getDocument');
+  const { nodeId } = await p.send('DOM.querySelector', { nodeId: root.nodeId, selector: '#open' });
+  await p.send('DOM.setFileInputFiles', { nodeId, files: ['my.model', 'my.msh'].map(f =>
+    path.resolve(folder, f)) });
+  await p.until('is("gallery").value === "my.model (own)"');
+  assert.equal(await text('error'), '');
+  assert.equal(await runAll(), runBBM(`${folder}/my.model`).said);
+  await type('#text', 'static\nblock a rock 0 0\n', 'input');
+  await p.until('document.getElementById("error").innerText');
+  assert.match(await text('form'), /^block NAME MATERIAL X1 Y1/);
+}
+
 (async () => {
   checkFile();
   await checkBits();
   checkHand();
   p = await open(url, folder);
   for (const check of [checkRuns, checkSliderAndLink, checkClicks, checkRows, checkLarge,
-      checkErrors, checkExercises, checkPull, checkKeys])
+      checkErrors, checkExercises, checkPull, checkEdit, checkDraw, checkOwn,
+      checkKeys])
     await check();
   assert.deepEqual(p.errors, []);
   assert(p.requests.every(r => r.split('#')[0] === url), `${p.requests}`);
