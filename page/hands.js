@@ -14,7 +14,6 @@ const redraw = () => drawPicture(shown(), false);
 const sayHand = text => { hands.said = text; redraw(); };
 const isAtStart = () => run.frames.length === 1 && !playing && !run.isPulled &&
   run.frames[0].settling === run.frames[0].settle;
-const isFree = (frame, e) => e >= 0 && !run.blocks[rows(frame, 'e')[e][22]].held;
 
 /* Where a point of an element is, if its vertices are not in `from` but in `to`. */
 function carry(q, [, first, n], from, to) {
@@ -36,34 +35,24 @@ const distance = ([x, y], [X, Y]) => Math.hypot(x - X, y - Y);
  * if it is one of the grid. */
 function snap(point, s, own) {
   const v = rows(run, 'v'), grid = gridOf(s);
-  let best = { far: Infinity, to: point.map(x => Math.round(x / grid) * grid) };
-  const offer = (to, far) => {
-    if (far < Math.min(best.far, NEAR / s))
-      best = { far, to };
-  };
-  for (const [a, b] of rows(run, 'd').filter(d => textOf('b', d[2]) !== own)) {
+  const [best] = rows(run, 'd').filter(d => textOf('b', d[2]) !== own).flatMap(([a, b]) => {
     const [A, B] = [v[a], v[b]].map(p => [p[0], p[1]]), way = [0, 1].map(k => B[k] - A[k]);
     const t = [0, 1].reduce((sum, k) => sum + way[k] * (point[k] - A[k]), 0) / distance(A, B) ** 2;
     const foot = [0, 1].map(k => A[k] + t * way[k]);
-    if (t >= 0 && t <= 1)
-      offer(foot, distance(foot, point));
-    offer(A, distance(A, point) / 2);
-  }
-  return best;
+    return [{ to: A, far: distance(A, point) / 2 },
+      { to: foot, far: t >= 0 && t <= 1 ? distance(foot, point) : Infinity }];
+  }).filter(place => place.far < NEAR / s).sort((p, q) => p.far - q.far);
+  return best ?? { far: Infinity, to: point.map(x => Math.round(x / grid) * grid) };
 }
 
 /* The block of the text that is under a pixel, and which corner, or -1. */
 function findHandle(x, y) {
-  const { to, from } = scaleOf(is('view')), q = from(x, y);
-  const isIn = ({ points }) => points.reduce((is, [x1, y1], k) => {
-    const [x0, y0] = points.at(k - 1);
-    return is !== (y0 > q[1] !== y1 > q[1] && q[0] < x0 + (q[1] - y0) / (y1 - y0) * (x1 - x0));
-  }, false);
+  const { to } = scaleOf(is('view')), { g } = sizeOf('view');
   const found = findBlocks().reverse().map(block => {
     const points = block.points.map(p => to(...p));
     const side = largest(points.map((p, k) => distance(p, points.at(k - 1))));
     const corner = points.findIndex(p => distance(p, [x, y]) < Math.min(NEAR, side / 4));
-    return { block, corner, isIn: isIn(block) };
+    return { block, corner, isIn: isInside(g, () => trace(g, points, true), x, y) };
   });
   return found.find(f => f.corner >= 0) ?? found.find(f => f.isIn) ?? null;
 }
@@ -81,19 +70,10 @@ function grab(x, y) {
     const name = textOf('b', rows(f, 'e')[e][22]);
     hands.why = `block ${name} cannot be dragged: ${whyNot(name)}`;
   }
-  if (isAtStart() || !isFree(f, e))
+  if (isAtStart() || e < 0 || run.blocks[rows(f, 'e')[e][22]].held)
     return;
   const p = painter(f), at = carry([x, y], rows(f, 'e')[e].subarray(22), p.at, rows(f, 'v'));
   hands.grip = { element: e, at, x, y, scale: p.s * p.magnify };
-}
-
-/* Shows the block that could be taken here. */
-function lookUnder(x, y) {
-  const over = findHandle(x, y), key = o => o && `${o.block.row} ${o.corner}`;
-  const isNew = key(over) !== key(hands.over);
-  hands.over = over;
-  if (isNew || hands.corners)
-    redraw();
 }
 
 /* A corner goes to its place; a block by the way that is nearest to one of its corners. */
@@ -134,7 +114,7 @@ function drop() {
     hold(-1);
     play(true);
   }
-  if (g?.block && g.points.some((p, k) => distance(p, g.block.points[k]) > 0))
+  if (g?.block && g.points !== g.block.points)
     moveBlock(g.block, g.points);
 }
 
@@ -152,13 +132,12 @@ function setCorner(x, y, isEnd) {
 }
 
 function toggleDrawing() {
-  hands.corners = hands.corners ? null : [];
-  if (hands.corners && !isAtStart()) {
+  const corners = hands.corners ? null : [];
+  if (corners && !isAtStart())
     load();
-    hands.corners = [];
-  }
-  is('draw').classList.toggle('on', !!hands.corners);
-  sayHand(hands.corners ? 'click the corners; a double click ends the block' : '');
+  hands.corners = corners;
+  is('draw').classList.toggle('on', !!corners);
+  sayHand(corners ? 'click the corners; a double click ends the block' : '');
 }
 
 /* The block that is picked, or else that under the pointer. */

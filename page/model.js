@@ -51,7 +51,7 @@ function loadModel(name, text) {
   if (said)
     return said;
   run = { handle, name, frames: [], bytes: 0, state: 0, warned: warnings,
-    curves: {} };
+    curves: {}, due: 0, at: 0 };
   run.d = numbersOf('d');
   keepFrame();
   run.monitors = times(run.frames[0].o.length / 4, k =>

@@ -133,11 +133,9 @@ static void load_by_hand(bbm_model *m)
     if (e < 0)
         return;
     const double s = find_pull(g, f0, T);
-    for (int i = 0; i < 6; i++) {
-        m->load[6 * e + i] += T[0][i] * f0[0] + T[1][i] * f0[1];
-        for (int j = 0; j < 6; j++)
-            K[i][j] = s * (T[0][i] * T[0][j] + T[1][i] * T[1][j]);
-    }
+    bbm_point_load(&m->element[e], g->hand.at[0], g->hand.at[1], f0, &m->load[6 * e]);
+    for (int i = 0; i < 36; i++)
+        K[i / 6][i % 6] = s * (T[0][i / 6] * T[0][i % 6] + T[1][i / 6] * T[1][i % 6]);
     bbm_matrix_add(m->K, e, e, K);
 }
 
@@ -147,23 +145,19 @@ static bbm_status move_by_hand(bbm_model *m)
 {
     page *g = m->monitor_context;
     hand *a = &g->hand;
-    double T[2][6], f[2], u[2];
+    double T[2][6], f0[2], u[2], more[2] = { 0, 0 };
 
     if (a->element < 0)
         return g->library.move(m);
-    const double *D = &m->D[6 * a->element], s = find_pull(g, f, T);
-    for (int r = 0; r < 2; r++) {
-        double less = 0;
-        for (int i = 0; i < 6; i++)
-            less += s * T[r][i] * D[i];
-        for (int i = 0; i < 6; i++)
-            m->load[6 * a->element + i] -= T[r][i] * less;
-        f[r] -= less;
-    }
-    bbm_move(m, &m->element[a->element], D, a->at[0], a->at[1], u);
+    const bbm_element *e = &m->element[a->element];
+    const double *D = &m->D[6 * a->element], s = find_pull(g, f0, T);
+    for (int i = 0; i < 12; i++)
+        more[i / 6] -= s * T[i / 6][i % 6] * D[i % 6];
+    bbm_point_load(e, a->at[0], a->at[1], more, &m->load[6 * a->element]);
+    bbm_move(m, e, D, a->at[0], a->at[1], u);
     const bbm_status status = g->library.move(m);
     for (int r = 0; r < 2 && !status; r++)
-        a->f[r] = f[r], a->at[r] += u[r];
+        a->f[r] = f0[r] + more[r], a->at[r] += u[r];
     return status;
 }
 
@@ -202,10 +196,8 @@ void page_hold(page *g, int element, double x, double y)
     const double k = !g->p.dynamic ? of->E * of->thickness
                    : weight > 0 ? weight / (SAG * sqrt(area)) : mass / pow(SWING * m->par.dt, 2);
     const double most = fmin(weight > 0 ? MOST * weight : INFINITY, DEEP * m->par.p_n * sqrt(area));
-    g->hand = (hand){ .element = element, .k = k, .c = 2 * DAMPING * sqrt(k * mass),
-                      .most = g->p.dynamic ? most : INFINITY };
-    for (int a = 0; a < 2; a++)
-        g->hand.at[a] = g->hand.to[a] = (a ? y : x) - m->origin[a];
+    const double X = x - m->origin[0], Y = y - m->origin[1], c = 2 * DAMPING * sqrt(k * mass);
+    g->hand = (hand){ element, k, c, g->p.dynamic ? most : INFINITY, { X, Y }, { X, Y }, { 0, 0 } };
 }
 
 void page_pull(page *g, double x, double y)

@@ -8,7 +8,7 @@ const EXERCISES = {};                           /* of the chapters: title, model
 let playing = false, turns = 0, task = null, hasPredicted = false, predictions = 0;
 
 /* The frame in hand, or the one before that has kept its arrays. */
-const shown = () => run.frames.slice(0, view.at < 0 ? undefined : view.at + 1).findLast(f => f.v);
+const shown = () => run.frames.findLast((f, k) => f.v && (view.at < 0 || k <= view.at));
 
 /* ------------------------------------------------------------------------ the model */
 
@@ -126,19 +126,18 @@ function play(on, once = false) {
 }
 
 /* In real time no step begins before its time has come; a delay is not made up for. After a pull
- * time is real. */
+ * time is real. Steps take longer than pictures, if there are enough of them. */
 function work(once) {
-  const start = performance.now(), before = run.frames.at(-1), due = run.due;
-  const { t, dynamic, begun } = before;
+  const start = performance.now(), before = run.frames.at(-1), { t, dynamic, begun } = before;
   const isPaced = dynamic && begun && !once && (run.isPulled || is('paced').checked);
-  const passed = due?.turn === turns ? (start - due.start) / 1e3 : 0;
-  const until = isPaced ? Math.min(t + LAG, (due?.until ?? t) + passed) : Infinity;
+  const end = start + Math.max(WORK, 3 * run.took);
   let more = true;
-  while (more && performance.now() - start < WORK && run.frames.at(-1).t < until)
+  run.due = Math.max(t, Math.min(t + LAG, run.due + (start - run.at) / 1e3));
+  run.at = start;
+  while (more && performance.now() < end && (!isPaced || run.frames.at(-1).t < run.due))
     more = stepModel() && !(once && run.frames.at(-1).begun);
   feel(before);
   play(more, once);
-  run.due = { turn: turns, start, until: isPaced ? Math.max(t, until) : run.frames.at(-1).t };
   setView(NEWEST);
 }
 
@@ -157,21 +156,22 @@ function tellExpected(f) {
 
 /* All but the picture need not be as quick, and is drawn each SLOW ms while it plays. */
 function show() {
-  const f = shown(), isInside = is('inside').checked;
-  const look = isInside && looksOf(f)[view.look];
+  const f = shown(), isDeep = is('inside').checked, look = isDeep && looksOf(f)[view.look];
+  const start = performance.now();
+  drawPicture(f, look);                         /* before what changes the layout */
+  run.took = performance.now() - start;
   is('when').max = run.frames.length - 1;
   is('when').value = view.at < 0 ? run.frames.length - 1 : view.at;
   is('say').textContent = !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}`
     : `step ${f.step}${run.isPulled ? '' : ` of ${f.steps}`}` +
     (f.dynamic ? `  t = ${format(f.t)} s` : '') + (f.failure && '  failed');
-  drawPicture(f, look);
   if (playing && performance.now() < run.slow)
     return;
   if (f.failure)
     showError(`${run.name}: ${f.failure}`);
   tellExpected(f);
   tell(f);
-  isInside ? tellLook(f) : drawGraphs(f);
+  isDeep ? tellLook(f) : drawGraphs(f);
   drawPattern();
   run.slow = performance.now() + SLOW;
 }
@@ -251,8 +251,10 @@ function listenToPicture(canvas) {
     else if (e.buttons && isDrag) {
       hands.said = hands.why;
       setView({ x: view.x + dx, y: view.y + dy });
-    } else if (isAtStart())
-      lookUnder(...here);
+    } else if (isAtStart()) {
+      hands.over = findHandle(...here);
+      redraw();
+    }
     if (isDrag || !e.buttons)
       last = here;
   };
@@ -297,11 +299,12 @@ async function start() {
   await startLibrary(await unpack(document.querySelector('[data-file="bbm.wasm"]').textContent)
     .arrayBuffer());
   is('text').oninput = () => rememberSoon(() => { makeSliders(); load(); });
-  is('text').onkeyup = is('text').onclick = tellCursor;
+  is('text').onkeyup = is('text').onclick = () =>
+    tellStatement(is('text').value.slice(0, is('text').selectionStart).split('\n').length - 1);
   listenToPicture(is('view'));
   document.onkeydown = pressKey;
   onresize = show;
-  matchMedia('(prefers-color-scheme: dark)').onchange = show;
+  dark.onchange = show;
   onhashchange = followLink;
   setText('arch.model', files.get('gallery/arch.model'));   /* is there if what follows is wrong */
   followLink();

@@ -15,7 +15,9 @@ const WHOLE = { zoom: 1, x: 0, y: 0 }, NEWEST = { at: -1, look: 0 };
 const NONE = { element: -1, contact: null };
 const view = { ...WHOLE, ...NEWEST, ...NONE, magnify: 0, colour: 'block' };
 
-const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const dark = matchMedia('(prefers-color-scheme: dark)');
+const css = name => css[name + dark.matches] ??=
+  getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const largest = values => values.reduce((a, b) => Math.max(a, b), 0);
 
 /* A number with its unit, k, M, G or m, u, n before it. */
@@ -31,13 +33,22 @@ function roundDown(x) {
   return ten * ([5, 2].find(f => f * ten <= x * (1 + 1e-9)) ?? 1);
 }
 
+const sizeOf = (id, canvas = document.getElementById(id)) =>
+  ({ g: canvas.getContext('2d'), w: canvas.clientWidth, h: canvas.clientHeight });
+
 /* A canvas as sharp as the screen, empty. */
 function begin(id) {
-  const canvas = document.getElementById(id), g = canvas.getContext('2d');
-  const w = canvas.clientWidth, h = canvas.clientHeight;
-  Object.assign(canvas, { width: w * devicePixelRatio, height: h * devicePixelRatio });
+  const { g, w, h } = sizeOf(id);
+  Object.assign(g.canvas, { width: w * devicePixelRatio, height: h * devicePixelRatio });
   g.scale(devicePixelRatio, devicePixelRatio);
   return { g, w, h };
+}
+
+/* Whether a path holds a pixel. */
+function isInside(g, path, x, y) {
+  g.beginPath();
+  path();
+  return g.isPointInPath(x * devicePixelRatio, y * devicePixelRatio);
 }
 
 /* Lines or an outline through points in pixels, into the path in hand. */
@@ -118,9 +129,9 @@ function viridis(share) {
 }
 
 /* What draws a frame: g, the canvas; at[v], the pixels of a vertex; the outline of an element. */
-function painter(frame) {
+function painter(frame, canvas = sizeOf('view')) {
   const magnify = view.magnify || run.magnify || findMagnification(frame);
-  const p = { ...begin('view'), frame, magnify };
+  const p = { ...canvas, frame, magnify };
   const { s, to } = findScale(p.w, p.h), m = p.magnify - 1;
   const at = rows(frame, 'v').map(([x, y, u, v]) => to(x + m * u, y + m * v));
   const outline = ([, first, n]) => trace(p.g, at.slice(first, first + n), true);
@@ -198,14 +209,14 @@ function drawForces(p) {
   const length = Math.max(16, Math.min(48, 0.9 * p.s * Math.sqrt(largest(free))));
   return ARROWS.flatMap(([kind, name, unit, colour, dash]) => {
     const mine = all.filter(a => a.kind === kind), most = size(mine), line = css(colour);
-    for (const { x, y, fx, fy } of mine) {
-      const l = Math.hypot(fx, fy) * (kind < 3 ? length / contacts : 40 / most);
-      const tip = kind < 3 ? l : 0, head = tip - Math.min(6, l / 2), half = (tip - head) / 2;
-      const draw = (points, style) => l >= 2 && paint(g, () => trace(g, points),
-        { line, width: 2, ...style }, [x, y], Math.atan2(-fy, fx));
-      draw([[tip - l, 0], [tip, 0]], { dash });
-      draw([[head, half], [tip, 0], [head, -half]]);
-    }
+    const draw = (points, style) => paint(g, () => mine.forEach(({ x, y, fx, fy }) => {
+      const f = Math.hypot(fx, fy), l = f * (kind < 3 ? length / contacts : 40 / most);
+      if (l >= 2)
+        trace(g, points(l, kind < 3 ? l : 0, Math.min(6, l / 2)).map(([along, across]) =>
+          [x + (along * fx + across * fy) / f, y - (along * fy - across * fx) / f]));
+    }), { line, width: 2, ...style });
+    draw((l, tip) => [[tip - l, 0], [tip, 0]], { dash });
+    draw((l, tip, head) => [[tip - head, head / 2], [tip, 0], [tip - head, -head / 2]]);
     return mine.length ? [{ name: `${name} ${quantity(most, unit)}`, line, dash }] : [];
   });
 }
@@ -240,15 +251,17 @@ function drawBolts({ g, frame, at }) {
     { line: css('--ink'), width: 3 });
 }
 
-/* A ring where a prediction that was wrong has the node of its monitor. */
-function drawPrediction({ g, frame, s, magnify, h, w }) {
+/* From where the node of a monitor is to a ring where a wrong prediction has it. */
+function drawPrediction({ g, frame, magnify, h, w }) {
   const [k, kind, value] = rows(frame, 'x').at(-1) ?? [], name = run.monitors[k]?.[0];
   const place = is('text').value.match(
     RegExp(`^\\s*monitor\\s+${name}\\s+at\\s+(${NUMBER})\\s+(${NUMBER})`, 'm'));
-  const way = [0, 1].map(a => magnify * (a === kind ? value : frame.o[4 * k + a]));
-  if (place && isSecret() && run.state === 1)
-    paint(g, () => g.arc(0, 0, 8, 0, 7), { line: css('--pick'), width: 3 },
-      findScale(w, h).to(+place[1] + way[0], +place[2] + way[1]));
+  if (!place || !isSecret() || run.state !== 1)
+    return;
+  const at = [0, 1].map(a => +place[a + 1] + magnify * frame.o[4 * k + a]), line = css('--pick');
+  const ring = at.with(kind, +place[kind + 1] + magnify * value), { to } = findScale(w, h);
+  paint(g, () => trace(g, [to(...at), to(...ring)]), { line, width: 3 });
+  paint(g, () => g.arc(0, 0, 8, 0, 7), { line, width: 3 }, to(...ring));
 }
 
 /* A state as a shape, so that colour alone says nothing: a ring, a square, a triangle. */
@@ -288,7 +301,7 @@ function drawLegend({ g, w, h, s, magnify }, legend, field) {
 }
 
 function drawPicture(frame, look) {
-  const p = painter(frame), { g } = p, field = drawBlocks(p), line = css('--pick');
+  const p = painter(frame, begin('view')), { g } = p, field = drawBlocks(p), line = css('--pick');
   drawSupports(p);
   drawBolts(p);
   const legend = is('forces').checked && !look ? [...drawForces(p), ...drawThrust(p)] : [];
@@ -305,11 +318,8 @@ function drawPicture(frame, look) {
 
 /* The element at a pixel, or -1. */
 function findElement(frame, x, y, p = painter(frame)) {
-  return rows(frame, 'e').findLastIndex(e => {
-    p.g.beginPath();
-    p.outline(e.subarray(22));
-    return p.g.isPointInPath(x * devicePixelRatio, y * devicePixelRatio);
-  });
+  return rows(frame, 'e').findLastIndex(e =>
+    isInside(p.g, () => p.outline(e.subarray(22)), x, y));
 }
 
 /* What lies at a pixel: an element, -1 if there is none; and a contact. */

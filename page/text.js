@@ -40,8 +40,8 @@ function findBlocks() {
 /* Why a block is none of these. */
 function whyNot(name) {
   const found = readLines().find(({ line, word }) => {
-    const of = line.trim().split(/\s+/)[1] ?? '', [begin, more] = of.split('$');
-    return /^(block|grid)$/.test(word) && (more === undefined ? of === name : name.startsWith(begin));
+    const [begin, more] = (line.trim().split(/\s+/)[1] ?? '').split('$');
+    return /^(block|grid)$/.test(word) && (more ? name.startsWith(begin) : name === begin);
   });
   const why = found?.depth ? 'is in `repeat`' : found?.word === 'grid' ? 'is a grid' : 'has $...';
   return found ? `line ${found.row + 1} ${why}` : 'it comes from elements or a mesh';
@@ -161,9 +161,6 @@ function tellStatement(row) {
   fill('help', [...mine, ...STATEMENTS.filter(s => s.word !== word)].map(({ form, meaning }) =>
     make('p', {}, make('code', {}, form), ` ${meaning}`)));
 }
-
-const tellCursor = () =>
-  tellStatement(is('text').value.slice(0, is('text').selectionStart).split('\n').length - 1);
 
 /* Rows of the table in doc/model-file.md. */
 function readStatements(text) {
