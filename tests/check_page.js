@@ -69,17 +69,23 @@ function pullAt(name, text, element, at, where, steps) {
   return vm.runInThisContext('run.frames.at(-1)');
 }
 
-/* At rest, or at an even speed, a pull is what theory says: of a block that hangs from the hand its
+/* At rest, or at an even speed, a pull is what theory says, and its work is in the balance: of a block that hangs from the hand its
  * weight, by which the spring is 1/20 of the block longer; of one on the incline, along the slope
  * W (sin a + cos a tan(phi)), less tan(phi) times its part across. What still swings is below 1e-5
  * after so many steps. */
 function checkForces() {
   const close = (a, b) => assert(Math.abs(a - b) <= 1e-5 * Math.abs(b), `${a}, expected ${b}`);
-  const hanging = pullAt('hanging.model', 'material rock E 1e9 nu 0.2 density 2500\ngravity 0 -10\n' +
+  const { h: hanging, work } = pullAt('hanging.model', 'material rock E 1e9 nu 0.2 density 2500\ngravity 0 -10\n' +
     'contact friction 30\ndynamic dt 0.01 steps 9\nblock a rock 0 0 1 0 1 1 0 1\n', 0, [0.5, 0.9],
-  () => [0.5, 0.9], 500).h;
+  () => [0.5, 0.9], 500);
   close(hanging[6], 25e3);
   close(hanging[4] - hanging[2], 0.05);
+  let done = 25e3 * 0.05;               /* by gravity, but for its strain; then by the hand */
+  vm.runInThisContext('run.frames').slice(1).reduce((y, { h }) => {
+    done += h[6] * (h[2] - y);
+    return h[2];
+  }, 0.9);
+  assert(Math.abs(work - done) <= 1e-3 * 25e3 * 0.05, `${work} J, expected ${done}`);
   const s = Math.sin(Math.PI / 6), c = Math.cos(Math.PI / 6), friction = Math.tan(Math.PI / 9),
     W = 2500 * 9.81 / 2, way = k => 1e-3 * k;
   const [, , , , , fx, fy] = pullAt('incline.model', embedded('incline.model').toString(), 1,
