@@ -62,15 +62,13 @@ function findHandle(x, y) {
 /* Takes what is at a pixel: a block of the text; of the newest picture what can move. */
 function grab(x, y) {
   const f = shown(), e = view.at < 0 && run.state < 2 ? findElement(f, x, y) : -1;
-  const found = isAtStart() && findHandle(x, y);
-  hands.said = hands.why = '';
+  const found = isAtStart() && findHandle(x, y), block = rows(f, 'e')[e]?.[22];
+  const name = e >= 0 && textOf('b', block);
+  hands.said = '';
+  hands.why = isAtStart() && name ? `block ${name} cannot be dragged: ${whyNot(name)}` : '';
   if (found)
     hands.grip = { ...found, points: found.block.points, start: scaleOf(is('view')).from(x, y) };
-  if (isAtStart() && !found && e >= 0) {
-    const name = textOf('b', rows(f, 'e')[e][22]);
-    hands.why = `block ${name} cannot be dragged: ${whyNot(name)}`;
-  }
-  if (isAtStart() || e < 0 || run.blocks[rows(f, 'e')[e][22]].held)
+  if (isAtStart() || e < 0 || run.blocks[block].held)
     return;
   const p = painter(f), at = carry([x, y], rows(f, 'e')[e].subarray(22), p.at, rows(f, 'v'));
   hands.grip = { element: e, at, x, y, scale: p.s * p.magnify };
@@ -97,6 +95,8 @@ function drag(x, y) {
   const g = hands.grip, { s, from } = scaleOf(is('view'));
   if (g.block)
     return dragBlock(g, from(x, y), s);
+  if (g.isGone)
+    return;
   if (!g.holds) {
     run.magnify = painter(shown()).magnify;
     hold(g.element, ...g.at);
@@ -144,12 +144,10 @@ function toggleDrawing() {
 function deletePicked() {
   const picked = rows(shown(), 'e')[view.element];
   const name = picked ? textOf('b', picked[22]) : hands.over?.block.name;
-  if (!isAtStart())
-    sayHand('Reset first: what runs cannot be changed');
-  else if (findBlocks().some(b => b.name === name))
-    deleteBlock(name);
-  else
-    sayHand(name ? `block ${name} cannot be deleted: ${whyNot(name)}` : 'click a block first');
+  if (isAtStart() && findBlocks().some(b => b.name === name))
+    return deleteBlock(name);
+  return sayHand(!isAtStart() ? 'Reset first: what runs cannot be changed'
+    : name ? `block ${name} cannot be deleted: ${whyNot(name)}` : 'click a block first');
 }
 
 /* Whether the hand has slipped in the steps since a frame. */
@@ -157,20 +155,21 @@ function feel(before) {
   const last = run.frames.at(-1);
   if (!hands.grip?.holds || last === before || last.h.length)
     return;
-  hands.grip = null;
+  hands.grip = { isGone: true };
   hands.said = 'the hand slipped: that is more than the blocks can bear';
 }
 
 /* ------------------------------------------------------------------------ how it looks */
 
-/* Text that is read on anything, within the canvas. */
-function drawLabel({ g, w, h }, text, x, y, textAlign = 'left') {
-  const place = [Math.max(8, Math.min(w - 8, x)), Math.max(20, Math.min(h - 8, y))];
-  Object.assign(g, { font: `600 15px ${css('--sans')}`, textAlign, lineWidth: 4,
+/* Text that is read on anything, within the canvas; left of a place, or right of it. */
+function drawLabel({ g, w, h }, text, x, y, isLeft) {
+  Object.assign(g, { font: `600 15px ${css('--sans')}`, textAlign: 'left', lineWidth: 4,
     strokeStyle: css('--paper'), fillStyle: css('--pick') });
+  const { width } = g.measureText(text);
+  const place = [Math.max(8, Math.min(w - 8 - width, x - (isLeft ? width : 0))),
+    Math.max(20, Math.min(h - 8, y))];
   g.strokeText(text, ...place);
   g.fillText(text, ...place);
-  g.textAlign = 'left';
 }
 
 /* From the point to the hand; the force as an arrow, and as a number. */
@@ -188,7 +187,7 @@ function drawPull(p) {
       trace(g, [[l - 11, 5], [l, 0], [l - 11, -5]]);
     }, { line, width: 3 }, P, turn);
   drawLabel(p, quantity(Math.hypot(fx, fy), 'N'), P[0] + (l + 12) * Math.cos(turn),
-    P[1] + (l + 16) * Math.sin(turn) + 5, Math.cos(turn) < 0 ? 'right' : 'left');
+    P[1] + (l + 16) * Math.sin(turn) + 5, Math.cos(turn) < 0);
 }
 
 /* The block that is dragged or drawn, with the grid; or the one under the pointer, with corners.

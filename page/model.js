@@ -96,7 +96,6 @@ function hold(element, x = 0, y = 0) {
   wasm.page_hold(run.handle, element, x, y);
   run.state = wasm.page_state(run.handle);
   run.isPulled = true;
-  warnings = run.warned;
 }
 
 function pull(x, y) {

@@ -278,10 +278,12 @@ int page_step(page *g)
 
 static void put_vertices(page *g, const bbm_model *m)
 {
-    for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        PUT(&g->out, field_place(m, (int)(v - m->vertex), 0),
-            field_place(m, (int)(v - m->vertex), 1), v->u, v->v, m->node[v->node].held,
-            m->element[v->element].block);
+    for (int k = 0; k < m->vertices; k++) {
+        const bbm_vertex *v = &m->vertex[k];
+        const int is_there = !field_is_gone(m, k);
+        PUT(&g->out, field_place(m, k, 0), field_place(m, k, 1), is_there * v->u, is_there * v->v,
+            m->node[v->node].held, m->element[v->element].block);
+    }
 }
 
 static void put_elements(page *g, const bbm_model *m)

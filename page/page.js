@@ -148,8 +148,8 @@ function tellExpected(f) {
   const words = run.isPulled ? /: (ok|NOT MET)$/ : isSecret() ? /; computed.*$/ : /$/;
   const note = run.isPulled ? 'Pulled by hand: ./bbm knows nothing of that, so nothing is judged.'
     : isOver && isSecret() ? 'Not so: the ring is where your number has it. Try once more.' : '';
-  fill('expected', [...`${note}\n${warnings}`.split('\n').filter(word => word)
-    .map(word => make('div', {}, word)),
+  const lines = `${note}\n${run.isPulled ? run.warned : warnings}`.split('\n');
+  fill('expected', [...lines.filter(line => line).map(line => make('div', {}, line)),
   ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
     `${head}: ${f.said[k].replace(words, '')}`))]);
 }

@@ -114,8 +114,10 @@ function undo(by) {
   const to = past.list[past.at + by];
   if (!to)
     return;
+  const { value } = is('text'), at = [...to.text].findIndex((c, k) => c !== value[k]);
   past.at += by;
   setText(to.name, to.text);
+  is('text').setSelectionRange(Math.max(0, at), Math.max(0, at));
 }
 
 /* ------------------------------------------------------------------------ what is kept */

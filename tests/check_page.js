@@ -187,6 +187,7 @@ async function checkSliderAndLink() {
   await type('#lets input[type=range]', '31', 'input');
   assert.equal(await runAll(null, null), said);
   await push('link');
+  await p.until('/^the link is/.test(hands.said)');
   await p.go(await p.do('location.href'));
   assert.equal(await runAll(), said);
   await type('#when', '40', 'input');
@@ -356,6 +357,11 @@ async function checkKeys() {
 
 /* A block in hand follows it in real time, against its weight; what comes out is not judged. */
 async function checkPull() {
+  const begin = Date.now();
+  await push('paced');
+  await runAll('incline.model');                        /* of 1 s, in steps of 0.01 s */
+  assert(Date.now() - begin > 980, `${Date.now() - begin} ms`);
+  await push('paced');
   await type('#gallery', 'incline.model');
   await push('step');
   await p.until('!playing');
@@ -368,7 +374,7 @@ async function checkPull() {
   assert.match(await text('expected'), /^Pulled by hand[^]*by hand: corner u/);
   await p.until('run.frames.at(-1).step > 200');        /* the file has 100 */
   await mouse('Released', 0.3, 2);
-  assert(await p.do('run.frames.at(-1).h.length === 7 && hands.grip === null'));
+  assert(await p.do('hands.grip === null'));
   await p.until('run.frames.at(-1).h.length === 0 && run.frames.at(-1).o[1] < 1');
 }
 
