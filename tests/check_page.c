@@ -159,8 +159,8 @@ START_TEST(the_looks_at_a_step_lead_from_state_to_state)
 }
 END_TEST
 
-/* The block of the incline, 1 m x 0.5 m, in the air; by its centre, so that it does not turn. After so many steps, four times those of the
- * file, what still swings is below 1e-5. */
+/* The block of the incline, 1 m x 0.5 m, in the air; by its centre, so that it does not turn. After
+ * so many steps, four times those of the file, what still swings is below 1e-5. */
 START_TEST(a_hand_that_lifts_a_block_carries_its_weight)
 {
     model p;
