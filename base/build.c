@@ -200,12 +200,12 @@ static bbm_status add_line(bbm_model *m, bbm_line_load load, bbm_field *f, const
 
     if (!is_node(m, p) || !is_node(m, q))
         return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", p, q, m->nodes);
-    const bbm_node *a = &m->node[p], *b = &m->node[q];
+    const bbm_node a = m->node[p], b = m->node[q];      /* f may add nodes */
     for (int g = 0; g < BBM_GAUSS; g++) {
         double s, weight;
         bbm_gauss_point(g, &s, &weight);
         if (f)
-            f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
+            f(a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, context, load.f[g]);
         if (!isfinite(load.f[g][0]) || !isfinite(load.f[g][1]))
             return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", p, q);
     }
@@ -318,12 +318,24 @@ static bbm_status place_line_loads(bbm_model *m)
     return BBM_OK;
 }
 
-/* The arrays that the steps need. A bond has two gaps. A vertex that is held has one gap, and a
- * hook may add two of the edge that starts there. */
+/* The most gaps that there may be. A bond has two. A vertex that is held has one, and a hook may add
+ * two of the edge that starts there, and one between each two corners of a node. */
+size_t bbm_most_gaps(const bbm_model *m)
+{
+    size_t most = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices;
+
+    for (int n = 0; n < m->nodes && m->hook->list_gaps; n++) {
+        const size_t corners = (size_t)(m->adjacent_first[n + 1] - m->adjacent_first[n]);
+        most += corners * (corners - 1) / 2;
+    }
+    return most;
+}
+
+/* The arrays that the steps need. */
 static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
-    m->gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *m->gap);
+    m->gap = calloc(bbm_most_gaps(m), sizeof *m->gap);
     if (!m->F || !m->gap)
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;

@@ -4,7 +4,7 @@
 const is = id => document.getElementById(id);
 /* ms of steps between two pictures; unknowns; s by which real time may lag; ms */
 const WORK = 12, LARGE = 5000, LAG = 0.05, SLOW = 150;
-const EXERCISES = {};                           /* of the chapters: title, model, text */
+const EXERCISES = Object.create(null);         /* of the chapters: title, model, text */
 let playing = false, turns = 0, task = null, hasPredicted = false, predictions = 0;
 
 /* The frame in hand, or the one before that has kept its arrays. */
