@@ -127,8 +127,8 @@ void bbm_assemble(bbm_model *m)
     const clock_t start = clock();
     int g = 0;
 
-    gather_loads(m);
     bbm_matrix_clear(m->K);
+    gather_loads(m);                                /* a hook's load may depend on D: part of K */
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     for (int i = 0; i < m->elements; i++)
         assemble_element(m, i);

@@ -1,8 +1,8 @@
 # assemble.awk - page/page.html with what it names, as one file:
 #     awk -f page/assemble.awk page/page.html out/bbm.wasm MODEL ...
 #
-# @include FILE ... stands for the text of files. @files stands for all others, in base64, so that
-# nothing in them is markup; their names are those behind the last slash.
+# @include FILE ... stands for the text of files. @files stands for all others, packed by gzip, in
+# base64, so that nothing in them is markup; their names are those behind the last slash.
 
 $1 == "@include" {
     for (k = 2; k <= NF; k++)
@@ -15,7 +15,7 @@ $1 == "@files" {
     for (k = 2; k < ARGC; k++) {
         name = ARGV[k]
         sub(/.*\//, "", name)
-        ("base64 < " ARGV[k] " | tr -d '\\n'") | getline line
+        ("gzip -9n < " ARGV[k] " | base64 | tr -d '\\n'") | getline line
         print "<script type=\"text/plain\" data-file=\"" name "\">" line "</script>"
         ARGV[k] = ""
     }

@@ -11,14 +11,30 @@ function findTicks(values, n) {
   return times(Math.max(1, Math.ceil(high / step - 0.02) - first) + 1, k => (first + k) * step);
 }
 
+/* Of each n values the least and the largest, as [place, value]. */
+const thinOut = (values, n) => times(Math.ceil(values.length / n), i => {
+  const part = values.slice(n * i, n * i + n);
+  return [Math.min(...part), Math.max(...part)].map(a => [n * i + part.indexOf(a), a])
+    .sort((p, q) => p[0] - q[0]);
+}).flat();
+
+/* Of each frame a number; that of an old frame is not asked for again. */
+function valuesOf(name, ask) {
+  const values = run.curves[name] ??= [], n = run.frames.length - !!run.frames.at(-1).failure;
+  while (values.length < n)
+    values.push(ask(run.frames[values.length]));
+  return values;
+}
+
 /* Curves [name, values, bands [low, high] of `expect`, if any], one scale for all. */
 function drawGraph(id, unit, all) {
   const { g, w, h } = begin(id), ink = css('--ink'), left = 68, right = w - 8, bottom = h - 8;
-  const curves = all.map(([name, values], k) =>
-    ({ name, values, line: css(COLOURS[k % 5]), dash: DASHES[k % 6] }));
+  const curves = all.map(([name, values], k) => ({ name, line: css(COLOURS[k % 5]),
+    dash: DASHES[k % 6], points: thinOut(values, Math.ceil(values.length / 300)) }));
   Object.assign(g, { font: `12px ${css('--sans')}`, fillStyle: ink });
   const top = drawNames(g, w, 11, curves) + 13, n = run.frames.length - 1;
-  const ticks = findTicks([0, ...all.flatMap(c => c.slice(1).flat(2))], (bottom - top) / 28);
+  const values = [curves.map(c => c.points.map(p => p[1])), all.map(c => c[2] ?? [])].flat(3);
+  const ticks = findTicks([0, ...values], (bottom - top) / 28);
   const low = ticks[0], high = ticks.at(-1);
   const X = k => left + (right - left) * k / Math.max(1, n);
   const Y = a => bottom - (bottom - top) * (a - low) / (high - low);
@@ -31,29 +47,30 @@ function drawGraph(id, unit, all) {
   }
   const now = X(view.at < 0 ? n : view.at);
   paint(g, () => trace(g, [[now, top], [now, bottom]]), { line: css('--pick'), width: 2 });
-  for (const { values, line, dash } of curves)
-    paint(g, () => trace(g, values.map((a, k) => [X(k), Y(a)])), { line, dash, width: 1.8 });
+  for (const { points, line, dash } of curves)
+    paint(g, () => trace(g, points.map(([k, a]) => [X(k), Y(a)])), { line, dash, width: 1.8 });
 }
 
 /* Energies as they changed since the start, so that one scale serves: what the work of loads and
  * gravity has become. Monitors of nodes, and those of joints with 4 numbers: the numbers for which
  * something is expected, or else all. */
 function drawGraphs(frame) {
-  const frames = run.frames.filter(f => !f.failure);
-  const since = name => frames.map(f => f[name] - (name === 'kinetic' ? 0 : frames[0][name]));
-  drawGraph('energies', 'J',
-    ['kinetic', 'elastic', 'springs', 'work', 'gained'].map(name => [name, since(name)]));
-  drawGraph('passes', '', [['open-close passes', frames.map(f => f.passes)]]);
-  for (const [id, unit, n, curves] of [['monitors', 'm', 2, []], ['joints', 'N', 4, []]]) {
+  const graphs = [['monitors', 'm', 2, []], ['joints', 'N', 4, []]];
+  const since = name =>
+    valuesOf(name, f => f[name] - (name === 'kinetic' ? 0 : run.frames[0][name]));
+  for (const [id, , n, curves] of graphs) {
     run.monitors.forEach(([name, ...what], k) => what.length === n && what.forEach((axis, i) => {
       const asked = rows(frame, 'x').filter(x => x[0] === k), fit = asked.filter(x => x[1] === i);
       if (fit.length || asked.every(x => x[1] >= n))
-        curves.push([`${name} ${axis}`, frames.map(f => f.o[4 * k + i]),
+        curves.push([`${name} ${axis}`, valuesOf(`${k} ${i}`, f => f.o[4 * k + i]),
           fit.map(x => [x[2] - x[3], x[2] + x[3]])]);
     }));
-    is(id).hidden = curves.length === 0;
-    drawGraph(id, unit, curves);
+    is(id).hidden = curves.length === 0 || isSecret();
   }
+  drawGraph('energies', 'J',
+    ['kinetic', 'elastic', 'springs', 'work', 'gained'].map(name => [name, since(name)]));
+  drawGraph('passes', '', [['open-close passes', valuesOf('passes', f => f.passes)]]);
+  graphs.forEach(([id, unit, , curves]) => drawGraph(id, unit, curves));
 }
 
 /* Of the newest step, in the solver's order; the row and column of an element that is picked. */

@@ -108,5 +108,4 @@ function tellLook(frame) {
       STATES[c[2]], STATES[c[3]], c[4], c[5], c[6],
       look.what === LISTED ? 'as it began' : rowOf(look, c)[1]],
     { className: isChange(look, c) ? 'changed' : '', onclick: () => pick(-1, c) }))]);
-  return look;
 }

@@ -4,7 +4,8 @@
  * page.h; after a while every second one loses its arrays, but not the last one. */
 'use strict';
 
-const STRIDE = { v: 6, e: 26, d: 3, c: 10, l: 4, x: 5, k: 2 }, ARRAYS = [...'veclxp'];
+const STRIDE = { v: 6, e: 26, d: 3, c: 10, l: 4, x: 5, k: 2, b: 6, h: 7 },
+  ARRAYS = [...'veclxpbh'];
 const FACTS = ('step t steps dynamic settling settle begun dt passes iterations residual cuts ' +
   'contacts penetration candidates change kinetic elastic springs work gained scale').split(' ');
 /* States of contacts; what precedes a look at them, as in page.h. */
@@ -49,7 +50,8 @@ function loadModel(name, text) {
   wasm.page_free(said ? handle : run?.handle ?? 0);
   if (said)
     return said;
-  run = { handle, name, frames: [], bytes: 0, state: 0 };
+  run = { handle, name, frames: [], bytes: 0, state: 0, warned: warnings,
+    curves: {}, due: 0, at: 0 };
   run.d = numbersOf('d');
   keepFrame();
   run.monitors = times(run.frames[0].o.length / 4, k =>
@@ -68,8 +70,10 @@ function keepFrame() {
   frame.said = rows(frame, 'x').map((_, k) => textOf('x', k));
   if (failure)
     frame.step = Math.min(frame.step + 1, frame.steps);
-  if (run.frames.at(-1)?.begun === 0)
+  if (run.frames.at(-1)?.begun === 0) {
     run.frames.pop();
+    run.curves = {};
+  }
   run.frames.push(frame);
   run.bytes += ARRAYS.reduce((sum, what) => sum + frame.begun * frame[what].byteLength, 0);
   if (run.bytes > ROOM) {
@@ -84,4 +88,17 @@ function stepModel() {
   run.state = wasm.page_step(run.handle);
   keepFrame();
   return run.state === 0;
+}
+
+/* A hand takes a point of an element, or lets go (-1). What comes out is no answer to the file any
+ * more, and not judged. */
+function hold(element, x = 0, y = 0) {
+  wasm.page_hold(run.handle, element, x, y);
+  run.state = wasm.page_state(run.handle);
+  run.isPulled = true;
+}
+
+function pull(x, y) {
+  wasm.page_pull(run.handle, x, y);
+  run.state = wasm.page_state(run.handle);
 }

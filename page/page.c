@@ -9,10 +9,30 @@
 #include "../program/warn.h"
 #include "page.h"
 
-/* s that a step may take; numbers of the looks at a step. */
-enum { LIMIT = 60, LOOKS = 2000000 };
+/* LIMIT    s that a step may take
+ * PULLED   solutions that a step may take while a hand pulls: then it slips
+ * LOOKS    numbers of the looks at a step */
+enum { LIMIT = 60, PULLED = 60, LOOKS = 2000000 };
+
+/* The spring of a hand.
+ * SAG      its length under the weight of the block, against the block's size
+ * SWING    steps in a radian of its swing, where nothing has a weight
+ * DAMPING  against that which lets nothing swing
+ * MOST     its largest force, against the weight
+ * DEEP     how deep that force may press a contact, against the block's size */
+#define SAG     0.05
+#define SWING   10
+#define DAMPING 0.7
+#define MOST    20
+#define DEEP    0.01
 
 typedef struct { int n, room, failed; double *x; } numbers;
+
+typedef struct {                        /* of a point of an element, which it pulls to a place */
+    int    element;                     /* -1: it holds nothing */
+    double k, c, most;                  /* N/m, N s/m, N */
+    double at[2], to[2], f[2];          /* m from model.origin; N, on the point */
+} hand;
 
 struct page {
     model p;
@@ -22,6 +42,9 @@ struct page {
     numbers out, look, before;          /* before: states of the contacts at the last look */
     int rounds;                         /* of multipliers, at the last look */
     clock_t began;                      /* the step in hand */
+    hand hand;
+    int steps;                          /* those of the file */
+    bbm_hooks library;                  /* behind the hooks of the hand */
 };
 
 static void put(numbers *a, int n, const double x[])
@@ -77,7 +100,111 @@ static int before_solution(const bbm_model *m, void *context)
     g->rounds = round;
     note_look(g, w->contact, w->contacts, w->friction_passes ? PAGE_FRICTION
               : more ? PAGE_SAME_K : w->passes ? PAGE_JUDGED : PAGE_LISTED);
-    return clock() - g->began > (clock_t)LIMIT * CLOCKS_PER_SEC;
+    return clock() - g->began > (clock_t)LIMIT * CLOCKS_PER_SEC
+        || (g->hand.element >= 0 && m->info.passes > PULLED);
+}
+
+/* ------------------------------------------------------------------------- a hand */
+
+/* Its force is a load that depends on D, so that no step is too long for it:
+ *     f = f0 - s T D,    f0 = k (to - at), at most `most`,    s = k + c/h.
+ * Writes f0, and T at the point; returns s. */
+static double find_pull(const page *g, double f0[2], double T[2][6])
+{
+    const hand *a = &g->hand;
+    const bbm_model *m = g->p.m;
+    const double x = a->to[0] - a->at[0], y = a->to[1] - a->at[1];
+    const double k = a->k * hypot(x, y) > a->most ? a->most / hypot(x, y) : a->k;
+
+    f0[0] = k * x, f0[1] = k * y;
+    bbm_step_matrix(&m->element[a->element], a->at[0], a->at[1], T);
+    return a->k + (bbm_is_static(m) ? 0 : a->c / m->h);
+}
+
+/* Adds T^T f0 to the loads, and s T^T T to K. */
+static void load_by_hand(bbm_model *m)
+{
+    const page *g = m->monitor_context;
+    const int e = g->hand.element;
+    double T[2][6], K[6][6], f0[2];
+
+    if (g->library.load)
+        g->library.load(m);
+    if (e < 0)
+        return;
+    const double s = find_pull(g, f0, T);
+    bbm_point_load(&m->element[e], g->hand.at[0], g->hand.at[1], f0, &m->load[6 * e]);
+    for (int i = 0; i < 36; i++)
+        K[i / 6][i % 6] = s * (T[0][i / 6] * T[0][i % 6] + T[1][i / 6] * T[1][i % 6]);
+    bbm_matrix_add(m->K, e, e, K);
+}
+
+/* The load becomes that of the solution, T^T f, so that its work is in the balance. The point moves
+ * with its element. */
+static bbm_status move_by_hand(bbm_model *m)
+{
+    page *g = m->monitor_context;
+    hand *a = &g->hand;
+    double T[2][6], f0[2], u[2], more[2] = { 0, 0 };
+
+    if (a->element < 0)
+        return g->library.move(m);
+    const bbm_element *e = &m->element[a->element];
+    const double *D = &m->D[6 * a->element], s = find_pull(g, f0, T);
+    for (int i = 0; i < 12; i++)
+        more[i / 6] -= s * T[i / 6][i % 6] * D[i % 6];
+    bbm_point_load(e, a->at[0], a->at[1], more, &m->load[6 * a->element]);
+    bbm_move(m, e, D, a->at[0], a->at[1], u);
+    const bbm_status status = g->library.move(m);
+    for (int r = 0; r < 2 && !status; r++)
+        a->f[r] = f0[r] + more[r], a->at[r] += u[r];
+    return status;
+}
+
+/* A run that is over goes on, by as many steps as the file has. */
+static void go_on(page *g)
+{
+    bbm_parameters *par = &g->p.m->par;
+    const int last = g->p.m->info.step + g->steps;
+
+    g->r.stage_is_over &= !g->r.is_over;
+    g->r.is_over = 0;
+    if (g->p.now == g->p.stages && par->steps < last)
+        par->steps = last;
+}
+
+/* The spring is as stiff as the block is heavy, or in statics as the material, so that the point
+ * follows. */
+void page_hold(page *g, int element, double x, double y)
+{
+    const bbm_model *m = g->p.m;
+    double mass = 0, area = 0;
+
+    g->hand.element = -1;
+    if (page_state(g) == 2)
+        return;
+    go_on(g);
+    if (element < 0 || element >= m->elements)
+        return;
+    const bbm_material *of = &m->element[element].material;
+    for (const bbm_element *e = m->element; e < m->element + m->elements; e++)
+        if (e->block == m->element[element].block) {
+            area += e->A0;
+            mass += e->A0 * e->material.density * e->material.thickness;
+        }
+    const double weight = mass * hypot(m->par.gravity[0], m->par.gravity[1]);
+    const double k = !g->p.dynamic ? of->E * of->thickness
+                   : weight > 0 ? weight / (SAG * sqrt(area)) : mass / pow(SWING * m->par.dt, 2);
+    const double most = fmin(weight > 0 ? MOST * weight : INFINITY, DEEP * m->par.p_n * sqrt(area));
+    const double X = x - m->origin[0], Y = y - m->origin[1], c = 2 * DAMPING * sqrt(k * mass);
+    g->hand = (hand){ element, k, c, g->p.dynamic ? most : INFINITY, { X, Y }, { X, Y }, { 0, 0 } };
+}
+
+void page_pull(page *g, double x, double y)
+{
+    g->hand.to[0] = x - g->p.m->origin[0];
+    g->hand.to[1] = y - g->p.m->origin[1];
+    go_on(g);
 }
 
 /* ------------------------------------------------------------------------- load and step */
@@ -93,6 +220,11 @@ page *page_load(const char *path)
     g->r = (run){ .p = &g->p, .settling = g->p.settle };
     g->p.m->monitor = before_solution;
     g->p.m->monitor_context = g;
+    g->hand.element = -1;
+    g->steps = g->p.m->par.steps;
+    g->library = *g->p.m->hook;
+    g->p.m->hook->load = load_by_hand;
+    g->p.m->hook->move = move_by_hand;
     warn_before(&g->p, path);
     return g;
 }
@@ -108,13 +240,29 @@ void page_free(page *g)
 
 int page_state(const page *g) { return !g || g->p.status || g->status ? 2 : g->r.is_over; }
 
+static void begin_step(page *g)
+{
+    g->began = clock();
+    g->look.n = 0;
+    g->status = run_step(&g->r);
+}
+
+/* A step that a hand makes fail is done again without the hand. */
 int page_step(page *g)
 {
     if (page_state(g))
         return page_state(g);
-    g->began = clock();
-    g->look.n = 0;
-    g->status = run_step(&g->r);
+    const bbm_model *m = g->p.m;
+    const int held = g->hand.element;
+    if (held >= 0 && field_is_gone(m, m->element[held].first))
+        g->hand.element = -1;
+    if (held >= 0 && g->p.dynamic)
+        go_on(g);
+    begin_step(g);
+    if (g->status && g->hand.element >= 0) {
+        g->hand.element = -1;
+        begin_step(g);
+    }
     if (g->r.is_over)
         warn_after(&g->p, "the run");
     if (g->status)
@@ -130,9 +278,12 @@ int page_step(page *g)
 
 static void put_vertices(page *g, const bbm_model *m)
 {
-    for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        PUT(&g->out, field_place(m, (int)(v - m->vertex), 0), field_place(m, (int)(v - m->vertex), 1),
-            v->u, v->v, m->node[v->node].held, m->element[v->element].block);
+    for (int k = 0; k < m->vertices; k++) {
+        const bbm_vertex *v = &m->vertex[k];
+        const int is_there = !field_is_gone(m, k);
+        PUT(&g->out, field_place(m, k, 0), field_place(m, k, 1), is_there * v->u, is_there * v->v,
+            m->node[v->node].held, m->element[v->element].block);
+    }
 }
 
 static void put_elements(page *g, const bbm_model *m)
@@ -141,9 +292,9 @@ static void put_elements(page *g, const bbm_model *m)
         put(&g->out, 6, e->D);
         put(&g->out, 6, e->V);
         put(&g->out, 3, e->stress);
-        PUT(&g->out, e->szz, bbm_mises(e->stress, e->szz), hypot(e->sum[0], e->sum[1]), e->material.E,
-            e->material.nu, e->material.density, e->material.thickness, e->block, e->first, e->n,
-            m->K->place[e - m->element]);
+        PUT(&g->out, e->szz, bbm_mises(e->stress, e->szz), hypot(e->sum[0], e->sum[1]),
+            e->material.E, e->material.nu, e->material.density, e->material.thickness, e->block,
+            e->first, e->n, m->K->place[e - m->element]);
     }
 }
 
@@ -220,6 +371,26 @@ static void put_expectations(page *g, const bbm_model *m)
     }
 }
 
+static void put_hand(page *g, const bbm_model *m)
+{
+    const hand *a = &g->hand;
+    const double *o = m->origin;
+
+    if (a->element >= 0)
+        PUT(&g->out, a->element, a->at[0] + o[0], a->at[1] + o[1], a->to[0] + o[0], a->to[1] + o[1],
+            a->f[0], a->f[1]);
+}
+
+static void put_bolts(page *g, const bbm_model *m)
+{
+    for (const scene_bolt *b = g->p.bolt; b < g->p.bolt + g->p.bolts; b++)
+        for (int k = 0; k < 2 && m->info.t < b->until; k++) {
+            const scene_end *e = &b->end[k];
+            PUT(&g->out, e->vertex[0], e->vertex[1], e->vertex[2], e->share[0], e->share[1],
+                e->share[2]);
+        }
+}
+
 static void put_looks(page *g, const bbm_model *m) { (void)m, put(&g->out, g->look.n, g->look.x); }
 
 int page_numbers(page *g, int what)
@@ -227,7 +398,7 @@ int page_numbers(page *g, int what)
     static const struct { int what; void (*put)(page *g, const bbm_model *m); } table[] = {
         { 'v', put_vertices }, { 'e', put_elements }, { 'd', put_edges }, { 'c', put_contacts },
         { 'l', put_loads }, { 'k', put_pattern }, { 'f', put_facts }, { 'x', put_expectations },
-        { 'p', put_looks },
+        { 'p', put_looks }, { 'h', put_hand }, { 'b', put_bolts },
     };
 
     g->out.n = g->out.failed = 0;

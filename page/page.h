@@ -21,6 +21,12 @@ void  page_free(page *g);
 int   page_state(const page *g);
 int   page_step(page *g);       /* one step, if there is one left; the state */
 
+/* A hand takes the point (x, y) [m] of an element, -1: lets go; and pulls it to a place, by a
+ * damped spring that takes part in each step. A run that is over goes on. Where a step fails by the
+ * pull, the hand lets go. */
+void  page_hold(page *g, int element, double x, double y);
+void  page_pull(page *g, double x, double y);
+
 /* m: why it failed; t: the title; b, e, o: name of a block, element, monitor; q: what may be
  * expected of a monitor, u|v|moves|stays or normal|shear|fx|fy; n: name of the node of a vertex; x:
  * expectation k beside what came out. What is not there is "". */
@@ -36,6 +42,8 @@ const char *page_text(page *g, int what, int k);
  *     k  of each submatrix below the diagonal of K: row column
  *     f  facts of the step; then of each monitor u v 0 0, or of a joint normal shear fx fy
  *     x  of each expectation: monitor kind value within met
+ *     b  of both ends of each bolt that holds: its three vertices, their shares
+ *     h  of the hand, if it holds: element, x y of the point, x y of the place, fx fy in N
  *     p  of each look at the contacts in the last step: t h what count; and of each that is closed
  *        before or after: corner edge from to N T d_n, whether in tension */
 int     page_numbers(page *g, int what);

@@ -2,13 +2,13 @@
 'use strict';
 
 const is = id => document.getElementById(id);
-const WORK = 12, LARGE = 5000;  /* ms of steps between two pictures; unknowns */
-const NUMBER = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
+/* ms of steps between two pictures; unknowns; s by which real time may lag; ms */
+const WORK = 12, LARGE = 5000, LAG = 0.05, SLOW = 150;
 const EXERCISES = Object.create(null);         /* of the chapters: title, model, text */
-let playing = false, turns = 0, task = null, hasPredicted = false;
+let playing = false, turns = 0, task = null, hasPredicted = false, predictions = 0;
 
 /* The frame in hand, or the one before that has kept its arrays. */
-const shown = () => run.frames.slice(0, view.at < 0 ? undefined : view.at + 1).findLast(f => f.v);
+const shown = () => run.frames.findLast((f, k) => f.v && (view.at < 0 || k <= view.at));
 
 /* ------------------------------------------------------------------------ the model */
 
@@ -21,6 +21,7 @@ function showError(said) {
   is('lines').replaceChildren(...lines.map((_, k) =>
     make('div', { className: `${k + 1}` === bad ? 'bad' : '' }, `${k + 1}`)));
   document.querySelector('.bad')?.scrollIntoView({ block: 'nearest' });
+  tellStatement(bad - 1);
 }
 
 /* A slider for each `let` with a number. Its range is in a comment `# 0 .. 60`, or from 0 to twice
@@ -38,6 +39,7 @@ function makeSliders() {
       const again = playing || run.frames.length > 1;
       is('text').value = is('text').value.replace(let_ + word, let_ + value);
       word = slide.value = number.value = value;
+      rememberSoon();
       if (load() && again)
         play(true);
     };
@@ -48,7 +50,8 @@ function makeSliders() {
 /* Reads the text; the model that was there stays if it is wrong. */
 function load() {
   play(false);
-  const said = loadModel(task?.model ?? is('gallery').value, is('text').value);
+  Object.assign(hands, IDLE);
+  const said = loadModel(task?.model ?? past.name.replace(OWN, ''), is('text').value);
   showError(said && run ? `${said} (what is shown is the model before)` : said);
   if (said)
     return false;
@@ -61,20 +64,35 @@ function load() {
   return true;
 }
 
-/* A model of the gallery, or an exercise with its model, without the answers that it comes with. */
+/* A model of the gallery, one of a person's own, or an exercise with its model, without the answers
+ * that it comes with. */
 function choose(name, text) {
-  task = EXERCISES[name];
-  text ??= files.get(`gallery/${task?.model ?? name}`) ?? `# there is no ${name} here`;
-  is('gallery').value = name;
-  is('text').value = task ? text.replace(/^ *(#|expect).*\n/gm, '') : text;
-  is('edit').scrollTop = 0;
+  const model = EXERCISES[name] || /\.model/.test(name) ? name : `${name}.model`;
+  text ??= files.get(`gallery/${EXERCISES[model]?.model ?? model}`) ?? `# there is no ${name} here`;
+  if (past.list.length)
+    remember();
   Object.assign(view, WHOLE);
+  is('edit').scrollTop = 0;
+  setText(model, EXERCISES[model] ? text.replace(/^ *(#|expect).*\n/gm, '') : text);
+  kept.bbm = model;
+  remember(false);
+}
+
+function setText(name, text) {
+  task = EXERCISES[name];
+  past.name = is('gallery').value = name;
+  is('text').value = text;
   is('exercise').reset();
   is('exercise').hidden = !task;
+  predictions = 0;
   fill('task', [make('b', {}, task?.title ?? ''), make('p', {}, task?.text ?? '')]);
   makeSliders();
   load();
 }
+
+/* The first prediction, if it is wrong, does not bring the number, but a picture of itself. */
+const isSecret = () => task && predictions < 2 &&
+  !(run.state === 1 && rows(run.frames.at(-1), 'x').every(x => x[4]));
 
 /* An exercise runs when what will come out has been written down. */
 function predict() {
@@ -82,6 +100,7 @@ function predict() {
   is('text').value = is('text').value.replace(/\n*expect .*\n*$/, '') +
     `\n\nexpect ${what} ${number} within ${within}\n`;
   hasPredicted = load();
+  predictions += hasPredicted;
   play(true);
   return false;
 }
@@ -106,32 +125,55 @@ function play(on, once = false) {
     requestAnimationFrame(() => setTimeout(() => turn === turns && work(once)));
 }
 
+/* In real time no step begins before its time has come; a delay is not made up for. After a pull
+ * time is real. Steps take longer than pictures, if there are enough of them. */
 function work(once) {
-  const start = performance.now();
+  const start = performance.now(), before = run.frames.at(-1), { t, dynamic, begun } = before;
+  const isPaced = dynamic && begun && !once && (run.isPulled || is('paced').checked);
+  const end = start + Math.max(WORK, 3 * run.took);
   let more = true;
-  while (more && performance.now() - start < WORK)
+  run.due = Math.max(t, Math.min(t + LAG, run.due + (start - run.at) / 1e3));
+  run.at = start;
+  while (more && performance.now() < end && (!isPaced || run.frames.at(-1).t < run.due))
     more = stepModel() && !(once && run.frames.at(-1).begun);
+  feel(before);
   play(more, once);
   setView(NEWEST);
 }
 
+/* What is expected, and what has come out. What a hand has pulled is not judged. */
+function tellExpected(f) {
+  const isOver = run.state === 1 && view.at < 0 && !run.isPulled;
+  const head = run.isPulled ? 'by hand' : isOver ? 'expected' : 'so far';
+  const words = run.isPulled ? /: (ok|NOT MET)$/ : isSecret() ? /; computed.*$/ : /$/;
+  const note = run.isPulled ? 'Pulled by hand: ./bbm knows nothing of that, so nothing is judged.'
+    : isOver && isSecret() ? 'Not so: the ring is where your number has it. Try once more.' : '';
+  const lines = `${note}\n${run.isPulled ? run.warned : warnings}`.split('\n');
+  fill('expected', [...lines.filter(line => line).map(line => make('div', {}, line)),
+  ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
+    `${head}: ${f.said[k].replace(words, '')}`))]);
+}
+
+/* All but the picture need not be as quick, and is drawn each SLOW ms while it plays. */
 function show() {
-  const f = shown(), isOver = run.state === 1 && view.at < 0, isInside = is('inside').checked;
+  const f = shown(), isDeep = is('inside').checked, look = isDeep && looksOf(f)[view.look];
+  const start = performance.now();
+  drawPicture(f, look);                         /* before what changes the layout */
+  run.took = performance.now() - start;
   is('when').max = run.frames.length - 1;
   is('when').value = view.at < 0 ? run.frames.length - 1 : view.at;
   is('say').textContent = !f.begun ? `settling ${f.settle - f.settling} of ${f.settle}`
-    : `step ${f.step} of ${f.steps}${f.dynamic ? `  t = ${format(f.t)} s` : ''}` +
-    (f.failure && '  failed');
+    : `step ${f.step}${run.isPulled ? '' : ` of ${f.steps}`}` +
+    (f.dynamic ? `  t = ${format(f.t)} s` : '') + (f.failure && '  failed');
+  if (playing && performance.now() < run.slow)
+    return;
   if (f.failure)
     showError(`${run.name}: ${f.failure}`);
-  fill('expected', [...warnings.split('\n').filter(word => word).map(word => make('div', {}, word)),
-    ...rows(f, 'x').map((x, k) => make('div', { className: !isOver ? '' : x[4] ? 'ok' : 'missed' },
-      `${isOver ? 'expected' : 'so far'}: ${f.said[k]}`))]);
-  drawPicture(f, isInside && tellLook(f));
+  tellExpected(f);
   tell(f);
-  if (!isInside)
-    drawGraphs(f);
+  isDeep ? tellLook(f) : drawGraphs(f);
   drawPattern();
+  run.slow = performance.now() + SLOW;
 }
 
 /* ------------------------------------------------------------------------ hands */
@@ -156,48 +198,74 @@ const moveLook = by =>
 
 /* The link has a name of the gallery, and the text. */
 function makeLink() {
-  const link = new URLSearchParams({ model: is('gallery').value, text: is('text').value });
+  const link = new URLSearchParams({ model: past.name.replace(OWN, ''), text: is('text').value });
   history.replaceState(null, '', '#' + link);
-  navigator.clipboard?.writeText(location.href).catch(() => {});
+  navigator.clipboard?.writeText(location.href).then(() => sayHand('the link is copied'),
+    () => sayHand('the link is in the line of the address'));
 }
 
 function followLink() {
   const link = new URLSearchParams(location.hash.slice(1));
   is('full').checked = link.has('full');
-  choose(link.get('model') ?? 'arch.model', link.get('text') ?? undefined);
+  choose(link.get('model') ?? kept.bbm ?? 'arch.model', link.get('text') ?? undefined);
 }
 
 /* Of the keys: what has no button or box with data-key. */
-const KEYS = { 0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
-  Escape: () => is('full').checked && is('full').click(),
+const KEYS = { Delete: deletePicked, Backspace: deletePicked,
+  0: () => setView(WHOLE), '+': () => zoom(1.25), '-': () => zoom(0.8),
+  Escape: () => hands.corners ? toggleDrawing() : is('full').checked && is('full').click(),
   ArrowLeft: () => goTo((view.at < 0 ? run.frames.length : view.at + 1) - 2),
   ArrowRight: () => view.at >= 0 && goTo(view.at + 1) };
 
 function pressKey(event) {
-  const { key, target, ctrlKey, metaKey } = event, isPressed = key === ' ' || key === 'Enter';
+  const { target, ctrlKey, metaKey } = event, isPressed = /^( |Enter)$/.test(event.key);
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const isOwn = target.matches('textarea, select, input:not([type=checkbox])') ||
     isPressed && target.matches('button, input');
   const button = document.querySelector(`[data-key=${CSS.escape(key)}]`);
+  if ((ctrlKey || metaKey) && /^[zy]$/.test(key) && !target.matches('input:not([type]), #notes')) {
+    event.preventDefault();
+    undo(key === 'y' || event.shiftKey ? 1 : -1);
+  }
   if (!KEYS[key] && !button || ctrlKey || metaKey || isOwn && key !== 'Escape')
     return;
   event.preventDefault();
   KEYS[key] ? KEYS[key]() : button.click();
 }
 
-/* Drags the picture, or picks what a click is at. */
+/* Drags what a hand takes, or else the picture; picks what a click is at. */
 function listenToPicture(canvas) {
-  let from, last;
+  let from, last, isDrag;
   canvas.onpointerdown = e => {
     from = last = [e.offsetX, e.offsetY];
+    isDrag = false;
     canvas.setPointerCapture(e.pointerId);
+    if (!hands.corners)
+      grab(...from);
   };
   canvas.onpointermove = e => {
-    if (e.buttons)
-      setView({ x: view.x + e.offsetX - last[0], y: view.y + e.offsetY - last[1] });
-    last = [e.offsetX, e.offsetY];
+    const here = hands.place = [e.offsetX, e.offsetY], [dx, dy] = here.map((a, k) => a - last?.[k]);
+    isDrag ||= e.buttons && Math.hypot(here[0] - from[0], here[1] - from[1]) >= 4;
+    if (e.buttons && isDrag && hands.grip)
+      drag(...here);
+    else if (e.buttons && isDrag) {
+      hands.said = hands.why;
+      setView({ x: view.x + dx, y: view.y + dy });
+    } else if (isAtStart()) {
+      hands.over = findHandle(...here);
+      redraw();
+    }
+    if (isDrag || !e.buttons)
+      last = here;
   };
-  canvas.onclick = e => Math.hypot(e.offsetX - from[0], e.offsetY - from[1]) < 4 &&
-    pick(...findAt(shown(), e.offsetX, e.offsetY));
+  canvas.onpointerup = canvas.onpointercancel = drop;
+  canvas.onclick = e => {
+    if (hands.corners && !isDrag)
+      setCorner(e.offsetX, e.offsetY, false);
+    else if (!isDrag)
+      pick(...findAt(shown(), e.offsetX, e.offsetY));
+  };
+  canvas.ondblclick = e => hands.corners && setCorner(e.offsetX, e.offsetY, true);
   canvas.onwheel = e => { e.preventDefault(); zoom(Math.exp(-e.deltaY / 500)); };
 }
 
@@ -211,29 +279,34 @@ function readExercises(text) {
 }
 
 async function start() {
-  const models = [], bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
-  let later;
+  const models = [], unpack = text => new Response(new Blob([Uint8Array.from(atob(text),
+    c => c.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream('gzip')));
   for (const kind of ['error', 'unhandledrejection'])
     addEventListener(kind, e => showError(`The page has failed: ${e.reason ?? e.message}`));
   for (const { dataset: { file }, textContent } of document.querySelectorAll('[data-file]')) {
-    const text = new TextDecoder().decode(bytes(textContent));
+    const text = await unpack(textContent).text();
     files.set(file, text).set('gallery/' + file, text);
     if (file.endsWith('.model'))
       models.push(new Option(file.replace('.model', ''), file));
   }
-  is('gallery').append(make('optgroup', { label: 'models' }, ...models), make('optgroup',
-    { label: 'exercises: predict' }, ...readExercises(files.get('exercises.txt'))));
+  is('gallery').append(make('optgroup', { id: 'own', label: 'own, kept in this browser' }),
+    make('optgroup', { label: 'models' }, ...models), make('optgroup',
+      { label: 'exercises: predict' }, ...readExercises(files.get('exercises.txt'))));
+  listOwn();
+  readStatements(files.get('statements.txt'));
   ROWS.unshift(...files.get('states.txt').trim().split('\n')
     .map(row => row.split(/ *\| */).slice(1, 4)));
-  await startLibrary(bytes(document.querySelector('[data-file="bbm.wasm"]').textContent));
-  is('text').oninput = () => {
-    clearTimeout(later);
-    later = setTimeout(() => { makeSliders(); load(); }, 400);
-  };
+  await startLibrary(await unpack(document.querySelector('[data-file="bbm.wasm"]').textContent)
+    .arrayBuffer());
+  is('text').oninput = () => rememberSoon(() => { makeSliders(); load(); });
+  is('text').onkeyup = is('text').onclick = () =>
+    tellStatement(is('text').value.slice(0, is('text').selectionStart).split('\n').length - 1);
   listenToPicture(is('view'));
   document.onkeydown = pressKey;
   onresize = show;
+  dark.onchange = show;
   onhashchange = followLink;
+  setText('arch.model', files.get('gallery/arch.model'));   /* is there if what follows is wrong */
   followLink();
 }
 

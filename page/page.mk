@@ -1,10 +1,10 @@
 # page.mk - the page: the same sources as WebAssembly, in one HTML file that needs nothing else.
 PAGE       = page/page $(READER) $(addprefix program/,run warn edge_load)
 PAGE_CC    = clang --target=wasm32-wasi -mexec-model=reactor -flto -D_WASI_EMULATED_PROCESS_CLOCKS
-PAGE_CALLS = malloc free $(addprefix page_,load free state step text numbers data)
+PAGE_CALLS = malloc free $(addprefix page_,load free state step hold pull text numbers data)
 PAGE_FILES = $(addprefix page/,page.html style.css assemble.awk) $(wildcard page/*.js)
 PAGE_DATA  = out/bbm.wasm $(wildcard cases/models/*.model cases/models/*.msh) doc/by-hand.model out/exercises.txt \
-             out/states.txt
+             out/states.txt out/statements.txt
 
 page: out/bbm.html
 
@@ -13,7 +13,8 @@ out/bbm.wasm: $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(HEADERS) Makefile page/page.mk
 	$(PAGE_CC) $(STRICT) -O2 -o $@ $(PAGE:%=%.c) $(LIBRARY:%=%.c) $(PAGE_CALLS:%=-Wl,--export=%) \
 	-Wl,--strip-all,--stack-first,-z,stack-size=1048576 -lm -lwasi-emulated-process-clocks
 
-# The exercises of the kind predict, as they stand in the chapters, and the table of states.
+# The exercises of the kind predict, as they stand in the chapters, and the tables of states and of
+# statements.
 out/exercises.txt: page/exercises.awk $(wildcard doc/0*.md)
 	@mkdir -p $(@D)
 	awk -f $^ > $@
@@ -21,6 +22,10 @@ out/exercises.txt: page/exercises.awk $(wildcard doc/0*.md)
 out/states.txt: doc/06-contact.md
 	@mkdir -p $(@D)
 	grep -E '^\| (OPEN|LOCK|SLIDE) ' $< > $@
+
+out/statements.txt: doc/model-file.md
+	@mkdir -p $(@D)
+	sed -n '/^## Statements/,/^WHERE/p' $< | grep '^| `' > $@
 
 out/bbm.html: $(PAGE_FILES) $(PAGE_DATA) page/page.mk
 	awk -f page/assemble.awk page/page.html $(PAGE_DATA) > $@

@@ -15,7 +15,9 @@ const WHOLE = { zoom: 1, x: 0, y: 0 }, NEWEST = { at: -1, look: 0 };
 const NONE = { element: -1, contact: null };
 const view = { ...WHOLE, ...NEWEST, ...NONE, magnify: 0, colour: 'block' };
 
-const css = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const dark = matchMedia('(prefers-color-scheme: dark)');
+const css = name => css[name + dark.matches] ??=
+  getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const largest = values => values.reduce((a, b) => Math.max(a, b), 0);
 
 /* A number with its unit, k, M, G or m, u, n before it. */
@@ -31,13 +33,22 @@ function roundDown(x) {
   return ten * ([5, 2].find(f => f * ten <= x * (1 + 1e-9)) ?? 1);
 }
 
+const sizeOf = (id, canvas = document.getElementById(id)) =>
+  ({ g: canvas.getContext('2d'), w: canvas.clientWidth, h: canvas.clientHeight });
+
 /* A canvas as sharp as the screen, empty. */
 function begin(id) {
-  const canvas = document.getElementById(id), g = canvas.getContext('2d');
-  const w = canvas.clientWidth, h = canvas.clientHeight;
-  Object.assign(canvas, { width: w * devicePixelRatio, height: h * devicePixelRatio });
+  const { g, w, h } = sizeOf(id);
+  Object.assign(g.canvas, { width: w * devicePixelRatio, height: h * devicePixelRatio });
   g.scale(devicePixelRatio, devicePixelRatio);
   return { g, w, h };
+}
+
+/* Whether a path holds a pixel. */
+function isInside(g, path, x, y) {
+  g.beginPath();
+  path();
+  return g.isPointInPath(x * devicePixelRatio, y * devicePixelRatio);
 }
 
 /* Lines or an outline through points in pixels, into the path in hand. */
@@ -109,7 +120,7 @@ function findScale(w, h) {
   const [x0, y0, x1, y1] = run.box, s = view.zoom * Math.min((w - 60) / (x1 - x0),
     (h - 130) / (y1 - y0));
   const x = w / 2 + view.x - s * (x0 + x1) / 2, y = h / 2 + 10 + view.y + s * (y0 + y1) / 2;
-  return { s, to: (X, Y) => [x + s * X, y - s * Y] };
+  return { s, to: (X, Y) => [x + s * X, y - s * Y], from: (X, Y) => [(X - x) / s, (y - Y) / s] };
 }
 
 function viridis(share) {
@@ -118,8 +129,9 @@ function viridis(share) {
 }
 
 /* What draws a frame: g, the canvas; at[v], the pixels of a vertex; the outline of an element. */
-function painter(frame) {
-  const p = { ...begin('view'), frame, magnify: view.magnify || findMagnification(frame) };
+function painter(frame, canvas = sizeOf('view')) {
+  const magnify = view.magnify || run.magnify || findMagnification(frame);
+  const p = { ...canvas, frame, magnify };
   const { s, to } = findScale(p.w, p.h), m = p.magnify - 1;
   const at = rows(frame, 'v').map(([x, y, u, v]) => to(x + m * u, y + m * v));
   const outline = ([, first, n]) => trace(p.g, at.slice(first, first + n), true);
@@ -145,12 +157,11 @@ function drawBlocks({ g, frame, outline, at, thin }) {
   const low = Math.abs(least) < 1e-6 * high ? 0 : least;
   values.forEach((a, k) => paint(g, () => outline(free[k]),
     { fill: viridis((a - low) / (high - low || 1)) }));
-  for (const block of run.blocks) {
-    const fill = block.held ? held : of ? null : TINTS[block.tint];
-    paint(g, () => block.elements.forEach(outline), { line: '#667788', width: 0.5 * thin, fill });
-    paint(g, () => block.edges.forEach(([a, b]) => trace(g, [at[a], at[b]])),
-      { line: css('--ink'), width: 1.3 * thin });
-  }
+  Map.groupBy(run.blocks, b => b.held ? held : of ? null : TINTS[b.tint]).forEach((blocks, fill) =>
+    paint(g, () => blocks.forEach(b => b.elements.forEach(outline)),
+      { line: '#667788', width: 0.5 * thin, fill }));
+  paint(g, () => run.blocks.forEach(b => b.edges.forEach(([p, q]) => trace(g, [at[p], at[q]]))),
+    { line: css('--ink'), width: 1.3 * thin });
   return name && { name, unit, low, high };
 }
 
@@ -198,16 +209,59 @@ function drawForces(p) {
   const length = Math.max(16, Math.min(48, 0.9 * p.s * Math.sqrt(largest(free))));
   return ARROWS.flatMap(([kind, name, unit, colour, dash]) => {
     const mine = all.filter(a => a.kind === kind), most = size(mine), line = css(colour);
-    for (const { x, y, fx, fy } of mine) {
-      const l = Math.hypot(fx, fy) * (kind < 3 ? length / contacts : 40 / most);
-      const tip = kind < 3 ? l : 0, head = tip - Math.min(6, l / 2), half = (tip - head) / 2;
-      const draw = (points, style) => l >= 2 && paint(g, () => trace(g, points),
-        { line, width: 2, ...style }, [x, y], Math.atan2(-fy, fx));
-      draw([[tip - l, 0], [tip, 0]], { dash });
-      draw([[head, half], [tip, 0], [head, -half]]);
-    }
+    const draw = (points, style) => paint(g, () => mine.forEach(({ x, y, fx, fy }) => {
+      const f = Math.hypot(fx, fy), l = f * (kind < 3 ? length / contacts : 40 / most);
+      if (l >= 2)
+        trace(g, points(l, kind < 3 ? l : 0, Math.min(6, l / 2)).map(([along, across]) =>
+          [x + (along * fx + across * fy) / f, y - (along * fy - across * fx) / f]));
+    }), { line, width: 2, ...style });
+    draw((l, tip) => [[tip - l, 0], [tip, 0]], { dash });
+    draw((l, tip, head) => [[tip - head, head / 2], [tip, 0], [tip - head, -head / 2]]);
     return mine.length ? [{ name: `${name} ${quantity(most, unit)}`, line, dash }] : [];
   });
+}
+
+/* Through each block that two others press together, from where the force of the one acts to that
+ * of the other, as draw_thrust in scene.c. */
+function drawThrust({ g, frame, corner }) {
+  const felt = run.blocks.map(() => new Map()), line = css('--thrust');
+  for (const [c, e, state, fx, fy, N] of rows(frame, 'c')) {
+    const pair = [c, e].map(d => run.d[3 * d + 2]), [x, y] = corner(c);
+    [1, -1].forEach((sign, k) => state && felt[pair[k]].set(pair[1 - k], [N * x, N * y, sign * fx,
+      -sign * fy, N].map((a, i) => a + (felt[pair[k]].get(pair[1 - k])?.[i] ?? 0))));
+  }
+  let lines = felt.map((by, k) => {
+    const [[x, y, fx, fy, N], [X, Y, FX, FY, M]] = [...by.values(), [], []];
+    const way = [X / M - x / N, Y / M - y / N], force = Math.hypot(fx, fy) + Math.hypot(FX, FY);
+    return by.size === 2 && !run.blocks[k].held && N > 0 && M > 0 && (fx - FX) * way[0] +
+      (fy - FY) * way[1] > 0.5 * Math.hypot(...way) * force && [[x / N, y / N], [X / M, Y / M]];
+  });
+  const ends = (l, k) => l && [...felt[k].keys()].some(o => !lines[o] && !run.blocks[o].held &&
+    felt[o].size > 1);
+  while (lines.some(ends))
+    lines = lines.map((l, k) => !ends(l, k) && l);
+  paint(g, () => lines.forEach(l => l && trace(g, l)), { line, width: 2.5 });
+  return lines.some(l => l) ? [{ name: 'line of thrust', line }] : [];
+}
+
+function drawBolts({ g, frame, at }) {
+  const ends = rows(frame, 'b').map(([a, b, c, ...share]) => [0, 1].map(k =>
+    share[0] * at[a][k] + share[1] * at[b][k] + share[2] * at[c][k]));
+  paint(g, () => ends.forEach((end, k) => k % 2 && trace(g, [ends[k - 1], end])),
+    { line: css('--ink'), width: 3 });
+}
+
+/* From where the node of a monitor is to a ring where a wrong prediction has it. */
+function drawPrediction({ g, frame, magnify, h, w }) {
+  const [k, kind, value] = rows(frame, 'x').at(-1) ?? [], name = run.monitors[k]?.[0];
+  const place = is('text').value.match(
+    RegExp(`^\\s*monitor\\s+${name}\\s+at\\s+(${NUMBER})\\s+(${NUMBER})`, 'm'));
+  if (!place || !isSecret() || run.state !== 1)
+    return;
+  const at = [0, 1].map(a => +place[a + 1] + magnify * frame.o[4 * k + a]), line = css('--pick');
+  const ring = at.with(kind, +place[kind + 1] + magnify * value), { to } = findScale(w, h);
+  paint(g, () => trace(g, [to(...at), to(...ring)]), { line, width: 3 });
+  paint(g, () => g.arc(0, 0, 8, 0, 7), { line, width: 3 }, to(...ring));
 }
 
 /* A state as a shape, so that colour alone says nothing: a ring, a square, a triangle. */
@@ -247,25 +301,30 @@ function drawLegend({ g, w, h, s, magnify }, legend, field) {
 }
 
 function drawPicture(frame, look) {
-  const p = painter(frame), { g } = p, field = drawBlocks(p), line = css('--pick');
+  const p = painter(frame, begin('view')), { g } = p, field = drawBlocks(p), line = css('--pick');
   drawSupports(p);
-  const legend = is('forces').checked && !look ? drawForces(p) : [];
+  drawBolts(p);
+  const legend = is('forces').checked && !look ? [...drawForces(p), ...drawThrust(p)] : [];
   for (const [corner, , from, to] of look?.contacts ?? [])
     drawState(g, p.corner(corner), to, from === to ? 4 : 7);
   if (view.element >= 0)
     paint(g, () => p.outline(rows(frame, 'e')[view.element].subarray(22)), { line, width: 4 });
   if (view.contact)
     paint(g, () => g.arc(...p.corner(view.contact[0]), 12, 0, 7), { line, width: 3 });
+  drawPrediction(p);
   drawLegend(p, legend, field);
+  drawHands(p);
+}
+
+/* The element at a pixel, or -1. */
+function findElement(frame, x, y, p = painter(frame)) {
+  return rows(frame, 'e').findLastIndex(e =>
+    isInside(p.g, () => p.outline(e.subarray(22)), x, y));
 }
 
 /* What lies at a pixel: an element, -1 if there is none; and a contact. */
 function findAt(frame, x, y) {
   const p = painter(frame), far = c => Math.hypot(p.corner(c[0])[0] - x, p.corner(c[0])[1] - y);
   const near = rows(frame, 'c').find(c => c[2] && far(c) < 10);
-  return near ? [-1, near] : [rows(frame, 'e').findLastIndex(e => {
-    p.g.beginPath();
-    p.outline(e.subarray(22));
-    return p.g.isPointInPath(x * devicePixelRatio, y * devicePixelRatio);
-  }), null];
+  return near ? [-1, near] : [findElement(frame, x, y, p), null];
 }

@@ -1,6 +1,6 @@
 /* wasi.js - the eleven calls of WASI that the sources make: a clock, and files that live in `files`
- * by their names. memory(): asked for each time, since memory that grows is another buffer. Pointers
- * arrive with a sign (>>> 0): beyond 2 GB they are negative. */
+ * by their names. memory(): asked for each time, since memory that grows is another buffer.
+ * Pointers arrive with a sign (>>> 0): beyond 2 GB they are negative. */
 'use strict';
 
 function wasi(files, memory, say) {

@@ -423,7 +423,7 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
     static const struct { const char *model; int hatched, fixed, roller, load, locked, sliding; } drawn[] = {
         { "exp1", 0, 1, 0, 1, 0, 0 }, { "exp2", 0, 0, 1, 1, 0, 0 }, { "exp3", 1, 0, 0, 1, 0, 1 },
         { "dam", 0, 1, 1, 0, 1, 0 }, { "disc", 0, 1, 1, 1, 0, 0 },
-        { "incline", 1, 0, 0, 0, 0, 1 }, { "arch", 2, 0, 0, 0, 1, 0 },
+        { "incline", 1, 0, 0, 0, 0, 1 }, { "arch", 3, 0, 0, 0, 1, 0 },
     };
 
     for (size_t k = 0; k < sizeof drawn / sizeof *drawn; k++) {
