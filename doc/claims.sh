@@ -1,6 +1,6 @@
-# claims.sh - numbers of 08-experiments.md and beyond.md that no experiment prints, by models of beam.awk and
+# claims.sh - numbers of paper.md, 08-experiments.md and beyond.md that no experiment prints, by models of beam.awk and
 # plate.awk and by tables of the experiments:
-#     BBM=./bbm sh doc/claims.sh stress|plate|held|arc|areas|iterations|blocks|levels|squares
+#     BBM=./bbm sh doc/claims.sh stress|mesh|plate|held|arc|areas|iterations|blocks|levels|squares
 set -e
 mkdir -p out/claims
 
@@ -27,15 +27,55 @@ stress()
     done
 }
 
-# What the size of the plate does to sxx at the corners of the quarter.
+# Errors on unstructured meshes against converged finite elements: $1 cases/$1.model, $2 variant of fem.csv, $3
+# alpha, the others what is asked.
+unstructured()
+{
+    $BBM -q cases/$1.model -d alpha=$3 -o out/claims
+    awk -F, -v name=$1 -v variant=$2 -v a=$3 -v asked="$4" '
+    FNR == NR { if ($2 == variant) fem[$3 "(" $4 "," $5 ")"] = $6; next }
+    FNR == 1 { for (k = 1; k <= NF; k++) column[$k] = k; next }
+    {
+        for (k = split(asked, q, " "); k > 0; k--)
+            if (q[k] ~ "[(]" $column["x"] "," $column["y"] "[)]")
+                is[q[k]] = $column[substr(q[k], 1, index(q[k], "(") - 1)]
+    }
+    END {
+        printf "%s, alpha %4d:", name, a
+        for (k = 1; k in q; k++)
+            printf " %s %+.*f %%", q[k], a < 1000 ? 1 : 2, 100 * (is[q[k]] / fem[q[k]] - 1)
+        print ""
+    }' cases/fem.csv out/claims/nodes.csv
+}
+
+mesh()
+{
+    unstructured beam a 1000 "v(24,0) v(48,6) mises(12,6) mises(24,6)"
+    for a in 10 100 1000; do
+        unstructured plate b5 $a "v(0,1) u(1,0) u(5,0) u(5,5) v(5,5) v(0,5)"
+    done
+}
+
+# What converged finite elements of plates of other sizes have more than (72), at the corners of the quarter.
 plate()
 {
-    for size in "5 5" "10 10" "20 20" "40 5" "5 40"; do
-        set -- $size
-        v="-v b=$1 -v h=$2 -v nx=60 -v ny=48"
-        awk $v -f doc/plate.awk | run
-        awk -F, $v -f doc/plate-stress.awk out/claims/elements.csv out/claims/nodes.csv
-    done
+    awk -F, '
+    function more(x, y,    q, t)
+    {
+        q = 1 / (x * x + y * y)
+        t = atan2(y, x)
+        return 100 * ($6 / 1e6 / (1 - q * (1.5 * cos(2 * t) + cos(4 * t)) + 1.5 * q * q * cos(4 * t)) - 1)
+    }
+    $2 !~ /^[0-9]+x[0-9]+$/ { next }
+    { split($2, size, "x"); b = size[1] / 2; h = size[2] / 2 }
+    $4 == 0 && $5 == 1 { hole = more(0, 1); n++ }
+    $4 == b && $5 == 0 { end = more(b, 0); n++ }
+    $4 == b && $5 == h { corner = more(b, h); n++ }
+    $4 == 0 && $5 == h { side = more(0, h); n++ }
+    n == 4 {
+        printf "%d m x %d m: hole %+.1f %%, end %+.1f %%, corner %+.1f %%, side %+.1f %%\n", 2 * b, 2 * h, hole, end, corner, side
+        n = 0
+    }' cases/fem.csv
 }
 
 # Displacements across the lines of symmetry.
