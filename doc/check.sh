@@ -16,7 +16,7 @@ done
 names=$(grep -ohE '[a-z0-9]+(_[a-z0-9]+)+' doc/house.svg)
 [ "$(echo "$names" | wc -l)" -gt 30 ] || fail "doc/house.svg has no names"
 for w in $names; do
-    grep -qw "$w" ./*.[ch] base/*.[ch] beyond/beyond.c || [ -f "base/$w.c" ] || fail "doc/house.svg names $w"
+    grep -qw "$w" ./*.[ch] base/*.[ch] beyond/*.[ch] || [ -f "base/$w.c" ] || fail "doc/house.svg names $w"
 done
 for f in $(grep -owE '[a-z0-9_]+[.]c' doc/house.svg); do
     [ -f "$f" ] || [ -f "base/$f" ] || [ -f "beyond/$f" ] || fail "doc/house.svg names $f"

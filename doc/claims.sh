@@ -1,6 +1,6 @@
 # claims.sh - numbers of paper.md, 08-experiments.md and beyond.md that no experiment prints, by models of beam.awk and
 # plate.awk and by tables of the experiments:
-#     BBM=./bbm sh doc/claims.sh stress|mesh|plate|held|arc|areas|iterations|blocks|levels|squares
+#     BBM=./bbm sh doc/claims.sh table1|table2|table3|table4|table5|fig10|fig13|contours|stress|mesh|plate|held|lines|arc|areas|iterations|blocks|levels|squares
 set -e
 mkdir -p out/claims
 
@@ -14,6 +14,32 @@ run()
 {
     cat > out/claims/claim.model
     $BBM -q out/claims/claim.model -o out/claims
+}
+
+# The tables of paper.md, from the logs of the experiments.
+table1()
+{
+    grep -h '^| dt' out/exp3.log
+    echo '|---|---|---|---|---|---|---|---|'
+    awk '/^[|] dt/ { getline; getline; print $0 (NF < 17 ? " - | - |" : "") }' out/exp1.log out/exp2.log out/exp3.log
+}
+
+# The rows of the first table behind a line of a log that begins so.
+rows()
+{
+    awk -v begins="$2" 'index($0, begins) == 1 { inside = 1 } inside && /^[|]/ { print; seen = 1 } seen && !/^[|]/ { exit }' out/$1.log
+}
+
+table2() { rows exp1 '| DDA'; }
+fig10() { rows exp1 '| x [m]' | grep -E '^[|] ?(x|-|6|24|48)'; }
+table3() { rows exp1 'Table 3, a' | cut -d'|' -f1-4,6-7,9; }
+fig13() { rows exp1 'Fig. 13, a' | cut -d'|' -f1-6,8-; }
+table4() { rows exp2 'Table 4, b5' | cut -d'|' -f1-3,5-6,8-; }
+table5() { rows exp2 'Table 5, b5' | cut -d'|' -f1-4,7,9-; }
+contours()
+{
+    rows exp1 '| largest' | cut -d'|' -f1-2,5- | sed 's/largest .m, Pa./figure/'
+    rows exp2 '| largest' | cut -d'|' -f1-2,5- | tail -n +3
 }
 
 # The von Mises stress at (24,6), 1000 Pa, for cells of three sizes.
@@ -52,7 +78,7 @@ mesh()
 {
     unstructured beam a 1000 "v(24,0) v(48,6) mises(12,6) mises(24,6)"
     for a in 10 100 1000; do
-        unstructured plate b5 $a "v(0,1) u(1,0) u(5,0) u(5,5) v(5,5) v(0,5)"
+        unstructured plate b5 $a "v(0,1) u(5,0)"
     done
 }
 
@@ -90,6 +116,20 @@ held()
                 printf " %s", x[k]^2 < 1e-24 ? "below_1e-12" : sprintf("%.1e", x[k])
             print ""
         }'
+    done
+}
+
+# Figs. 15 to 19: plate b5 against six-node triangles, in shares of the largest value on the line.
+lines()
+{
+    for f in "15 x u" "16 y v" "17 x sxx" "18 y sxx" "19 angle sxx"; do
+        set -- $f
+        awk -F, -v f=$1 -v line=b5.$2 -v q=$3 '
+        FNR == NR && $2 == line && $3 == q { fem[sprintf("%.6f %.6f", $4, $5)] = $7; if ($7 ^ 2 > most ^ 2) most = $7 }
+        FNR != NR && $1 == "b5." q && $6 == "theory" && (k = sprintf("%.6f %.6f", $2, $3)) in fem {
+            if (($4 - fem[k]) ^ 2 > d ^ 2) d = $4 - fem[k]
+        }
+        END { printf "fig%s: %.1f %%\n", f, 100 * sqrt((d / most) ^ 2) }' cases/fem.csv out/exp2/results.csv
     done
 }
 
