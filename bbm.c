@@ -120,8 +120,9 @@ void bbm_elastic_matrix(const bbm_material *m, double E[3][3])
 
 /* Pi_e = t A (1/2 e.E e + e.stress0), Eq. (6), (7), (8), (9)
  *     ->   K_ii += t A E, F_i -= t A stress0, Eq. (10).
- * Deviation: with bbm_motion the A of K_ii is the starting area. The forces of Hooke's law have a
- * potential then: a body that is strained and comes back makes no energy. */
+ * In the paper A is the present area. Deviation: with bbm_motion the A of K_ii is that of the
+ * start. The forces of Hooke's law have a potential then: a body that is strained and comes back
+ * makes no energy. */
 void bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s)
 {
     const double t = e->material.thickness, tA = t * (e->middle ? e->A0 : e->A);

@@ -86,9 +86,9 @@ typedef struct {                /* of one element, on one node                  
     int    node, element;
     double x, y;                /* m        present position from model.origin                  */
     double u, v;                /* m        displacement since the start                        */
-    int    edge;                /* the boundary edge that starts here; -1 - w, if an internal   */
-                                /*          edge does: w is the vertex of the other element     */
-                                /*          that coincides with this one; by bbm_prepare        */
+    int    edge;                /* of the boundary, that starts here; by bbm_prepare. Where an  */
+                                /*          internal edge starts: -1 - w, w the vertex of the   */
+                                /*          other element at this place                         */
 } bbm_vertex;
 
 typedef struct {                /* triangle, quadrilateral, simple polygon, or a whole block    */
@@ -107,7 +107,8 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
     double D[6];                /* of the last step: u0, v0 [m], r0 [rad], ex, ey, gxy [-]      */
     double szz;                 /* Pa       stress out of the plane, carried as well            */
-    double out_of_plane;        /* -        its change against that of sx + sy; 0: plane stress */
+    double out_of_plane;        /* -        szz grows by this times the growth of sx + sy;      */
+                                /*          0: plane stress                                     */
     const bbm_middle *middle;   /* NULL: T is (2); else the T of a hook                         */
 } bbm_element;
 
@@ -119,8 +120,9 @@ typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 
 typedef struct {
     double omega;               /* -        relaxation factor of SSOR, in (0, 2)                */
-    double tolerance;           /* -        of sqrt(r.M^-1 r), against its first value, or less: */
-                                /*          see bbm_matrix_measure                              */
+    double tolerance;           /* -        the iteration ends when sqrt(r.M^-1 r) is below     */
+                                /*          this share of its first value; bbm_solve lowers it  */
+                                /*          where F holds springs that close a gap              */
     int    iterations;          /* at most, in each connected component of K                    */
     const bbm_method *method;   /* NULL: the paper's                                            */
 } bbm_pcg;
@@ -142,8 +144,8 @@ typedef struct {                /* defaults: bbm_model_new; their reasons: doc/p
     double dt;                  /* s        time step; INFINITY: statics, without inertia       */
     int    steps;               /* in statics: iterations of Newton-Raphson                     */
     double tolerance;           /* -        of (71), which ends the run; 0: do all steps        */
-    double velocity_factor;     /* -        share of V that the next step begins with: 1 in     */
-                                /*          dynamics, 0: each step begins at rest               */
+    double velocity_factor;     /* -        share of V that the next step begins with. 0, the   */
+                                /*          default: each step begins at rest; dynamics has 1   */
     double alpha;               /* -        factor of the bonding stiffness, (4), (29)          */
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */

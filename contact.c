@@ -17,11 +17,11 @@
  * is the sign of the slip. c and tension are the cohesion and the tensile strength of an unbroken
  * joint, A is the contact's share of its area: in the paper all 0.
  *
- * d_s counts from the anchor P0, a point of the edge's material. P0 is where P1 hit, and stays
- * there while the contact is locked. While it slides, P0 follows at such a distance that the spring
- * would carry the friction force of the last step. Then what s T has above the bound is new slip.
- * When the slip turns round, s T falls below the bound and the contact locks with the force that it
- * had.
+ * d_s counts from the anchor P0, a point of the edge's material. P0 is where P1 hit. In LOCK it
+ * stays. In SLIDE it is moved at the end of each step, so that p_s d_s is the friction force. In
+ * the next step only new slip raises s T above the bound. When the slip turns round, s T falls
+ * below it, and the contact locks with the force that it had. A contact that closes with more shear
+ * than friction can hold begins with SLIDE.
  *
  * base/detect.c finds which corners may touch which edges. base/open_close.c changes the states by
  * this table until all contacts fit the solution.
@@ -53,11 +53,14 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
     }
 }
 
-/* The normal law: the force of the normal spring, N = -p_n d_n, positive in compression, Eq. (65).
- * Its energy is Pi_n of Eq. (51). The stiffness in K is -dN/dd_n. */
-double bbm_normal_force(double p_n, double d_n) { return -p_n * d_n; }
+/* The normal law. N = -p_n d, positive in compression, Eq. (65), d the distance from `rest`; its
+ * stiffness in K, -dN/dd; and what it stores, Pi_n of Eq. (51). Whoever changes it changes its
+ * inverse, bbm_rest_of of base.h, too. The table of states needs an N that falls as d grows. */
+double bbm_normal_force(const bbm_model *m, double d) { return -m->par.p_n * d; }
 
-double bbm_normal_energy(double p_n, double N) { return N * N / (2 * p_n); }
+double bbm_normal_stiffness(const bbm_model *m) { return m->par.p_n; }
+
+double bbm_normal_energy(const bbm_model *m, double N) { return N * N / (2 * m->par.p_n); }
 
 /* A spring p, normal or shear, over d = d0 + e.D_i + g.D_j: Pi = p/2 d^2, Eq. (51)   ->
  * Eq. (58), (58a-f), (63): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T. v and w: e or g. */
@@ -139,16 +142,16 @@ double bbm_shear_force(const bbm_contact *c)
     return c->state == BBM_SLIDE ? c->sign * bbm_shear_strength(&c->strength, c->N) : c->T;
 }
 
-/* The figure on top as a table: the state that follows from d_n, N and T. Forces that differ by
- * less than the tolerance agree. A closed contact opens without a tolerance: it would be a hidden
- * tensile strength. */
-bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance)
+/* The figure on top as a table: the state that follows from N and T. N of an open contact is what
+ * it would be if it were closed. Forces that differ by less than the tolerance agree. A closed
+ * contact opens without a tolerance: it would be a hidden tensile strength. */
+bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double tolerance)
 {
-    const double strength = bbm_shear_strength(&c->strength, c->N);
+    const double strength = bbm_shear_strength(&c->strength, N);
 
     if (c->state == BBM_OPEN)
-        return bbm_normal_force(p_n, c->d_n - c->rest) > tolerance ? BBM_LOCK : BBM_OPEN;
-    if (c->N < -c->strength.tension)
+        return N > tolerance ? BBM_LOCK : BBM_OPEN;
+    if (N < -c->strength.tension)
         return BBM_OPEN;
     if (c->strength.tan_phi == 0 && c->strength.shear == 0)
         return BBM_SLIDE;
@@ -165,16 +168,15 @@ int bbm_is_strong(const bbm_contact *c)
     return c->strength.shear > 0 || c->strength.tension > 0;
 }
 
-
 /* Whether tension N has taken all shear strength from a strong joint. */
 int bbm_is_strengthless(const bbm_contact *c, double N)
 {
     return bbm_is_strong(c) && bbm_shear_strength(&c->strength, N) == 0;
 }
 
-/* Friction of a sliding contact, Eq. (65), with N_of_friction for N, or what a hook says. While the
- * N are still changing one may be negative. Its friction is, too: each N then depends linearly on
- * the last. A strong joint may stay in tension, so it has its strength instead. */
+/* Friction of a sliding contact, Eq. (65), with N_of_friction for N, or what a hook says. While N
+ * still changes it may be negative. Friction is negative then, too, which keeps the iteration
+ * linear. A strong joint may stay in tension and takes its strength instead. */
 static double find_friction(bbm_model *m, bbm_contact *c, const bbm_spring v[2])
 {
     const double N = c->trial.N_of_friction, strength = bbm_shear_strength(&c->strength, N);
@@ -216,11 +218,11 @@ void bbm_assemble_contacts(bbm_model *m)
             double F[6] = { 0 };
             for (int b = a; b < c->parts; b++) {
                 double K[6][6] = { { 0 } };
-                bbm_spring_submatrix(m->par.p_n, v[0].v[a], v[0].v[b], K);
+                bbm_spring_submatrix(bbm_normal_stiffness(m), v[0].v[a], v[0].v[b], K);
                 bbm_spring_submatrix(p_s, v[1].v[a], v[1].v[b], K);
                 bbm_matrix_add(m->K, c->element[a], c->element[b], K);
             }
-            bbm_force_submatrix(-bbm_normal_force(m->par.p_n, v[0].d), v[0].v[a], F);
+            bbm_force_submatrix(-bbm_normal_force(m, v[0].d), v[0].v[a], F);
             bbm_force_submatrix(T, v[1].v[a], F);
             for (int x = 0; x < 6; x++)
                 m->F[6 * c->element[a] + x] += F[x];

@@ -112,8 +112,8 @@ void bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y
 
 /* ------------------------------------------------------------------------------------- SSOR-PCG */
 
-/* B = (D/w)^-1. Gauss-Jordan elimination turns B from D into -D^-1, symmetric in each step; then B
- * is multiplied by -w. Returns 0 if D is not positive definite. */
+/* B = (D/w)^-1. Gauss-Jordan elimination leaves -D^-1 in B, which is symmetric in each step. The
+ * last loop multiplies by -w. Returns 0 if D is not positive definite. */
 int bbm_invert(double w, double D[6][6], double B[6][6])
 {
     memcpy(B, D, 36 * sizeof **B);

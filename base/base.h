@@ -95,8 +95,8 @@ typedef struct {                /* what the detection and the open-close iterati
                                 /*          the list of contacts, or -1                         */
     double d_n0;                /* m        d_n at the start                                    */
     /* --- open_close.c --- */
-    double time_left;           /* -        share of the step after P1 hit: the slip of this    */
-                                /*          share loads the shear spring                        */
+    double time_left;           /* -        share of the step after P1 hit; the shear spring    */
+                                /*          gets this share of the slip                         */
     double past[2];             /* m        how far P1 is past P3 and P2 at the end, if open    */
     double N_of_friction;       /* N        the N that friction is taken for                    */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
@@ -119,9 +119,9 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double anchor;              /* -        where P0 is: P0 = P3 + anchor (P2 - P3)             */
     double slip;                /* m        how far it has slid in all steps since it closed    */
     /* --- beyond the paper; carried, too --- */
-    double rest;                /* m        d_n at which the normal spring carries nothing; in  */
-                                /*          the paper 0; with bbm_motion less, if it closed     */
-                                /*          with P1 inside: its spring then starts unloaded     */
+    double rest;                /* m        d_n at which the normal spring has no force; in the */
+                                /*          paper 0. With bbm_motion a contact that closes with */
+                                /*          P1 inside starts unloaded: then it is negative      */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
     int    hit;                 /* a hook has given it an impulse in place of its spring's      */
@@ -137,8 +137,7 @@ typedef struct {                /* of a contact: its length is d + e.D_i + g.D_j
     double d, v[BBM_PARTS][6];  /* e, g; and beyond the paper one for each further element      */
 } bbm_spring;
 
-/* The most passes that change states or renew the vectors of the step, and detections in one part.
- * */
+/* The most passes that change states or renew vectors, and the most detections, in one part. */
 enum { BBM_MAX_PASSES = 30, BBM_MAX_DETECTIONS = 8 };
 
 /* What follows a pass of the open-close iteration: nothing, for all fits; a solution with a new K
@@ -150,11 +149,10 @@ struct bbm_contact_scratch {
     int is_listed;
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
-    /* --- contact.c: the iteration --- */
+    /* --- open_close.c --- */
     int passes, friction_passes;
     int one_until;              /* before this pass one contact alone changes its state in each */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
-    double *force;              /* [elements] N: the largest force in each component of K       */
     /* --- detect.c --- */
     int pairs;
     struct bbm_pair *pair;      /* [pairs]    a corner and an edge that may touch, sorted       */
@@ -180,6 +178,8 @@ struct bbm_matrix {
     int *back;                  /* [blocks]  its row less its column                            */
     int components, *start;     /* [n+1]     the rows of component c: start[c] .. start[c+1]-1  */
     int *component;             /* [n]       of a caller's row: 0 .. components-1               */
+    int *body;                  /* [n]       of a caller's row: its component, or by a hook a   */
+                                /*           number below n; -1: of a body that is held         */
     double (*D)[6][6], (*L)[6][6];              /* [n], [blocks], one piece of memory           */
     double *forces;             /* [n]       of each component, see bbm_matrix_measure; 0: none */
     int lacks;                  /* what was added to a block that the pattern does not have     */
@@ -399,15 +399,16 @@ void       bbm_keep_contacts(bbm_model *m);                     /* the step's be
 void       bbm_normal_vectors(const bbm_touch *c, bbm_spring *n);               /* (57)         */
 void       bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s); /* (61)         */
 double     bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D);
-double     bbm_normal_force(double p_n, double d_n);                            /* N, (65)      */
-double     bbm_normal_energy(double p_n, double N);                             /* (51)         */
+double     bbm_normal_force(const bbm_model *m, double d);                      /* N, (65)      */
+double     bbm_normal_stiffness(const bbm_model *m);
+double     bbm_normal_energy(const bbm_model *m, double N);                     /* (51)         */
 void       bbm_spring_submatrix(double p, const double v[6], const double w[6], double K[6][6]);
                                                                                 /* (58), (63)   */
 void       bbm_force_submatrix(double f, const double v[6], double F[6]);       /* (59), (69)   */
 double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
 double     bbm_shear_force(const bbm_contact *c);                               /* T or (65)    */
-bbm_contact_state bbm_next_state(double p_n, const bbm_contact *c, double tolerance); /* table  */
+bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double tolerance);  /* table  */
 int        bbm_is_strong(const bbm_contact *c);
 int        bbm_is_strengthless(const bbm_contact *c, double N);
 void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2]);
@@ -429,5 +430,8 @@ void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vert
 bbm_status bbm_begin_step(bbm_model *m);
 bbm_status bbm_detect(bbm_model *m, int *holds);                /* and K for the contacts       */
 bbm_status bbm_try_step(bbm_model *m);                          /* Fig. 8 once, with m->h       */
+
+/* build.c */
+size_t     bbm_most_gaps(const bbm_model *m);                   /* once bonds are found         */
 
 #endif

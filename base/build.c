@@ -318,12 +318,24 @@ static bbm_status place_line_loads(bbm_model *m)
     return BBM_OK;
 }
 
-/* The arrays that the steps need. A bond has two gaps. A vertex that is held has one gap, and a
- * hook may add two of the edge that starts there. */
+/* The most gaps that there may be. A bond has two. A vertex that is held has one, and a hook may add
+ * two of the edge that starts there, and one between each two corners of a node. */
+size_t bbm_most_gaps(const bbm_model *m)
+{
+    size_t most = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices;
+
+    for (int n = 0; n < m->nodes && m->hook->list_gaps; n++) {
+        const size_t corners = (size_t)(m->adjacent_first[n + 1] - m->adjacent_first[n]);
+        most += corners * (corners - 1) / 2;
+    }
+    return most;
+}
+
+/* The arrays that the steps need. */
 static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
-    m->gap = calloc(2 * (size_t)m->bonds + 3 * (size_t)m->vertices, sizeof *m->gap);
+    m->gap = calloc(bbm_most_gaps(m), sizeof *m->gap);
     if (!m->F || !m->gap)
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;

@@ -163,7 +163,6 @@ void bbm_detect_free(bbm_contact_scratch *w)
     if (!w)
         return;
     free(w->reach);
-    free(w->force);
     free(w->pair);
     free(w->contact);
     free(w);
@@ -176,9 +175,8 @@ bbm_status bbm_detect_new(bbm_model *m)
     if (!w)
         return BBM_NO_MEMORY;
     w->reach = calloc((size_t)m->elements, sizeof *w->reach);
-    w->force = calloc((size_t)m->elements, sizeof *w->force);
     w->pair = calloc((size_t)m->edges, sizeof *w->pair);
-    if (!w->reach || !w->force || !w->pair)
+    if (!w->reach || !w->pair)
         return BBM_NO_MEMORY;
     number_blocks(m);
     link_edges(m);

@@ -16,11 +16,11 @@
 
 #include "base.h"
 
-/* AGREE  [-]  forces agree if they differ by less than this share of the largest force in their
- *             component of K: the solver is not more exact
+/* AGREE  [-]  forces agree if they differ by less than this share of N, or of the force by which
+ *             their component of K is solved: the solver is not more exact
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
- * ROUGH  [-]  but at most this share of the largest force does. Stiffer springs do not settle */
+ * ROUGH  [-]  but at most this share of that force does. Stiffer springs do not settle */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define ROUGH 1e-3
@@ -143,29 +143,21 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
     vector_distances(m, c, c->anchor, d);
     c->d_n = d[0];
     c->d_s = c->trial.time_left * d[1];
-    c->N = bbm_normal_force(m->par.p_n, c->d_n - c->rest);
+    c->N = bbm_normal_force(m, c->d_n - c->rest);
     c->T = m->par.p_s * c->d_s;
     if (c->trial.friction_in_K && !bbm_is_strengthless(c, c->N))
         c->trial.N_of_friction = c->N;
 }
 
-/* The force tolerance of each contact: a share of the largest force in its component of K. That is
- * the force on an element, inertia included, or in a contact. The solver's residual, and with it
- * the error of every N, is small against this force alone. What the spring makes of the rounding of
- * positions is added. */
+/* The force tolerance of each contact: a share of its own force, or of the force on a body by which
+ * its component is solved. The error of every N is small against this force alone. What the spring
+ * makes of the rounding of positions is added. */
 static void find_tolerances(const bbm_model *m)
 {
-    const bbm_contact_scratch *w = m->scratch;
-
-    memcpy(w->force, m->K->forces, (size_t)m->K->components * sizeof *w->force);
-    for (int k = 0; k < w->contacts; k++) {
-        double *most = &w->force[bbm_component_of(m->K, w->contact[k].element[0])];
-        *most = fmax(*most, fabs(w->contact[k].N));
-    }
-    for (int k = 0; k < w->contacts; k++) {
-        bbm_contact *c = &w->contact[k];
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        const double force = w->force[bbm_component_of(m->K, c->element[0])];
+        const double force = fmax(fabs(c->N), m->K->forces[bbm_component_of(m->K, c->element[0])]);
         const double digits = m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y)) * DIGITS;
         c->trial.force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
     }
@@ -203,7 +195,7 @@ static void close_contact(const bbm_model *m, bbm_contact *c)
     c->anchor = at;
     c->trial.time_left = 1 - d0 / (d0 - c->d_n);
     const double T = c->trial.time_left * m->par.p_s * fabs(slip);
-    const double N = bbm_normal_force(m->par.p_n, c->d_n - fmin(0, c->rest));
+    const double N = bbm_normal_force(m, c->d_n - fmin(0, c->rest));
     const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
     c->state = slides ? BBM_SLIDE : BBM_LOCK;
     if (slides)
@@ -222,12 +214,19 @@ static void change_state(const bbm_model *m, bbm_contact *c)
         c->sign = copysign(1, c->T);
 }
 
+/* The normal force that an open contact would have if it were closed. */
+static double N_if_closed(const bbm_model *m, const bbm_contact *c)
+{
+    return bbm_normal_force(m, c->d_n - c->rest);
+}
+
 /* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
  * may have been pulled open by its shear spring. If that carries more than friction would hold
  * under as much pressure, the contact slides first, which removes the spring. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_contact_state next = bbm_next_state(m->par.p_n, c, c->trial.force_tolerance);
+    const double N = c->state == BBM_OPEN ? N_if_closed(m, c) : c->N;
+    const bbm_contact_state next = bbm_next_state(c, N, c->trial.force_tolerance);
     const double strength = bbm_shear_strength(&c->strength, fabs(c->N));
 
     if (c->state == BBM_OPEN && next != BBM_OPEN && bbm_is_blocked(m, c))
@@ -241,7 +240,7 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
-        return bbm_normal_force(m->par.p_n, c->d_n - c->rest);
+        return N_if_closed(m, c);
     if (c->trial.next_state == BBM_OPEN && c->N < 0)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));

@@ -110,7 +110,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
 
     K->n = K->to = g->n;
-    K->place = calloc(5 * n + 2 + blocks, sizeof *K->place);
+    K->place = calloc(6 * n + 2 + blocks, sizeof *K->place);
     K->D = calloc(2 * n + blocks, sizeof *K->D);
     K->x = calloc(37 * n, sizeof *K->x);
     if (!K->place || !K->D || !K->x)
@@ -119,7 +119,8 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
     K->first = K->caller + n;
     K->start = K->first + n + 1;
     K->component = K->start + n + 1;
-    K->back = K->component + n;
+    K->body = K->component + n;
+    K->back = K->body + n;
     K->L = K->D + n;
     K->inverse = K->L + blocks;
     double **const vector[] = { &K->r, &K->u, &K->p, &K->q, &K->y, &K->forces };
@@ -142,7 +143,7 @@ static void lay_out_rows(bbm_matrix *K, const graph *g)
             if (K->place[g->end[k][1]] < i)
                 K->back[count++] = i - K->place[g->end[k][1]];
         K->first[i + 1] = count;
-        K->component[row] = K->components;
+        K->component[row] = K->body[row] = K->components;
         if (g->level[row] == 0)
             K->start[++K->components] = i + 1;
     }

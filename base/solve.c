@@ -22,6 +22,8 @@
 
 /* [-] in place of a zero of F, against its largest entry */
 #define NEGLIGIBLE 1e-100
+/* [-] of the largest force on a body of the component: with less it has next to none */
+#define NEXT_TO_NONE 1e-6
 
 static int all_finite(size_t count, const double *x)
 {
@@ -70,15 +72,43 @@ static double largest(const bbm_matrix *K, const double *F, int entries)
     return most;
 }
 
-/* Notes the largest force in each component. The tolerance is a share of these where the F of
- * bbm_solve is larger. A spring that closes a gap begins with a force far above the one that it
- * carries in the end. A small share of the first may be more than the second. */
+/* The largest force on each body of the component in hand that is not held all round; returns the
+ * largest of all. on: of a body, by its number. */
+static double measure_bodies(const bbm_matrix *K, const double *F, double *on)
+{
+    double most = 0;
+
+    for (int i = 6 * K->from; i < 6 * K->to; i++) {
+        const int row = K->caller[i / 6], body = K->body[row];
+        if (body < 0 || i % 6 > 1)
+            continue;
+        on[body] = fmax(on[body], fabs(F[6 * row + i % 6]));
+        most = fmax(most, on[body]);
+    }
+    return most;
+}
+
+/* Notes in each component the largest force on the body that has the least of it. The tolerance is
+ * a share of it where the F of bbm_solve is larger, so that a light body is solved beside a heavy
+ * one. Held bodies do not count, unless all are held, nor those that have next to no force. A
+ * spring that closes a gap also begins with a force far above the one that it carries in the end.
+ */
 void bbm_matrix_measure(bbm_matrix *K, const double *F)
 {
+    double *on = K->y;
+
+    memset(on, 0, (size_t)K->n * sizeof *on);
     for (int c = 0; c < K->components; c++) {
         K->from = K->start[c];
         K->to = K->start[c + 1];
-        K->forces[c] = largest(K, F, 2);
+        const double most = measure_bodies(K, F, on);
+        double least = most > 0 ? most : largest(K, F, 2);
+        for (int i = K->from; i < K->to && most > 0; i++) {
+            const int body = K->body[K->caller[i]];
+            if (body >= 0 && on[body] >= NEXT_TO_NONE * most)
+                least = fmin(least, on[body]);
+        }
+        K->forces[c] = least;
     }
 }
 

@@ -16,7 +16,7 @@
 /* ------------------------------------------------------------------- assembly, Eq. (5) */
 
 /* The next gap of the list, between the elements i and j. A hook's `own` stays from list to list.
- * bbm_prepare has made room for two gaps at each bond and three at each vertex. */
+ * bbm_prepare has made room for bbm_most_gaps. */
 bbm_gap *bbm_add_gap(bbm_model *m, int i, int j)
 {
     bbm_gap *g = &m->gap[m->gaps++];
@@ -119,7 +119,9 @@ static void assemble_gap(bbm_model *m, const bbm_gap *g)
     bbm_add_submatrices(m, g->i, g->j, &s);
 }
 
-/* K and F, Eq. (5), for the positions at the start of the step and the present contact states. */
+/* K and F, Eq. (5), for the positions at the start of the step and the present contact states. The
+ * forces are measured before fixed points and contacts come: these close gaps with a first force
+ * that is far too large. */
 void bbm_assemble(bbm_model *m)
 {
     const clock_t start = clock();
@@ -130,7 +132,7 @@ void bbm_assemble(bbm_model *m)
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
     for (int i = 0; i < m->elements; i++)
         assemble_element(m, i);
-    for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds: their rounding is in the forces */
+    for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds */
         assemble_gap(m, &m->gap[g]);
     bbm_matrix_measure(m->K, m->F);
     for (; g < m->gaps; g++)                        /* fixed points */

@@ -9,7 +9,8 @@
  *
  * K stands for a rigid joint and stays. M is made only as large as the bending stiffness that the
  * elements lack: the bond is rigid in its middle and bends as the material would. A fixed edge is
- * a bond with the wall, whose mirror image bends alike.
+ * a bond with the wall, whose mirror image bends alike. A fixed node is the mean of its corners, as
+ * it is for loads.
  */
 #include <string.h>
 
@@ -66,10 +67,13 @@ static void bending_stiffness(const bbm_element *e, const double p[2], const dou
 /* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0
  * to 1, from 2 to 3), which q crosses, M[1] for 1 and 3, which p crosses.
  *
- *     M[1] = 1/2 [S p p^T S/(p.S p) + S - S q q^T S/(q.S q)],      M[0] = S - M[1]:
+ * A row along p that bends turns its edges q, which opens them along r, at right angles to q. Its
+ * stress acts along p: S r = c p. In the same way S s = d q for s at right angles to p. So
+ *
+ *     M[1] = S r r^T S/(r.S r) = c p p^T/(p.r),      M[0] = S - M[1] = d q q^T/(q.s):
  *
  * for a rectangle the bending stiffness of the edge as a beam's section, E t l^3/12 over the
- * distance w of the centres. */
+ * distance w of the centres. A row needs no bond on its other edges to bend so. */
 void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2][2][2])
 {
     const double p[2] = { (v[1].x + v[2].x - v[0].x - v[3].x) / 2,
@@ -79,12 +83,11 @@ void bbm_bending_moments(const bbm_element *e, const bbm_vertex v[], double M[2]
     double S[6][6] = { { 0 } };
 
     bending_stiffness(e, p, q, S);
-    const double Sp[2] = { S[0][0] * p[0] + S[0][1] * p[1], S[1][0] * p[0] + S[1][1] * p[1] };
-    const double Sq[2] = { S[0][0] * q[0] + S[0][1] * q[1], S[1][0] * q[0] + S[1][1] * q[1] };
-    const double pSp = Sp[0] * p[0] + Sp[1] * p[1], qSq = Sq[0] * q[0] + Sq[1] * q[1];
+    const double Sr[2] = { S[0][0] * q[1] - S[0][1] * q[0], S[1][0] * q[1] - S[1][1] * q[0] };
+    const double rSr = q[1] * Sr[0] - q[0] * Sr[1];
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
-            M[1][a][b] = (Sp[a] * Sp[b] / pSp + S[a][b] - Sq[a] * Sq[b] / qSq) / 2;
+            M[1][a][b] = Sr[a] * Sr[b] / rSr;
             M[0][a][b] = S[a][b] - M[1][a][b];
         }
 }
@@ -251,7 +254,18 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
     }
 }
 
-/* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. */
+/* The directions in which the edge of a quadrilateral from vertex v on is held: those of both its
+ * ends. Held at its vertices, such an edge locks like a bond. */
+static int held_edge(const bbm_model *m, const bbm_element *e, int v)
+{
+    const int next = m->vertex[bbm_next_vertex(e, v)].node;
+
+    return m->beyond->bonding == BBM_VERTICES || e->n != 4
+         ? 0 : m->node[m->vertex[v].node].held & m->node[next].held;
+}
+
+/* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. In the
+ * directions in which the edge is held two bonds with the wall stand in its place. */
 static void list_bond(bbm_model *m, const bbm_bond *b)
 {
     const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
@@ -266,36 +280,92 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
     for (int e = 0; e < 2; e++)
         bbm_bonding_gap(i, &m->vertex[b->p[e]], j, &m->vertex[b->q[e]], k, &end[e]);
     bond_moment(m, b, M);
-    list_edge(m, b->i, b->j, end, BBM_XY, k, M);
+    list_edge(m, b->i, b->j, end, BBM_XY & ~held_edge(m, i, b->p[0]), k, M);
     if (i->middle)
         turn_opening(i, j, &m->gap[m->gaps - 1]);
 }
 
-/* The directions in which the edge of a quadrilateral from vertex v on is held: those of both its
- * ends. Held at its vertices, such an edge locks like a bond. */
-static int held_edge(const bbm_model *m, const bbm_element *e, int v)
+/* The vertex before v in its element. */
+static int previous_vertex(const bbm_model *m, int v)
 {
-    const int next = m->vertex[bbm_next_vertex(e, v)].node;
+    const bbm_element *e = &m->element[m->vertex[v].element];
 
-    return m->beyond->bonding == BBM_VERTICES || e->n != 4
-         ? 0 : m->node[m->vertex[v].node].held & m->node[next].held;
+    return v > e->first ? v - 1 : e->first + e->n - 1;
 }
 
-/* Lists vertex v in the directions in which no edge holds it, and the edge from v on as a bond with
- * the wall: its moment is twice the element's own. */
+/* The next after v of the corners that bonds join around a node, from `first` on; -1: it was the
+ * last. */
+static int next_corner(const bbm_model *m, int first, int v)
+{
+    const int next = -1 - m->vertex[v].edge;
+
+    return next == first ? -1 : next;
+}
+
+static int first_corner(const bbm_model *m, int v)
+{
+    int first = v, edge;
+
+    while ((edge = m->vertex[previous_vertex(m, first)].edge) < 0) {
+        first = previous_vertex(m, -1 - edge);
+        if (first == v)
+            break;
+    }
+    return first;
+}
+
+/* Lists the part of vertex v in what holds its node, in the directions in which no edge is held
+ * there. To hold every corner would clamp quadrilaterals, for where they bend their corners part.
+ * So the mean d of the n corners is held. With their gaps d_i to the wall and K the sum of their
+ * springs,
+ *
+ *     K d.d = sum_i K/n d_i.d_i - sum_{i<j} K/n^2 (d_i - d_j).(d_i - d_j):
+ *
+ * a spring holds each corner, and one of negative stiffness parts each two. */
+static void list_held_node(bbm_model *m, int v)
+{
+    const int i = m->vertex[v].element;
+    bbm_node alone = m->node[m->vertex[v].node];
+    const int first = alone.held ? first_corner(m, v) : -1;
+    int corners = 0, quadrilaterals = 0;
+    double K = 0;
+
+    for (int w = first; w >= 0; w = next_corner(m, first, w), corners++) {
+        const bbm_element *e = &m->element[m->vertex[w].element];
+        alone.held &= ~(held_edge(m, e, w) | held_edge(m, e, previous_vertex(m, w)));
+        quadrilaterals += e->n == 4;
+        K += bbm_fixed_stiffness(m->par.alpha, e);
+    }
+    if (!alone.held || quadrilaterals < 2 || m->beyond->bonding == BBM_VERTICES) {
+        bbm_list_fixed_point(m, v, &alone);
+        return;
+    }
+    const double k = K / corners;
+    bbm_fixed_gap(&m->element[i], &m->vertex[v], &alone, k, bbm_add_gap(m, i, -1));
+    for (int w = first; w >= 0; w = next_corner(m, first, w)) {
+        const int j = m->vertex[w].element;
+        if (w <= v)
+            continue;
+        bbm_gap *g = bbm_add_gap(m, i, j);
+        bbm_bonding_gap(&m->element[i], &m->vertex[v], &m->element[j], &m->vertex[w], 0, g);
+        g->W[0][0] = alone.held & BBM_X ? -k / corners : 0;
+        g->W[1][1] = alone.held & BBM_Y ? -k / corners : 0;
+    }
+}
+
+/* Lists what holds vertex v, and the edge from v on, where it is held, as a bond with the wall: its
+ * moment is twice the element's own. */
 static void list_fixed(bbm_model *m, int v)
 {
     const int i = m->vertex[v].element;
     const bbm_element *e = &m->element[i];
     const int ends[2] = { v, bbm_next_vertex(e, v) };
-    const int last = v > e->first ? v - 1 : e->first + e->n - 1, edge = held_edge(m, e, v);
+    const int edge = held_edge(m, e, v);
     const double k = bbm_fixed_stiffness(m->par.alpha, e);
-    bbm_node alone = m->node[m->vertex[v].node];
     bbm_gap end[2];
     double M[2][2];
 
-    alone.held &= ~(edge | held_edge(m, e, last));
-    bbm_list_fixed_point(m, v, &alone);
+    list_held_node(m, v);
     if (!edge)
         return;
     for (int n = 0; n < 2; n++)

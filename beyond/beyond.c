@@ -12,6 +12,8 @@ static void free_prepared(bbm_beyond *b)
     free(b->end_vertex);
     free(b->support);
     free(b->account);
+    free(b->body);
+    free(b->balance);
 }
 
 static void release(bbm_model *m)
@@ -34,10 +36,14 @@ static bbm_status check(bbm_model *m)
     b->end_vertex = calloc((size_t)m->vertices, sizeof *b->end_vertex);
     b->support = calloc((size_t)m->nodes, sizeof *b->support);
     b->account = calloc(n, sizeof *b->account);
+    b->body = calloc(n, sizeof *b->body);
+    b->balance = calloc(n, sizeof *b->balance);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
-    if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account)
+    if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account || !b->body
+        || !b->balance)
         return BBM_NO_MEMORY;
+    bbm_find_pieces(m, b->body);
     bbm_note_springs(m, 0);
     return bbm_check_overlap(m);
 }
@@ -70,6 +76,8 @@ static bbm_status listed(bbm_model *m)
 
     if (!m->K->term && !(status = bbm_lay_out_coarse(m)))
         status = bbm_lay_out_sliding(m);
+    for (int i = 0; i < m->elements; i++)
+        m->K->body[i] = bbm_is_held_all_round(m, &m->element[i]) ? -1 : m->beyond->body[i];
     bbm_set_middle(m);
     bbm_list_gaps(m);
     bbm_start_multipliers(m);
@@ -105,7 +113,8 @@ static bbm_status move(bbm_model *m)
 {
     bbm_status status;
 
-    if ((status = bbm_check_solution(m)) || (status = bbm_check_depth(m)))
+    if ((status = bbm_check_solution(m)) || (status = bbm_check_depth(m))
+        || (status = bbm_check_equilibrium(m)))
         return status;
     bbm_find_reactions(m);
     bbm_model end = bbm_end_of_step(m);

@@ -33,6 +33,12 @@ typedef struct {                /* energy.c: of an element, and of the component
     double mass;                /* kg       in a hit: what is free to move                      */
 } bbm_account;
 
+typedef struct {                /* equilibrium.c: of a body, at its first element               */
+    double x, y, area, size;    /* m, m, m^2, m     the centre, and how large it is             */
+    double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
+    double forces, rounding;    /* N        all of them without direction; of what is left      */
+} bbm_balance;
+
 typedef struct {                /* joints.c: a joint of its own strength                        */
     int    block[2];            /* -1: any                                                      */
     double friction;            /* degree   friction angle                                      */
@@ -73,6 +79,9 @@ struct bbm_beyond {
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
     double work;                /* J        of loads and gravity, in all steps                  */
+    int *body;                  /* [elements] the first element of its body: what bonds join    */
+    bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
+    double lack;                /* -        the most that a body has left, without inertia      */
     bbm_account *account;       /* [elements]                                                   */
     double gained;              /* J        what dynamic steps have made beyond the balance     */
     double gain;                /* -        the most that one made, against what was there      */
@@ -187,6 +196,12 @@ bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that 
 bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */
 bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end);
 bbm_status bbm_try_otherwise(bbm_model *m, bbm_status s);
+
+/* equilibrium.c. BBM_BALANCED [-]: what may be left in statics of the forces on a body, or of their
+ * moment; nobody knows a limit load better. */
+#define BBM_BALANCED 1e-6
+void       bbm_contact_forces(const bbm_model *m, const bbm_contact *c, double F[BBM_PARTS][6]);
+bbm_status bbm_check_equilibrium(bbm_model *m);         /* of the solution in hand              */
 
 /* stability.c */
 bbm_status bbm_find_stability(bbm_model *m, int *stable);       /* of a static answer           */

@@ -41,7 +41,8 @@
  *
  * and Kc still is positive semidefinite. At alpha = 100 a large model takes a third more iterations
  * and 0.6 of the time. A small one would gain nothing, and one with contacts would lose: they keep
- * K_ij whole.
+ * K_ij whole. So do two rows with a held node: between them there may be a spring of negative
+ * stiffness (bending.c), and with that the sum might not be positive.
  *
  * Displacements of the nodes that move no element (the hourglass of quadrilaterals) have no
  * stiffness: of their pivots rounding is left, some eps of what was summed up before it cancelled.
@@ -63,6 +64,7 @@ typedef struct {
     int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
                                 /*           start[i] .. start[j]-1                             */
     int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
+    int *held;                  /* as node: it is                                               */
     bbm_linear *P;              /* as node                                                      */
     double (*at)[2];            /* as node: from the row's centroid                             */
     double (*Q)[4][4];          /* [rows]   unknowns 2 to 5 of the slopes ux, uy, vx, vy        */
@@ -74,23 +76,27 @@ typedef struct {
 /* ----------------------------------------------------------------------------------- the layout */
 
 /* The corners of row i that row j has, too, if both are elements with a side in common, that is,
- * share two of three nodes or more. Returns how many nodes both have, these twice; 0: no side, or
- * one that Kc takes whole. */
+ * share two of three nodes or more. Returns how many nodes both have, these twice; 0: they share
+ * nodes, but no side, or one that Kc takes whole; -1: they share none. */
 static int find_side(const coarse_space *c, int i, int j, int corner[2])
 {
     const int ni = c->first[i + 1] - c->first[i], nj = c->first[j + 1] - c->first[j];
-    int common = 0;
+    int common = 0, held = 0;
 
     for (int a = c->first[i]; a < c->first[i + 1]; a++)
         for (int b = c->first[j]; b < c->first[j + 1]; b++)
-            if (c->node[a] == c->node[b])
+            if (c->node[a] == c->node[b]) {
                 corner[common++ % 2] = a;
-    return common == 2 && ni > 2 && nj > 2 && (ni + nj == 6 || c->large) ? ni + nj : 0;
+                held |= c->held[a];
+            }
+    if (common == 2 && ni > 2 && nj > 2 && (ni + nj == 6 || (c->large && !held)))
+        return ni + nj;
+    return common > 0 ? 0 : -1;
 }
 
 /* The entries of Kc below its diagonal: the pairs of nodes that meet in an element, or in elements
- * that a block of K joins without a common side, some several times. entry NULL: counts them. Such
- * a block is a contact's, or a bolt's, and with one a model no longer counts as large: it would
+ * that a block of K joins without a common side, some several times. entry NULL: counts them. With
+ * a block of a contact or a bolt, which share no node, a model no longer counts as large: it would
  * take far more iterations by the smaller Kc. */
 static int list_entries(const bbm_matrix *K, coarse_space *c, int (*entry)[2])
 {
@@ -100,11 +106,11 @@ static int list_entries(const bbm_matrix *K, coarse_space *c, int (*entry)[2])
         for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
             const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = find_side(c, i, j, p);
             const int before = n;
-            for (int a = c->first[i]; a < c->first[i + 1] && !side; a++)
+            for (int a = c->first[i]; a < c->first[i + 1] && side <= 0; a++)
                 for (int b = i == j ? a + 1 : c->first[j]; b < c->first[j + 1]; b++, n++)
                     if (entry)
                         memcpy(entry[n], (int [2]){ c->node[a], c->node[b] }, sizeof *entry);
-            c->large &= i == j || n == before;
+            c->large &= side >= 0 || n == before;
         }
     return n;
 }
@@ -153,13 +159,15 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *
     }
 }
 
+static int node_of(int number) { return number < 0 ? -1 - number : number; }
+
 static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
                           const long long *place, coarse_space *c)
 {
     const size_t corners = (size_t)first[K->n], rows = (size_t)K->n + 1;
 
     c->n = nodes;
-    c->start = calloc(2 * rows + corners, sizeof *c->start);
+    c->start = calloc(2 * rows + 2 * corners, sizeof *c->start);
     c->P = calloc(corners * (sizeof *c->P + sizeof *c->at) + rows * sizeof *c->Q, 1);
     c->x = calloc(2 * (size_t)nodes + 6 * rows, sizeof *c->x);
     if (!c->start || !c->P || !c->x)
@@ -168,11 +176,15 @@ static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, cons
     c->Q = (double (*)[4][4])(c->at + corners);
     c->first = c->start + rows;
     c->node = c->first + rows;
+    c->held = c->node + corners;
     c->z = c->x + 2 * nodes;
     for (int i = 0; i < K->n; i++) {
         const int *from = first + K->caller[i];
         c->first[i + 1] = c->first[i] + from[1] - from[0];
-        memcpy(c->node + c->first[i], node + from[0], (size_t)(from[1] - from[0]) * sizeof *node);
+        for (int a = c->first[i], k = from[0]; k < from[1]; a++, k++) {
+            c->held[a] = node[k] < 0;
+            c->node[a] = node_of(node[k]);
+        }
     }
     c->large = nodes > LARGE;
     list_entries(K, c, NULL);               /* clears `large` if there are contacts: counted anew */
@@ -204,14 +216,14 @@ static void coarse_free(void *extra)
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
- * node[first[i+1]-1], all different, or none. Rows of three nodes or more that share two of them
+ * node[first[i+1]-1], all different, or none; -1 - v stands for a node v that is held. Rows of three nodes or more that share two of them
  * must be elements bonded along that side. place[v] is BBM_PLACES times the component of K that
  * node v is in, and less than BBM_PLACES more: near nodes should have the upper bits in common. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place)
 {
     for (int k = 0; k < first[K->n]; k++)
-        if (node[k] < 0 || node[k] >= nodes)
+        if (node_of(node[k]) >= nodes)
             return BBM_BAD_INDEX;
     coarse_free(K->extra);
     K->extra = NULL;

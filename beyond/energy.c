@@ -94,7 +94,7 @@ void bbm_note_springs(bbm_model *m, int when)
     for (; c < m->scratch->contact + m->scratch->contacts; c++) {
         const double T = bbm_shear_force(c);
         a[bbm_element_of(m, c->corner)].springs[when] += c->state == BBM_OPEN ? 0
-            : bbm_normal_energy(m->par.p_n, c->N) + T * T / (2 * m->par.p_s);
+            : bbm_normal_energy(m, c->N) + T * T / (2 * m->par.p_s);
     }
 }
 

@@ -138,7 +138,8 @@ void bbm_stiffen(bbm_model *m)
         const double stiffer = fmax(1, rigidity(m, g->i) / (g->elastic ? 1 : m->par.alpha)) - 1;
         bbm_gap more = *g;
         bbm_submatrices s = { .Fi = { 0 } };
-        if (stiffer == 0 || g->j < 0 || m->element[g->i].block != m->element[g->j].block)
+        const int holds = g->j < 0 || g->W[0][0] + g->W[1][1] < 0;      /* a node: bending.c */
+        if (stiffer == 0 || holds || m->element[g->i].block != m->element[g->j].block)
             continue;
         memset(more.d0, 0, sizeof more.d0);
         for (int a = 0; a < 4; a++)
@@ -154,12 +155,10 @@ static void take_back(bbm_model *m)
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
-        const double T = bbm_shear_force(c);
-        bbm_spring v[2];
-        bbm_contact_vectors(m, c, c->anchor, v);
+        double F[BBM_PARTS][6];
+        bbm_contact_forces(m, c, F);
         for (int i = 0; i < 6 * c->parts && isfinite(m->scratch->contact[k].rest); i++)
-            m->load[6 * c->element[i / 6] + i % 6] += T * v[1].v[i / 6][i % 6]
-                                                    - c->N * v[0].v[i / 6][i % 6];
+            m->load[6 * c->element[i / 6] + i % 6] -= F[i / 6][i % 6];
     }
 }
 
@@ -203,7 +202,7 @@ static void start_gaps(bbm_model *m)
         for (int a = 0; a < 2; a++) {
             const double w0 = support_velocity(m, g->node[0], a);
             const double w1 = support_velocity(m, g->node[1], a);
-            g->d0[a] = g->j >= 0 ? -(account_of(m, g->i)->jumps > 0) * d[a]
+            g->d0[a] = g->j >= 0 ? -(account_of(m, g->i)->jumps > 0 && g->W[a][a] >= 0) * d[a]
                      : -m->h / 4 * (g->elastic ? w0 - w1 : w0 + w1);
         }
     }

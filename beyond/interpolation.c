@@ -147,8 +147,10 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         const int in = worth[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
-        for (int k = 0; k < in * e->n; k++)
-            node[first[i] + k] = number[bbm_root_of(up, e->first + k)];
+        for (int k = 0; k < in * e->n; k++) {
+            const int at = number[bbm_root_of(up, e->first + k)];
+            node[first[i] + k] = m->node[m->vertex[e->first + k].node].held ? -1 - at : at;
+        }
         first[i + 1] = first[i] + in * e->n;
     }
     const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node, place);

@@ -7,9 +7,9 @@
  * Optimization, 1969; the paper names it for contacts). K stays, and so does all that was made of
  * it.
  *
- * They go on from step to step of statics. In dynamics they would be an integral controller, and in
- * short steps unstable (doc/beyond.md): there bonds are springs alone, and a larger alpha makes
- * them stiffer.
+ * They go on from step to step of statics, also in those from rest (statics.c). In dynamics they
+ * would be an integral controller, and in short steps unstable (doc/beyond.md): there bonds are
+ * springs alone, and a larger alpha makes them stiffer.
  */
 #include "beyond.h"
 
@@ -26,11 +26,40 @@ void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
     }
 }
 
+/* An element that is held all round cannot move: its n fixed points g begin with its weight. Each
+ * has a share w = a + b X + c Y of it, with (X, Y) from the barycentre to the point, and
+ *     sum w = 1,  sum w X = sum w Y = 0. */
+static void take_weight(const bbm_model *m, bbm_gap *g, int n)
+{
+    double W[6] = { 0 }, S = 0, Sx = 0, Sy = 0, Sxx = 0, Sxy = 0, Syy = 0;
+
+    bbm_gravity_submatrix(&m->element[g->i], m->acceleration, W);
+    for (int k = 0; k < n; k++) {
+        const double one = !g[k].elastic, X = one * g[k].Ti[1][2], Y = -one * g[k].Ti[0][2];
+        S += one, Sx += X, Sy += Y, Sxx += X * X, Sxy += X * Y, Syy += Y * Y;
+    }
+    const double a = Sxx * Syy - Sxy * Sxy, b = Sxy * Sy - Sx * Syy, c = Sx * Sxy - Sxx * Sy;
+    for (int k = 0; k < n; k++)
+        for (int r = 0; r < 2 && !g[k].elastic; r++)
+            g[k].own.f[r] = W[r] * (a + b * g[k].Ti[1][2] - c * g[k].Ti[0][2])
+                          / (S * a + Sx * b + Sy * c);
+}
+
+/* f of the last step in statics, also in its steps from rest; 0 in dynamics. */
 void bbm_start_multipliers(bbm_model *m)
 {
-    for (int k = 0; k < m->gaps; k++)
-        for (int r = 0; r < 2; r++)
-            m->gap[k].own.f[r] = bbm_is_static(m) ? m->gap[k].own.f_before[r] : 0;
+    const int rests = isinf(m->par.dt);
+    int n;
+
+    for (bbm_gap *g = m->gap; g < m->gap + m->gaps; g += n) {
+        for (n = 0; g + n < m->gap + m->gaps && g[n].i == g->i && g[n].j == g->j; n++)
+            for (int r = 0; r < 2; r++)
+                g[n].own.f[r] = rests ? g[n].own.f_before[r] : 0;
+        const int begins = g->j < 0 && g->own.f[0] == 0 && g->own.f[1] == 0;
+        if (rests && begins && m->beyond->multiplier_rounds > 0
+            && bbm_is_held_all_round(m, &m->element[g->i]))
+            take_weight(m, g, n);
+    }
     m->beyond->round = 0;
 }
 
@@ -40,7 +69,7 @@ bbm_pass bbm_take_over(bbm_model *m)
 {
     double d[2];
 
-    if (!bbm_is_static(m) || m->beyond->round++ >= m->beyond->multiplier_rounds)
+    if (!isinf(m->par.dt) || m->beyond->round++ >= m->beyond->multiplier_rounds)
         return BBM_PASS_DONE;
     m->scratch->passes = m->scratch->one_until = 0;
     for (int k = 0; k < m->gaps; k++) {

@@ -157,7 +157,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
         }
         const double bound = fmax(share * force, c->trial.force_tolerance);
         bbm_end_distances(m, c, c->anchor, d);
-        off = off || m->par.p_n * fabs(d[0] - c->d_n) > bound
+        off = off || bbm_normal_stiffness(m) * fabs(d[0] - c->d_n) > bound
            || (m->par.p_s * fabs(c->trial.time_left * d[1] - c->d_s) > bound
                    && c->state == BBM_LOCK);
     }

@@ -179,7 +179,7 @@ static bbm_status solve(bbm_matrix *K, const bbm_pcg *wanted, bbm_pcg_info *info
  * it is at D = 0. The length of v[0], its normal spring, counts from `rest`. */
 double bbm_put_friction_in_K(bbm_model *m, const bbm_contact *c, const bbm_spring v[2])
 {
-    const double p = -c->sign * c->strength.tan_phi * m->par.p_n;
+    const double p = -c->sign * c->strength.tan_phi * bbm_normal_stiffness(m);
     bbm_term t = { c->parts, { 0 }, p, v[1], v[0] };
 
     t.n.d = 0;

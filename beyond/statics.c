@@ -24,14 +24,11 @@
  * STRIDE [-]   how far blocks may part, against the smaller one's size, in a step from rest and
  *              in the static step from there: contacts and directions are those of its start
  * FAR [-]      how far they have parted in all when that is no elastic way
- * BALANCED [-] what forces may lack of balance, against the largest: a state of contacts is no more
- *              exact
  * LONG [-]     the first step against a swing on a contact spring; the shortest is the inverse
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
 #define FAR 0.02
-#define BALANCED 1e-9
 #define LONG 1e3
 #define DRIFT 0.9
 
@@ -164,11 +161,12 @@ bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end)
                     m->info.step + 1, m->edge[worst.corner].block, m->edge[worst.edge].block, most);
 }
 
+/* How far an element has gone; a held one nowhere, though its supports may give way. */
 static double way_of(const bbm_model *from, const bbm_model *m, int i)
 {
     const double *a = from->element[i].sum, *b = m->element[i].sum;
 
-    return hypot(b[0] - a[0], b[1] - a[1]);
+    return m->K->body[i] < 0 ? 0 : hypot(b[0] - a[0], b[1] - a[1]);
 }
 
 /* Says which two blocks have parted, the one first that has gone further; and how: along the edge
@@ -190,22 +188,6 @@ static bbm_status blame(bbm_model *m, const bbm_model *from, const bbm_contact *
 
 /* ------------------------------------------------------------------------ steps from rest */
 
-/* The largest force of inertia in a step from rest, 2 M D/h^2, against the largest force. */
-static double find_imbalance(const bbm_model *m, double h)
-{
-    double most = 0, force = 0;
-
-    for (int k = 0; k < m->contacts; k++)
-        force = fmax(force, m->contact[k].N);
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        most = fmax(most, 2 * bbm_mass_per_area(e) * e->A0 / (h * h)
-                          * (hypot(e->D[0], e->D[1]) + fabs(e->D[2]) * sqrt(e->A0)));
-        force = fmax(force, hypot(m->load[6 * i], m->load[6 * i + 1]));
-    }
-    return most / force;
-}
-
 /* Statics from where the model is now: it has to find the equilibrium near by, and soon. */
 static bbm_status try_statics(bbm_model *m)
 {
@@ -223,9 +205,9 @@ static bbm_status try_statics(bbm_model *m)
 static int is_final(bbm_status s) { return !s || s == BBM_NO_MEMORY || s == BBM_STOPPED; }
 
 /* Steps from rest, each as long as it settles without that blocks part far in it, until statics
- * finds an equilibrium from where they are, nothing lacks balance, or blocks have parted. A length
- * that failed, or after which statics did, is not tried again for some steps. Lengths begin from
- * the time in which the lightest element swings on a contact spring. */
+ * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
+ * A length that failed, or after which statics did, is not tried again for some steps. Lengths
+ * begin from the time in which the lightest element that is not held swings on a contact spring. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1, least = INFINITY;
@@ -233,7 +215,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     bbm_status status = BBM_OPEN_CLOSE;
 
     for (int i = 0; i < m->elements; i++)
-        least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
+        if (m->K->body[i] >= 0)
+            least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
     const double swing = sqrt(2 * least / m->par.p_n);
     double h = LONG * swing;
     while (h > swing / LONG && !bbm_is_spent(m)) {
@@ -247,10 +230,10 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
             continue;
         }
         parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
-        lacks = find_imbalance(m, h);
+        lacks = m->beyond->lack;
         if (parted > FAR)
             return blame(m, from, &worst);
-        status = lacks <= BALANCED ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
+        status = lacks <= BBM_BALANCED ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
         if (is_final(status))
             return status;
         tried = DRIFT * (h > tried ? 2 * h : tried);

@@ -25,7 +25,7 @@ for f in ./*.c base/*.c beyond/*.c; do
     grep -qw "${f##*/}" doc/house.svg || fail "doc/house.svg lacks $f"
 done
 
-awk -f tests/equations.awk doc/paper.md *.c */*.c
+awk -f tests/equations.awk doc/paper.md tests/beyond.md *.c */*.c
 sed -n '/no error/!s/.*\[BBM_[A-Z_]*\] = "\([^"]*\)".*/\1/p' base/cut.c | while read -r text; do
     grep -qF -- "- **$text**" doc/failures.md || fail "doc/failures.md has no \"$text\""
 done

@@ -503,7 +503,9 @@ int model_stress(model_reader *r)
     b->stressed = 1;
     for (int e = 0; e < r->elements; e++) {
         bbm_element *i = &r->p->m->element[e];
-        for (int k = 0; k < 3 && (star ? !r->block[i->block].stressed : i->block == block); k++)
+        if (star ? r->block[i->block].stressed : i->block != block)
+            continue;
+        for (int k = 0; k < 3; k++)
             i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
         i->szz = i->out_of_plane * (i->stress[0] + i->stress[1]);
     }

@@ -184,7 +184,7 @@ int model_hook(model_reader *r)
 {
     model *p = r->p;
     bbm_model *m = p->m;
-    const size_t gaps = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices, bolts = (size_t)p->bolts;
+    const size_t gaps = bbm_most_gaps(m), bolts = (size_t)p->bolts;
 
     if (p->stages)
         m->hook->load = model_gather_loads;

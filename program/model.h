@@ -50,7 +50,7 @@ typedef struct {
     bbm_model *m;
     char  *title;               /* or NULL */
     int    dynamic, settle;     /* quasi-static steps before t = 0 */
-    int    every, vtk, svg;     /* every: 0, the end only */
+    int    every, vtk, svg, balance;    /* every: 0, the end only */
     int    film;                /* whether it has the colours of the field, too */
     const char *field;          /* of the picture, a name of field.h */
     double colours[2];          /* their range; zeros: that of the field */

@@ -50,6 +50,16 @@ bbm_status run_step(run *r)
     return status;
 }
 
+/* Whether a joint has a strength that it can lose. */
+static int is_joined(const bbm_beyond *b)
+{
+    int joined = b->cohesion > 0 || b->tension > 0;
+
+    for (int k = 0; k < b->joints; k++)
+        joined |= b->joint[k].cohesion > 0 || b->joint[k].tension > 0;
+    return joined;
+}
+
 /* The library's own message may name the step. */
 void run_says(const run *r, bbm_status status, char out[500])
 {
@@ -63,8 +73,10 @@ void run_says(const run *r, bbm_status status, char out[500])
                  : "step %d: a bolt carries more than its strength; more steps may help",
                  m->info.step, m->info.change, m->par.tolerance);
     else
-        snprintf(out, 500, "%s%s%s", r->has_begun ? "" : "settling, ",
-                 strstr(model_says(r->p, status, text), "step ") ? "" : step, text);
+        snprintf(out, 500, "%s%s%.380s%s", r->has_begun ? "" : "settling, ",
+                 strstr(model_says(r->p, status, text), "step ") ? "" : step, text,
+                 status == BBM_NO_EQUILIBRIUM && is_joined(m->beyond)
+                 ? "; a joint breaks point by point, the sooner the finer its mesh" : "");
 }
 
 int run_is_met(const model *p, int k, char out[300])

@@ -131,7 +131,7 @@ void model_next_stage(model *p)
                          || field_is_gone(m, b->end[1].vertex[0])))
             b->k = b->strength = 0, b->until = m->info.t;
     for (int k = 0; k < m->gaps; k++)
-        if (m->gap[k].j < 0 || field_is_gone(m, m->element[m->gap[k].i].first))
+        if (k >= 2 * m->bonds || field_is_gone(m, m->element[m->gap[k].i].first))
             m->gap[k].own = (bbm_multiplier){ 0 };
     m->contacts = 0;
     for (const bbm_contact *c = m->contact; c < m->contact + contacts; c++)

@@ -193,6 +193,7 @@ static int read_output(model_reader *r)
     int chosen = (int)(field_find(r->p->field) - field_table);
     double *c = r->p->colours;
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
+                   { .name = "balance", .flag = &r->p->balance },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
                    { .name = "film", .flag = &r->p->film },
                    CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
@@ -447,7 +448,8 @@ static const struct kind {
     { "bond [alpha VALUE] [augment N] [at vertices|moment|auto]", read_bond, ALONE, ONCE },
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
-    { "output [every N] [vtk] [svg] [film] [field NAME] [scale N] [low VALUE] [high VALUE]",
+    { "output [every N] [vtk] [balance] [svg] [film] [field NAME] [scale N] [low VALUE] "
+      "[high VALUE]",
       read_output, NODES, ONCE },
     { "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },

@@ -11,6 +11,8 @@ enum { NAMED = 10 };            /* pieces of a block that a warning names       
  * all of them are alike, which is 1, something slides freely. */
 #define UNSETTLED 0.01
 #define DRIFT 0.05
+/* With which rows of cells bend by 0.84 of what they should. */
+#define TAPER 0.5
 /* Of its size: an element that moves by less in a step is at rest but for rounding. */
 #define STILL 1e-10
 
@@ -261,6 +263,70 @@ static void warn_of_bodies(const model *p, const char *path)
     free(s.next);
 }
 
+/* -------------------------------------------------------------------------------------- cells */
+
+/* How many quadrilaterals lie, one behind the other, beyond the edge from vertex v on. */
+static int count_rows(const bbm_model *m, int v)
+{
+    int rows = 0;
+
+    for (; m->vertex[v].edge < 0 && rows < m->elements; rows++) {
+        const int across = -1 - m->vertex[v].edge;
+        const bbm_element *e = &m->element[m->vertex[across].element];
+        if (e->n != 4)
+            break;
+        v = bbm_next_vertex(e, across);
+    }
+    return rows;
+}
+
+/* The taper of a quadrilateral x = c + xi p + eta q + xi eta g, or of the same turned, g.p p.p/h^2
+ * with h the area of p and q, over the rows that lie along p. Bent along p to the curvature kappa
+ * it would have to stretch along q, by kappa g.p p.p/(4 h |p|); rows bend by 1/(1 + 3/4 taper^2)
+ * of what they should. One row alone is free to stretch. */
+static double find_taper(const bbm_model *m, const bbm_element *e, int turned)
+{
+    const int v = e->first, first = v + turned;
+    double x[4][2], p[2], q[2], g[2];
+
+    for (int k = 0; k < 4; k++) {
+        const bbm_node *n = &m->node[m->vertex[v + (k + turned) % 4].node];
+        x[k][0] = n->x, x[k][1] = n->y;
+    }
+    for (int a = 0; a < 2; a++) {
+        p[a] = (x[1][a] + x[2][a] - x[0][a] - x[3][a]) / 2;
+        q[a] = (x[2][a] + x[3][a] - x[0][a] - x[1][a]) / 2;
+        g[a] = x[0][a] - x[1][a] + x[2][a] - x[3][a];
+    }
+    const double h = p[0] * q[1] - p[1] * q[0], along = g[0] * p[0] + g[1] * p[1];
+    const double taper = fabs(along) * (p[0] * p[0] + p[1] * p[1]) / (h * h);
+    if (taper < 2 * TAPER)
+        return 0;
+    const int rows = 1 + count_rows(m, first) + count_rows(m, v + (turned + 2) % 4);
+    return rows > 1 ? taper / rows : 0;
+}
+
+/* Cells that no bond lets bend as they should: MacNeal, Int. J. Num. Meth. Eng. 24, 1987. A few in
+ * a mesh, as where it is graded, do no harm. */
+static void warn_of_cells(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    double most = 0;
+    int cells = 0, worst = 0;
+
+    for (int k = 0; k < 2 * m->elements && m->beyond->bonding == BBM_MOMENT; k++) {
+        const bbm_element *e = &m->element[k / 2];
+        const double taper = e->n == 4 ? find_taper(m, e, k % 2) : 0;
+        cells += taper > TAPER;
+        if (taper > most)
+            most = taper, worst = k / 2;
+    }
+    if (10 * cells > m->elements)
+        warn(path, "element %.60s of block '%.60s' is a long trapezoid (1 of %d): where rows of such "
+                   "cells bend, they lock; shorter cells or parallelograms do not",
+             p->element[worst], p->block[m->element[worst].block], cells);
+}
+
 /* Waves of a shake that are short for steps, and what steps leave out of a record. */
 static void warn_of_shaking(const model *p, const char *path)
 {
@@ -285,6 +351,7 @@ void warn_before(const model *p, const char *path)
         warn(path, "bond augment has no part in dynamics; a larger alpha stiffens bonds");
     warn_of_loads(p, path);
     warn_of_bodies(p, path);
+    warn_of_cells(p, path);
     warn_of_shaking(p, path);
 }
 

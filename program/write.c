@@ -151,6 +151,23 @@ static void put_bolts(FILE *f, const write_results *w)
                 b->strength == 0 ? "REMOVED" : b->until < INFINITY ? "BROKEN" : "HOLDS");
 }
 
+/* What is left of the forces on each body in the last solution, and its share of all of them. */
+static void put_balance(FILE *f, const write_results *w)
+{
+    const model *p = w->p;
+
+    fprintf(f, "block,element,force,force_share,moment,moment_share\n");
+    for (int e = 0; e < p->m->elements; e++) {
+        const bbm_balance *b = &p->m->beyond->balance[e];
+        const double force = hypot(b->force[0], b->force[1]), all = b->forces > 0 ? b->forces : 1;
+        if (b->area == 0 || field_is_gone(p->m, p->m->element[e].first))
+            continue;
+        fprintf(f, "%s,%s", p->block[p->m->element[e].block], p->element[e]);
+        put_numbers(f, 4, (double[]){ force, force / all, b->moment, b->moment / (all * b->size) });
+        fputc('\n', f);
+    }
+}
+
 /* Static steps take no time: t stays 0. */
 static double time_of(const write_results *w)
 {
@@ -467,9 +484,9 @@ static int is_ours(const char *name)
 {
     static const char *const form[] = {
         "nodes.csv%n", "elements.csv%n", "history.csv%n", "summary.csv%n", "timing.csv%n",
-        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "contacts.svg%n", "movie.svg%n",
-        "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n", "contacts_%*[0-9].vtk%n",
-        "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
+        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "balance.csv%n", "contacts.svg%n",
+        "movie.svg%n", "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n",
+        "contacts_%*[0-9].vtk%n", "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
     };
     char picture[LONGEST];
     int ours = 0;
@@ -589,13 +606,15 @@ void write_close(write_results *w)
         { "elements.csv", put_elements },
         { "contacts.csv", put_contacts },
         { "reactions.csv", put_reactions },
-        { "bolts.csv", put_bolts },
+        { "balance.csv", p->balance ? put_balance : NULL },
+        { "bolts.csv", p->bolts ? put_bolts : NULL },
     };
 
     close_file(w, &w->history);
     close_file(w, &w->summary);
-    for (int k = 0; k < LENGTH(table) - !p->bolts; k++)
-        write_file(w, path_of(w, table[k].name), table[k].put);
+    for (int k = 0; k < LENGTH(table); k++)
+        if (table[k].put)
+            write_file(w, path_of(w, table[k].name), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);
     if (p->svg)

@@ -13,9 +13,10 @@
  */
 #include "../beyond/beyond.h"
 #include "check.h"
+#include "models.h"
 #include "rock.h"
 
-enum { COLUMNS = 6 };
+enum { BAR = 6 };              /* its columns */
 
 typedef struct {                /* its columns are in turn of the first and of the second kind */
     const char *name;
@@ -73,12 +74,12 @@ static void tractions(double x, double y, const void *context, double f[2])
 }
 
 /* x and -v of theory on the axis at each grid line. */
-static void deflect(const bar *b, double x[COLUMNS + 1], double w[COLUMNS + 1])
+static void deflect(const bar *b, double x[BAR + 1], double w[BAR + 1])
 {
     double angle = 0;
 
     x[0] = w[0] = 0;
-    for (int i = 0; i < COLUMNS; i++) {
+    for (int i = 0; i < BAR; i++) {
         const double dx = b->w[i % 2], kappa = curvature(b, i);
         x[i + 1] = x[i] + dx;
         w[i + 1] = w[i] + angle * dx + kappa * dx * dx / 2;
@@ -93,7 +94,7 @@ static double nu_of(const bar *b, int k)
     return b->plain || b->layers ? b->nu : b->nu * stiffness(b, k) / most;
 }
 
-static bbm_model *make(const bar *b, const double x[COLUMNS + 1])
+static bbm_model *make(const bar *b, const double x[BAR + 1])
 {
     const double c = cos(b->turn), s = sin(b->turn);
     const double lateral = nu_of(b, kind(b, 0, 0)) * curvature(b, 0) / 2;
@@ -104,22 +105,22 @@ static bbm_model *make(const bar *b, const double x[COLUMNS + 1])
     for (int k = 0; k < 2; k++)
         bbm_add_material(m, &(bbm_material){ 1e9 * b->E[k], nu_of(b, k), 1000, b->t[k] }, NULL);
     for (int j = 0; j <= b->rows; j++)
-        for (int i = 0; i <= COLUMNS; i++) {
+        for (int i = 0; i <= BAR; i++) {
             const double y = b->height * (j - b->rows / 2.0), v = -lateral * y * y;
             bbm_add_node(m, c * x[i] - s * y, s * x[i] + c * y, NULL);
             if (i == 0)
                 bbm_fix_node(m, m->nodes - 1, BBM_XY, -s * v, c * v);
         }
     for (int j = 0; j < b->rows; j++)
-        for (int i = 0; i < COLUMNS; i++) {
-            const int a = j * (COLUMNS + 1) + i, d = a + COLUMNS + 1;
+        for (int i = 0; i < BAR; i++) {
+            const int a = j * (BAR + 1) + i, d = a + BAR + 1;
             bbm_add_element(m, 0, kind(b, i, j), 4, (int[]){ a, a + 1, d + 1, d }, NULL);
         }
     for (int j = 0; j < b->rows; j++) {
-        const int right = (j + 1) * (COLUMNS + 1) - 1, last = COLUMNS - 1;
+        const int right = (j + 1) * (BAR + 1) - 1, last = BAR - 1;
         const double factor = stiffness(b, kind(b, last, j)) / stiffness(b, kind(b, last, 0));
         const end_load load = { c, s, factor };
-        bbm_add_varying_line_load(m, right, right + COLUMNS + 1, tractions, &load);
+        bbm_add_varying_line_load(m, right, right + BAR + 1, tractions, &load);
     }
     return m;
 }
@@ -128,7 +129,7 @@ static bbm_model *make(const bar *b, const double x[COLUMNS + 1])
  */
 static double bar_error(const bar *b, double alpha, int augment, bbm_bonding bonding)
 {
-    double x[COLUMNS + 1], w[COLUMNS + 1], worst = 0;
+    double x[BAR + 1], w[BAR + 1], worst = 0;
 
     deflect(b, x, w);
     bbm_model *m = make(b, x);
@@ -138,12 +139,12 @@ static double bar_error(const bar *b, double alpha, int augment, bbm_bonding bon
     ck_ok(bbm_prepare(m), m);
     ck_ok(bbm_run(m), m);
     for (int n = 0; n < m->nodes; n++) {
-        const int i = n % (COLUMNS + 1), j = n / (COLUMNS + 1);
+        const int i = n % (BAR + 1), j = n / (BAR + 1);
         const double y = b->height * (j - b->rows / 2.0);
         const double v = -w[i] - nu_of(b, kind(b, 0, 0)) * curvature(b, 0) * y * y / 2;
         bbm_result r;
         ck_assert_int_eq(bbm_nodal_result(m, n, -1, &r), BBM_OK);
-        worst = fmax(worst, fabs(cos(b->turn) * r.v - sin(b->turn) * r.u - v) / w[COLUMNS]);
+        worst = fmax(worst, fabs(cos(b->turn) * r.v - sin(b->turn) * r.u - v) / w[BAR]);
     }
     release(m);
     return worst;
@@ -159,6 +160,47 @@ START_TEST(bars_of_rectangles_bend_exactly)
     ck_assert_msg(springs < 1e-3, "%s: off by %g", b->name, springs);
     ck_assert_msg(multipliers < 1e-6, "%s: off by %g with multipliers", b->name, multipliers);
     ck_assert_msg(locked > 0.5, "%s: at vertices it should lock, is off by %g", b->name, locked);
+}
+END_TEST
+
+/* A row of parallelograms, their sides slanted by `shift`, their vertices from any corner on. The
+ * middle of each side sinks as the axis of a beam does. */
+typedef struct { double shift, w[2], E[2]; int start; } slanted_bar;
+
+static const slanted_bar slanted[] = {
+    { 0.5, { 1, 1 }, { 1, 1 }, 0 },   { 1, { 1, 1 }, { 1, 1 }, 1 }, { 2, { 1, 1 }, { 1, 1 }, 2 },
+    { -1, { 0.5, 0.5 }, { 1, 1 }, 3 }, { 1, { 1, 3 }, { 1, 1 }, 0 }, { -2, { 2, 1 }, { 1, 100 }, 1 },
+};
+
+START_TEST(rows_of_parallelograms_bend_as_beams)
+{
+    const slanted_bar *b = &slanted[_i];
+    const bar straight = { "", 1, 1, { b->w[0], b->w[1] }, { b->E[0], b->E[1] }, { 1, 1 }, 0.3,
+                           0, 0, 1 };
+    double x[BAR + 1], w[BAR + 1];
+    bbm_model *m = beyond_model();
+
+    deflect(&straight, x, w);                   /* under the moment 1000/12 */
+    m->beyond->multiplier_rounds = 3;
+    m->par.pcg.tolerance = 1e-14;
+    for (int k = 0; k < 2; k++)
+        bbm_add_material(m, &(bbm_material){ 1e9 * b->E[k], 0.3, 1000, 1 }, NULL);
+    for (int i = 0; i <= BAR; i++)
+        for (int side = -1; side < 2; side += 2)
+            bbm_add_node(m, x[i] + side * b->shift / 2, side / 2.0, NULL);
+    for (int i = 0; i < BAR; i++) {
+        const int a = 2 * i, ring[7] = { a, a + 2, a + 3, a + 1, a, a + 2, a + 3 };
+        bbm_add_element(m, 0, i % 2, 4, &ring[b->start], NULL);
+    }
+    for (int side = 0; side < 2; side++) {
+        bbm_fix_node(m, side, BBM_XY, 0, 0);
+        bbm_add_load(m, 2 * BAR + side, (side ? 1000 : -1000) / 12.0, 0);
+    }
+    run(m);
+    for (int i = 0; i <= BAR; i++) {
+        const double v = (result_at(m, 2 * i).v + result_at(m, 2 * i + 1).v) / 2;
+        ck_near(v, -w[i], w[BAR], 1e-6);        /* multipliers, see above */
+    }
 }
 END_TEST
 
@@ -224,12 +266,185 @@ START_TEST(a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_seri
 }
 END_TEST
 
+/* ------------------------------------------------------------------------------------- supports */
+
+/* Round node 0, in turn, 3 to 8 quadrilaterals: kites from node 0 to one rim node after another, by
+ * way of an outer one; or every second kite is two triangles. */
+enum { FEWEST = 3, MOST = 8, STARS = MOST - FEWEST + 1 };
+
+/* Bit 0: with triangles; 1: of two materials; 2: distorted. Held at two outer
+ * nodes, loaded at all round node 0. */
+static bbm_model *make_star(int n, int kind)
+{
+    bbm_model *m = beyond_model();
+    unsigned seed = 39;
+
+    m->par.pcg.tolerance = 1e-14;
+    for (int k = 0; k < 2; k++)
+        bbm_add_material(m, &(bbm_material){ k ? 1e9 : 1e10, 0.3, 1000, 1 }, NULL);
+    bbm_add_node(m, 0, 0, NULL);
+    for (int k = 0; k < 2 * n; k++) {
+        const double shake = kind & 4 ? 0.1 : 0, r = (k % 2 ? 1.6 : 1) + shake * random_number(&seed);
+        const double at = PI / n * (k + shake * random_number(&seed));
+        bbm_add_node(m, r * cos(at), r * sin(at), NULL);
+        bbm_add_load(m, m->nodes - 1, 1e6 * random_number(&seed), 1e6 * random_number(&seed));
+    }
+    for (int k = 0; k < n; k++) {
+        const int rim = 1 + 2 * k, next = 1 + 2 * ((k + 1) % n), of = kind & 2 ? k % 2 : 0;
+        if (kind & 1 && k % 2) {
+            bbm_add_element(m, 0, of, 3, (int[]){ 0, rim, next }, NULL);
+            bbm_add_element(m, 0, of, 3, (int[]){ rim, rim + 1, next }, NULL);
+        } else {
+            bbm_add_element(m, 0, of, 4, (int[]){ 0, rim, rim + 1, next }, NULL);
+        }
+    }
+    bbm_fix_node(m, 2, BBM_XY, 0, 0);
+    bbm_fix_node(m, 4, BBM_XY, 0, 0);
+    return m;
+}
+
+/* Both have moved alike, all nodes, by the largest way w within `tolerance`. */
+static void ck_alike(const bbm_model *m, const bbm_model *n, double tolerance)
+{
+    double w = 0;
+
+    for (int k = 0; k < m->nodes; k++)
+        w = fmax(w, hypot(result_at(m, k).u, result_at(m, k).v));
+    for (int v = 0; v < m->vertices; v++) {
+        ck_near(n->vertex[v].u, m->vertex[v].u, w, tolerance);
+        ck_near(n->vertex[v].v, m->vertex[v].v, w, tolerance);
+    }
+}
+
+/* Node 0 is held where it is anyway. */
+START_TEST(a_support_with_reaction_0_changes_no_answer)
+{
+    const int n = FEWEST + _i % STARS, kind = _i / STARS;
+    bbm_model *m = make_star(n, kind), *held = make_star(n, kind);
+
+    run(m);
+    bbm_fix_node(held, 0, BBM_XY, result_at(m, 0).u, result_at(m, 0).v);
+    run(held);
+    ck_alike(m, held, 1e-8);                    /* what the solver leaves */
+    for (int a = 0; a < 2; a++)                 /* of loads of 1e6 N */
+        ck_near(held->beyond->support[0].force[a], 0, 1e6, 1e-6);
+}
+END_TEST
+
+/* It acts on all corners that meet at the node, as a load does. */
+START_TEST(a_support_is_as_good_as_its_reaction_as_a_load)
+{
+    const int n = FEWEST + _i % STARS, kind = _i / STARS;
+    bbm_model *m = make_star(n, kind), *loaded = make_star(n, kind);
+
+    bbm_fix_node(m, 0, BBM_Y, 0, 0.01);
+    run(m);
+    const double *R = m->beyond->support[0].force;
+    ck_assert_double_gt(fabs(R[1]), 1e5);
+    ck_assert(R[0] == 0);
+    bbm_add_load(loaded, 0, R[0], R[1]);
+    run(loaded);
+    ck_alike(m, loaded, 1e-8);                  /* what the solver leaves */
+}
+END_TEST
+
+/* 20 m x 1 m of 10 or 20 cells in one or two rows, with a load of 10 kN/m. */
+static bbm_model *make_beam(grid *g, int rows)
+{
+    bbm_model *m = beyond_model();
+
+    *g = (grid){ .x = -10, .lx = 20, .ly = 1, .nx = 20, .ny = rows };
+    m->beyond->multiplier_rounds = 3;
+    m->par.pcg.tolerance = 1e-14;
+    bbm_add_material(m, &(bbm_material){ 1e10, 0, 1000, 1 }, NULL);
+    add_grid(m, g, 0);
+    for (int i = 0; i < g->nx; i++)
+        bbm_add_line_load(m, node_at(g, i, rows), node_at(g, i + 1, rows), 0, -1e4);
+    bbm_fix_node(m, node_at(g, 0, 0), BBM_Y, 0, 0);
+    bbm_fix_node(m, node_at(g, g->nx, 0), BBM_Y, 0, 0);
+    return m;
+}
+
+/* x is held at the left end or, by symmetry no less right, on the axis of the beam: in one node,
+ * from the first to the last held one, as a pin or a whole section. */
+START_TEST(a_beam_bends_alike_wherever_it_is_held_along_its_axis)
+{
+    static const struct { int rows, first, last; } held[] = {
+        { 1, 0, 0 }, { 1, 1, 1 }, { 1, 0, 1 },
+        { 2, 0, 0 }, { 2, 1, 1 }, { 2, 2, 2 }, { 2, 0, 2 },
+    };
+    const int rows = held[_i].rows;
+    grid g;
+    bbm_model *m = make_beam(&g, rows), *n = make_beam(&g, rows);
+
+    bbm_fix_node(m, node_at(&g, 0, 0), BBM_XY, 0, 0);
+    for (int j = held[_i].first; j <= held[_i].last; j++)
+        bbm_fix_node(n, node_at(&g, g.nx / 2, j), BBM_X, 0, 0);
+    run(m);
+    run(n);
+    const double middle = result_at(m, node_at(&g, g.nx / 2, 0)).v;
+    for (int k = 0; k < m->nodes; k++)
+        ck_near(result_at(n, k).v, result_at(m, k).v, middle, 1e-8);    /* the solver's */
+}
+END_TEST
+
+/* Theory with shear: 5 q L^4/(384 E I) + q L^2/(8 k G A) over L^3/(48 E I) + L/(4 k G A), L = 20,
+ * k = 5/6. A pin that clamps gets 3 % more. */
+START_TEST(the_support_in_the_middle_of_two_spans_carries_what_theory_says)
+{
+    const double EI = 1e10 / 12, kGA = 5e9 * 5 / 6, q = 1e4, L = 20;
+    const double sinks = 5 * q * pow(L, 4) / (384 * EI) + q * L * L / (8 * kGA);
+    grid g;
+    bbm_model *m = make_beam(&g, 1 + _i);
+
+    bbm_fix_node(m, node_at(&g, g.nx / 2, 0), BBM_XY, 0, 0);
+    run(m);
+    const double R = m->beyond->support[node_at(&g, g.nx / 2, 0)].force[1];
+    ck_relative(R, sinks / (pow(L, 3) / (48 * EI) + L / (4 * kGA)), 3e-3);  /* 20 elements */
+}
+END_TEST
+
+/* A beam falls on two blocks under its ends and rebounds with a hit's jump; in the middle of its
+ * lower side, x is held or not. */
+START_TEST(a_support_with_reaction_0_changes_no_hit)
+{
+    bbm_model *m[2];
+
+    for (int k = 0; k < 2; k++) {
+        grid g = { .x = -4, .y = 0.001, .lx = 8, .ly = 1, .nx = 8, .ny = 1 };
+        m[k] = new_blocks();
+        m[k]->par.dt = 1e-3;
+        m[k]->beyond->restitution = 0.5;
+        set_springs(m[k], 1e10, 1e10);
+        m[k]->par.friction = 0;
+        add_grid(m[k], &g, 0);
+        for (int side = -1; side < 2; side += 2)
+            add_rectangle(m[k], 2 + side, BASE, (rectangle){ side < 0 ? -5 : 3, -1, 2, 1, .fixed = 1 });
+        if (k)
+            bbm_fix_node(m[k], node_at(&g, 4, 0), BBM_X, 0, 0);
+        prepare(m[k]);
+        for (int e = 0; e < 8; e++)
+            set_velocity(m[k], e, 0, -1);
+        run_steps(m[k], 20);
+    }
+    ck_assert_double_gt(m[0]->beyond->hit[0], 0);
+    ck_alike(m[0], m[1], 1e-7);
+}
+END_TEST
+
 Suite *bars_suite(void)
 {
     Suite *s = suite_create("bars");
 
     add_case(s, "bars",
         { bars_of_rectangles_bend_exactly, COUNT(bars) },
+        { rows_of_parallelograms_bend_as_beams, COUNT(slanted) },
         { a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_series, 3 });
+    add_case(s, "supports",
+        { a_support_with_reaction_0_changes_no_answer, STARS * 8 },
+        { a_support_is_as_good_as_its_reaction_as_a_load, STARS * 8 },
+        { a_beam_bends_alike_wherever_it_is_held_along_its_axis, 7 },
+        { the_support_in_the_middle_of_two_spans_carries_what_theory_says, 2 },
+        { a_support_with_reaction_0_changes_no_hit, 1 });
     return s;
 }

@@ -954,10 +954,10 @@ START_TEST(each_cell_of_the_table_of_states_is_as_written)
     const double p_n = 100, p_s = 40;
     const bbm_contact c = { .state = CELLS[_i].was, .sign = CELLS[_i].sign, .d_n = CELLS[_i].d_n,
                             .d_s = CELLS[_i].T / p_s, .T = CELLS[_i].T,
-                            .N = CELLS[_i].was == BBM_OPEN ? 0 : -p_n * CELLS[_i].d_n,
-                            .strength = strength_of(CELLS[_i].kind, CELLS[_i].whole) };
+                            .N = -p_n * CELLS[_i].d_n, .strength
+                                = strength_of(CELLS[_i].kind, CELLS[_i].whole) };
 
-    const bbm_contact_state now = bbm_next_state(p_n, &c, CELLS[_i].slack);
+    const bbm_contact_state now = bbm_next_state(&c, c.N, CELLS[_i].slack);
     ck_assert_msg(now == CELLS[_i].now, "row %d: %s becomes %s, expected %s", _i,
                   STATE[c.state], STATE[now], STATE[CELLS[_i].now]);
 }

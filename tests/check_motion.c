@@ -399,7 +399,7 @@ static int kick(const bbm_model *m, void *push)
  * 1e-5 goes through, and is counted: an impulse J makes v J of the 2500 v^2/2 that were there. */
 START_TEST(a_step_that_makes_energy_is_cut_and_then_refused)
 {
-    double push[2] = { 2500 * 0.1, 0 };
+    double push[2] = { 2500 * 2e-5, 0 };     /* 1e-5 of the forces; more is no solution either */
     bbm_model *m = new_solid(1e9, 0.01);
 
     add_box(m, 0, &(box){ 0, 0, 1, 1, 0, 1, 1, 0 });

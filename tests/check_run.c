@@ -21,7 +21,7 @@ static const char model[] =
     "bond alpha 100\npcg omega 1\nrotation exact\n"
     "dynamic dt 0.001 steps 2 settle 1\n"
     "monitor low at 10 10\nexpect low v -2.5e-5 within 1e-12\nexpect low moves by 1e-3\n"
-    "output every 1 svg vtk field s1\n";         /* v: g dt^2/2 of settling, g (2 dt)^2/2 */
+    "output every 1 svg vtk balance field s1\n";         /* v: g dt^2/2 of settling, g (2 dt)^2/2 */
 
 /* rows: -1, any number from one on. */
 static const struct { const char *file, *first; int rows; } written[] = {
@@ -29,6 +29,7 @@ static const struct { const char *file, *first; int rows; } written[] = {
     { "elements.csv", "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises,vx,vy,spin", 6 },
     { "contacts.csv", "corner_block,edge_block,x,y,state,normal,shear,gap", -1 },
     { "reactions.csv", "node,x,y,fx,fy", 6 },
+    { "balance.csv", "block,element,force,force_share,moment,moment_share", 4 },
     { "history.csv", "step,t,low_u,low_v", 3 },
     { "summary.csv", "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,"
       "external,gained", 2 },

@@ -159,6 +159,14 @@ START_TEST(a_joint_holds_by_its_own_tensile_strength)
 }
 END_TEST
 
+/* A joint that loses its cohesion point by point says so where it gives way. */
+START_TEST(a_joint_that_breaks_says_how)
+{
+    ck_assert_int_eq(shell("%s/bbm -q doc/shear.model -d s=2e5 -o out/model/shear > out/model/said 2>&1", BUILD), 1);
+    ck_assert(strstr(slurp("out/model/said"), "slides on block 'base' (element 1), and goes on; a joint breaks point by point"));
+}
+END_TEST
+
 /* A block of 24.5 kN hangs on a bolt of 1 MN/m; one that is tight by as much holds it where it is. One
  * that breaks at 20 kN has grown by 0.02 m = W/K (1 - cos 20 t), t = 0.0693 s, from where the block falls on
  * with 0.482 m/s; the 10 mm are what steps of 1 ms make of when it breaks. */
@@ -402,6 +410,9 @@ END_TEST
 #define FALLS "block b rock 0 0 1 0 1 1\ngravity 0 -10\ndynamic dt 0.01 steps 2\n" ROCK
 #define PAIR FALLS "block c rock 0 0 1 1 0 1\nfixblock b\n"
 #define ROD "material a E 2e11 nu 0.3 density 7800 thickness 0.5\ngrid rod a 0 0 10 0.5 20 1\nfix set rod.left\nstatic\n"
+#define CELLS(a, b, c, d, e, f) ROCK "node 1 " a " 0\nnode 2 " b " 0\nnode 3 " c " 0\nnode 4 0 1\nnode 5 4 1\nnode 6 8 1\nnode 7 " d \
+    " 2\nnode 8 " e " 2\nnode 9 " f " 2\nelement 1 b rock 1 2 5 4\nelement 2 b rock 2 3 6 5\nelement 3 b rock 4 5 8 7\n" \
+    "element 4 b rock 5 6 9 8\nfix node 1\nfix node 4\nfix node 7\nload node 9 0 -1\nstatic\n"
 static const char slips[] = "warning: no friction between blocks: `contact friction DEGREES` gives it";
 static const struct { const char *text, *said; } doubtful[] = {
     { FALLS, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds them" }, { FALLS "fix at 0 0\n", NULL },
@@ -441,6 +452,10 @@ static const struct { const char *text, *said; } doubtful[] = {
       "fix at 3 0\nfix at 3 1\ngravity 0 -9.81\ncontact friction 30\nstatic\n", "warning: in all 2 pairs of blocks have this\n" },
     { ROCK "block b rock 0 0 1 0 1 1 0 1\nfix node 1\nfix node 2\ngravity 0 -9.81\nbond augment 1\ndynamic dt 0.01 steps 9\n",
       "warning: bond augment has no part in dynamics; a larger alpha stiffens bonds\n" },
+    { CELLS("0", "3.5", "8", "0", "4.5", "8"), "element 2 of block 'b' is a long trapezoid (1 of 4): where rows of such cells bend, they lock; "
+      "shorter cells or parallelograms do not\n" },
+    { CELLS("0", "3.5", "8", "0", "4.5", "8") "bond at vertices\n", NULL }, { CELLS("-1", "3", "7", "1", "5", "9"), NULL },
+    { CELLS("0", "3.9", "8", "0", "4.1", "8"), NULL },
 };
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
@@ -718,6 +733,23 @@ START_TEST(a_column_springs_back_when_its_top_is_removed)
 }
 END_TEST
 
+/* Freed, a beam that a bolt carries too sinks as one that was never held inside. */
+START_TEST(a_support_that_is_gone_leaves_no_force_to_a_bolt)
+{
+    double sinks[2];
+
+    for (int k = 0; k < 2; k++) {
+        ck_assert_int_eq(run_printed("freed", "material rock E 1e10 nu 0 density 2000\n"
+            "grid b rock 0 0 4 1 4 2 quads\nblock w rock 0 2 4 2 4 3 0 3\nfixblock w\n"
+            "fix at 0 0 x y\nfix at 4 0 y\nbolt at 2 1 of b at 2 2 of w stiffness 1e6\n"
+            "traction set b.top 0 -1000\nbond augment 2\nmonitor in at 2 0.5\nstatic\n%s",
+            k ? "fix at 2 0.5 y\nstage off\nfix at 2 0.5 free\nend\n" : ""), 0);
+        sinks[k] = cell("freed", "history.csv", "", "in_v");
+    }
+    ck_relative(sinks[1], sinks[0], 1e-5);      /* strains are 1e-6 */
+}
+END_TEST
+
 START_TEST(an_arch_stands_without_its_formwork_to_its_limit)
 {
     static const struct { const char *t; int status; } arch[] = { { "1.5", 0 }, { "1.1", 0 },
@@ -808,6 +840,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_support_that_moves_pulls_its_bar, 0, 3);
     tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
     tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
+    tcase_add_test(t, a_joint_that_breaks_says_how);
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 4);
     tcase_add_loop_test(t, a_bolt_ends_anywhere_in_a_block, 0, 2);
@@ -833,6 +866,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
+    tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
     tcase_add_test(t, a_block_slides_from_where_it_was_when_friction_falls);

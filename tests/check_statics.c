@@ -1,5 +1,6 @@
 /* check_statics.c - statics tells the truth: at 99 % of a limit load it stands, at 101 % it falls,
- * and what falls is named; what fails leaves the model as it was.
+ * whatever the units, the direction and the weight of the base, and what falls is named; forces are
+ * judged body by body; what fails leaves the model as it was.
  *
  * The limits are those of rigid blocks, by hand. Springs give way by 1e-5 of a block at most and
  * change them by no more. */
@@ -117,6 +118,161 @@ START_TEST(a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101)
 }
 END_TEST
 
+/* ------------------------------------------------------------------- in any unit, on any base */
+
+typedef struct { double size, length, force; } measures;   /* m; units in a metre, in a newton */
+
+static const measures MEASURES[] = {
+    { 1, 1, 1 }, { 0.01, 1, 1 }, { 100, 1, 1 }, { 1, 1e3, 1 }, { 0.01, 1e3, 1 }, { 100, 1e3, 1 },
+    { 1, 1e2, 1e-3 }, { 0.01, 1e2, 1e-3 }, { 100, 1e2, 1e-3 },
+};
+
+/* Gives a scene that is 1 m large other measures, a base of `heavy` times its density, the settings
+ * of ./bbm, and the angle a to which it is turned. g: along the base and to it. */
+static void measure_scene(bbm_model *m, measures u, double heavy, double a, const double g[2])
+{
+    const double l = u.length, E = 1e10 * u.force / (l * l), density = 2500 * u.force / pow(l, 4);
+
+    for (int k = 0; k < 2; k++) {
+        m->material[k] = (bbm_material){ E, 0.2, k == BASE ? heavy * density : density, l };
+        m->par.gravity[k] = l * (k ? sin(a) * g[0] + cos(a) * g[1] : cos(a) * g[0] - sin(a) * g[1]);
+    }
+    set_springs(m, 50 * E * l, 20 * E * l);
+    m->par.alpha = 100;
+    m->par.pcg.iterations = 100000;
+    m->beyond->multiplier_rounds = 2;
+}
+
+/* One to four stones of one width on each other, at any angle, at f times their limit. The base is
+ * tilted (i even), or their top is pushed: a joint slides at tan(phi) of the weight W above it, and
+ * what is above it, of height h and width w, tips at W w/h of a tilt or W w/2h of a push. */
+static bbm_model *turned_pile(int i, double f, measures u, double heavy)
+{
+    unsigned seed = (unsigned)i + 1;
+    const double a = PI * random_number(&seed), w = 0.9 + 0.6 * random_number(&seed);
+    const int stones = 1 + i / 2 % 4, push = i % 2;
+    const double phi = 22.5 + 17.5 * random_number(&seed), t = tan(radians(phi));
+    const double l = u.size * u.length;
+    double h[4], top = 0, bottom = 0, limit = INFINITY;
+    bbm_model *m = new_blocks();
+
+    m->par.dt = INFINITY;
+    m->par.friction = phi;
+    for (int k = 0; k < stones; k++)
+        top += h[k] = 0.7 + 0.5 * random_number(&seed);
+    double above = top;
+    for (int k = 0; k < stones; above -= h[k++])
+        limit = fmin(limit, push ? fmin(t * above, w / 2) : fmin(t, w / above));
+    const double tilt = push ? 0 : atan(f * limit);
+    measure_scene(m, u, heavy, a, (double[]){ GRAVITY * sin(tilt), -GRAVITY * cos(tilt) });
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -3 * l, .y = -l, .w = 7 * l, .h = l,
+                                           .angle = a * 180 / PI, .fixed = 1 });
+    for (int k = 0; k < stones; k++, bottom += h[k - 1])
+        add_rectangle(m, k + 1, ROCK, (rectangle){ .y = l * bottom, .w = l * w, .h = l * h[k],
+                                                   .angle = a * 180 / PI });
+    const double H = push * f * limit * w * 2500 * GRAVITY * u.size * u.size * u.force;
+    ck_ok(bbm_add_load(m, m->nodes - 1, H * cos(a), H * sin(a)), m);
+    return m;
+}
+
+/* Whether it stands after so many steps; that it falls is said. */
+static int stands(bbm_model *m, int steps)
+{
+    bbm_status status = bbm_prepare(m);
+
+    while (!status && steps-- > 0)
+        status = bbm_step(m);
+    ck_assert_msg(!status || status == BBM_NO_EQUILIBRIUM, "%s", bbm_message(m));
+    return !status;
+}
+
+START_TEST(a_pile_stands_to_97_percent_of_its_limit_and_falls_at_105_turned_and_in_other_units)
+{
+    for (int i = 0; i < 16; i++) {
+        bbm_model *m = turned_pile(i, _i % 2 ? 1.05 : 0.97, MEASURES[_i / 2], 1);
+        ck_assert_msg(stands(m, 3) == !(_i % 2), "pile %d: %s", i, bbm_message(m));
+        release(m);
+    }
+}
+END_TEST
+
+/* A fixed base carries itself, and has no part in the forces: to 1e-6 of the weight of each stone,
+ * as exact as a step from rest may end. */
+START_TEST(what_a_base_weighs_changes_no_limit_and_no_force)
+{
+    const double heavy[] = { 1e-6, 1e-3, 1e3, 1e6 };
+
+    for (int i = 0; i < 16; i++) {
+        bbm_model *m = turned_pile(i, _i % 2 ? 1.05 : 0.9, MEASURES[_i / 2 % 3], 1);
+        bbm_model *n = turned_pile(i, _i % 2 ? 1.05 : 0.9, MEASURES[_i / 2 % 3], heavy[_i / 6]);
+        ck_assert(stands(m, 1) == !(_i % 2) && stands(n, 1) == !(_i % 2));
+        for (int b = 1; b < m->elements && _i % 2 == 0; b++) {
+            const double W = m->element[b].A0 * 2500 * GRAVITY;
+            ck_near(normal_force(n, b, b - 1), normal_force(m, b, b - 1), W, 1e-6);
+        }
+        release(m);
+        release(n);
+    }
+}
+END_TEST
+
+/* A ladder from (1, 0) on the ground to (0, y) at the wall, its weight at x. At the limit N mu is
+ * the friction on the ground and the pressure on the wall: mu^2 x + mu y = 1 - x. */
+START_TEST(a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_form)
+{
+    const double p[][2] = { { 1, 0 }, { 1.06, 0 }, { 0, 1.8 }, { 0, 1.7 } };
+    const double outer = 1.06 * 1.8 / 2, inner = 1.7 / 2, y = 1.8;
+    const double x = (outer * 1.06 - inner) / 3 / (outer - inner);
+    const double mu = (sqrt(y * y + 4 * x * (1 - x)) - y) / (2 * x);
+    const int falls = _i % 2;
+    bbm_model *m = new_blocks();
+
+    m->par.dt = INFINITY;
+    m->par.friction = atan((falls ? 0.999 : 1.001) * mu) * 180 / PI;
+    measure_scene(m, MEASURES[0], pow(10, 6 * (_i / 2) - 6), 0, (double[]){ 0, -GRAVITY });
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -30, .y = -1, .w = 60, .h = 1, .fixed = 1 });
+    add_rectangle(m, 1, BASE, (rectangle){ .x = -1, .y = 0, .w = 1, .h = 5, .fixed = 1 });
+    add_polygon(m, 2, 4, p);
+    ck_assert_int_eq(stands(m, 1), !falls);
+}
+END_TEST
+
+/* Adds to the equations of the first element a part of its weight, or of that times its side, as a
+ * force or a moment that no load, contact or support has. */
+typedef struct { int row; double part; } push;
+
+static int push_from_nowhere(const bbm_model *m, void *context)
+{
+    const push *p = context;
+    const double side = p->row == 2 ? sqrt(m->element[0].A0) : 1;
+
+    m->F[p->row] += p->part * side * hypot(m->load[0], m->load[1]);
+    return 0;
+}
+
+/* Two stones, of which one weighs 1e9 times as much, are held in statics, and fall in dynamics. The
+ * weight of each counts twice, with what bears or slows it: a share of 2.5e-7 or 4e-6 is left, in
+ * dynamics ten times as much. */
+START_TEST(forces_and_moments_on_each_body_are_judged_against_its_own)
+{
+    const int refused = _i % 2, row = 1 + _i / 2 % 2, falls = _i / 4 % 2;
+    const measures u = MEASURES[_i / 8];
+    const double l = u.size * u.length;
+    push p = { row, (refused ? 8e-6 : 5e-7) * (falls ? 10 : 1) };
+    bbm_model *m = new_blocks();
+
+    m->par.dt = falls ? 0.01 : INFINITY;
+    measure_scene(m, u, 1e9, 1, (double[]){ 0, -GRAVITY });
+    add_rectangle(m, 0, ROCK, (rectangle){ .w = l, .h = l, .angle = 30, .fixed = !falls });
+    add_rectangle(m, 1, BASE, (rectangle){ .x = 9 * l, .w = l, .h = l, .fixed = !falls });
+    ck_ok(bbm_prepare(m), m);
+    m->monitor = push_from_nowhere;
+    m->monitor_context = &p;
+    ck_assert_int_eq(bbm_step(m), refused ? BBM_NOT_CONVERGED : BBM_OK);
+    ck_assert(!refused || strstr(bbm_message(m), "block 0 lack"));
+}
+END_TEST
+
 /* Portals that stand, of which one is pushed over in between, or has no work left for an answer. */
 START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
 {
@@ -179,6 +335,12 @@ Suite *statics_suite(void)
     add_case(s, "statics",
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 });
+    add_case(s, "measures",
+        { a_pile_stands_to_97_percent_of_its_limit_and_falls_at_105_turned_and_in_other_units,
+          2 * COUNT(MEASURES) },
+        { what_a_base_weighs_changes_no_limit_and_no_force, 24 },
+        { a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_form, 6 },
+        { forces_and_moments_on_each_body_are_judged_against_its_own, 8 * COUNT(MEASURES) });
     tcase_add_loop_test(new_case(s, "wedged"), a_contact_that_no_friction_holds_opens, 0, 6);
     return s;
 }

@@ -1,8 +1,8 @@
-# equations.awk - the tables "Eq., subject, function, test" of doc/paper.md against the sources: each
+# equations.awk - the tables "Eq., subject, function, test" of doc/paper.md and tests/beyond.md against the sources: each
 # equation of the paper has one row, and stands as "(35)" in a formula before it; a function of the row
 # cites it; each function of the row is defined in the file behind it, right under a comment that cites
 # an equation of the row; each test of the row is there:
-#     awk -f tests/equations.awk doc/paper.md SOURCES
+#     awk -f tests/equations.awk doc/paper.md tests/beyond.md SOURCES
 #
 # Each number stands as such, "(35)", in the comment of a function, so that a search finds the place. A
 # citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)",
