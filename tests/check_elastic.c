@@ -74,6 +74,25 @@ START_TEST(K_is_symmetric_and_positive_definite_when_the_body_is_held)
 }
 END_TEST
 
+START_TEST(F_holds_what_both_elements_feel_and_the_wall_nothing)
+{
+    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2 };
+    bbm_model *m = cantilever(&SOLID, &g, 1, -1);
+    bbm_submatrices s = { 0 };
+
+    ck_ok(bbm_step(m), m);
+    for (int a = 0; a < 6; a++) {
+        s.Fi[a] = 1 + a;
+        s.Fj[a] = 10 * a;
+    }
+    memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
+    bbm_add_submatrices(m, 1, 0, &s);
+    bbm_add_submatrices(m, 0, -1, &s);
+    for (int a = 0; a < 6 * m->elements; a++)
+        ck_assert_msg(m->F[a] == (a < 6 ? 10 * a + 1 + a : a < 12 ? a - 5 : 0), "F[%d] is %g", a, m->F[a]);
+}
+END_TEST
+
 /* A step of 1e12 s: the inertia left is 1e-24 of the stiffness. A rigid motion costs nothing. */
 START_TEST(K_has_three_zero_pivots_when_nothing_holds_the_body)
 {
@@ -520,7 +539,8 @@ Suite *elastic_suite(void)
 
     add_case(s, "K",
         { K_is_symmetric_and_positive_definite_when_the_body_is_held, 2 },
-        { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 });
+        { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 },
+        { F_holds_what_both_elements_feel_and_the_wall_nothing, 1 });
     add_case(s, "patches",
         { a_strip_under_uniform_traction_has_that_stress_in_every_element, COUNT(STRESSES) },
         { an_irregular_patch_under_uniform_traction_has_that_stress_in_every_element,

@@ -6,8 +6,9 @@
 #                            With DRAW=exp1 in the environment a green copy runs that experiment
 #   exercise.sh hint N STEP  prints a hint, the first or the second
 #   exercise.sh list         all exercises, and which are done
-#   exercise.sh prove        all exercises: red as they begin, green with the source as it is: the
-#                            groups of tests have run before, in `make check-library`
+#   exercise.sh prove        all exercises: red as they begin and with each wrong answer of
+#                            tests/wrong-answers.txt, green with the source as it is: the groups of
+#                            tests have run before, in `make check-library`
 #
 # An exercise is a section "### Exercise N ..." of a chapter. The table below says what is done: the
 # kind, the file, the function that is taken out, the tests: a group of those of `make quick`, or
@@ -150,9 +151,25 @@ prove_one()
     build "$copy" "$here" > "$here/said" 2>&1 || complain "its copy cannot be built"
     ! CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "green as it begins"
     grep -q 'Failures: [1-9]\|Errors: [1-9]\|^wrong: ' "$here/said" || complain "no test is red"
+    [ "$kind" = 'find the error' ] || prove_wrong "$1"
     [ "$tests" = program ] || return 0
     build "$file" "$here"
     "$here/tests" > "$here/said" 2>&1 || complain "red with $file itself"
+}
+
+# Each wrong answer of exercise $1 is red.
+prove_wrong()
+{
+    count=0
+    grep "^$1 " tests/wrong-answers.txt > "$here/wrong"
+    while IFS= read -r answer; do
+        answer=${answer#"$1 "}
+        FROM=${answer%" => "*} TO=${answer#*" => "} awk -f $CUT "$file" > "$copy"
+        build "$copy" "$here" > "$here/said" 2>&1 || complain "the wrong answer $answer cannot be built"
+        ! CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "green with the wrong answer $answer"
+        count=$((count + 1))
+    done < "$here/wrong"
+    [ $count -ge 2 ] || complain "fewer than two wrong answers in tests/wrong-answers.txt"
 }
 
 # What is not there, or there twice, is no exercise.
@@ -181,7 +198,7 @@ prove()
         (prove_one "$number")
         count=$((count + 1))
     done
-    echo "$count exercises: red as they begin, green with the sources"
+    echo "$count exercises: red as they begin and with wrong answers, green with the sources"
 }
 
 "$@"
