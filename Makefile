@@ -1,3 +1,5 @@
+.error = this Makefile needs GNU make, often called gmake
+
 # make           builds the experiments, ./bbm and the bench
 # make run       runs the experiments: tables, pictures
 # make paper     the paper alone: the experiments and the tests of the formulas without beyond/
@@ -12,7 +14,7 @@
 # make memcheck, sanitize  the tests under valgrind; programs and tests under ASan and UBSan
 # make torture             scenes that nobody has looked at, from SEED on (SCENES, TIME in seconds, KIND)
 # make limit               statics beside a linear program of limit analysis (SEED, SCENES, TIME)
-# make fuzz                arbitrary bytes for the readers of files, ten minutes (clang)
+# make fuzz                arbitrary bytes for the readers of files, TIME in seconds, ten minutes (clang)
 # make figures             draws doc/figures
 # make size                counts the lines and writes them into the README
 # make check-exercises, check-documents, check-recipes, check-arrows    parts of the tests

@@ -200,12 +200,12 @@ static bbm_status add_line(bbm_model *m, bbm_line_load load, bbm_field *f, const
 
     if (!is_node(m, p) || !is_node(m, q))
         return REFUSE(m, BBM_BAD_INDEX, "line load on nodes %d, %d of %d", p, q, m->nodes);
-    const bbm_node *a = &m->node[p], *b = &m->node[q];
+    const bbm_node a = m->node[p], b = m->node[q];      /* f may add nodes */
     for (int g = 0; g < BBM_GAUSS; g++) {
         double s, weight;
         bbm_gauss_point(g, &s, &weight);
         if (f)
-            f(a->x + (b->x - a->x) * s, a->y + (b->y - a->y) * s, context, load.f[g]);
+            f(a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s, context, load.f[g]);
         if (!isfinite(load.f[g][0]) || !isfinite(load.f[g][1]))
             return REFUSE(m, BBM_NOT_FINITE, "the line load on nodes %d, %d", p, q);
     }

@@ -383,7 +383,7 @@ static int goes_on_in(const bbm_model *m, int corner, int e, int f)
     const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
     const projection on = project(m, corner, e);
 
-    return m->edge[e].block != m->edge[f].block && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
+    return m->edge[e].first != m->edge[f].first && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
         && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel
         && fabs(on.d - project(m, corner, f).d) <= surface_depth(m, corner, f);
 }
@@ -421,7 +421,7 @@ static int may_touch(const bbm_model *m, int corner, int e)
     const double deep = start_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
-    if (m->edge[e].block == m->edge[corner].block
+    if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
     if (fmax(fabs(f.d), f.beyond) > approach + deep || (f.beyond <= touch_between(m, corner, e)

@@ -308,7 +308,7 @@ bbm_status bbm_step(bbm_model *m)
  * `update` computes the two sides. */
 bbm_status bbm_run(bbm_model *m)
 {
-    const int last = m->info.step + m->par.steps;
+    int step = 0;
 
     do {
         const bbm_status status = bbm_step(m);
@@ -316,7 +316,7 @@ bbm_status bbm_run(bbm_model *m)
             return status;
         if (m->par.tolerance > 0 && m->info.change <= m->par.tolerance)
             return BBM_OK;
-    } while (m->info.step < last);
+    } while (++step < m->par.steps);
     if (m->par.tolerance > 0)
         return bbm_fail(m, BBM_STEPS_EXHAUSTED, "change %.2g after step %d, expected %.2g",
                         m->info.change, m->info.step, m->par.tolerance);

@@ -21,13 +21,13 @@
 
 /* Condenses the symmetric W to its first rows: minimises the energy 1/2 x.W x over all other
  * unknowns, from the last one on. Their pivots are left on the diagonal. */
-void bbm_condense(int n, int rows, double W[n][n])
+void bbm_condense(int n, int rows, double *W)
 {
     for (int p = n - 1; p >= rows; p--) {
-        const double scale = 1 / W[p][p];
+        const double scale = 1 / W[p * n + p];
         for (int a = 0; a < p; a++)
             for (int b = 0; b < p; b++)
-                W[a][b] -= W[a][p] * W[p][b] * scale;
+                W[a * n + b] -= W[a * n + p] * W[p * n + b] * scale;
     }
 }
 
@@ -62,7 +62,7 @@ static void bending_stiffness(const bbm_element *e, const double p[2], const dou
             for (int b = 0; b < 6 && left[a] != 0; b++)
                 S[a][b] += f * left[a] * right[b];
     }
-    bbm_condense(6, 2, S);
+    bbm_condense(6, 2, S[0]);
 }
 
 /* A quadrilateral's share in the moments of its bonds: M[0] for the edges 0 and 2 (from vertex 0

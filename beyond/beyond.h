@@ -139,7 +139,7 @@ int        bbm_middle_is_off(const bbm_model *m);
 int        bbm_contacts_are_off(const bbm_model *m, double share);
 
 /* bending.c */
-void       bbm_condense(int n, int rows, double W[n][n]);
+void       bbm_condense(int n, int rows, double *W);                 /* [n][n] */
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
 void       bbm_list_edge_gaps(bbm_model *m);

@@ -80,7 +80,6 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
  * elements; friction holds what its shear spring would, see bbm_store_contacts. */
 void bbm_note_springs(bbm_model *m, int when)
 {
-    const bbm_contact *c = m->scratch->contact;
     bbm_account *a = m->beyond->account;
 
     for (int i = 0; i < m->elements; i++)
@@ -91,7 +90,8 @@ void bbm_note_springs(bbm_model *m, int when)
             a[g->i].springs[when] += g->d0[r] / 2
                     * (g->own.f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]);
     }
-    for (; c < m->scratch->contact + m->scratch->contacts; c++) {
+    for (int k = 0; k < m->scratch->contacts; k++) {
+        const bbm_contact *c = &m->scratch->contact[k];
         const double T = bbm_shear_force(c);
         a[bbm_element_of(m, c->corner)].springs[when] += c->state == BBM_OPEN ? 0
             : bbm_normal_energy(m, c->N) + T * T / (2 * m->par.p_s);

@@ -102,8 +102,8 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
         const int component = bbm_component_of(m->K, m->vertex[k].element);
         const bbm_box *b = &box[component];
         const double size = fmax(b->high[1] - b->low[1], b->high[2] - b->low[2]) / 32767;
-        const int x = (int)((m->vertex[k].x - b->low[1]) / size);
-        const int y = (int)((m->vertex[k].y - b->low[2]) / size);
+        const int x = (int)fmin(32767, (m->vertex[k].x - b->low[1]) / size);    /* or no number */
+        const int y = (int)fmin(32767, (m->vertex[k].y - b->low[2]) / size);
         place[k] = BBM_PLACES * component;
         for (int bit = 1; bit <= 1 << 14; bit *= 2)
             place[k] += bit * (2 * (x & bit) + (y & bit));

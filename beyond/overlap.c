@@ -207,7 +207,7 @@ static double depth_in_block(const bbm_model *m, point P, int edge, double allow
     if (sqrt(own.distance2) <= allowed || (own.area > 0 && own.winding <= 0))
         return 0;
     for (e = 0; e < m->edges; e++)
-        if (m->edge[e].block == m->edge[edge].block)
+        if (m->edge[e].first == m->edge[edge].first)
             take_edge(m, e, P, &all);
     *nearest = all.nearest;
     return all.winding > 0 && sqrt(all.distance2) > allowed ? sqrt(all.distance2) : 0;
@@ -217,11 +217,11 @@ static double depth_in_block(const bbm_model *m, point P, int edge, double allow
  * opened inside; -1: there is none. */
 static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int e, int f)
 {
-    const int i = m->edge[e].block, j = m->edge[f].block;
+    const int i = m->edge[e].first, j = m->edge[f].first;
     double depth = -1;
 
     for (; n > 0; n--, c++) {
-        const int p = m->edge[c->corner].block, q = m->edge[c->edge].block;
+        const int p = m->edge[c->corner].first, q = m->edge[c->edge].first;
         if ((c->state != BBM_OPEN || c->inside) && ((p == i && q == j) || (p == j && q == i)))
             depth = fmax(depth, fmax(0, -c->d_n));
     }
@@ -251,7 +251,7 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
     const double x = P->x - a->x, y = P->y - a->y, u = b->x - a->x, v = b->y - a->y;
     const double s = x * u + y * v;
 
-    if (m->edge[corner].block == m->edge[edge].block || m->edge[corner].side != corner
+    if (m->edge[corner].first == m->edge[edge].first || m->edge[corner].side != corner
         || x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
         return 0;
     const double depth = depth_in_block(m, (point){ P->x, P->y }, edge,

@@ -53,7 +53,7 @@ static int is_regular(double G[3][3])
 {
     const double whole[3] = { G[0][0], G[1][1], G[2][2] };
 
-    bbm_condense(3, 1, G);
+    bbm_condense(3, 1, G[0]);
     return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
 }
 

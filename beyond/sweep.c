@@ -6,8 +6,9 @@
  * wall of n bricks has about sqrt(n) of them in each column, which cost less than its equations by
  * far; a long edge under many blocks costs one comparison for each.
  *
- * The axis slants, x + y/4: a column, a row and a wall are spread out along it alike. Only what is
- * piled up along a line that falls by four to one is not, and is found all the same.
+ * The axis slants, x + y/4: a column, a row and a wall are spread out along it alike. Where the
+ * boxes are less than half as long along x or y, against all that they lie in, that is the axis:
+ * thin cells side by side, or what is piled up along a line that falls by four to one.
  */
 #include <stdlib.h>
 
@@ -41,14 +42,38 @@ static int compare_boxes(const void *p, const void *q)
     return (a > b) - (a < b);
 }
 
-void bbm_sort_boxes(int n, bbm_box *b) { qsort(b, (size_t)n, sizeof *b, compare_boxes); }
+/* How many boxes lie at a place along a coordinate, in the mean. */
+static double pile(int n, const bbm_box *b, int along)
+{
+    double low = INFINITY, high = -INFINITY, sum = 0;
+
+    for (int k = 0; k < n; k++) {
+        low = fmin(low, b[k].low[along]);
+        high = fmax(high, b[k].high[along]);
+        sum += b[k].high[along] - b[k].low[along];
+    }
+    return sum / (high - low);
+}
+
+void bbm_sort_boxes(int n, bbm_box *b)
+{
+    const double x = pile(n, b, X), y = pile(n, b, Y);
+    const int axis = 2 * fmin(x, y) >= pile(n, b, AXIS) ? AXIS : x < y ? X : Y;
+
+    for (int k = 0; k < n; k++) {
+        b[k].low[AXIS] = b[k].low[axis];
+        b[k].high[AXIS] = b[k].high[axis];
+    }
+    qsort(b, (size_t)n, sizeof *b, compare_boxes);
+}
 
 /* The next two sorted boxes that meet, after i and j, which begin as 0; 0: there are no more. */
 int bbm_next_meeting(int n, const bbm_box *b, int *i, int *j)
 {
     for (; *i < n; *j = ++*i)
         while (++*j < n && b[*j].low[AXIS] <= b[*i].high[AXIS])
-            if (b[*j].low[Y] <= b[*i].high[Y] && b[*j].high[Y] >= b[*i].low[Y])
+            if (b[*j].low[Y] <= b[*i].high[Y] && b[*j].high[Y] >= b[*i].low[Y]
+                && b[*j].low[X] <= b[*i].high[X] && b[*j].high[X] >= b[*i].low[X])
                 return 1;
     return 0;
 }

@@ -35,12 +35,6 @@ void case_solve(bbm_model *m)
     case_must(m, bbm_run(m));
 }
 
-void case_progress(const char *what)
-{
-    printf("... %s\n", what);
-    fflush(stdout);
-}
-
 void case_print_parameters(const bbm_model *m)
 {
     const bbm_parameters *p = &m->par;
@@ -55,19 +49,7 @@ void case_print_parameters(const bbm_model *m)
            p->alpha);
     if (touch)
         printf(" %g | %g |", p->p_n, p->p_s);
-    printf("\n\n%d step%s", m->info.step, m->info.step == 1 ? "" : "s");
-    if (m->info.step > p->steps)
-        printf(", of which %d to come to rest before", m->info.step - p->steps);
-    printf("; the last with %d SSOR-PCG iterations to a residual of %.1e\n",
-           m->info.pcg.iterations, m->info.pcg.residual);
-}
-
-void case_print_augmented(const bbm_model *m)
-{
-    if (m)
-        printf("\nwith beyond/: %d quadrilaterals, edge bonds with a moment, %s, two levels "
-               "(%d iterations)\n", m->elements, isinf(m->par.dt) ? "two rounds of multipliers" :
-               "alpha = 1e4, T of the middle of the step, exact rotation", m->info.pcg.iterations);
+    printf("\n");
 }
 
 /* --------------------------------------------------------------------------------------- meshes */
@@ -119,7 +101,7 @@ double case_at(const bbm_model *m, const char *quantity, double x, double y)
         if (distance < least)
             least = distance, nearest = n;
     }
-    return field_of_node(field_find(quantity), m, nearest);
+    return field_of_node(field_find(quantity), m, nearest, -1);
 }
 
 double case_percent(double computed, double reference)
@@ -232,7 +214,6 @@ static bbm_model *solve_run(case_results *r, const case_experiment *p, const cas
     case_read(p->name, run->variant, ref);
     if (!m)
         return NULL;
-    case_progress(run->label);
     p->solve(m, run->variant, run->beyond ? CELL_QUADS : CELL_CROSSED, run->beyond ? 4 : 2, 1000);
     compare_all(r, p, m, run, ref);
     return m;
@@ -245,48 +226,6 @@ int case_draw(case_results *r, int done)
         r->failed = 1;
     }
     return done;
-}
-
-/* The largest values of a field, and the largest difference at a grid point. */
-static void print_difference(const bbm_model *m, const bbm_model *fem, const scene *map)
-{
-    const field *f = field_find(map->field);
-    double most[3] = { 0 };
-
-    for (int i = 0; i < m->nodes; i++) {
-        const double a = field_of_node(f, m, i), b = field_of_node(f, fem, i);
-        most[0] = fmax(most[0], fabs(a));
-        most[1] = fmax(most[1], fabs(b));
-        most[2] = fmax(most[2], fabs(a - b));
-    }
-    printf("| %s | %.5g | %.5g | %.2f %% |\n", map->title, most[0], most[1],
-           100 * most[2] / most[1]);
-}
-
-/* The maps of m, and those that show no displacements once more beside a finite element on the same
- * mesh, the triangles with two rounds of multipliers, if there is beyond/. */
-static void draw_maps(case_results *r, const case_experiment *e, const bbm_model *m)
-{
-    bbm_model *fem = case_beyond_model(2);
-
-    for (int k = 0; k < e->maps; k++)
-        case_draw(r, scene_write_map(&e->map[k].map, m, case_path(r, e->map[k].file)));
-    if (!fem)
-        return;
-    e->solve(fem, e->run[0].variant, CELL_CROSSED, 2, 1000);
-    printf("\n## With beyond/: the figures beside the constant-strain finite element, fem_*.svg\n\n"
-           "| largest [m, Pa] | BBM | FEM | largest difference |\n|---|---|---|---|\n");
-    for (int k = 0; k < e->maps && e->map[k].map.scale < 0; k++) {
-        scene both = e->map[k].map;
-        char file[40];
-        both.other = fem;
-        both.name[0] = "BBM, the paper's way";
-        both.name[1] = "FEM: constant-strain triangles";
-        snprintf(file, sizeof file, "fem_%s", e->map[k].file);
-        case_draw(r, scene_write_map(&both, m, case_path(r, file)));
-        print_difference(m, fem, &both);
-    }
-    bbm_model_free(fem);
 }
 
 /* ---------------------------------------------------------------------------- Experiments I, II */
@@ -303,7 +242,6 @@ static void print_summary(const case_experiment *e, bbm_model *const m[],
                e->run[p->run].summary, p->unit * value, p->unit * exact,
                case_percent(value, exact));
     }
-    case_print_augmented(m[e->runs - 1]);
 }
 
 /* The values of a run, beside six-node triangles, the finite element that converged, and theory. */
@@ -346,7 +284,6 @@ static void print_convergence(const case_experiment *e)
                    case_percent(e->computed(m, p->quantity, p->x, p->y),
                                 case_find(&ref, p->quantity, p->x, p->y)->converged));
         printf(" |");
-        fflush(stdout);
         bbm_model_free(m);
     }
     printf("\n");
@@ -372,7 +309,8 @@ int case_main(const case_experiment *e, int argc, char **argv)
         for (int i = 0; i < e->tables && !e->run[k].beyond; i++)
             print_table(e, &e->table[i], e->run[k].variant, m[k], &ref[k]);
     e->show(&r, (const bbm_model *const *)m, ref);
-    draw_maps(&r, e, m[0]);
+    for (int k = 0; k < e->maps; k++)
+        case_draw(&r, scene_write_map(&e->map[k].map, m[0], case_path(&r, e->map[k].file)));
     printf("\nNumbers and pictures: %s\n", r.folder);
     for (int k = 0; k < e->runs; k++)
         bbm_model_free(m[k]);

@@ -55,7 +55,7 @@ void   case_read(const char *problem, const char *variant, case_reference *r);
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
                                    double y);
 typedef struct {                    /* a solution of an experiment, alpha = 1000                */
-    const char *variant, *label;
+    const char *variant;
     int beyond;                     /* with beyond/: quadrilaterals, as many as the triangles   */
     const char *summary;            /* of the others, which are the paper's way; the last: its  */
 } case_run;                         /* name in the summary                                      */
@@ -108,8 +108,6 @@ const char *case_path(case_results *r, const char *file);       /* in the folder
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
  * and case_close tells. Returns done. */
 int    case_draw(case_results *r, int done);
-void   case_print_parameters(const bbm_model *m);       /* Table 1, and what the solution took  */
-void   case_print_augmented(const bbm_model *m);        /* what a row with beyond/ is; or NULL  */
-void   case_progress(const char *what);                 /* one line on stdout, at once          */
+void   case_print_parameters(const bbm_model *m);       /* Table 1                              */
 
 #endif

@@ -54,7 +54,6 @@ static void print_quadrilaterals(const case_reference *b)
                 ? solve_uniform(24 * n, 6 * n, CELL_QUADS, kind ? BBM_MOMENT : BBM_VERTICES)
                 : solve_uniform(18 * n, 4 * n, CELL_ALTERNATING, BBM_VERTICES);
             printf(" %+.3f %%, %+.3f %% |", deflection_error(m, b, 48), deflection_error(m, b, 24));
-            fflush(stdout);
             bbm_model_free(m);
         }
         printf("\n");

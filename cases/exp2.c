@@ -21,9 +21,7 @@
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
 
 static const case_run run[] = {
-    { "b5", "plate b5, uniform stress", 0, ", plate b5" },
-    { "k5", "plate k5, exact tractions", 0, "" },
-    { "k5", "plate k5, with beyond/", 1, ", with beyond/" },
+    { "b5", 0, ", plate b5" }, { "k5", 0, "" }, { "k5", 1, ", with beyond/" },
 };
 
 /* Stress along the circle around the hole through (x, y). */
@@ -203,8 +201,6 @@ static const case_map map[] = {
     { "fig21b.svg", { .title = "Fig. 21: stress sxy, plate b5", .field = "sxy", .scale = -1 } },
     { "fig22.svg", { .title = "Fig. 22: displacement u, plate b5", .field = "u", .scale = -1 } },
     { "fig23.svg", { .title = "Fig. 23: displacement v, plate b5", .field = "v", .scale = -1 } },
-    { "deformed.svg", { .title = "Deformed plate b5, von Mises stress",
-                        .field = "mises", .scale = 0 } },
 };
 
 int main(int argc, char **argv)

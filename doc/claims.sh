@@ -1,6 +1,6 @@
 # claims.sh - numbers of paper.md, 08-experiments.md and beyond.md that no experiment prints, by models of beam.awk and
 # plate.awk and by tables of the experiments:
-#     BBM=./bbm sh doc/claims.sh table1|table2|table3|table4|table5|fig10|fig13|contours|stress|mesh|plate|held|lines|arc|areas|iterations|blocks|levels|squares
+#     BBM=./bbm sh doc/claims.sh table1|table2|table3|table4|table5|fig10|fig13|stress|mesh|plate|held|lines|arc|areas|iterations|blocks|levels|squares
 set -e
 mkdir -p out/claims
 
@@ -36,11 +36,6 @@ table3() { rows exp1 'Table 3, a' | cut -d'|' -f1-4,6-7,9; }
 fig13() { rows exp1 'Fig. 13, a' | cut -d'|' -f1-6,8-; }
 table4() { rows exp2 'Table 4, b5' | cut -d'|' -f1-3,5-6,8-; }
 table5() { rows exp2 'Table 5, b5' | cut -d'|' -f1-4,7,9-; }
-contours()
-{
-    rows exp1 '| largest' | cut -d'|' -f1-2,5- | sed 's/largest .m, Pa./figure/'
-    rows exp2 '| largest' | cut -d'|' -f1-2,5- | tail -n +3
-}
 
 # The von Mises stress at (24,6), 1000 Pa, for cells of three sizes.
 stress()

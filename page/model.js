@@ -26,7 +26,7 @@ async function startLibrary(bytes) {
 }
 
 function textOf(what, k = 0, handle = run.handle) {
-  const at = wasm.page_text(handle, what.charCodeAt(0), k);
+  const at = wasm.page_text(handle, what.charCodeAt(0), k) >>> 0;
   const memory = new Uint8Array(wasm.memory.buffer);
   return new TextDecoder().decode(memory.subarray(at, memory.indexOf(0, at)));
 }
@@ -35,12 +35,12 @@ function numbersOf(what) {
   const n = wasm.page_numbers(run.handle, what.charCodeAt(0));
   if (n < 0)
     throw Error('no memory for the numbers of this model');
-  return new Float64Array(wasm.memory.buffer, wasm.page_data(run.handle), n).slice();
+  return new Float64Array(wasm.memory.buffer, wasm.page_data(run.handle) >>> 0, n).slice();
 }
 
 /* The message of what is wrong, or ''. Then the model that was there stays. */
 function loadModel(name, text) {
-  const bytes = new TextEncoder().encode(name + '\0'), at = wasm.malloc(bytes.length);
+  const bytes = new TextEncoder().encode(name + '\0'), at = wasm.malloc(bytes.length) >>> 0;
   new Uint8Array(wasm.memory.buffer).set(bytes, at);
   files.set(name, text);
   warnings = '';

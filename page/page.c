@@ -155,7 +155,8 @@ static void put_edges(page *g, const bbm_model *m)
 
 static void put_contacts(page *g, const bbm_model *m)
 {
-    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
         double f[2];
         field_contact_force(m, c, c->N, c->T, f);
         PUT(&g->out, c->corner, c->edge, c->state, f[0], f[1], c->N, c->T, c->d_n,

@@ -4,7 +4,7 @@
 const is = id => document.getElementById(id);
 const WORK = 12, LARGE = 5000;  /* ms of steps between two pictures; unknowns */
 const NUMBER = '[-+]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][-+]?\\d+)?';
-const EXERCISES = {};                           /* of the chapters: title, model, text */
+const EXERCISES = Object.create(null);         /* of the chapters: title, model, text */
 let playing = false, turns = 0, task = null, hasPredicted = false;
 
 /* The frame in hand, or the one before that has kept its arrays. */

@@ -1,16 +1,17 @@
 /* wasi.js - the eleven calls of WASI that the sources make: a clock, and files that live in `files`
- * by their names. memory(): asked for each time, since memory that grows is another buffer. */
+ * by their names. memory(): asked for each time, since memory that grows is another buffer. Pointers
+ * arrive with a sign (>>> 0): beyond 2 GB they are negative. */
 'use strict';
 
 function wasi(files, memory, say) {
   const BAD_FILE = 8, NOT_THERE = 44, NO_SEEK = 70, FOLDER = 3, open = Array(FOLDER + 1);
   const view = () => new DataView(memory().buffer);
-  const bytes = (at, n) => new Uint8Array(memory().buffer, at, n);
-  const put = (at, value) => view().setUint32(at, value, true);
+  const bytes = (at, n) => new Uint8Array(memory().buffer, at >>> 0, n);
+  const put = (at, value) => view().setUint32(at >>> 0, value, true);
   /* A call that visits each of the n pieces of memory of a list; what `visit` returns is summed. */
   const pieces = visit => (fd, list, n, done) => {
     let sum = 0;
-    for (let k = list; k < list + 8 * n; k += 8)
+    for (let k = list >>> 0, end = k + 8 * n; k < end; k += 8)
       sum += visit(bytes(view().getUint32(k, true), view().getUint32(k + 4, true)), open[fd]);
     put(done, sum);
     return 0;
@@ -18,7 +19,7 @@ function wasi(files, memory, say) {
 
   return {
     clock_time_get(id, precision, at) {
-      view().setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
+      view().setBigUint64(at >>> 0, BigInt(Math.round(performance.now() * 1e6)), true);
       return 0;
     },
     proc_exit(code) { throw Error(`the program ended with ${code}`); },

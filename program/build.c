@@ -2,6 +2,7 @@
  * where it is held and loaded, WHERE by its nodes. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "reader.h"
@@ -28,7 +29,7 @@ static void set_defaults(model_reader *r)
         for (int k = r->block[r->element[e].block].fixed; k < 2; k++)
             softest[k] = fmin(softest[k], m->E * m->thickness);
     }
-    r->p->slippery = r->blocks > 1 && p->p_n != 0 && p->p_s != 0 && p->friction < 0;
+    r->p->slippery = r->blocks > 1 + r->bonds && p->p_n != 0 && p->p_s != 0 && p->friction < 0;
     r->no_shear = p->p_s == 0;
     p->friction = fmax(p->friction, 0);
     if (p->p_n < 0)
@@ -57,27 +58,6 @@ static int copy_nodes(model_reader *r)
     return 1;
 }
 
-static int add_nodes(model_reader *r)
-{
-    model *p = r->p;
-
-    p->node = model_keep(r, r->copies, sizeof *p->node);
-    p->node_block = model_keep(r, r->copies, sizeof *p->node_block);
-    for (int n = 0, now = 0; n < r->nodes && !p->status; n++) {
-        model_node *a = &r->node[n];
-        if (a->first < 0 && a->by_hand)
-            return model_fail(r, a->at, "no element has node %.60s, expected one", a->id);
-        for (int c = a->first; c >= 0; c = r->copy[c].next, now++) {
-            r->copy[c].node = now;
-            p->node[now] = a->id;
-            p->node_block[now] = r->copy[c].block;
-            if (bbm_add_node(p->m, a->x, a->y, NULL))
-                return model_out_of_memory(r);
-        }
-    }
-    return !p->status;
-}
-
 /* Whether the copy is that of the block, -1: of any, and no stage has removed it. */
 static int is_of(const model_reader *r, int block, int c)
 {
@@ -94,6 +74,62 @@ static int find_copy(const model_reader *r, int block, int node)
     return c;
 }
 
+/* Copies in one place in blocks that are bonded are one: up, a forest, leads from each to the one
+ * that stands for them. */
+static void join_copies(const model_reader *r, int up[], bbm_box box[])
+{
+    int n = 0;
+
+    for (int c = 0; c < r->copies; c++)
+        up[c] = c;
+    for (const model_element *e = r->element; e < r->element + r->elements && r->bonds; e++) {
+        const int *corner = &r->corner[e->first];
+        const model_node *a = &r->node[corner[0]], *b = &r->node[corner[1]];
+        for (int k = 0; k < e->n; k++, n++) {
+            const model_node *at = &r->node[corner[k]];
+            box[n] = bbm_empty_box(find_copy(r, e->block, corner[k]));
+            bbm_widen_box(&box[n], at->x, at->y, NEAR * hypot(b->x - a->x, b->y - a->y));
+        }
+    }
+    if (n > 0)
+        bbm_sort_boxes(n, box);
+    for (int i = 0, j = 0; bbm_next_meeting(n, box, &i, &j);) {
+        const int p = r->copy[box[i].of].block, q = r->copy[box[j].of].block;
+        if (p != q && r->block[p].body == r->block[q].body)
+            up[bbm_root_of(up, box[i].of)] = bbm_root_of(up, box[j].of);
+    }
+}
+
+static int add_nodes(model_reader *r)
+{
+    model *p = r->p;
+    int *up = model_keep(r, r->copies, sizeof *up), now = 0;
+    bbm_box *box = model_keep(r, r->corners, sizeof *box);
+
+    if (!up || !box)
+        return 0;
+    join_copies(r, up, box);
+    p->node = model_keep(r, r->copies, sizeof *p->node);
+    p->node_block = model_keep(r, r->copies, sizeof *p->node_block);
+    for (int n = 0; n < r->nodes && !p->status; n++) {
+        model_node *a = &r->node[n];
+        if (a->first < 0 && a->by_hand)
+            return model_fail(r, a->at, "no element has node %.60s, expected one", a->id);
+        for (int c = a->first; c >= 0; c = r->copy[c].next) {
+            int *first = &r->copy[bbm_root_of(up, c)].node;
+            const int is_new = *first < 0;
+            *first = r->copy[c].node = is_new ? now : *first;
+            if (!is_new)
+                continue;
+            p->node[now] = a->id;
+            p->node_block[now++] = r->copy[c].block;
+            if (bbm_add_node(p->m, a->x, a->y, NULL))
+                return model_out_of_memory(r);
+        }
+    }
+    return !p->status;
+}
+
 /* What is shorter than a part of the smallest element is no length: what lies far away does not
  * matter. */
 static int add_element(model_reader *r, const model_element *e)
@@ -108,9 +144,16 @@ static int add_element(model_reader *r, const model_element *e)
                           "%.60s", of->name, of->name);
     for (int k = 0; k < e->n; k++)
         corner[k] = r->copy[find_copy(r, e->block, corner[k])].node;
-    const bbm_status status = bbm_add_element(r->p->m, e->block, material, e->n, corner, &index);
+    const bbm_status status = bbm_add_element(r->p->m, of->body, material, e->n, corner, &index);
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
+    for (int k = 0; status && k < e->n; k++) {
+        const bbm_node *a = &r->p->m->node[corner[k]],
+                       *b = &r->p->m->node[corner[(k + 1) % e->n]];
+        if (a->x == b->x && a->y == b->y)
+            return model_fail(r, e->at, "element %.60s of block '%.60s' has the corner %g %g "
+                              "twice, expected it once", e->id, of->name, a->x, a->y);
+    }
     if (status == BBM_SELF_CROSSING)
         return model_fail(r, e->at, "the boundary of element %.60s of block '%.60s' meets itself, "
                           "expected a simple polygon", e->id, of->name);
@@ -125,6 +168,36 @@ static int add_element(model_reader *r, const model_element *e)
     return 1;
 }
 
+/* Elements and edges get the blocks of the file in place of the bodies. Blocks that are bonded have
+ * a side in common. */
+static int name_blocks(model_reader *r)
+{
+    bbm_model *m = r->p->m;
+    int (*side)[2] = model_keep(r, m->bonds + 1, sizeof *side);      /* blocks that bonds join */
+
+    if (!side)
+        return 0;
+    for (int e = 0; e < m->elements; e++)
+        m->element[e].block = r->element[e].block;
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].block = m->element[bbm_element_of(m, e)].block;
+    for (int k = 0; k < m->bonds; k++) {
+        const int i = m->element[m->bond[k].i].block, j = m->element[m->bond[k].j].block;
+        side[k][0] = i < j ? i : j;
+        side[k][1] = i + j - side[k][0];
+    }
+    qsort(side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs);
+    for (const model_bond *b = r->bond; b < r->bond + r->bonds; b++) {
+        const int first = b->block[0] > b->block[1];
+        const int pair[2] = { b->block[first], b->block[!first] };
+        if (!bsearch(pair, side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs))
+            return model_fail(r, b->at, "no side of block '%.60s' has the ends of one of block "
+                              "'%.60s', expected sides that meet from node to node",
+                              r->block[b->block[0]].name, r->block[b->block[1]].name);
+    }
+    return 1;
+}
+
 int model_build(model_reader *r)
 {
     model *p = r->p;
@@ -134,7 +207,10 @@ int model_build(model_reader *r)
                           "the model has no element, expected: block ..., grid ..., mesh FILE or "
                           "element ...");
     p->gone = model_keep(r, r->blocks, sizeof *p->gone);
-    if (!p->gone || !copy_nodes(r) || !add_nodes(r))
+    p->body = model_keep(r, r->blocks, sizeof *p->body);
+    for (int b = 0; b < r->blocks && p->body; b++)
+        p->body[b] = r->block[b].body = r->block[r->block[b].body].body;
+    if (!p->gone || !p->body || !copy_nodes(r) || !add_nodes(r))
         return 0;
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
@@ -149,6 +225,8 @@ int model_build(model_reader *r)
     const bbm_status status = bbm_prepare(p->m);
     if (status)
         return model_refused(r, status);
+    if (!name_blocks(r))
+        return 0;
     if (r->plane_strain)
         bbm_set_plane_strain(p->m);
     for (int b = 0; b < r->blocks; b++)         /* a block is a set, too, behind the others */
@@ -176,7 +254,7 @@ static void choose(model_reader *r, const selection *w, int node)
         return;
     r->file_nodes++;
     for (; c >= 0; c = r->copy[c].next)
-        if (is_of(r, w->block, c)) {
+        if (is_of(r, w->block, c) && r->named[r->copy[c].node] != r->wheres) {
             r->chosen_node[r->chosen++] = r->copy[c].node;
             r->named[r->copy[c].node] = r->wheres;
         }
@@ -247,7 +325,8 @@ static int read_selection(model_reader *r, selection *w)
             return model_blame(r, "'%.60s' is a %s, expected: set %.60s", word,
                                set < r->sets ? "set" : "block", word);
         return word && model_blame(r, "unknown place '%.60s', expected node ID, at X Y, set NAME "
-                                   "or box XMIN YMIN XMAX YMAX in: %s", word, r->s->form);
+                                   "(also of a block) or box XMIN YMIN XMAX YMAX in: %s", word,
+                           r->s->form);
     }
     if (!model_numbers(r, kind[w->kind].numbers, w->x))
         return 0;
@@ -444,7 +523,7 @@ static int read_blocks(model_reader *r, int block[2])
             return 0;
     }
     return block[0] < 0 || block[0] != block[1]
-           || model_blame(r, "a joint of a block with itself, expected two blocks");
+           || model_blame(r, "a joint or pin of a block with itself, expected two blocks");
 }
 
 /* What is left out is as in `contact`. A joint that can never count is hardly meant. */
@@ -454,7 +533,8 @@ int model_joint(model_reader *r)
     double friction = r->p->m->par.friction, cohesion = b->cohesion, tension = b->tension;
     model_option o[] = { ANGLE("friction", &friction), FROM_ZERO("cohesion", &cohesion),
                          FROM_ZERO("tension", &tension) };
-    int block[2];
+    int block[2], above = 0;
+    const char *key = NULL;
 
     if (!read_blocks(r, block) || !model_options(r, 0, LENGTH(o), o)
         || !model_note_friction(r, friction))
@@ -462,10 +542,14 @@ int model_joint(model_reader *r)
     if (!o[0].seen && !o[1].seen && !o[2].seen)
         model_note(r, "warning: this joint has what `contact` has, without friction, cohesion or "
                    "tension of its own");
-    for (int k = 0; k < b->joints; k++)
-        if (model_fits(b->joint[k].block, block[0], block[1])
-            || model_fits(b->joint[k].block, block[1], block[0]))
-            model_note(r, "warning: this joint never counts, below one that fits the same blocks");
+    for (int k = 7; k >= 0; k--) {              /* with a * or two and the other way; as it stands */
+        key = model_print(r, "%d %d", k & 1 ? -1 : block[k / 4], k & 2 ? -1 : block[1 - k / 4]);
+        above |= key && model_find(&r->joint_of, key) >= 0;
+    }
+    if (above)
+        model_note(r, "warning: this joint never counts, below one that fits the same blocks");
+    if (!key || !model_enter(r, &r->joint_of, key, 0))
+        return 0;
     r->p->slippery = 0;
     if (r->no_shear)
         friction = cohesion = 0;
@@ -516,15 +600,20 @@ int model_monitors(model_reader *r)
 {
     model *p = r->p;
     model_monitor m = { .name = model_new_name(r, &r->monitor_of) };
-    const int joint = m.name && model_skip(r, "joint");
+    const int joint = m.name && model_skip(r, "joint"), held = m.name && model_skip(r, "support"),
+              bolt = m.name && model_skip(r, "bolt");
 
-    m.of = joint ? &model_force : &model_displacement;
+    m.of = joint ? &model_force : held ? &model_support : bolt ? &model_pull : &model_displacement;
     r->chosen = 0;
     if (!m.name || (joint && !read_blocks(r, m.block))
-        || ((!joint || model_look(r)) && !where(r, !joint))
+        || (bolt && !model_whole(r, "the number of the bolt", 1, &m.block[0]))
+        || ((joint ? model_look(r) != NULL : !bolt) && !where(r, !joint && !held))
         || !model_enter(r, &r->monitor_of, m.name, p->monitors)
         || !(m.node = model_keep(r, r->chosen, sizeof *m.node)))
         return 0;
+    if (bolt && m.block[0]-- > p->bolts)
+        return model_blame(r, "bolt %d of %d, expected the number of one", m.block[0] + 1,
+                           p->bolts);
     if (m.block[0] < 0 && m.block[1] < 0)
         return model_blame(r, "a joint of any block with any, expected one block at least");
     for (; m.nodes < r->chosen; m.nodes++)
@@ -614,29 +703,53 @@ int model_bolts(model_reader *r)
     model_bolt_force(m, &b, &along);
     if (!(along.length > r->margin)
         || m->vertex[b.end[0].vertex[0]].element == m->vertex[b.end[1].vertex[0]].element)
-        return model_blame(r, "a bolt without length or within an element, expected two places");
+        return model_blame(r, "a bolt without length or within an element, expected two places; "
+                              "`pin` joins two blocks at a point");
     b.rest = along.length - pretension / b.k;
     return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }
 
-/* A body is free: which block of another one is nearest to it. */
+#define PIN 1000                /* a pin is as stiff as a bond of this alpha */
+
+/* Two blocks turn about a point that both have. */
+int model_pins(model_reader *r)
+{
+    const bbm_model *m = r->p->m;
+    scene_bolt b = { .strength = INFINITY, .until = INFINITY };
+    double at[2];
+    int block[2];
+
+    if (!read_blocks(r, block) || !model_keyword(r, "at") || !model_numbers(r, 2, at))
+        return 0;
+    for (int k = 0; k < 2; k++)
+        if (block[k] < 0 || find_end(m, block[k], at, &b.end[k]) != 1)
+            return model_blame(r, "%g %g lies in no element of '%.60s', expected a point of both",
+                               at[0], at[1], block[k] < 0 ? "*" : r->block[block[k]].name);
+    b.k = bbm_bonding_stiffness(PIN, &m->element[m->vertex[b.end[0].vertex[0]].element],
+                                &m->element[m->vertex[b.end[1].vertex[0]].element]);
+    return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
+}
+
+/* A body is free: which block of another one is nearest to its first element. */
 static int blame_free(model_reader *r)
 {
     const bbm_model *m = r->p->m;
     const int loose = m->blamed[0], body = bbm_component_of(m->K, loose);
-    char near[100] = "";
+    char near[300] = "", touch[300];
     double gap = INFINITY;
 
     for (int e = 0; e < m->edges; e++)
-        for (int f = 0; f < m->edges; f++) {
-            const int i = bbm_element_of(m, e), j = bbm_element_of(m, f);
+        for (int f = 0; f < m->edges && bbm_element_of(m, e) == loose; f++) {
+            const int other = bbm_element_of(m, f);
             const double d = fmin(model_distance(m, e, f), model_distance(m, f, e));
-            if (bbm_component_of(m->K, i) != body || bbm_component_of(m->K, j) == body || d >= gap)
+            if (bbm_component_of(m->K, other) == body || d >= gap)
                 continue;
             gap = d;
-            snprintf(near, sizeof near, "; block '%.60s' is %.3g m away",
-                     r->p->block[m->element[j].block], gap);
+            snprintf(near, sizeof near, "; element %.60s is %.3g m away from block '%.60s'",
+                     r->p->element[loose], gap, r->p->block[m->element[other].block]);
         }
+    if (model_touches_itself(r->p, touch))
+        snprintf(near, sizeof near, "; %.290s", touch);
     return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, "
                       "expected fix, fixblock or a contact that holds it in statics%s",
                       r->p->block[m->element[loose].block], near);

@@ -35,8 +35,8 @@ static inline int field_is_gone(const bbm_model *m, int v)
 double field_place(const bbm_model *m, int v, int axis);
 const field *field_find(const char *name);                      /* NULL: there is none          */
 double field_of_element(const field *f, const bbm_model *m, int element);
-/* That of the mean displacement, stress and motion of the elements that meet there. */
-double field_of_node(const field *f, const bbm_model *m, int node);
+/* That of the mean displacement, stress and motion of the elements of a block that meet there. */
+double field_of_node(const field *f, const bbm_model *m, int node, int block);    /* -1: all */
 
 /* The force of a contact that carries N and T on the corner's block, as a vector. */
 void field_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2]);

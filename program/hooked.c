@@ -90,7 +90,8 @@ double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *
     const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
     const double length = hypot(P.x - Q.x, P.y - Q.y);
 
-    *along = (bbm_direction){ (P.x - Q.x) / length, (P.y - Q.y) / length, length };
+    *along = (bbm_direction){ length > 0 ? (P.x - Q.x) / length : 1,
+                              length > 0 ? (P.y - Q.y) / length : 0, length };
     return b->k * (length - b->rest);
 }
 
@@ -100,19 +101,19 @@ double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *
  * With exact rotations n is the direction in the middle of the step. The vector P from end to end
  * becomes P1, and L1^2 - L^2 = (P1 + P).(P1 - P). So the length changes by c n.(P1 - P), with n
  * along P1 + P and c = |P1 + P|/(L1 + L): the work is what the bolt loses, and the force keeps
- * angular momentum. */
+ * angular momentum. A pin, which is at rest without length, resists in both directions alike. */
 static void find_gap(const bbm_model *m, const scene_bolt *b, bbm_gap *g)
 {
     const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
     const bbm_element *i = &m->element[P.element], *j = &m->element[Q.element];
     bbm_direction n;
     const double force = model_bolt_force(m, b, &n), L = n.length,
-                 across = bbm_find_motion(m) ? 0 : fmax(0, force) / L;
+                 across = b->rest == 0 ? b->k : bbm_find_motion(m) ? 0 : fmax(0, force) / L;
     double c = 1, d[2];
 
     bbm_bonding_gap(i, &P, j, &Q, 0, g);
     g->elastic = 1;
-    if (i->middle) {
+    if (i->middle && b->rest > 0) {
         bbm_gap_length(m, g, d);                                /* P1 - P */
         const double x = 2 * L * n.x + d[0], y = 2 * L * n.y + d[1], sum = hypot(x, y);
         c = sum / (L + hypot(x - L * n.x, y - L * n.y));

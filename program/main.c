@@ -6,6 +6,7 @@
  * is not met; 130, 143: interrupted (Ctrl-C, kill), with what was computed until then in the
  * files. Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
 #define _POSIX_C_SOURCE 200809L
+#define _DEFAULT_SOURCE                 /* else glibc takes a handler away when it is called */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -20,7 +21,7 @@
 /* The signal that came. Signals have no other way to say something: this variable, and it alone,
  * has file scope. */
 static volatile sig_atomic_t stopped;
-enum { SHOWN = 30, SILENCE = 10 };  /* blocks of --check; s between lines of progress to a file */
+enum { SILENCE = 10 };              /* s between lines of progress to a file */
 
 static const char usage[] =
     "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
@@ -30,7 +31,7 @@ static const char usage[] =
     "  --check     reads the model and tells what it is, with a picture; computes nothing\n"
     "  --find      bisects `let NAME` until its expectations change; writes no results\n"
     "  -o FOLDER   for the results; without it the model's name, here. Units: doc/tables.md\n"
-    "  -m FILE.mtx the matrix of the first solution (Matrix Market); its right side: FILE.mtx.rhs\n"
+    "  -m FILE.mtx matrix of the first solution (Matrix Market); right side, masses: .rhs, .mass\n"
     "  -q          quiet: errors and warnings alone\n  -h, --version\n";
 
 static int complain(arguments *a, const char *what, const char *word)
@@ -74,11 +75,12 @@ static int read_arguments(arguments *a, int argc, char *argv[])
     int options = 1;
 
     *a = (arguments){ .exit = -1, .let = argv };
-    for (int k = 1; k < argc; k++) {
 #ifdef _WIN32
+    for (int k = 1; k < argc; k++)
         for (char *c = argv[k]; *c; c++)
             *c = *c == '\\' ? '/' : *c;        /* both part folders there */
 #endif
+    for (int k = 1; k < argc; k++) {
         char *word = argv[k];
         if (!options || word[0] != '-' || word[1] == '\0') {
             if (a->model)
@@ -122,12 +124,9 @@ static const char *plural(int n) { return n == 1 ? "" : "s"; }
 
 typedef struct {
     int shown, begun, warned;                   /* begun: a line without its end */
-    time_t step, line;                          /* when the last step ended; the last line */
-    double rate;                                /* s            of a step */
+    time_t line;                                /* when the last one was written */
 } progress;
 
-/* What is left takes as long for each step as the last ones, a tenth of the run. Settling, whose
- * steps are shorter, does not tell. */
 static void show_progress(progress *s, const run *r)
 {
     const model *p = r->p;
@@ -136,22 +135,16 @@ static void show_progress(progress *s, const run *r)
     const int done = r->settling ? all - r->settling : r->is_over ? all
                    : r->has_begun ? i->step : 0;
     const time_t t = time(NULL);
-    char left[40] = "";
 
-    s->rate += (difftime(t, s->step) - s->rate) / fmax(1, fmin(done, 1 + all / 10));
-    s->step = t;
     if (!s->shown || done == 0
         || (t < s->line + (isatty(2) ? 1 : SILENCE) && !(isatty(2) && done == all)))
         return;
     s->line = t;
     s->begun = isatty(2);
-    if (!r->settling)
-        snprintf(left, sizeof left, ", %.0f s left", s->rate * (all - done));
-    fprintf(stderr, "%s%sstep %d of %d, %d open-close pass%s, %d contact%s%s%s",
+    fprintf(stderr, "%s%sstep %d of %d, %d open-close pass%s, %d contact%s%s",
             s->begun ? "\r" : "", r->settling ? "settling, " : "", done, all, i->passes,
-            i->passes == 1 ? "" : "es", i->contacts, plural(i->contacts), left,
+            i->passes == 1 ? "" : "es", i->contacts, plural(i->contacts),
             s->begun ? "   " : "\n");
-    fflush(stderr);
 }
 
 static void describe(const model *p, const char *path)
@@ -234,7 +227,7 @@ static void describe_blocks(const model *p, int touching)
     const bbm_model *m = p->m;
 
     printf("%-20s %9s %12s %14s\n", "block", "elements", "fixed nodes", "mass [kg]");
-    for (int b = 0; b < p->blocks && b < SHOWN; b++) {
+    for (int b = 0; b < p->blocks; b++) {
         int elements = 0, fixed = 0;
         double mass = 0;
         for (int e = 0; e < m->elements; e++) {
@@ -246,8 +239,6 @@ static void describe_blocks(const model *p, int touching)
             fixed += p->node_block[n] == b && m->node[n].held;
         printf("%-20s %9d %12d %14.6g\n", p->block[b], elements, fixed, mass);
     }
-    if (p->blocks > SHOWN)
-        printf("... and %d more\n", p->blocks - SHOWN);
     printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s of "
            "other strength\n", touching, plural(touching), m->par.p_n, m->par.p_s,
            m->par.friction, m->beyond->joints, plural(m->beyond->joints));
@@ -283,7 +274,7 @@ static void report(const run *r, bbm_status status, const write_results *w)
     char text[500];
 
     run_says(r, status, text);
-    if (stopped)
+    if (stopped && !w->status)
         fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until "
                 "then is in %s\n", w->source, r->has_begun ? "" : "settling, ", m->info.step,
                 r->has_begun ? m->par.steps : r->p->settle, m->info.t, w->folder);

@@ -59,7 +59,10 @@ const model_followed
     model_displacement = { "displacement", "m", "u|v|moves|stays", { "u", "v" },
                            { "u expected", "v expected", "to leave", "to stay" }, 2 },
     model_force = { "force", "N", "normal|shear|fx|fy", { "normal", "shear", "fx", "fy" },
-                    { "normal expected", "shear expected", "fx expected", "fy expected" }, 4 };
+                    { "normal expected", "shear expected", "fx expected", "fy expected" }, 4 },
+    model_support = { "force of the supports", "N", "fx|fy", { "fx", "fy" },
+                      { "fx expected", "fy expected" }, 2 },
+    model_pull = { "force", "N", "force", { "force" }, { "expected" }, 1 };
 
 int model_fits(const int block[2], int i, int j)
 {
@@ -79,6 +82,10 @@ void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED])
         x[0] += r.u / m->nodes;
         x[1] += r.v / m->nodes;
     }
+    for (int k = 0; k < 2 * m->nodes && m->of == &model_support; k++)
+        x[k % 2] += b->beyond->support[m->node[k / 2]].force[k % 2];
+    if (m->of == &model_pull)
+        x[0] = model_bolt_force(b, &p->bolt[m->block[0]], &(bbm_direction){ 0 });
     for (int k = 0; k < b->contacts && m->of == &model_force; k++) {
         const bbm_contact *c = &b->contact[k];
         const int i = b->edge[c->corner].block, j = b->edge[c->edge].block,
@@ -101,6 +108,36 @@ double model_distance(const bbm_model *m, int corner, int edge)
     const double s = fmax(0, fmin(t.length, bbm_way_along(m, corner, edge)));
 
     return hypot(P->x - a->x - s * t.x, P->y - a->y - s * t.y);
+}
+
+int model_touches_itself(const model *p, char out[300])
+{
+    const bbm_model *m = p->m;
+    bbm_box *b = malloc((size_t)m->edges * sizeof *b);
+    int corner = m->edges, side = 0;
+
+    for (int e = 0; e < m->edges && b; e++) {
+        b[e] = bbm_empty_box(e);
+        bbm_widen_box(&b[e], bbm_start_of(m, e)->x, bbm_start_of(m, e)->y, 0);
+        bbm_widen_box(&b[e], bbm_end_of(m, e)->x, bbm_end_of(m, e)->y,
+                      MODEL_TOUCH * m->edge[e].along.length);
+    }
+    if (b)
+        bbm_sort_boxes(m->edges, b);
+    for (int i = 0, j = 0, k = 0; b && (k % 2 || bbm_next_meeting(m->edges, b, &i, &j)); k++) {
+        const int c = b[k % 2 ? j : i].of, e = b[k % 2 ? i : j].of, n = bbm_start_of(m, c)->node;
+        if (m->edge[c].first == m->edge[e].first && n != bbm_start_of(m, e)->node
+            && n != bbm_end_of(m, e)->node && (c < corner || (c == corner && e < side))
+            && model_distance(m, c, e) <= MODEL_TOUCH * m->edge[e].along.length)
+            corner = c, side = e;
+    }
+    free(b);
+    if (corner < m->edges)
+        snprintf(out, 300, "node %.40s of block '%.60s' lies on its side from node %.40s to %.40s, "
+                 "not as its end: there is neither a bond nor a contact",
+                 p->node[bbm_start_of(m, corner)->node], p->block[m->edge[corner].block],
+                 p->node[bbm_start_of(m, side)->node], p->node[bbm_end_of(m, side)->node]);
+    return corner < m->edges;
 }
 
 /* Each block as a rigid body: v + spin x (X - barycentre of the block). */

@@ -22,7 +22,8 @@ typedef struct {
     int values;
 } model_followed;
 
-typedef struct {                /* of library nodes, or of the joint of two blocks, -1: any */
+typedef struct {                /* of library nodes, of the joint of two blocks, -1: any, or of */
+                                /* the bolt block[0] */
     const char *name;
     const model_followed *of;
     int nodes, *node, block[2], touched;        /* touched: whether the joint ever had a force */
@@ -59,7 +60,8 @@ typedef struct {
     int    blocks, monitors;
     const char **block;         /* [blocks]     names */
     const char **node;          /* [m->nodes]   ids */
-    int   *node_block;          /* [m->nodes] */
+    int   *node_block;          /* [m->nodes]   the first one of several that are bonded */
+    int   *body;                /* [blocks]     the same of blocks that are bonded */
     const char **element;       /* [m->elements] ids */
     double (*centre)[2];        /* [m->elements] m, barycentres at the start */
     model_velocity *velocity;   /* [blocks]     initial */
@@ -78,6 +80,8 @@ typedef struct {
     scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
     model_kept *kept;           /* all that is allocated for the file: arrays, and the texts of
                                                 which names and ids are words */
+    int    inputs;
+    const char **input;         /* [inputs]     the files that were read */
     int    notes;
     const char **note;          /* [notes]      what is allowed and hardly meant, FILE:LINE: ... */
     int    status;              /* 0, 1: failed, 2: the input is wrong */
@@ -92,12 +96,17 @@ int  model_read(const char *path, int lets, char *const let[], model *p);
 const char *model_says(const model *p, bbm_status status, char out[400]);
 /* How far the start of a boundary edge is from another edge, m. */
 double model_distance(const bbm_model *m, int corner, int edge);
+#define MODEL_TOUCH 1e-6        /* of the size of what is near: what is nearer touches it */
+/* Whether a corner of a block lies on a side of it without being its end, so that neither a bond
+ * nor a contact is there; the first one as text. */
+int  model_touches_itself(const model *p, char out[300]);
 int  model_fits(const int block[2], int i, int j);      /* -1: any */
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
 void model_move_supports(model *p);     /* to where they are after the next step */
 void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */
-extern const model_followed model_displacement, model_force;
-/* u, v of nodes; of a joint normal, shear, and fx, fy of its second block on the first; and 0. */
+extern const model_followed model_displacement, model_force, model_support, model_pull;
+/* u, v of nodes; of a joint normal, shear, and fx, fy of its second block on the first; fx, fy of
+ * the supports on nodes; the pull of a bolt; and 0. */
 void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED]);
 /* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);

@@ -1,10 +1,14 @@
-/* msh.c - Gmsh's mesh files, MSH 2.2 and 4.1, ASCII (gmsh.info, "MSH file format").
+/* msh.c - Gmsh's mesh files, MSH 2 and 4.1, ASCII (gmsh.info, "MSH file format").
  *
- * Both are sections of numbers, $Name ... $EndName. Wanted are $PhysicalNames, $Nodes and
- * $Elements, and of 4.1 also $Entities: in 2.2 each element names its physical group, in 4.1 the
- * curve or surface that it lies in does. Triangles and quadrilaterals become elements, their
- * physical surface is their block. Every physical group, of points, curves or surfaces, is a set
- * of nodes. Other sections are passed over, and so is z.
+ * Both are sections of numbers, $Name ... $EndName. Wanted are $PhysicalNames, $Nodes (or
+ * $ParametricNodes) and $Elements, and of 4.1 also $Entities and $PartitionedEntities: in 2 each
+ * element names its physical group and its curve or surface, in 4.1 that names its groups. Other
+ * sections are passed over.
+ *
+ * Triangles and quadrilaterals become elements, their physical surface is their block. Every
+ * physical group, of points, curves or surfaces, is a set of nodes. Without physical surfaces all
+ * elements are one block, `mesh`; `by surface` makes each surface a block, named by its number. A
+ * curve in no group is a set of its number.
  *
  * The file is read word by word; the words are cut out of its text, in place, and ids are words
  * of it. The numbers of things that a section announces are only counted down, never trusted
@@ -17,9 +21,12 @@
 
 #include "reader.h"
 
-/* A physical group with its name, or an entity (point, curve, surface) with its groups tag[first
- * .. first+n-1]. */
-typedef struct { int dimension, number; const char *name; int first, n; } entry;
+/* Of a side of an element: z that differs by less is the same. */
+#define FLAT 1e-3
+
+/* A physical group with its name, or an entity (point, curve, surface) with its own number, of a
+ * partition that of its parent, 0: none, and its groups tag[first .. first+n-1]. */
+typedef struct { int dimension, number; const char *name; int own, first, n; } entry;
 typedef struct { int count; entry *entry; } list;
 
 typedef struct {
@@ -28,7 +35,11 @@ typedef struct {
     int line;                           /* of what is left of the file */
     char *text, *end;
     char section[40];
-    int version;                        /* 22 or 41; 0: not known yet */
+    int version;                        /* 2 or 41; 0: not known yet */
+    int by_surface;                     /* whether each surface is a block */
+    const char *in_group, *in_none;     /* an element in a physical surface, and in none */
+    int first;                          /* of the elements of the file */
+    double z;                           /* of the plane in which it lies */
     int tags, done;                     /* done: 1: $Nodes, 2: $Elements */
     int entries, announced;             /* 4.1: in all blocks of the section, and by its head */
     list group, entity;
@@ -42,17 +53,27 @@ static int wrong(mesh *m, const char *word, const char *expected)
     return model_fail(m->r, m->at, "'%.60s' in $%s, expected %s", word, m->section, expected);
 }
 
-/* The next word, "" at the end of the file. */
+/* The name of the file, for a command. */
+static const char *file_of(const mesh *m)
+{
+    const char *slash = strrchr(m->at.file, '/');
+
+    return slash ? slash + 1 : m->at.file;
+}
+
+/* The next word, "" at the end of the file. Quotes hold blanks together. */
 static char *look_word(mesh *m)
 {
     char *word;
+    int quoted = 0;
 
     for (; m->text < m->end && (isspace((unsigned char)*m->text) || *m->text == '\0'); m->text++)
         m->line += *m->text == '\n';
     m->at.line = m->line;
     word = m->text;
-    while (m->text < m->end && !isspace((unsigned char)*m->text) && *m->text != '\0')
-        m->text++;
+    while (m->text < m->end && *m->text != '\0' && *m->text != '\n'
+           && (quoted || !isspace((unsigned char)*m->text)))
+        quoted ^= *m->text++ == '"';
     if (m->text < m->end) {
         m->line += *m->text == '\n';
         *m->text++ = '\0';
@@ -116,22 +137,31 @@ static const char *id(mesh *m)
 static const entry *find(const list *l, int dimension, int number_of)
 {
     for (int k = 0; k < l->count; k++)
-        if (l->entry[k].dimension == dimension && l->entry[k].number == number_of)
+        if ((l->entry[k].dimension == dimension || l->entry[k].dimension < 0)
+            && l->entry[k].number == number_of)
             return &l->entry[k];
     return NULL;
 }
 
-/* dimension, number, "name" */
+/* dimension (in 2.0 there is none: -1), number, "name". What no name has, as a blank, becomes _. */
 static void read_names(mesh *m)
 {
     for (int n = whole(m, 0); more(m, &n); ) {
-        entry e = { .dimension = whole(m, 0) };
-        e.number = whole(m, 1);
-        const char *word = next_word(m);
-        const size_t length = *word == '"' ? strspn(word + 1, MODEL_NAME) : 0;
-        if (length == 0 || strcmp(word + 1 + length, "\"") != 0)
-            wrong(m, word, "a name in quotes, of letters, digits, _ - .");
-        e.name = model_print(m->r, "%.*s", (int)length, word + 1);
+        entry e = { .dimension = -1, .number = whole(m, 0) };
+        if (m->text[strspn(m->text, " \t")] != '"')
+            e.dimension = e.number, e.number = whole(m, 1);
+        char *word = next_word(m), *close = word + strlen(word) - 1;
+        if (close < word + 2 || *word != '"' || *close != '"')
+            wrong(m, word, "a name in quotes");
+        else
+            *close = '\0', word++;
+        for (char *c = word; *(c += strspn(c, MODEL_NAME)); )
+            *c = '_';
+        for (int k = 0; k < m->group.count; k++)
+            if (m->group.entry[k].dimension == e.dimension
+                && strcmp(m->group.entry[k].name, word) == 0)
+                wrong(m, word, "another name than that of a group before it, with _ for blanks");
+        e.name = word;
         model_add(m->r, &m->group.entry, &m->group.count, sizeof e, &e);
     }
 }
@@ -146,10 +176,19 @@ static void read_tags(mesh *m, int n)
     }
 }
 
-static void read_entity(mesh *m, int dimension)
+/* One of a partition has its parent's dimension and number and its partitions behind its own
+ * number. */
+static void read_entity(mesh *m, int dimension, int partitioned)
 {
-    entry e = { dimension, whole(m, INT_MIN / 2), NULL, m->tags, 0 };
+    entry e = { dimension, whole(m, INT_MIN / 2), NULL, 0, m->tags, 0 };
 
+    e.own = e.number;
+    if (partitioned) {
+        const int of = whole(m, INT_MIN / 2), parent = whole(m, INT_MIN / 2);
+        e.own = of == dimension ? parent : 0;
+        for (int partitions = whole(m, 0); more(m, &partitions); )
+            next_word(m);
+    }
     for (int k = dimension == 0 ? 3 : 6; more(m, &k); )         /* the box around it */
         number(m);
     e.n = whole(m, 0);
@@ -161,19 +200,25 @@ static void read_entity(mesh *m, int dimension)
 
 static void read_entities(mesh *m)
 {
+    const int partitioned = *m->section == 'P';
     int n[4];
 
+    if (partitioned) {                  /* the number of partitions; ghosts and their partitions */
+        whole(m, 0);
+        for (int ghosts = 2 * whole(m, 0); more(m, &ghosts); )
+            whole(m, 0);
+    }
     read_head(m, n);
     for (int d = 0; d < 4; d++)
         while (more(m, &n[d]))
-            read_entity(m, d);
+            read_entity(m, d, partitioned);
 }
 
 /* ------------------------------------------------------------------------------ nodes, elements */
 
 /* 4.1: the number of entities, of entries, the least and the largest number; for each entity its
  * dimension, tag, type of elements or whether its nodes have parameters, n; and n entries.
- * 2.2: the number of entries, which are read one by one. */
+ * 2: the number of entries, which are read one by one. */
 static void read_entries(mesh *m, void (*read)(mesh *m, const int of[4]))
 {
     int head[4], of[4] = { 0, 0, 0, 1 };
@@ -189,7 +234,8 @@ static void read_entries(mesh *m, void (*read)(mesh *m, const int of[4]))
     }
 }
 
-/* n numbers; n times x y z and parameters. */
+/* n numbers; n times x y z and parameters, as many as the dimension says that stands before them
+ * in $ParametricNodes. */
 static void read_some_nodes(mesh *m, const int of[4])
 {
     for (int n = of[3]; more(m, &n); ) {
@@ -201,7 +247,13 @@ static void read_some_nodes(mesh *m, const int of[4])
         model_node *node = &m->r->node[m->r->nodes - 1 - n];
         node->x = number(m);
         node->y = number(m);
-        for (int rest = of[2] ? 1 + of[0] : 1; more(m, &rest); )
+        node->z = number(m);
+        int rest = of[2] ? of[0] : 0;
+        if (*m->section == 'P') {
+            rest = whole(m, 0);
+            number(m), rest -= rest == 3 ? 3 : 0;       /* its entity; one of a volume has none */
+        }
+        while (more(m, &rest))
             number(m);
     }
 }
@@ -215,28 +267,58 @@ static const char *name_of(const mesh *m, int dimension, const char *tag)
     return g ? g->name : tag;
 }
 
-/* Adds the nodes to the set of each group, and the element to the block of the first one. */
+/* Adds the nodes of an element, the last corners, to a set. */
+static int add_to_set(mesh *m, const model_element *e, const char *name, int dimensions)
+{
+    model_reader *r = m->r;
+    const int set = model_find_set(r, name);
+
+    if (set < 0)
+        return 0;
+    r->set[set].dimensions |= dimensions;
+    for (int k = r->corners - e->n; k < r->corners; k++)
+        if (!model_add_to_set(r, set, r->corner[k]))
+            return 0;
+    return 1;
+}
+
+/* The block of an element, of its first group or else of the file; or NULL. */
+static const char *find_block(mesh *m, const model_element *e, const entry *in)
+{
+    if (m->by_surface && in->own > 0)
+        return model_print(m->r, "%d", in->own);
+    *(in->n > 0 ? &m->in_group : &m->in_none) = e->id;
+    if (m->in_group && m->in_none)
+        return model_fail(m->r, e->at, "element %.60s lies in no physical surface, element %.60s "
+                          "in one, expected all or none in one; `mesh FILE by surface` makes each "
+                          "surface a block", m->in_none, m->in_group), NULL;
+    return in->n > 0 ? name_of(m, 2, m->tag[in->first]) : "mesh";
+}
+
+/* Adds the nodes to the set of each group, or of the curve if it has none, and the element to its
+ * block. */
 static int add_element(mesh *m, model_element *e, const entry *in)
 {
     const int dimension = e->n < 3 ? e->n - 1 : 2;
     model_reader *r = m->r;
 
-    for (int t = 0; t < in->n; t++) {
-        const int set = model_find_set(r, name_of(m, dimension, m->tag[in->first + t]));
-        if (set < 0)
+    for (int t = 0; t < in->n; t++)
+        if (!add_to_set(m, e, name_of(m, dimension, m->tag[in->first + t]), 1 << dimension))
             return 0;
-        r->set[set].dimensions |= 1 << dimension;
-        for (int k = r->corners - e->n; k < r->corners; k++)
-            if (!model_add_to_set(r, set, r->corner[k]))
-                return 0;
-    }
+    if (dimension == 1 && in->n == 0 && in->own > 0)
+        return add_to_set(m, e, model_print(r, "%d", in->own), 1 << 3);
     if (dimension < 2)
         return 1;
-    if (in->n == 0)
-        return model_fail(r, e->at, "element %.60s lies in no physical surface, expected one, "
-                          "which is its block", e->id);
-    e->block = model_find_block(r, name_of(m, 2, m->tag[in->first]));
-    if (e->block < 0)
+    const int *corner = &r->corner[r->corners - e->n];
+    const model_node *a = &r->node[corner[0]], *b = &r->node[corner[1]];
+    m->z = r->elements == m->first ? a->z : m->z;
+    for (int k = 0; k < e->n; k++)
+        if (fabs(r->node[corner[k]].z - m->z) > FLAT * hypot(b->x - a->x, b->y - a->y))
+            return model_fail(r, r->node[corner[k]].at, "node %.60s lies at z = %g, others at %g, "
+                              "expected a mesh in a plane z = constant", r->node[corner[k]].id,
+                              r->node[corner[k]].z, m->z);
+    const char *block = find_block(m, e, in);
+    if (!block || (e->block = model_find_block(r, block)) < 0)
         return 0;
     r->block[e->block].meshed = 1;
     return model_add_element(r, e);
@@ -249,9 +331,12 @@ static int read_element(mesh *m, const char *number_of, int type, const entry *i
 
     e.n = type == 15 ? 1 : type >= 1 && type <= 3 ? type + 1 : 0;
     if (e.n == 0)
-        return model_fail(m->r, m->at, "element %.60s is of type %d, expected 15, 1, 2 or 3: a "
-                          "point, or a line, triangle or quadrilateral of first order",
-                          number_of, type);
+        return model_fail(m->r, m->at, type >= 4 && type <= 7
+                          ? "element %.60s is of type %d, a volume, expected lines, triangles and "
+                            "quadrilaterals: gmsh -2 meshes surfaces alone"
+                          : "element %.60s is of type %d, expected 15, 1, 2 or 3, which are of "
+                            "first order: `gmsh -0` of a file with the line: Merge \"%.60s\"; "
+                            "SetOrder 1; Save \"NEW.msh\";", number_of, type, file_of(m));
     for (int k = 0; k < e.n; k++) {
         const char *word = id(m);
         if (!model_add_corner(m->r, model_find(&m->r->node_of, word)))
@@ -260,20 +345,21 @@ static int read_element(mesh *m, const char *number_of, int type, const entry *i
     return add_element(m, &e, in);
 }
 
-/* Number and nodes; in 2.2 between them the type, the number of tags, the physical group (0: none)
- * and other tags. */
+/* Number and nodes; in 2 between them the type, the number of tags, the physical group and the
+ * curve or surface (0: none), and other tags. */
 static void read_some_elements(mesh *m, const int of[4])
 {
     const entry *found = find(&m->entity, of[0], of[1]);
-    entry in = found ? *found : (entry){ 0 };
+    entry in = found ? *found : (entry){ .own = of[1] };
 
     for (int n = of[3], type = of[2]; more(m, &n); ) {
         const char *number_of = id(m);
-        if (m->version == 22) {
+        if (m->version == 2) {
             type = whole(m, 1);
             m->tags = 0;
             read_tags(m, whole(m, 0));
             in.n = m->tags > 0 && strcmp(m->tag[0], "0") != 0;
+            in.own = m->tags > 1 ? abs((int)strtol(m->tag[1], NULL, 10)) : 0;
         }
         read_element(m, number_of, type, &in);
     }
@@ -283,16 +369,22 @@ static void read_elements(mesh *m) { read_entries(m, read_some_elements); }
 
 /* ------------------------------------------------------------------------------------- the file */
 
+static int blame_format(mesh *m, const char *what)
+{
+    return model_fail(m->r, m->at, "%.60s, expected a text of version 2 or 4.1: gmsh -save -format "
+                      "msh41 -o NEW.msh %.200s", what, file_of(m));
+}
+
 static void read_format(mesh *m)
 {
     const char *version = next_word(m);
 
-    m->version = strcmp(version, "2.2") == 0 ? 22 : strcmp(version, "4.1") == 0 ? 41 : 0;
+    m->version = strcmp(version, "4.1") == 0 ? 41
+               : strncmp(version, "2.", 2) == 0 || strcmp(version, "2") == 0 ? 2 : 0;
     if (!m->version)
-        wrong(m, version, "version 2.2 or 4.1");
+        blame_format(m, model_print(m->r, "the mesh is of version '%.20s'", version));
     if (whole(m, 0))
-        model_fail(m->r, m->at, "the mesh is binary, expected ASCII: gmsh without -bin, or "
-                   "Mesh.Binary = 0");
+        blame_format(m, "the mesh is binary");
     whole(m, 0);
 }
 
@@ -308,8 +400,10 @@ static void read_section(mesh *m)
     const struct { const char *name; void (*read)(mesh *m); int done; } section[] = {
         { "MeshFormat", read_format, 0 },
         { "PhysicalNames", read_names, 0 },
-        { "Entities", m->version == 22 ? NULL : read_entities, 0 },
+        { "Entities", m->version == 2 ? NULL : read_entities, 0 },
+        { "PartitionedEntities", read_entities, 0 },
         { "Nodes", read_nodes, 1 },
+        { "ParametricNodes", read_nodes, 1 },
         { "Elements", read_elements, 2 },
         { m->section, NULL, 0 },
     };
@@ -317,6 +411,8 @@ static void read_section(mesh *m)
 
     while (strcmp(m->section, section[k].name) != 0)
         k++;
+    if (!m->version && k > 0 && section[k].read)
+        blame_format(m, "no $MeshFormat stands before this section");
     m->done |= section[k].done;
     m->entries = m->announced = 0;
     if (section[k].read)
@@ -331,9 +427,10 @@ static void read_section(mesh *m)
                    m->section, m->entries, m->announced);
 }
 
-int model_read_mesh(model_reader *r, const char *path)
+int model_read_mesh(model_reader *r, const char *path, int by_surface)
 {
-    mesh m = { .r = r, .at = { .file = path, .line = 1 }, .line = 1 };
+    mesh m = { .r = r, .at = { .file = path, .line = 1 }, .line = 1, .by_surface = by_surface,
+               .first = r->elements };
     size_t size;
 
     m.text = model_load(r, path, &size);
@@ -341,18 +438,20 @@ int model_read_mesh(model_reader *r, const char *path)
         return 0;
     m.end = m.text + size;
     for (const char *word; !r->p->status && *(word = look_word(&m)); ) {
-        if (word[0] != '$')
-            model_fail(r, m.at, "'%.60s', expected a section like $Nodes", word);
         m.section[0] = '\0';
         strncat(m.section, word + 1, sizeof m.section - 1);
-        if (!m.version && strcmp(m.section, "MeshFormat") != 0)
-            wrong(&m, word, "$MeshFormat as the first section");
-        read_section(&m);
+        if (word[0] != '$')
+            model_fail(r, m.at, "'%.60s', expected a section like $Nodes; of another format "
+                       "makes one: meshio convert -a -o gmsh22 %.200s NEW.msh", word, file_of(&m));
+        else if (strcmp(m.section, "NOD") == 0)
+            blame_format(&m, "the mesh is of version '1'");
+        else
+            read_section(&m);
     }
     if (m.done != 3)
-        model_fail(r, m.at, "the file ends without $%s, expected one",
+        model_fail(r, m.at, "the file ends without $%s, expected a mesh: gmsh -2 makes one",
                    m.done & 1 ? "Elements" : "Nodes");
-    if (r->elements == 0)
+    if (r->elements == m.first)
         model_fail(r, m.at, "no triangle or quadrilateral, expected a mesh of surfaces: gmsh -2");
     return !r->p->status;
 }

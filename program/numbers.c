@@ -1,7 +1,8 @@
 /* numbers.c - numbers with a name, arithmetic and repetition: makes of the statements of the file
  * those that are carried out.
  *
- *     let NAME VALUE              $NAME stands for the number, in any statement
+ *     let NAME VALUE              $NAME stands for the number, in any statement; $NAME$i for that
+ *                                 whose name ends in the number i
  *     $(...)                      stands for its value, with 15 digits:
  *
  *         sum      = product { (+|-) product }
@@ -11,7 +12,8 @@
  *
  *     repeat NAME FROM TO         the statements up to its `end`, for each whole number from FROM
  *       ...                       to TO, which is $NAME in them; a `let` there is that of the
- *     end                         round alone
+ *     end                         round alone, or else changes the one outside, as a sum; with a
+ *                                 number in its name it stays
  *
  *     stage NAME ... end          the statements between get the number of the stage
  *
@@ -52,7 +54,13 @@ static const char *find_value(const model_reader *r, const char *text, size_t *n
         if (at >= 0)
             return r->word[at].text;
     }
-    return NULL;
+    const char *number = text[letters] == '$' ? find_value(r, text + letters + 1, n) : NULL;
+    if (!number || letters == 0)
+        return NULL;
+    snprintf(name, sizeof name, "%.*s%s", (int)letters, text, number);
+    const int at = model_find(&r->let_of, name);
+    *n += letters + 1;
+    return at < 0 ? NULL : r->word[at].text;
 }
 
 static int blame_name(model_reader *r, const char *name)
@@ -70,7 +78,7 @@ static int blame_name(model_reader *r, const char *name)
 typedef struct {
     model_reader *r;
     const char *text, *at;      /* all of it, for messages; what comes next */
-    int depth;
+    int depth, pi;              /* pi: whether it stands there, but as a divisor */
 } formula;
 
 static double sum(formula *f);
@@ -112,9 +120,13 @@ static const function functions[] = {
 /* The numbers in its parentheses, whose first is taken. */
 static double call(formula *f, const function *of)
 {
-    double x = sum(f);
+    const int pi = f->pi;
+    double x = (f->pi = 0, sum(f));
     int numbers = 1;
 
+    if (f->pi && (of->one == sine || of->one == cosine || of->one == tangent) && fabs(x) < 7)
+        model_note(f->r, "warning: %s of %g, with pi: angles are in degrees", of->name, x);
+    f->pi |= pi;
     for (; take(f, ","); numbers++) {
         const double y = sum(f);
         x = of->two ? of->two(x, y) : x;
@@ -144,7 +156,7 @@ static double name(formula *f)
     if (value)
         return f->at += n, strtod(value, NULL);
     if (letters == 2 && strncmp(f->at, "pi", 2) == 0)
-        return f->at += 2, acos(-1);
+        return f->pi |= f->at == f->text || f->at[-1] != '/', f->at += 2, acos(-1);
     if (of)
         return blame_formula(f, "a function without its (");
     if (f->at[letters] == '(')
@@ -207,7 +219,7 @@ static double sum(formula *f)
 /* The value of the $(...) that the text begins with, as text, and its length. */
 static const char *evaluate(model_reader *r, const char *text, char number[NUMBER_ROOM], size_t *n)
 {
-    formula f = { r, text, text + 1, 0 };
+    formula f = { r, text, text + 1, 0, 0 };
     const double x = primary(&f) + 0.0;         /* -0 is 0 */
 
     if (!isfinite(x))
@@ -218,6 +230,14 @@ static const char *evaluate(model_reader *r, const char *text, char number[NUMBE
 }
 
 /* ------------------------------------------------------------------------- a word, a statement */
+
+/* So many more bytes are taken. */
+static int grow(model_reader *r, size_t bytes)
+{
+    return (r->grown += (double)bytes) <= MOST_BYTES
+           || model_blame(r, "the values of numbers take more than %d bytes, expected less",
+                          MOST_BYTES);
+}
 
 /* The word with the value in place of each piece $NAME or $(...); NULL after an error. glued: it
  * has several pieces, but for a sign or %, and is no number. */
@@ -240,9 +260,8 @@ static char *expand(model_reader *r, char *word, int *glued)
         }
         from += n;
         pieces += length != 1 || !strchr("+-%", *value);
-        if ((r->grown += (double)length) > MOST_BYTES)
-            return model_blame(r, "the values of numbers take more than %d bytes, expected less",
-                               MOST_BYTES), NULL;
+        if (!grow(r, length))
+            return NULL;
         while (length-- > 0)
             model_add(r, &text, &letters, 1, value++);
     }
@@ -291,11 +310,29 @@ static const char *new_number(model_reader *r)
     return word;
 }
 
-/* The number is the word behind the name, or that of the command line in its place. In a round it
+/* In a round: changes the number of that name outside, or keeps one with a number in its name, or
  * is the round's. */
+static int set_number(model_reader *r, const char *word, int at)
+{
+    const int old = model_find(&r->let_of, word);
+    const model_local l = { word, r->word[at].text, 0 };
+
+    for (model_local *k = r->local; k < r->local + r->locals; k++)
+        if (strcmp(k->name, word) == 0 && (k->counts || k >= r->local + r->own))
+            return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
+                               word);
+        else if (strcmp(k->name, word) == 0)
+            return k->value = l.value, 1;
+    if (old >= 0)
+        return r->word[old].text = r->word[at].text, 1;
+    return strchr(r->word[at - 1].source, '$') ? model_enter(r, &r->let_of, word, at)
+                                               : model_add(r, &r->local, &r->locals, sizeof l, &l);
+}
+
+/* The number is the word behind the name, or that of the command line in its place. */
 static int read_let(model_reader *r)
 {
-    const char *word = new_number(r);
+    const char *word = r->round ? model_name(r) : new_number(r);
     const size_t n = word ? strlen(word) : 0;
     const int at = r->s->first + r->next;
     double x;
@@ -310,10 +347,7 @@ static int read_let(model_reader *r)
         }
     if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
-    if (!r->round)
-        return model_enter(r, &r->let_of, word, at);
-    const model_local l = { word, r->word[at].text };
-    return model_add(r, &r->local, &r->locals, sizeof l, &l);
+    return r->round ? set_number(r, word, at) : model_enter(r, &r->let_of, word, at);
 }
 
 /* The `end` of the `repeat` or `stage` at k; -1: there is none. */
@@ -334,7 +368,7 @@ static int walk(model_reader *r, int from, int to);
 static int repeat(model_reader *r, int from, int end)
 {
     const char *outer = r->round;
-    const int locals = r->locals;
+    const int locals = r->locals, own = r->own;
     int low, high;
 
     if (!add_statement(r, &r->cut[from]))
@@ -348,15 +382,17 @@ static int repeat(model_reader *r, int from, int end)
                            DEEPEST_REPEAT);
     for (int i = low; i <= high; i++) {
         if (!(r->round = model_print(r, "%s%s%s = %d", outer ? outer : "", outer ? ", " : "", word,
-                                     i)))
+                                     i)) || !grow(r, strlen(r->round)))
             return 0;
-        const model_local l = { word, strrchr(r->round, ' ') + 1 };
+        const model_local l = { word, strrchr(r->round, ' ') + 1, 1 };
+        r->own = locals;
         if (!model_add(r, &r->local, &r->locals, sizeof l, &l) || !walk(r, from + 1, end)
             || !add_statement(r, &r->cut[end]) || !model_at_end(r))
             return 0;
         r->locals = locals;
     }
     r->round = outer;
+    r->own = own;
     r->depth--;
     return 1;
 }

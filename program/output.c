@@ -33,6 +33,8 @@ int output_open(output *o, const char *path)
         return 0;
     }
     o->direct = stat(path, &old) == 0 && !S_ISREG(old.st_mode);
+    if (o->direct && S_ISFIFO(old.st_mode))
+        return errno = ENOTSUP, 0;                          /* nobody may ever read it */
     snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
     o->file = fopen(o->direct ? path : o->temporary, "wb");
     errno = o->file ? 0 : errno;
@@ -92,6 +94,14 @@ int output_is_temporary(const char *ending)
     return n > 0 && !ending[n];
 }
 
+/* On Windows all files have the number 0, and none is removed that is open. */
+int output_holds(FILE *f, const char *path)
+{
+    struct stat there, own;
+
+    return !fstat(fileno(f), &own) && !stat(path, &there) && there.st_ino == own.st_ino;
+}
+
 FILE *output_lock(const char *path)
 {
 #ifdef _WIN32
@@ -101,7 +111,6 @@ FILE *output_lock(const char *path)
     return f;
 #else
     struct flock all = { .l_type = F_WRLCK, .l_whence = SEEK_SET };
-    struct stat there, own;
     FILE *f = fopen(path, "a");
     int why = 0;
 
@@ -109,7 +118,7 @@ FILE *output_lock(const char *path)
         return NULL;
     if (fcntl(fileno(f), F_SETLK, &all))
         why = errno == EACCES || errno == EAGAIN ? EBUSY : errno;
-    else if (fstat(fileno(f), &own) || stat(path, &there) || there.st_ino != own.st_ino)
+    else if (!output_holds(f, path))
         why = EBUSY;            /* its owner has removed it by now */
     if (!why)
         return f;

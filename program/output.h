@@ -30,6 +30,7 @@ int    output_close(output *o);             /* 1: the complete file stands under
 int    output_make_folder(const char *path);        /* 1: it is there; 0 (EEXIST: as no folder) */
 int    output_is_temporary(const char *ending); /* behind the name to be: whether it is .N.tmp */
 FILE  *output_lock(const char *path);           /* NULL (EBUSY: another process has it) */
+int    output_holds(FILE *f, const char *path);     /* whether the file there is still that one */
 void   output_unlock(FILE *f, const char *path);    /* and removes it */
 
 #endif

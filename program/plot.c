@@ -59,18 +59,13 @@ void plot_rectangle(plot *p, plot_box b, const char *attributes)
 /* Bytes of the character of UTF-8 that begins here and that XML allows; 0: there is none. */
 static int character(const unsigned char *s)
 {
-    const int n = *s < 0x80 ? 1 : *s < 0xC2 ? 0 : *s < 0xE0 ? 2 : *s < 0xF0 ? 3 : *s < 0xF5 ? 4 : 0;
-    unsigned long code = n > 1 ? *s & (0x7Fu >> n) : *s;
+    const int n = *s < ' ' ? 0 : *s < 0x80 ? 1 : *s < 0xC2 ? 0 : *s < 0xE0 ? 2 : *s < 0xF0 ? 3
+                : *s < 0xF5 ? 4 : 0;
 
-    for (int i = 1; i < n; i++) {
+    for (int i = 1; i < n; i++)
         if ((s[i] & 0xC0) != 0x80)
             return 0;
-        code = code << 6 | (s[i] & 0x3Fu);
-    }
-    const int too_long = (n == 3 && code < 0x800) || (n == 4 && code < 0x10000);
-    const int none = code < ' ' || (code >= 0xD800 && code < 0xE000) || (code & 0xFFFE) == 0xFFFE
-                     || code > 0x10FFFF;
-    return too_long || none ? 0 : n;
+    return n;
 }
 
 void plot_text(plot *p, double x, double y, const char *attributes, const char *text)
@@ -148,20 +143,17 @@ void plot_widen(double range[][2], double x, double y)
     }
 }
 
-/* 1, 2, 5 (and 2.5 if `quarters`) times a power of ten next to x. */
-static double nice_step(double x, int quarters)
+double plot_nice(double x)
 {
-    static const double mantissa[] = { 1, 2, 2.5, 5, 10 };
+    static const double mantissa[] = { 1, 2, 5, 10 };
     const double power = pow(10, floor(log10(x)));
     double best = power;
 
     for (int i = 1; i < LENGTH(mantissa); i++)
-        if ((i != 2 || quarters) && fabs(log(mantissa[i] * power / x)) < fabs(log(best / x)))
+        if (fabs(log(mantissa[i] * power / x)) < fabs(log(best / x)))
             best = mantissa[i] * power;
     return best;
 }
-
-double plot_nice(double x) { return nice_step(x, 0); }
 
 /* A multiple of the step, with the decimals that the step needs and a typographic minus. */
 static void number_text(char *text, size_t size, double value, double step)
@@ -180,7 +172,6 @@ static void number_text(char *text, size_t size, double value, double step)
 static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 {
     static const char *const prefix[] = { "p", "n", "µ", "m", "", "k", "M", "G", "T" };
-    static const char *const raised[] = { "⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹" };
     const char *unit = q->unit ? q->unit : "", *name = q->name ? q->name : "";
     const size_t n = strcspn(unit, "/");
     int e = 0;
@@ -188,12 +179,9 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
     if (largest > 1e-300 && (largest < 0.1 || largest >= 1e4))
         e = 3 * (int)floor(log10(largest) / 3);
     a->scale = pow(10, -e);
-    const int all = abs(e);
     const int takes = (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
     if (e && (!takes || e < -12 || e > 12))
-        snprintf(a->label, sizeof a->label, "%s [×10%s%s%s%s%s%s]", name, e < 0 ? "⁻" : "",
-                 all < 100 ? "" : raised[all / 100 % 10], all < 10 ? "" : raised[all / 10 % 10],
-                 raised[all % 10], *unit ? " " : "", unit);
+        snprintf(a->label, sizeof a->label, "%s [1e%d%s%s]", name, e, *unit ? " " : "", unit);
     else if (*unit)
         snprintf(a->label, sizeof a->label, "%s [%s%s]", name, prefix[e / 3 + 4], unit);
     else
@@ -365,9 +353,7 @@ static void draw_mark(plot *p, int look, double x, double y)
         "m-3.6 0a3.6 3.6 0 1 0 7.2 0a3.6 3.6 0 1 0 -7.2 0z",    /* circle   */
         "m-3.3 -3.3h6.6v6.6h-6.6z",                             /* square   */
         "m0 -4.4l4.2 7.2h-8.4z",                                /* triangle */
-        "m0 -4.6l4.6 4.6l-4.6 4.6l-4.6 -4.6z",                  /* diamond  */
-        "m-3.4 -3.4l6.8 6.8m0 -6.8l-6.8 6.8",                   /* cross    */
-        "m-4.4 0h8.8m-4.4 -4.4v8.8"                             /* plus     */
+        "m0 -4.6l4.6 4.6l-4.6 4.6l-4.6 -4.6z"                   /* diamond  */
     };
 
     plot_point(p, "<path d=\"M", x, y);
@@ -387,8 +373,7 @@ static void draw_line(plot *p, const plot_series *s)
 /* Lines without marks take the dashes in turn; the first is solid. */
 static void begin_series(plot *p, const plot_chart *c, int k)
 {
-    static const char *const dashes[] = { "none", "9 5", "2 4", "10 4 2 4", "16 5",
-                                          "5 3 2 3 2 3" };
+    static const char *const dashes[] = { "none", "9 5", "2 4", "10 4 2 4", "16 5" };
     static const char *const colour[] = { "#56B4E9", "#000000", "#D55E00", "#0072B2", "#009E73",
                                           "#CC79A7", "#E69F00" };
     const char *own = colour[c->series[k].look % LENGTH(colour)];
@@ -457,7 +442,7 @@ plot_axis plot_bar_axis(const plot_quantity *q, const double range[2])
 {
     plot_axis bar = make_axis(q, range, LEVELS);
 
-    bar.step = nice_step((bar.hi - bar.lo) / LEVELS, 1);
+    bar.step = plot_nice((bar.hi - bar.lo) / LEVELS);
     round_axis(&bar);
     bar.lo -= 1e-6 * bar.step;          /* a field of one level, but for rounding: one colour */
     return bar;

@@ -189,11 +189,14 @@ char *model_load(model_reader *r, const char *path, size_t *size)
     }
     const int why = errno;
     if (!f || ferror(f))
-        model_fail(r, at, "%.200s cannot be read: %s", path, strerror(why));
+        model_fail(r, at, "%.200s cannot be read: %s%s", path, strerror(why),
+                   path == r->path && !strchr(path, '.') ? "; does its name lack .model?" : "");
     else if (n == LARGEST)
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
     if (f && f != stdin)
         fclose(f);
+    path = f == stdin ? "/dev/stdin" : path;
+    model_add(r, &r->p->input, &r->p->inputs, sizeof path, &path);
     *size = n;
     if (!r->p->status)
         text[n] = '\0';
@@ -274,11 +277,12 @@ const char *model_hint(const char *word)
          : model_find_word("GPa MPa kPa Pa MN kN N N/m km m cm mm kg kg/m3 s m/s m/s2 deg",
                           word + strspn(word, "+-.0123456789eE"))
            ? "; numbers stand without units, which are Pa, N, m, kg, s and degrees"
-         : strpbrk(word, "(*/^") ? "; arithmetic is $(...)"
+         : strpbrk(word, "(*/^") || (*word && strpbrk(word + 1, "+-")
+                                     && !word[strspn(word, "0123456789.+-")])
+           ? "; arithmetic is $(...), with angles in degrees"
          : strstr(word, "\xe2\x88\x92") || strstr(word, "\xe2\x80\x93") ? "; minus is -"
          : *c ? "; it has letters beyond ASCII"
-         : strchr(word, ',') && isdigit((unsigned char)strchr(word, ',')[1])
-           ? "; decimals need a point" : "";
+         : strchr(word, ',') ? "; decimals need a point, and blanks stand between numbers" : "";
 }
 
 /* ", from " and what the file has in place of a word of the statement, or "": the same. */
@@ -523,7 +527,8 @@ int model_add_node(model_reader *r, const model_node *n)
 
 int model_find_block(model_reader *r, const char *word)
 {
-    const model_block block = { .name = word, .at = r->s->at, .material = -1 };
+    const model_block block = { .name = word, .at = r->s->at, .material = -1,
+                                .body = r->blocks };
 
     if (model_find(&r->block_of, word) < 0 && model_enter(r, &r->block_of, word, r->blocks)
         && model_add(r, &r->p->block, &r->p->blocks, sizeof word, &word))

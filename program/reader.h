@@ -30,11 +30,12 @@ typedef struct {                /* words first .. first+n-1 */
 /* A word with the values of its numbers, and as the file has it; glued: of several pieces, no
  * number. */
 typedef struct { char *text, *source; int glued; } model_given;
-typedef struct { const char *name, *value; } model_local;   /* a number of a round */
+/* A number of a round; counts: it is that of `repeat`. */
+typedef struct { const char *name, *value; int counts; } model_local;
 
 typedef struct {
     const char *id;
-    double x, y;
+    double x, y, z;             /* z: of a mesh, which has the same everywhere */
     model_place at;
     int by_hand, first;         /* first copy, or -1 */
 } model_node;
@@ -49,10 +50,13 @@ typedef struct {
     const char *name;
     model_place at;
     int material, meshed, fixed, stressed;      /* material: by `use`, or -1 */
+    int body;                                   /* the first block that it is bonded to, or it */
 } model_block;
 
-/* dimensions: bits, of points, curves, surfaces of a mesh. A copy is that of a node for a block:
- * its library node, and the next copy, or -1. */
+typedef struct { model_place at; int block[2]; } model_bond;    /* of two blocks */
+
+/* dimensions: bits, of groups of points, curves, surfaces of a mesh, and of a curve in none. A copy
+ * is that of a node for a block: its library node, and the next copy, or -1. */
 typedef struct { int n, *node, dimensions; } model_set;
 typedef struct { int node, block, next; } model_copy;
 
@@ -61,7 +65,7 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    int cuts, cut_words, locals, depth, repeated, stage;
+    int cuts, cut_words, locals, own, depth, repeated, removed, stage;   /* own: locals before the round */
     model_statement *cut;                   /* [cuts]       as the file has them, and their words */
     char **cut_word;                        /* [cut_words]  */
     model_local *local;                     /* [locals]     of the round in hand */
@@ -76,7 +80,10 @@ typedef struct {
     bbm_material *material;
     model_set *set;
     model_copy *copy;
-    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of, stage_of;
+    int bonds, bonding;                     /* bonding: whether `bond` has its options */
+    model_bond *bond;                       /* [bonds] */
+    model_table node_of, element_of, block_of, material_of, set_of, monitor_of, let_of, stage_of,
+                joint_of;                   /* of the numbers of blocks: "1 -1" */
     long long last_node, last_element;      /* the largest ids */
     model_block any;                        /* `*`: the blocks without their own */
     int plane_strain, no_shear;             /* no_shear: ks is 0 */
@@ -170,8 +177,8 @@ int   model_add_element(model_reader *r, const model_element *e);
 int   model_find_block(model_reader *r, const char *name);
 int   model_find_set(model_reader *r, const char *name);
 int   model_add_to_set(model_reader *r, int set, int node);
-/* msh.c: Gmsh's mesh files. */
-int   model_read_mesh(model_reader *r, const char *path);
+/* msh.c: Gmsh's mesh files; by_surface: each surface of Gmsh is a block. */
+int   model_read_mesh(model_reader *r, const char *path, int by_surface);
 
 /* numbers.c: the statements as the file has them become those that count. */
 int   model_expand(model_reader *r);
@@ -193,6 +200,7 @@ int   model_finish(model_reader *r);
  * surplus. */
 typedef int model_action(model_reader *r);
 model_action model_fix, model_load_nodes, model_edge_load, model_water, model_joint,
-             model_velocities, model_stress, model_monitors, model_bolts, model_stage_head;
+             model_velocities, model_stress, model_monitors, model_bolts, model_pins,
+             model_stage_head;
 
 #endif

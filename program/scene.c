@@ -31,7 +31,8 @@
 #include "field.h"
 #include "plot.h"
 
-enum { FRAMES = 64, HOLD = 6, TINTS = 6 };      /* kept; values repeated at the end */
+/* Kept; values repeated at the end; blocks that a tint looks at. */
+enum { FRAMES = 64, HOLD = 6, TINTS = 6, NEIGHBOURS = 300 };
 enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMBOL, SUPPORT = 10,
        MARGIN = 20 };                           /* pixels */
 /* One of so many values may lie beyond each end of the colours, and be larger than a cross. */
@@ -77,8 +78,8 @@ typedef struct {                        /* a block                              
 
 typedef struct {                        /* what the functions below draw with                     */
     plot         p;
-    int          columns, thrust;       /* of panels, w x h pixels; thrust: it is drawn           */
-    double       left, top, over, w, h; /* over: above the frame of a panel                       */
+    int          thrust;                /* it is drawn                                            */
+    double       left, top, over, w, h; /* of the panel, pixels; over: above its frame            */
     const scene *s;
     const bbm_model *m;
     int          bodies, held, whole;   /* whether any is held; is free, of one element           */
@@ -187,8 +188,9 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
                                    times[0] * field_place(m, v, 1) }
                  : (point){ times[0] * m->node[i].x + times[1] * r.u,
                             times[0] * m->node[i].y + times[1] * r.v };
-        f->value[v] = gone ? NAN : !shown ? 0 : nodal ? field_of_node(shown, m, i)
-                      : field_of_element(shown, m, m->vertex[v].element);
+        f->value[v] = gone ? NAN : !shown ? 0
+                    : nodal ? field_of_node(shown, m, i, m->element[m->vertex[v].element].block)
+                            : field_of_element(shown, m, m->vertex[v].element);
         finite &= gone || isfinite(r.u + r.v + f->value[v]);
     }
     if (shown && !has_colours(shown->name))
@@ -198,7 +200,8 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
 
 static void put_contact_forces(scene_frame *f, const bbm_model *m)
 {
-    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
         const bbm_edge *corner = &m->edge[c->corner];
         double force[2];
         field_contact_force(m, c, c->N, c->T, force);
@@ -244,7 +247,8 @@ static point pixel(const film *f, point a)
 
 static point at(const film *f, int frame, int v) { return pixel(f, position(f, frame, v)); }
 
-/* The distance of two blocks is that of their boxes, and a little of that of their centres. */
+/* The distance of two blocks is that of their boxes, and a little of that of their centres. The
+ * last ones before the block are looked at. */
 static int choose_tint(const film *f, const body *b)
 {
     double nearest[TINTS], apart[2], way[2];
@@ -252,7 +256,7 @@ static int choose_tint(const film *f, const body *b)
 
     for (int k = 0; k < TINTS; k++)
         nearest[k] = INFINITY;
-    for (const body *a = f->body; a < b; a++) {
+    for (const body *a = b - f->body > NEIGHBOURS ? b - NEIGHBOURS : f->body; a < b; a++) {
         for (int k = 0; k < 2; k++) {
             apart[k] = fmax(0, fmax(a->box[k][0] - b->box[k][1], b->box[k][0] - a->box[k][1]));
             way[k] = (a->box[k][0] + a->box[k][1] - b->box[k][0] - b->box[k][1]) / 2;
@@ -268,29 +272,41 @@ static int choose_tint(const film *f, const body *b)
 /* Block by block, which are numbered from 0, in the order of their elements. Held: each of its
  * vertices, in both directions, where it was, in each frame in which it is there. Those that are
  * gone in the first frame are held and have no vertices. */
+static body *body_of(const film *f, int v)
+{
+    return &f->body[f->m->element[f->m->vertex[v].element].block];
+}
+
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
 
-    for (int n = 0; n < m->vertices; f->bodies++) {
-        body *b = &f->body[f->bodies];
-        const scene_frame *first = f->s->frame, *end = first + f->s->frames;
-        *b = (body){ n, 0, 1, 0, 0, { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } } };
-        for (int v = 0; v < m->vertices; v++) {
-            if (m->element[m->vertex[v].element].block != f->bodies)
-                continue;
-            f->vertex[n++] = v;
-            for (const scene_frame *g = first; g < end; g++)
-                b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
-            b->fixed |= f->s->frame[f->s->frames - 1].held[v] & BBM_XY;
-            plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
-        }
-        b->n = first->held[f->vertex[b->first]] == SCENE_GONE ? 0 : n - b->first;
+    const scene_frame *first = f->s->frame, *end = first + f->s->frames;
+
+    for (int v = 0; v < m->vertices; v++) {
+        body *b = body_of(f, v);
+        for (; f->bodies <= b - f->body; f->bodies++)
+            f->body[f->bodies] = (body){ 0, 0, 1, 0, 0, { { INFINITY, -INFINITY },
+                                                          { INFINITY, -INFINITY } } };
+        b->n++;
+    }
+    for (body *b = f->body + 1; b < f->body + f->bodies; b++)
+        b->first = b[-1].first + b[-1].n, b[-1].n = 0;
+    f->body[f->bodies - 1].n = 0;
+    for (int v = 0; v < m->vertices; v++) {
+        body *b = body_of(f, v);
+        f->vertex[b->first + b->n++] = v;
+        for (const scene_frame *g = first; g < end; g++)
+            b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
+        b->fixed |= f->s->frame[f->s->frames - 1].held[v] & BBM_XY;
+        plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
+    }
+    for (body *b = f->body; b < f->body + f->bodies; b++) {
+        b->n *= first->held[f->vertex[b->first]] != SCENE_GONE;
         f->held |= b->held && b->n > 0;
         f->whole |= !b->held && b->n == m->element[m->vertex[f->vertex[b->first]].element].n;
-    }
-    for (body *b = f->body; b < f->body + f->bodies; b++)
         b->tint = choose_tint(f, b);
+    }
 }
 
 /* Of boundary edges whose two ends are held alike, or else of all: where supports stand. */
@@ -357,10 +373,10 @@ static void put_outline(film *f, int frame, const body *b)
 
     for (int k = b->first; k < b->first + b->n; k++) {
         const int first = f->m->vertex[f->vertex[k]].edge;
-        int e = first;
-        while (e >= 0 && edge[e].after > first)
-            e = edge[e].after;
-        if (first < 0 || edge[e].after < first)
+        int e = first, back = first;
+        while (e >= 0 && edge[e].after > first && edge[back].before > first)
+            e = edge[e].after, back = edge[back].before;
+        if (first < 0 || edge[e].after != first)
             continue;
         do {                                            /* e is the last one */
             e = edge[e].after;
@@ -476,25 +492,9 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
     visit(f, kind, from, d, is_stress(kind) ? 1 : share);
 }
 
-/* Whether a point of a loaded edge, a share of the way, lay on another one at first. */
-static int is_in_joint(const film *f, int frame, const scene_line *l, double share)
-{
-    const point a = position(f, 0, l->a), b = position(f, 0, l->b);
-    const point x = { a.x + share * (b.x - a.x), a.y + share * (b.y - a.y) };
-    int found = 0;
-    scene_line k;
-
-    for (int i = 0; i < f->s->frame[frame].lines && scene_edge_load(f->m, i, &k); i++) {
-        const point c = position(f, 0, k.a), d = position(f, 0, k.b);
-        found |= k.a != l->a && gap(x, c) + gap(x, d) < (1 + 1e-6) * gap(c, d);
-    }
-    return found;
-}
-
 /* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points; of
  * water, what presses there, or if displacements are magnified, at the height of the first frame.
- * In a joint whose other side is loaded, too, they begin at the edge. To be measured (visit NULL),
- * at both ends. */
+ * To be measured (visit NULL), at both ends. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
@@ -516,7 +516,7 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
         const double y = (1 - s) * still[l->a].y + s * still[l->b].y;
         const double p = l->pressure + l->weight * fmax(0, l->level - y);
         visit_force(f, wet ? WATER : LINE_LOAD, x, (point){ q[0] - p * side.x, q[1] - p * side.y },
-                    visit && is_in_joint(f, frame, l, s) ? (point){ 0, 0 } : side, visit);
+                    side, visit);
     }
 }
 
@@ -678,7 +678,7 @@ static void draw_thrust(film *f, int frame)
     free(b);
 }
 
-#define BOLT "fill=\"none\" stroke=\"#000000\" stroke-width=\"3\""
+#define BOLT "fill=\"none\" stroke=\"#000000\" stroke-width=\"3\" stroke-linecap=\"round\""
 
 /* Those that hold at the time of the frame. */
 static void draw_bolts(film *f, int frame)
@@ -785,9 +785,8 @@ static void widen_window(film *f, int kind, point from, point size, double share
     plot_widen(f->window, from.x + size.x / f->scale, from.y + size.y / f->scale);
 }
 
-/* The window gets a margin. A panel, on a page of about 860 x 660 pixels, or two, on 1100 x 760:
- * side by side, where they are high, or one below the other, and their scale. */
-static void arrange(film *f, int n)
+/* The window gets a margin, and the panel its size, on a page of about 860 x 660 pixels. */
+static void arrange(film *f)
 {
     double *x = f->window[0], *y = f->window[1];
     const double more = 0.03 * fmax(x[1] - x[0], y[1] - y[0]);
@@ -796,9 +795,7 @@ static void arrange(film *f, int n)
 
     x[0] -= more, y[0] -= more;
     x[1] += more, y[1] += more;
-    f->columns = w < 1.5 * h ? n : 1;
-    f->scale = fmin(((n > 1 ? 1100 : 860) / f->columns - around) / w,
-                    ((n > 1 ? 760.0 : 660.0) * f->columns / n - over) / h);
+    f->scale = fmin((860 - around) / w, (660 - over) / h);
     f->w = f->scale * w + around;
     f->h = f->scale * h + over;
 }
@@ -820,7 +817,7 @@ static void hide_crosses(film *f)
 /* Window and scale. How long an arrow is in metres depends on the scale of the panel, and that on
  * the window, which holds all arrows: by repetition. Those of contacts are not longer than the
  * mean of the blocks that can move. */
-static void measure(film *f, int n)
+static void measure(film *f)
 {
     double sizes = 0, blocks = 0;               /* their mean is NaN, and no bound, of none */
 
@@ -846,7 +843,7 @@ static void measure(film *f, int n)
             for (int kind = 0; kind < KINDS; kind++)
                 visit_forces(f, i, kind, round > 0 ? widen_window : NULL);
         }
-        arrange(f, n);
+        arrange(f);
     }
 }
 
@@ -887,20 +884,20 @@ static int find_colours(film *f)
     return 1;
 }
 
-/* Opens a page for n panels and, below them, the colours of a field; draws title and legend. */
-static int open_page(film *f, const char *path, int n)
+/* Opens a page for a panel and, below it, the colours of a field; draws title and legend. */
+static int open_page(film *f, const char *path)
 {
     const double below = has_colours(f->s->field) ? BAR : 0;
 
     if (f->s->field && !find_colours(f))
         return 0;
     f->top = f->s->title ? 36 : 0;
-    f->over = n > 1 || is_timed(f) ? OVER : 14;
-    measure(f, n);
-    const double width = fmax(f->columns * f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
-    const double bottom = f->top + f->h * (n / f->columns) + below;
+    f->over = is_timed(f) ? OVER : 14;
+    measure(f);
+    const double width = fmax(f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
+    const double bottom = f->top + f->h + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
-    f->left = (width - f->columns * f->w) / 2;
+    f->left = (width - f->w) / 2;
     if (!plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8))
         return 0;
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
@@ -920,16 +917,15 @@ static int open_page(film *f, const char *path, int n)
 
 /* The frame of a panel with its axes; what follows until end_panel is cut off at it. Lines have no
  * round ends: a block that is gone is one point, which would be a dot. */
-static plot_box begin_panel(film *f, int k)
+static plot_box begin_panel(film *f)
 {
-    const plot_box b = { f->left + k % f->columns * f->w + LEFT,
-                         f->top + k / f->columns * f->h + f->over, f->w - LEFT - RIGHT,
+    const plot_box b = { f->left + LEFT, f->top + f->over, f->w - LEFT - RIGHT,
                          f->h - f->over - UNDER };
 
     plot_draw_frame(&f->p, b, f->window[0], f->window[1]);
-    plot_put(&f->p, "<clipPath id=\"panel%d\">", k);
+    plot_put(&f->p, "<clipPath id=\"panel0\">");
     plot_rectangle(&f->p, b, "");
-    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel%d)\" stroke-linejoin=\"round\">\n", k);
+    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel0)\" stroke-linejoin=\"round\">\n");
     return b;
 }
 
@@ -939,7 +935,7 @@ static void end_panel(film *f, plot_box b)
     plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
 }
 
-/* Below the last panel, b, over the width of all. */
+/* Below the panel, b, over its width. */
 static void draw_colours(film *f, plot_box b)
 {
     const plot_box bar = { f->left + LEFT, b.y + b.h + UNDER + 4, b.x + b.w - f->left - LEFT, 16 };
@@ -1003,9 +999,9 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 
     if (s->frames > 1)
         f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
-    int done = begin_film(&f) && open_page(&f, path, 1);
+    int done = begin_film(&f) && open_page(&f, path);
     if (done) {
-        const plot_box b = begin_panel(&f, 0);
+        const plot_box b = begin_panel(&f);
         draw_blocks(&f, 0, 1);
         end_panel(&f, b);
         draw_colours(&f, b);
@@ -1140,28 +1136,22 @@ static void draw_lines(film *f, int frame, const char *stroke, writer *put)
     plot_put(&f->p, "\"/>\n");
 }
 
-/* A panel for each model: below all the boundaries where they were; bands, the lines of the mesh,
- * the boundaries where they are. The first frame has the values of the other model. */
+/* Below all the boundaries where they were; bands, the lines of the mesh, the boundaries where they
+ * are. */
 static int draw_map(film *f, const char *path)
 {
-    const int panels = f->s->other ? 2 : 1;
-    plot_box b = { 0 };
-
-    if (!begin_film(f) || !open_page(f, path, panels))
+    if (!begin_film(f) || !open_page(f, path))
         return 0;
-    for (int k = 0; k < panels; k++) {
-        b = begin_panel(f, k);
-        draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
-        if (has_colours(f->s->field))
-            draw_bands(f, 1 - k);
-        draw_blocks(f, 1, 0);
-        draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
-                   put_elements);
-        draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
-        end_panel(f, b);
-        draw_state(f, b, 1);
-        plot_text(&f->p, b.x + b.w / 2, b.y - 12, "text-anchor=\"middle\"", f->s->name[k]);
-    }
+    const plot_box b = begin_panel(f);
+    draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
+    if (has_colours(f->s->field))
+        draw_bands(f, 1);
+    draw_blocks(f, 1, 0);
+    draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
+               put_elements);
+    draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
+    end_panel(f, b);
+    draw_state(f, b, 1);
     draw_colours(f, b);
     return plot_close(&f->p);
 }
@@ -1180,7 +1170,7 @@ int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
     errno = ENOMEM;
     if (make_frame(&state[0], m) && make_frame(&state[1], m)) {
         errno = EDOM;
-        done = fill_frame(&state[0], s.other ? s.other : m, shown, nodal, (double[]){ 1, 0 })
+        done = fill_frame(&state[0], m, shown, nodal, (double[]){ 1, 0 })
                && fill_frame(&state[1], m, shown, nodal, (double[]){ 0, 1 });
         s.scale = s.scale == 0 && done ? find_scale(&s, m) : fmax(0, s.scale);
         fill_frame(&state[1], m, shown, nodal, (double[]){ 1, s.scale });

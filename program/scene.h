@@ -64,8 +64,6 @@ typedef struct {
                                 /*          much. < 0: a map does not show them                   */
     const char *field;          /* a name of field.h; NULL: a film in tints                       */
     double limits[2];           /* of its colours; zeros: those of all values but the outermost   */
-    const bbm_model *other;     /* beside it in a map, on the same mesh, in the same colours      */
-    const char *name[2];        /* then: of both                                                  */
     /* --- the recording --- */
     int    frames, calls, every, failed;
     scene_frame *frame;         /*          [frames]; every-th call, and the last one             */

@@ -8,6 +8,7 @@
  * without stress, velocity, loads and gravity. Nothing touches it there, and D of its elements is
  * 0. The energy that it had, and that of its contacts, leaves the balance.
  */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -26,6 +27,8 @@ int model_stage_head(model_reader *r)
         || (model_skip(r, "steps") && !model_whole(r, "steps", 1, &steps)))
         return 0;
     p->stage[r->s->stage].name = word;
+    if (p->m->par.steps > INT_MAX / 2 - steps)
+        return model_blame(r, "more than %d steps in all, expected fewer", INT_MAX / 2);
     p->m->par.steps += steps;
     if (!model_skip(r, "remove"))
         return 1;
@@ -42,11 +45,14 @@ int model_stage_head(model_reader *r)
             return model_blame(r, "block '%.60s' is removed for the second time, expected once",
                                p->block[block]);
         p->gone[block] = r->s->stage;
+        if (++r->removed == p->blocks)
+            return model_blame(r, "the last block is removed, expected one that stays");
     } while (model_look(r));
     for (int b = 0; b < p->blocks; b++)
-        if (!p->gone[b])
-            return 1;
-    return model_blame(r, "the last block is removed, expected one that stays");
+        if (p->gone[b] != p->gone[p->body[b]])
+            return model_blame(r, "block '%.60s' is bonded to '%.60s', expected both removed",
+                               p->block[b], p->block[p->body[b]]);
+    return 1;
 }
 
 /* What fixes a block goes to its nodes; without shear springs there is no friction. Supports begin
@@ -60,9 +66,10 @@ void model_keep_stage(model_reader *r, int k)
         m->par.friction = m->beyond->cohesion = 0;
     r->p->stage[k] = (model_stage){ r->p->stage[k].name, m->par, m->beyond->cohesion,
                                     m->beyond->tension, m->beyond->edge_loads, node };
+    for (int v = 0; v < m->vertices && k == 0; v++)
+        if (r->block[m->element[m->vertex[v].element].block].fixed)
+            m->node[m->vertex[v].node].held = BBM_XY;
     for (int n = 0; n < m->nodes && node; n++) {
-        if (k == 0 && r->block[r->p->node_block[n]].fixed)
-            m->node[n].held = BBM_XY;
         node[n] = m->node[n];
         m->node[n].wall[0] = m->node[n].wall[1] = 0;
     }
@@ -117,16 +124,17 @@ void model_next_stage(model *p)
     bbm_model *m = p->m;
     const model_stage *s = &p->stage[++p->now];
     const int contacts = m->contacts;
+    scene_bolt *b = p->bolt;
     double size = 0;
 
     for (int n = 0; n < m->nodes; n++)
         size = fmax(size, hypot(m->node[n].x - m->node[0].x, m->node[n].y - m->node[0].y));
     for (int i = 0; i < m->elements && p->now; i++)
         if (p->gone[m->element[i].block] == p->now)
-            carry_away(m, i, FAR * size * (m->element[i].block + 1));
+            carry_away(m, i, FAR * size * (p->body[m->element[i].block] + 1));
     for (int n = 0; n < m->nodes; n++)
         change_node(m, n, &s->node[n]);
-    for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
+    for (int k = 0; k < p->bolts; k++, b++)
         if (b->k > 0 && (field_is_gone(m, b->end[0].vertex[0])
                          || field_is_gone(m, b->end[1].vertex[0])))
             b->k = b->strength = 0, b->until = m->info.t;
@@ -134,9 +142,10 @@ void model_next_stage(model *p)
         if (k >= 2 * m->bonds || field_is_gone(m, m->element[m->gap[k].i].first))
             m->gap[k].own = (bbm_multiplier){ 0 };
     m->contacts = 0;
-    for (const bbm_contact *c = m->contact; c < m->contact + contacts; c++)
-        if (!field_is_gone(m, m->edge[c->corner].a) && !field_is_gone(m, m->edge[c->edge].a))
-            m->contact[m->contacts++] = *c;
+    for (int k = 0; k < contacts; k++)
+        if (!field_is_gone(m, m->edge[m->contact[k].corner].a)
+            && !field_is_gone(m, m->edge[m->contact[k].edge].a))
+            m->contact[m->contacts++] = m->contact[k];
     m->par = s->par;
     m->beyond->cohesion = s->cohesion;
     m->beyond->tension = s->tension;

@@ -10,7 +10,8 @@
  *     ALL_NODES        set                        needs nodes
  *     BLOCKS           use, fixblock              need blocks
  *     MODEL            the rest, on the library's model, which is built and prepared: build.c
- *     MONITORS         expect                     needs monitors
+ *     MONITORS         monitor                    needs bolts
+ *     EXPECTED         expect                     needs monitors
  *
  * The statements of a stage follow, stage by stage, on the finished model: stage.c. */
 #include <math.h>
@@ -21,11 +22,10 @@
 #include "cell.h"
 #include "reader.h"
 
-enum { NUMBERS, ALONE, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, PHASES };
+enum { NUMBERS, ALONE, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, EXPECTED, PHASES };
 enum { ONCE = 1, STAGED, DYNAMIC = 4 };     /* it may stand once, in a stage, not in statics */
 
-/* Cells of a grid; memory for each element, at least. */
-enum { MOST_CELLS = 4000000, ELEMENT_BYTES = 2000 };
+enum { MOST_CELLS = 4000000 };              /* of a grid */
 
 #define MOST_NUMBERED 100000000000000000        /* ids of blocks and grids are below it */
 
@@ -61,7 +61,10 @@ static int read_mesh(model_reader *r)
 {
     const char *path = next_path(r);
 
-    return path && model_at_end(r) && model_read_mesh(r, path);
+    const int by_surface = path && model_skip(r, "by");
+
+    return path && (!by_surface || model_keyword(r, "surface")) && model_at_end(r)
+           && model_read_mesh(r, path, by_surface);
 }
 
 static int read_material(model_reader *r)
@@ -124,7 +127,8 @@ static int read_contact(model_reader *r)
 static int read_static(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
-    model_option o[] = { COUNT("steps", &p->steps, 1), ABOVE_ZERO("tolerance", &p->tolerance) };
+    model_option o[] = { COUNT("steps", &p->steps, 1),
+                         RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1") };
 
     p->steps = 1;
     return model_options(r, 0, LENGTH(o), o);
@@ -150,14 +154,32 @@ static int read_dynamic(model_reader *r)
     return 1;
 }
 
+/* Two blocks become one body; or the options of all bonds. */
 static int read_bond(model_reader *r)
 {
     bbm_beyond *b = r->p->m->beyond;
+    model_bond two = { .at = r->s->at };
     int kind = 2;
     model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
                          COUNT("augment", &b->multiplier_rounds, 0),
                          CHOICE("at", &kind, "vertices|moment|auto") };
 
+    if (model_look(r) && model_find(&r->block_of, model_look(r)) >= 0) {
+        for (int k = 0; k < 2; k++)
+            if ((two.block[k] = model_known(r, &r->block_of)) < 0)
+                return 0;
+        if (two.block[0] == two.block[1])
+            return model_blame(r, "bond of a block with itself, expected two blocks");
+        int body[2] = { two.block[0], two.block[1] };       /* a forest: the first block is the root */
+        for (int k = 0; k < 2; k++)
+            while (r->block[body[k]].body != body[k])
+                body[k] = r->block[body[k]].body = r->block[r->block[body[k]].body].body;
+        const int last = body[1] > body[0];
+        r->block[body[last]].body = body[!last];
+        return model_add(r, &r->bond, &r->bonds, sizeof two, &two);
+    }
+    if (r->bonding++)
+        return model_blame(r, "%s for the second time, expected its options once", r->s->name);
     const int good = model_options(r, 0, LENGTH(o), o);
     b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
     return good;
@@ -315,12 +337,6 @@ static int read_grid(model_reader *r)
     if ((double)n[0] * n[1] > MOST_CELLS)
         return model_blame(r, "a grid of %d x %d cells, expected at most %d", n[0], n[1],
                            MOST_CELLS);
-    const int elements = n[0] * n[1] * (kind == CELL_QUADS ? 1 : kind == CELL_CROSSED ? 4 : 2);
-    void *room = calloc((size_t)elements, ELEMENT_BYTES);      /* nobody writes there */
-    free(room);
-    if (!room)
-        return model_blame(r, "out of memory: a grid of %d x %d cells takes %.2g GB and more", n[0],
-                           n[1], 1e-9 * ELEMENT_BYTES * elements), r->p->status = 1, 0;
     for (int k = 0; k < (n[0] + 1) * (n[1] + 1) && !r->p->status; k++) {
         const double s = (double)(k % (n[0] + 1)) / n[0], t = (double)(k / (n[0] + 1)) / n[1];
         add_own_node(r, (1 - s) * p[0] + s * p[2], (1 - t) * p[1] + t * p[3]);
@@ -348,9 +364,10 @@ static int read_grid(model_reader *r)
 
 static int read_set(model_reader *r)
 {
-    const char *word = model_new_name(r, &r->set_of);
+    const char *word = model_name(r);
 
-    if (!word || !model_keyword(r, "nodes"))
+    if (!word || (!model_skip(r, "add") && !(model_is_new(r, r->s->at, &r->set_of, word)
+                                             && model_keyword(r, "nodes"))))
         return 0;
     const int set = model_find_set(r, word);
     do {
@@ -417,7 +434,7 @@ static int read_expect(model_reader *r)
         return model_blame(r, "a tolerance of %g, expected more than 0", e.within);
     if (value && (percent || model_skip(r, "%")) && (e.within *= fabs(e.value) / 100) <= 0)
         return model_blame(r, "a tolerance in %% of 0, expected one in %s",
-                           p->monitor[e.monitor].nodes ? "metre" : "newton");
+                           p->monitor[e.monitor].of == &model_displacement ? "metre" : "newton");
     return model_add(r, &p->expected, &p->expectations, sizeof e, &e);
 }
 
@@ -434,7 +451,7 @@ static const struct kind {
     { "end", NULL, NUMBERS, STAGED },
     { "title TEXT", read_title, ALONE, ONCE },
     { "node ID X Y", read_node, ALONE, 0 },
-    { "mesh FILE.msh", read_mesh, ALONE, 0 },
+    { "mesh FILE.msh [by surface]", read_mesh, ALONE, 0 },
     { "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material, ALONE, 0 },
     { "plane stress|strain", read_plane, ALONE, ONCE },
     { "gravity GX GY", read_gravity, ALONE, ONCE | STAGED },
@@ -445,7 +462,8 @@ static const struct kind {
     { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
     { "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]", read_dynamic, ALONE,
       ONCE },
-    { "bond [alpha VALUE] [augment N] [at vertices|moment|auto]", read_bond, ALONE, ONCE },
+    { "bond [alpha VALUE] [augment N] [at vertices|moment|auto], or bond BLOCK BLOCK", read_bond,
+      BLOCKS, 0 },
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
     { "output [every N] [vtk] [balance] [svg] [film] [field NAME] [scale N] [low VALUE] "
@@ -454,7 +472,7 @@ static const struct kind {
     { "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
     { "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE, 0 },
-    { "set NAME nodes ID ID ...", read_set, ALL_NODES, 0 },
+    { "set NAME nodes|add ID ID ...", read_set, ALL_NODES, 0 },
     { "use MATERIAL on BLOCK", read_use, BLOCKS, 0 },
     { "fixblock BLOCK", read_fixblock, BLOCKS, 0 },
     { "joint BLOCK BLOCK [friction DEGREES] [cohesion PASCAL] [tension PASCAL]", model_joint,
@@ -466,12 +484,13 @@ static const struct kind {
     { "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
     { "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts, MODEL,
       0 },
+    { "pin BLOCK BLOCK at X Y", model_pins, MODEL, 0 },
     { "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, DYNAMIC },
     { "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
-    { "monitor NAME WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK [WHERE]", model_monitors, MODEL,
-      0 },
-    { "expect NAME u|v|normal|shear|fx|fy VALUE within TOLERANCE [%], or expect NAME moves|stays "
-      "by TOLERANCE", read_expect, MONITORS, 0 },
+    { "monitor NAME [support] WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK [WHERE], or "
+      "monitor NAME bolt N", model_monitors, MONITORS, 0 },
+    { "expect NAME u|v|normal|shear|fx|fy|force VALUE within TOLERANCE [%], or expect NAME "
+      "moves|stays by TOLERANCE", read_expect, EXPECTED, 0 },
 };
 
 /* The row of the statement; LENGTH(kinds): there is none. */
@@ -485,7 +504,7 @@ static int find_kind(const char *word)
 }
 
 /* What may be meant: what other programs have in its place, or a word of these statements. */
-static int blame_statement(model_reader *r, const char *word, model_place at)
+static int blame_statement(model_reader *r, const char *word, const char *next, model_place at)
 {
     static const struct { const char *words, *here; } other[] = {
         { "anchor cable rockbolt spring", "bolt" }, { "for loop while do", "repeat" },
@@ -497,6 +516,9 @@ static int blame_statement(model_reader *r, const char *word, model_place at)
     };
     char see[200] = "";
 
+    if (strchr(word, '=') || *next == '=')
+        return model_fail(r, at, "there is no statement '%.60s'; a number has its name by: let "
+                          "NAME VALUE", word);
     for (int k = 0; k < LENGTH(other); k++)
         if (model_find_word(other[k].words, word))
             snprintf(see, sizeof see, ", %s", other[k].here);
@@ -512,13 +534,13 @@ static int blame_statement(model_reader *r, const char *word, model_place at)
                       model_hint(word));
 }
 
-/* Finds the statement that begins with the word; whether there is one. */
-static int begin_statement(model_reader *r, const char *word, model_place at)
+/* Finds the statement that begins with the word; whether there is one. next: what follows. */
+static int begin_statement(model_reader *r, const char *word, const char *next, model_place at)
 {
     const int k = find_kind(word);
 
     if (k == LENGTH(kinds))
-        return blame_statement(r, word, at);
+        return blame_statement(r, word, next, at);
     const model_statement s = { at, r->cut_words, 0, k, 0, word, kinds[k].form };
     return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
 }
@@ -566,7 +588,7 @@ static int cut_line(model_reader *r, char *line, model_place at)
                 end--;
         const int more = *end != '\0';
         *end = '\0';
-        if (k == 0 ? !begin_statement(r, line, at)
+        if (k == 0 ? !begin_statement(r, line, end + more + strspn(end + more, blanks), at)
                    : !model_add(r, &r->cut_word, &r->cut_words, sizeof line, &line))
             return 0;
         r->cut[r->cuts - 1].n = k;
@@ -594,12 +616,15 @@ static int cut_file(model_reader *r, char *text, size_t size)
     return 1;
 }
 
-static int read_phase(model_reader *r, int phase, int stage)
+/* The statements of a stage stand together, from its head on. */
+static int read_phase(model_reader *r, int phase, int stage, int from)
 {
-    for (int k = 0; k < r->statements && !r->p->status; k++) {
+    for (int k = from; k < r->statements && !r->p->status; k++) {
         r->s = &r->statement[k];
         r->next = r->ahead = 0;
         const struct kind *kind = &kinds[r->s->kind];
+        if (stage && r->s->stage > stage)
+            break;
         if (kind->phase != phase || r->s->stage != stage)
             continue;
         if (kind->may & DYNAMIC && !r->p->dynamic)
@@ -636,9 +661,11 @@ static int read_all(model_reader *r)
     if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
         return 0;
     p->stage = model_keep(r, p->stages, sizeof *p->stage);
-    for (int stage = 0; stage <= p->stages && !p->status; stage++) {
+    for (int stage = 0, from = 0; stage <= p->stages && !p->status; stage++) {
+        while (r->statement[from].stage < stage)
+            from++;
         for (int phase = NUMBERS + 1; phase < PHASES; phase++)
-            if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage))
+            if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage, from))
                 return 0;
         model_keep_stage(r, stage);
     }

@@ -59,26 +59,27 @@ static void warn_of_loads(const model *p, const char *path)
 /* -------------------------------------------------------------- bodies, and what is between */
 
 /* A block. A gap is to a block before it that it faces: below CLOSE, of the size of the smaller
- * one, it is hardly meant, and below TOUCH it is none. */
+ * one, it is hardly meant, and below MODEL_TOUCH it is none. */
 typedef struct {
-    double box[4], size, gap;   /* m            x and y from, to; size: root of its area        */
+    bbm_box box;
+    double size, gap;           /* m            size: root of its area                          */
     int    elements, pieces, free, held, thrown, edge, near;        /* free, held: its nodes;   */
 } body;                         /*              edge: the first; near: the block at the gap     */
 
 /* next: edge; group: of blocks that touch; piece: of elements that are bonded; met: pairs that are
  * close; alike: pairs of meshes of one material with a side in common. */
-typedef struct { const model *p; body *body; int *next, *group, *piece, met, alike; } bodies;
+typedef struct { const model *p; body *body; bbm_box *box; int *next, *group, *piece, met, alike; }
+bodies;
 
 #define CLOSE 0.01
-#define TOUCH 1e-6
 
 static void measure(bodies *s)
 {
     const bbm_model *m = s->p->m;
 
     for (int b = 0; b < s->p->blocks; b++) {
-        s->body[b] = (body){ .box = { INFINITY, -INFINITY, INFINITY, -INFINITY }, .gap = INFINITY,
-                             .edge = -1, .thrown = s->p->velocity[b].given };
+        s->body[b] = (body){ .box = bbm_empty_box(b), .gap = INFINITY, .edge = -1,
+                             .thrown = s->p->velocity[b].given };
         s->group[b] = b;
     }
     for (int e = 0; e < m->elements; e++) {
@@ -86,17 +87,21 @@ static void measure(bodies *s)
         b->size = hypot(b->size, sqrt(m->element[e].A0));
         b->elements++;
         b->pieces += s->piece[e] == e;
-        for (int k = m->element[e].first; k < m->element[e].first + m->element[e].n; k++) {
-            const bbm_vertex *v = &m->vertex[k];
-            b->box[0] = fmin(b->box[0], v->x), b->box[1] = fmax(b->box[1], v->x);
-            b->box[2] = fmin(b->box[2], v->y), b->box[3] = fmax(b->box[3], v->y);
-        }
+        for (int k = m->element[e].first; k < m->element[e].first + m->element[e].n; k++)
+            bbm_widen_box(&b->box, m->vertex[k].x, m->vertex[k].y, 0);
     }
     for (int n = 0; n < m->nodes; n++)
         *(m->node[n].held ? &s->body[s->p->node_block[n]].held
                           : &s->body[s->p->node_block[n]].free) += 1;
     for (int k = 0; k < 2 * s->p->bolts; k++)       /* what a bolt holds is not said to fall */
         s->body[s->p->bolt[k / 2].end[k % 2].block].thrown = 1;
+    for (int b = 0; b < s->p->blocks; b++) {
+        const bbm_box *of = &s->body[b].box;
+        s->box[b] = *of;
+        bbm_widen_box(&s->box[b], of->low[1], of->low[2], CLOSE * s->body[b].size);
+        bbm_widen_box(&s->box[b], of->high[1], of->high[2], CLOSE * s->body[b].size);
+    }
+    bbm_sort_boxes(s->p->blocks, s->box);
     for (int e = 0; e < m->edges; e++) {
         int *first = &s->body[m->edge[e].block].edge;
         s->next[e] = *first;
@@ -126,14 +131,14 @@ static void warn_of_pieces(const bodies *s, const char *path)
 static double find_gap(const bodies *s, const body *a, const body *b, double far, int count[2])
 {
     const bbm_model *m = s->p->m;
-    const double touch = TOUCH / CLOSE * far;
+    const double touch = MODEL_TOUCH / CLOSE * far;
     double gap = far;
 
     for (int e = a->edge; e >= 0; e = s->next[e]) {
         const bbm_vertex *P = bbm_start_of(m, e);
         double least = far;
-        if (P->x < b->box[0] - far || P->x > b->box[1] + far || P->y < b->box[2] - far
-            || P->y > b->box[3] + far)
+        if (P->x < b->box.low[1] - far || P->x > b->box.high[1] + far
+            || P->y < b->box.low[2] - far || P->y > b->box.high[2] + far)
             continue;
         for (int f = b->edge; f >= 0; f = s->next[f]) {
             const double way = bbm_way_along(m, e, f), d = model_distance(m, e, f);
@@ -149,20 +154,18 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
 
 static body *group_of(const bodies *s, int b) { return &s->body[bbm_root_of(s->group, b)]; }
 
-/* Blocks that touch are a group, which is held if one of them is. Two meshes of one material with
- * a side in common, from end to end, were hardly meant as two. */
-static void compare(bodies *s, const char *path, int i, int j)
+/* Blocks that touch are a group, which is held if one of them is. Two meshes with a side in
+ * common, from end to end, were hardly meant as two if they have one material or no friction. */
+static void compare(bodies *s, const char *path, int one, int two)
 {
+    const int i = one > two ? one : two, j = one + two - i;
     body *a = &s->body[i], *b = &s->body[j], *of = group_of(s, i), *to = group_of(s, j);
     const double size = fmin(a->size, b->size), far = CLOSE * size;
     int count[2] = { 0 };
 
-    if (a->box[0] > b->box[1] + far || b->box[0] > a->box[1] + far || a->box[2] > b->box[3] + far
-        || b->box[2] > a->box[3] + far)
-        return;
     const double gap = fmin(find_gap(s, a, b, far, count), find_gap(s, b, a, far, count));
     s->met += gap < far;
-    if (gap <= TOUCH * size) {
+    if (gap <= MODEL_TOUCH * size) {
         to->held += of == to ? 0 : of->held;
         to->thrown |= of->thrown;
         s->group[of - s->body] = (int)(to - s->body);
@@ -173,9 +176,10 @@ static void compare(bodies *s, const char *path, int i, int j)
     const bbm_material *r = &m->element[bbm_element_of(m, a->edge)].material,
                        *q = &m->element[bbm_element_of(m, b->edge)].material;
     if (count[0] > 4 && count[1] > 3 && a->elements > 1 && b->elements > 1 && a->free && b->free
-        && r->E == q->E && r->density == q->density && !m->beyond->joints
+        && ((r->E == q->E && r->density == q->density) || s->p->slippery) && !m->beyond->joints
         && m->beyond->tension + m->beyond->cohesion <= 0 && s->alike++ == 0)
-        warn(path, "blocks '%.60s' and '%.60s' share a side, not bonded; if meant so, `joint` says it",
+        warn(path, "blocks '%.60s' and '%.60s' share a side, not bonded: `bond %.60s %.60s` bonds "
+                   "them, `joint` says that it is meant", s->p->block[j], s->p->block[i],
              s->p->block[j], s->p->block[i]);
 }
 
@@ -201,25 +205,24 @@ static void warn_of_gaps(const bodies *s, const char *path, int fall)
              name[s->body[at].near], name[at], s->body[at].gap, gaps);
 }
 
-/* E in GPa: a block that gives way to its own weight. Steps that are too long or too short: by the
- * time in which a block falls by its own size, and that of a wave through an element. */
+/* E in GPa: a block that gives way to its own weight. Steps that are too long: by the time
+ * in which a block falls by its own size. */
 static void warn_of_times(const bodies *s, const char *path)
 {
     const bbm_model *m = s->p->m;
     const bbm_parameters *par = &m->par;
     const double g = hypot(par->gravity[0], par->gravity[1]);
-    double fall = INFINITY, wave = INFINITY, softest = 0;
+    double fall = INFINITY, softest = 0;
     int soft = 0;
 
     for (int e = 0; e < m->elements; e++) {
         const bbm_element *i = &m->element[e];
         const body *b = &s->body[i->block];
         const bbm_material *r = &i->material;
-        const double squeezed = r->density * g * (b->box[3] - b->box[2]) / r->E;
+        const double squeezed = r->density * g * (b->box.high[2] - b->box.low[2]) / r->E;
         if (!b->free)
             continue;
         fall = fmin(fall, sqrt(2 * b->size / g));
-        wave = fmin(wave, sqrt(i->A0 * r->density / r->E));
         if (squeezed > softest)
             softest = squeezed, soft = e;
     }
@@ -228,9 +231,6 @@ static void warn_of_times(const bodies *s, const char *path)
              s->p->block[m->element[soft].block], 100 * softest, m->element[soft].material.E);
     if (s->p->dynamic && par->velocity_factor > 0 && par->dt > fall / 2)
         warn(path, "a step of %g s is long: a block falls by its size in %.2g s", par->dt, fall);
-    if (s->p->dynamic && isfinite(wave) && par->dt * par->steps < wave)
-        warn(path, "the run of %g s is short: a wave needs %.2g s through an element",
-             par->dt * par->steps, wave);
 }
 
 static void warn_of_bodies(const model *p, const char *path)
@@ -238,28 +238,30 @@ static void warn_of_bodies(const model *p, const char *path)
     const bbm_model *m = p->m;
     const int weighs = m->par.gravity[0] != 0 || m->par.gravity[1] != 0;
     bodies s = { .p = p, .body = malloc((size_t)p->blocks * sizeof *s.body),
+                 .box = malloc((size_t)p->blocks * sizeof *s.box),
                  .next = malloc((size_t)(m->edges + p->blocks + m->elements) * sizeof *s.next) };
+    char text[300];
     int held = 0;
 
-    if (s.body && s.next) {
+    if (s.body && s.box && s.next) {
         s.group = s.next + m->edges;
         s.piece = s.group + p->blocks;
         bbm_find_pieces(m, s.piece);
         measure(&s);
         warn_of_pieces(&s, path);
-        for (int i = 0; i < p->blocks; i++) {
-            held |= s.body[i].held;
-            for (int j = 0; j < i; j++)
-                compare(&s, path, i, j);
-        }
-        if (s.alike > 1)
-            warn(path, "in all %d pairs of blocks have this", s.alike);
+        if (model_touches_itself(p, text))
+            warn(path, "%s; blocks of their own touch", text);
+        for (int b = 0; b < p->blocks; b++)
+            held |= s.body[b].held;
+        for (int i = 0, j = 0; bbm_next_meeting(p->blocks, s.box, &i, &j);)
+            compare(&s, path, s.box[i].of, s.box[j].of);
         warn_of_gaps(&s, path, p->dynamic && held && weighs);
         if (p->slippery && (p->dynamic || s.met))
             warn(path, "no friction between blocks: `contact friction DEGREES` gives it");
         warn_of_times(&s, path);
     }
     free(s.body);
+    free(s.box);
     free(s.next);
 }
 
@@ -359,31 +361,42 @@ void warn_in_step(const run *r, const char *path, int *said)
 {
     const model *p = r->p;
     const double drift = p->m->info.step * p->m->info.change;
-    int moves = 0;
+    const int ends = r->is_over && p->m->par.velocity_factor <= 0;
+    double most = 0;
+    int who = -1;
 
     for (int e = 0; e < p->m->elements && p->dynamic; e++) {
         const bbm_element *i = &p->m->element[e];
         const double way = hypot(i->D[0], i->D[1]);
-        moves |= way * way > i->A0 * STILL * STILL;
+        if (way * way > i->A0 * STILL * STILL && way > most)
+            most = way, who = e;
         if (!*said && (*said = way * way > i->A0))
             warn(path, "step %d: element %.60s of block '%.60s' moved by %.3g m, more than its own "
                        "size; a smaller dt misses no contact", p->m->info.step, p->element[e],
                  p->block[i->block], way);
     }
-    if (!r->has_begun && r->settling == 0 && drift > DRIFT && drift < 0.999 && moves)
-        warn(path, "settling is not at rest: what can stand needs more steps or a longer dt");
+    if (((!r->has_begun && r->settling == 0 && drift < 0.999) || ends) && drift > DRIFT && who >= 0)
+        warn(path, "%s is not at rest: element %.60s of block '%.60s' moves by %.2g m in its last "
+                   "step; more steps or a longer dt help", ends ? "the run" : "settling",
+             p->element[who], p->block[p->m->element[who].block], most);
 }
 
 void warn_after(const model *p, const char *path)
 {
-    double most = 0;
+    double most = 0, strain = 0;
     int stable = 1;
 
     for (int k = 0; k < p->monitors; k++)
         if (p->monitor[k].of == &model_force && !p->monitor[k].touched)
             warn(path, "monitor %.60s: nothing touched in its joint", p->monitor[k].name);
-    for (int e = 0; e < p->m->elements && !p->dynamic; e++)
+    for (int e = 0; e < p->m->elements && !p->dynamic; e++) {
         most = fmax(most, fabs(p->m->element[e].sum[2]));
+        for (int k = 3; k < 6; k++)
+            strain = fmax(strain, fabs(p->m->element[e].D[k]));
+    }
+    if (strain > 0.1)
+        warn(path, "elements strain by up to %.2g, which statics takes as small: displacements are "
+                   "large beside the model; is E in Pa?", strain);
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         warn(path, "elements turn by more than 0.1 rad, which statics takes as small: lengths are "
                    "wrong; dynamic with velocity_factor 0 has them right");

@@ -16,7 +16,7 @@
 
 /* What history.svg shows: so many rows at most, and its columns; those of monitor k are from
  * MONITORS + MODEL_FOLLOWED k on. */
-enum { ROWS = 1025, T = 0, PASSES, KINETIC, ELASTIC, SPRINGS, EXTERNAL, GAINED, MONITORS };
+enum { ROWS = 1025, T = 0, KINETIC, ELASTIC, SPRINGS, EXTERNAL, GAINED, MONITORS };
 enum { PANEL = 300, BANDS = 6 };        /* pixels; expectations of a monitor that are drawn */
 
 /* ---------------------------------------------------------------------------------------- files */
@@ -43,14 +43,14 @@ static const char *path_of(write_results *w, const char *form)
 
 static int open_file(write_results *w, output *f, const char *path)
 {
-    return output_open(f, path) ? 1 : fail(w, path, strerror(errno));
+    return w->lock && (output_open(f, path) || fail(w, path, strerror(errno)));
 }
 
 static int close_file(write_results *w, output *f)
 {
     char why[200];
 
-    if (output_close(f))
+    if (output_close(f) || !w->lock)
         return 1;
     snprintf(why, sizeof why, "%.100s%s", strerror(errno),
              f->kept > 0 ? "; it ends before that" : "");
@@ -76,7 +76,8 @@ static void put_numbers(FILE *f, int n, const double x[])
         fprintf(f, ",%.15g", x[k]);
 }
 
-/* A row for each node or element: what it is, where it began, the fields of the file. */
+/* A row for each element, or for each node and block that has it: what it is, where it began, the
+ * fields of the file. */
 static void put_results(FILE *f, const model *p, int files)
 {
     const bbm_model *m = p->m;
@@ -87,16 +88,20 @@ static void put_results(FILE *f, const model *p, int files)
         if (q->files & files)
             fprintf(f, ",%s", q->name);
     fputc('\n', f);
-    for (int k = 0; k < (nodes ? m->nodes : m->elements); k++) {
-        if (field_is_gone(m, nodes ? m->adjacent[m->adjacent_first[k]] : m->element[k].first))
+    for (int k = 0; k < (nodes ? m->vertices : m->elements); k++) {
+        const int v = nodes ? m->adjacent[k] : m->element[k].first, n = m->vertex[v].node;
+        const int block = m->element[m->vertex[v].element].block;
+        int again = field_is_gone(m, v);
+        for (int a = m->adjacent_first[n]; nodes && a < k; a++)
+            again |= m->element[m->vertex[m->adjacent[a]].element].block == block;
+        if (again)
             continue;
-        fprintf(f, "%s,%s", nodes ? p->node[k] : p->element[k],
-                p->block[nodes ? p->node_block[k] : m->element[k].block]);
-        put_numbers(f, 2, nodes ? (double[]){ m->node[k].x, m->node[k].y } : p->centre[k]);
+        fprintf(f, "%s,%s", nodes ? p->node[n] : p->element[k], p->block[block]);
+        put_numbers(f, 2, nodes ? (double[]){ m->node[n].x, m->node[n].y } : p->centre[k]);
         for (const field *q = field_table; q->name; q++)
             if (q->files & files)
-                fprintf(f, ",%.15g",
-                        nodes ? field_of_node(q, m, k) : field_of_element(q, m, k));
+                fprintf(f, ",%.15g", nodes ? field_of_node(q, m, n, block)
+                                           : field_of_element(q, m, k));
         fputc('\n', f);
     }
 }
@@ -115,7 +120,8 @@ static void put_contacts(FILE *f, const write_results *w)
     const bbm_model *m = p->m;
 
     fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
-    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
         const bbm_edge *corner = &m->edge[c->corner];
         const bbm_vertex *P1 = &m->vertex[corner->a];
         const bbm_node *start = &m->node[P1->node];
@@ -176,15 +182,11 @@ static double time_of(const write_results *w)
 
 static double *column(const write_results *w, int k) { return w->kept + (size_t)k * ROWS; }
 
-/* Into the present row of history.svg, which is of 2^halved steps; of passes the most of them. */
+/* Into the present row of history.svg, which is of 2^halved steps. */
 static void keep(const write_results *w, int first, int n, const double x[])
 {
-    const int more = (w->step - 1) % (1 << w->halved) > 0;
-
-    for (int k = 0; k < n && w->kept; k++) {
-        double *to = &column(w, first + k)[w->row];
-        *to = first + k == PASSES && more ? fmax(*to, x[k]) : x[k];
-    }
+    for (int k = 0; k < n && w->kept; k++)
+        column(w, first + k)[w->row] = x[k];
 }
 
 static void put_history(const write_results *w)
@@ -208,8 +210,8 @@ static void put_summary(const write_results *w)
     bbm_energy e;
 
     bbm_energies(w->p->m, &e);
-    const double row[] = { w->p->dynamic ? time_of(w) : w->step, w->step ? (double)i->passes : NAN,
-                           e.kinetic, e.elastic, e.springs, b->work, b->gained };
+    const double row[] = { w->p->dynamic ? time_of(w) : w->step, e.kinetic, e.elastic, e.springs,
+                           b->work, b->gained };
     keep(w, T, LENGTH(row), row);
     if (w->step == 0)
         return;
@@ -283,8 +285,8 @@ static void put_vtk(FILE *f, const write_results *w)
 static void put_vtk_contacts(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
-    const bbm_contact *end = m->contact + m->contacts;
     const int n = m->info.contacts;
+    const bbm_contact *end = n ? m->contact + m->contacts : m->contact;
     double force[2];
 
     put_head(f, w, "POLYDATA", n);
@@ -345,8 +347,7 @@ static void draw_now(write_results *w, const char *name)
 static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_series s[], int first,
                        const char *const name[])
 {
-    const int place = first < MONITORS ? w->p->monitors + (first == PASSES)
-                                       : (first - MONITORS) / MODEL_FOLLOWED;
+    const int place = first < MONITORS ? w->p->monitors : (first - MONITORS) / MODEL_FOLLOWED;
 
     for (int k = 0; name[k]; k++, c.count++)
         s[k] = (plot_series){ .name = name[k], .n = w->row + 1, .x = column(w, T),
@@ -382,7 +383,7 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
     draw_panel(w, p, c, s, MONITORS + MODEL_FOLLOWED * monitor, of->name);
 }
 
-/* What a run has been through: monitors, energies, passes. */
+/* What a run has been through: monitors, energies. */
 static void draw_history(write_results *w)
 {
     const model *m = w->p;
@@ -392,16 +393,13 @@ static void draw_history(write_results *w)
 
     errno = ENOMEM;
     int done = w->kept && plot_open(&p, path, fmax(860, 1.3 * plot_text_width(m->title) + 20),
-                                    40 + PANEL * (m->monitors + 2));
+                                    40 + PANEL * (m->monitors + 1));
     if (done) {
         plot_title(&p, p.width / 2, 28, m->title);
         for (int k = 0; k < m->monitors; k++)
             draw_monitor(w, &p, k);
         draw_panel(w, &p, (plot_chart){ .title = "Energies", .y = { "energy", "J" } }, s, KINETIC,
                    (const char *[]){ "kinetic", "elastic", "springs", "external", "gained", NULL });
-        draw_panel(w, &p, (plot_chart){ .title = "Solutions of K D = F in a step",
-                                        .y = { "solutions", NULL } },
-                   s, PASSES, (const char *[]){ "the most of a step", NULL });
         done = plot_close(&p);
     }
     note_picture(w, done);
@@ -448,6 +446,22 @@ static void put_matrix(FILE *f, const write_results *w)
     }
 }
 
+/* The form of the inertia: 1/2 V.M V is the kinetic energy of the velocities V of the unknowns. */
+static void put_mass(FILE *f, const write_results *w)
+{
+    const bbm_model *m = w->p->m;
+
+    fprintf(f, "%%%%MatrixMarket matrix coordinate real symmetric\n%d %d %d\n", 6 * m->elements,
+            6 * m->elements, 21 * m->elements);
+    for (int e = 0; e < m->elements; e++) {
+        double M[6][6];
+        bbm_mode_integral(&m->element[e], M);
+        for (int k = 0; k < 36; k++)
+            M[k / 6][k % 6] *= bbm_mass_per_area(&m->element[e]);
+        put_block(f, e, e, M);
+    }
+}
+
 static void put_right_side(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
@@ -460,11 +474,12 @@ static void put_right_side(FILE *f, const write_results *w)
 void write_matrix(write_results *w)
 {
     const clock_t start = clock();
-    char name[LONGEST];
+    char name[2][LONGEST];
 
-    snprintf(name, sizeof name, "%s.rhs", w->matrix);
-    if (write_file(w, w->matrix, put_matrix))
-        write_file(w, name, put_right_side);
+    for (int k = 0; k < 2; k++)
+        snprintf(name[k], LONGEST, "%s.%s", w->matrix, k ? "mass" : "rhs");
+    if (write_file(w, w->matrix, put_matrix) && write_file(w, name[0], put_right_side))
+        write_file(w, name[1], put_mass);
     w->matrix = NULL;
     w->writing += clock() - start;
 }
@@ -500,8 +515,22 @@ static int is_ours(const char *name)
     return ours;
 }
 
-/* Removes what an earlier run left in the folder, so that all that stands there is of one run. */
-static int empty_folder(write_results *w)
+/* Whether the run has read no such file, by this name or another one. (On Windows files have no
+ * number; size and time tell.) */
+static int spare_input(write_results *w, const char *path)
+{
+    struct stat a, b;
+
+    for (int k = 0; k < w->p->inputs && !w->status && stat(path, &a) == 0; k++)
+        if (stat(w->p->input[k], &b) == 0 && a.st_ino == b.st_ino && a.st_dev == b.st_dev
+            && a.st_size == b.st_size && a.st_mtime == b.st_mtime)
+            fail(w, path, "this run reads it; another name or folder may be given");
+    return !w->status;
+}
+
+/* Removes what an earlier run left in the folder, so that all that stands there is of one run; or
+ * looks whether it may. */
+static int empty_folder(write_results *w, int look)
 {
     struct stat what;
     DIR *folder = opendir(w->folder);
@@ -510,16 +539,28 @@ static int empty_folder(write_results *w)
         return fail(w, w->folder, strerror(errno));
     for (struct dirent *entry; !w->status && (entry = readdir(folder)) != NULL; )
         if (is_ours(entry->d_name) && stat(path_of(w, entry->d_name), &what) == 0
-            && S_ISREG(what.st_mode) && remove(w->path))
+            && S_ISREG(what.st_mode) && spare_input(w, w->path) && !look && remove(w->path))
             fail(w, w->path, strerror(errno));
     closedir(folder);
     return !w->status;
 }
 
+/* Whether the folder is still that of the run: somebody may have removed it, and another run may
+ * have made it anew. If not, the run has none from now on. */
+static int holds_folder(write_results *w)
+{
+    if (w->lock && !output_holds(w->lock, path_of(w, LOCK))) {
+        fail(w, w->folder, "it was removed while the run was at work");
+        fclose(w->lock);
+        w->lock = NULL;
+    }
+    return w->lock != NULL;
+}
+
 /* The end of a run; whether all went well. */
 static int leave_folder(write_results *w)
 {
-    if (w->lock)
+    if (holds_folder(w))
         output_unlock(w->lock, path_of(w, LOCK));
     return !w->status;
 }
@@ -533,6 +574,8 @@ static int open_folder(write_results *w)
         return fail(w, w->folder,
                     errno == EEXIST ? "it is there and no folder; another one may be given with -o"
                                     : strerror(errno));
+    if (!spare_input(w, path_of(w, LOCK)) || !empty_folder(w, 1))
+        return 0;
     w->lock = output_lock(path_of(w, LOCK));
     return w->lock ? 1 : fail(w, w->folder, errno == EBUSY
                                   ? "another run is at work there; another folder may be given "
@@ -549,7 +592,12 @@ int write_check(write_results *w)
 
 int write_open(write_results *w)
 {
-    if (!open_folder(w) || !empty_folder(w)
+    char side[LONGEST];
+
+    snprintf(side, sizeof side, "%s.rhs", w->matrix ? w->matrix : "");
+    if (w->matrix && (!spare_input(w, w->matrix) || !spare_input(w, side)))
+        return 0;
+    if (!open_folder(w) || !empty_folder(w, 0)
         || !open_file(w, &w->history, path_of(w, "history.csv"))
         || !open_file(w, &w->summary, path_of(w, "summary.csv"))) {
         output_note(&w->history, 0);
@@ -557,9 +605,9 @@ int write_open(write_results *w)
         return leave_folder(w);
     }
     fprintf(w->history.file, "step,t");
-    for (const model_monitor *m = w->p->monitor; m < w->p->monitor + w->p->monitors; m++)
-        for (int k = 0; k < m->of->values; k++)
-            fprintf(w->history.file, ",%s_%s", m->name, m->of->name[k]);
+    for (int m = 0; m < w->p->monitors; m++)
+        for (int k = 0; k < w->p->monitor[m].of->values; k++)
+            fprintf(w->history.file, ",%s_%s", w->p->monitor[m].name, w->p->monitor[m].of->name[k]);
     fprintf(w->history.file, "\n");
     fprintf(w->summary.file, "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,"
                              "springs,external,gained\n");
@@ -578,12 +626,12 @@ void write_step(write_results *w, int step)
     const model *p = w->p;
 
     w->step = step;
-    if (step > (ROWS - 1) << w->halved) {   /* every second row goes; of passes the larger stays */
+    if (!holds_folder(w))
+        return;
+    if (step > (ROWS - 1) << w->halved) {               /* every second row goes */
         for (int k = 0; k < MONITORS + MODEL_FOLLOWED * p->monitors && w->kept; k++)
-            for (int r = 1; r <= ROWS / 2; r++) {
-                const double *x = &column(w, k)[2 * r];
-                column(w, k)[r] = k == PASSES ? fmax(x[-1], x[0]) : x[0];
-            }
+            for (int r = 1; r <= ROWS / 2; r++)
+                column(w, k)[r] = column(w, k)[2 * r];
         w->halved++;
     }
     w->row = step ? 1 + (step - 1) / (1 << w->halved) : 0;
@@ -610,6 +658,7 @@ void write_close(write_results *w)
         { "bolts.csv", p->bolts ? put_bolts : NULL },
     };
 
+    holds_folder(w);
     close_file(w, &w->history);
     close_file(w, &w->summary);
     for (int k = 0; k < LENGTH(table); k++)
@@ -617,7 +666,7 @@ void write_close(write_results *w)
             write_file(w, path_of(w, table[k].name), table[k].put);
     if (p->vtk && (p->every == 0 || w->step % p->every != 0))
         write_vtk(w);
-    if (p->svg)
+    if (p->svg && w->lock)
         draw_pictures(w);
     scene_free(&w->film);
     free(w->kept);

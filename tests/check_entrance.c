@@ -629,6 +629,37 @@ START_TEST(a_corner_that_passed_into_a_block_is_refused)
 }
 END_TEST
 
+/* Three blocks meet in long steps, and a solution of the third would let a corner of one pass into
+ * another, with no contact closed between them: it is cut, and no step begins with a corner inside. */
+START_TEST(a_solution_that_lets_a_corner_pass_is_cut)
+{
+    const double x[11][2] = {
+        { -0.792752, 0.609545 }, { -0.609545, -0.792752 }, { 0.792752, -0.609545 }, { 0.609545, 0.792752 },
+        { 1.442595, 0.706092 }, { 2.856767, 0.695302 }, { 2.867557, 2.109474 }, { 1.453385, 2.120264 },
+        { 1.074221, 2.020373 }, { 1.014549, 3.724230 }, { -0.431198, 2.820625 },
+    }, V[3][3] = { { 0, 0, -2.757 }, { -1.16, 0.2009, -0.06763 }, { 0, -1.16, -0.00695 } };
+    bbm_model *m = beyond_model();
+    int cuts = 0;
+
+    m->par = (bbm_parameters){ .dt = 0.211, .steps = 1, .velocity_factor = 1, .alpha = 1000, .faces = 1,
+                               .p_n = 5.356e8, .p_s = 0.4 * 5.356e8, .friction = 10, .pcg = m->par.pcg };
+    bbm_add_material(m, &(bbm_material){ .E = 1.306e5, .nu = 0.2, .density = 2500, .thickness = 1 }, NULL);
+    for (int n = 0; n < 11; n++)
+        bbm_add_node(m, x[n][0], x[n][1], NULL);
+    for (int b = 0; b < 3; b++)
+        bbm_add_element(m, b, 0, b < 2 ? 4 : 3, (int[]){ 4 * b, 4 * b + 1, 4 * b + 2, 4 * b + 3 }, NULL);
+    ck_ok(bbm_prepare(m), m);
+    for (int b = 0; b < 3; b++)
+        memcpy(m->element[b].V, V[b], sizeof V[b]);
+    for (int k = 0; k < 3; k++) {
+        ck_ok(bbm_step(m), m);
+        cuts += m->info.cuts;
+    }
+    ck_assert_int_gt(cuts, 0);
+    ck_assert(deepest_passed(m) == 0);
+}
+END_TEST
+
 /* A stone in the hole of a ring, whose wall of 2 mm is thinner than its way of 3 cm in a step: its
  * corners are behind the ring's outer edges and in none of its elements. In the wall they are. */
 START_TEST(a_stone_in_a_hole_is_not_in_the_ring)
@@ -682,6 +713,7 @@ Suite *entrance_suite(void)
         { a_corner_that_left_after_it_opened_inside_comes_in_anew, 2 });
     add_case(s, "passed",
         { a_corner_that_passed_into_a_block_is_refused, 3 },
+        { a_solution_that_lets_a_corner_pass_is_cut, 1 },
         { a_stone_in_a_hole_is_not_in_the_ring, 1 });
     return s;
 }

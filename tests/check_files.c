@@ -133,6 +133,27 @@ static const struct { const char *model; int only; } matrices[] = {
     { "dam", 1 }, { "exp3", 0 }, { "incline", 0 }, { "overhang", 0 }, { "wall", 0 },
 };
 
+/* One block, 2 x 1 m and 2500 kg/m^3, whose form of inertia about its middle is known: m for u and v, m (a^2 + b^2)/12
+ * for the rotation (-y, x), m a^2/12 and m b^2/12 for the strains (x, 0) and (0, y), a quarter of the rotation's for the
+ * shear (y, x)/2, which meets the rotation with m (a^2 - b^2)/24. */
+START_TEST(the_masses_beside_the_matrix_are_those_of_a_rectangle)
+{
+    const double m = 5000, expected[6] = { m, m, m*5/12, m*4/12, m/12, m*5/48 };
+
+    ck_assert_int_eq(shell("mkdir -p out/model; printf 'material m E 1e9 nu 0 density 2500\nblock b m 3 5 5 5 5 6 3 6\n"
+                           "fixblock b\ngravity 0 -1\nstatic\n' > out/model/heavy.model; %s/bbm -q out/model/heavy.model "
+                           "-o out/model/heavy -m out/model/heavy.mtx", BUILD), 0);
+    FILE *f = fopen("out/model/heavy.mtx.mass", "r");
+    int n, i, j, entries = 0;
+    double x;
+    ck_assert(f && fscanf(f, "%%%%MatrixMarket matrix coordinate real symmetric %d 6 21", &n) == 1 && n == 6);
+    for (; fscanf(f, "%d %d %lf", &i, &j, &x) == 3; entries++)
+        ck_near(x, i == j ? expected[i - 1] : i == 6 && j == 3 ? m*3/24 : 0, m, 1e-12);
+    ck_assert_int_eq(entries, 21);
+    fclose(f);
+}
+END_TEST
+
 START_TEST(the_matrix_leads_to_the_displacements_that_the_program_writes)
 {
     const char *name = matrices[_i].model;
@@ -441,19 +462,21 @@ START_TEST(an_interrupted_run_keeps_what_it_has_computed)
     const struct { int number; const char *more; } call[] = {
         { SIGINT, "" }, { SIGTERM, "" }, { SIGINT, " settle 1000000" },
     };
-    const pid_t child = start_long(call[_i].more);
+    const int k = _i % COUNT(call);
+    const pid_t child = start_long(call[k].more);
     char text[LONG];
+    int status;
 
-    kill(child, call[_i].number);
-    nanosleep(&(struct timespec){ 0, 1000000 }, NULL);
-    kill(child, call[_i].number);                   /* as timeout(1) does */
-    ck_assert_int_eq(exit_of(child), 128 + call[_i].number);
+    while (waitpid(child, &status, WNOHANG) == 0)       /* timeout(1) sends two; many meet all moments */
+        kill(child, call[k].number);
+    ck_assert_msg(WIFEXITED(status) && WEXITSTATUS(status) == 128 + call[k].number,
+                  "ended by signal %d", WTERMSIG(status));
     const char *said = slurp("out/model/long.err");
-    ck_assert_msg(strstr(said, _i == 2 ? "interrupted at settling, step " : "interrupted at step "),
+    ck_assert_msg(strstr(said, k == 2 ? "interrupted at settling, step " : "interrupted at step "),
                   "%s", said);
     ck_assert(!has_file("out/model/long", ".tmp", 0) && !has_file("out/model/long", "", 1));
     ck_assert_int_eq(count_tables("out/model/long"), 5);
-    if (_i == 2)
+    if (k == 2)
         return;
     const double step = cell("long", "history.csv", "", "step");
     ck_assert(step > 0 && step < 1000000);
@@ -508,6 +531,55 @@ START_TEST(of_two_runs_that_start_together_in_one_folder_all_is_of_one)
                            "in short other; do $bbm -q $m.model -o both 2> $m.err & done; wait; "
                            "n=$(tail -1 both/history.csv | cut -d, -f1); [ $(ls both/step_*.vtk | wc "
                            "-l) = $((n / 2 + 1)) ] || exit 1; done", BUILD), 0);
+}
+END_TEST
+
+START_TEST(a_run_whose_folder_another_one_has_made_anew_leaves_it_alone)
+{
+    const pid_t child = start_long("");
+    write_text("out/model/second.model", SLIDE("10"));
+    ck_assert_int_eq(shell("rm -r out/model/long; %s/bbm -q out/model/second.model -o out/model/long; "
+                           "cd out/model/long; cat $(ls) > ../was", BUILD), 0);
+    kill(child, SIGINT);
+    ck_assert_int_ne(exit_of(child), 0);
+    check_text("out/model/long.err", "out/model/long cannot be written: it was removed while the run "
+                                     "was at work");
+    ck_assert_int_eq(shell("cd out/model/long; cat $(ls) | cmp - ../was"), 0);
+}
+END_TEST
+
+#define READS STEEL "block b steel 0 0 1 0 1 1\nvelocity b 1 0\nshake %s\ndynamic dt 0.01 steps 2\n"
+
+/* A record by its name, by another name and by a link, and the model itself. */
+START_TEST(a_file_that_a_run_reads_is_refused_as_a_place_for_results)
+{
+    static const struct { const char *record, *options; } call[] = {
+        { "history.csv", "run.model -o ." }, { "elsewhere.csv", "run.model -o kept" },
+        { "here.csv", "nodes.csv -o ." }, { "here.csv", "K.mtx -m K.mtx" },
+        { "here.csv", "K.mtx.rhs -m K.mtx" }, { "here.csv", "bbm.lock -o ." },
+        { "here.csv", "- -o . < summary.csv" }, { "history.csv", "--check run.model -o ." },
+    };
+    char text[LONG];
+
+    snprintf(text, sizeof text, READS, call[_i].record);
+    ck_assert_int_eq(shell("rm -rf out/model/reads; mkdir -p out/model/reads/kept"), 0);
+    write_text("out/model/reads/run.model", text);
+    ck_assert_int_eq(shell("cd out/model/reads; printf '0,0\\n1,1\\n' | tee history.csv here.csv > "
+                           "kept/nodes.csv; ln -s kept/nodes.csv elsewhere.csv; for f in nodes.csv K.mtx "
+                           "K.mtx.rhs bbm.lock summary.csv; do cp run.model $f; done; rm -rf ../was; cp -r . ../was; "
+                           "../../../%s/bbm -q %s 2> ../reads.err", BUILD, call[_i].options), 1);
+    check_text("out/model/reads.err", " cannot be written: this run reads it");
+    ck_assert_int_eq(shell("diff -r out/model/reads out/model/was"), 0);
+}
+END_TEST
+
+/* Without a reader it would wait for ever. */
+START_TEST(a_pipe_under_the_name_of_a_table_is_refused)
+{
+    write_text("out/model/fifo.model", SLIDE("2"));
+    ck_assert_int_eq(shell("mkdir -p out/model/fifo; mkfifo out/model/fifo/elements.csv; timeout -s KILL 10 "
+                           "%s/bbm -q out/model/fifo.model -o out/model/fifo 2> out/model/fifo.err", BUILD), 1);
+    check_text("out/model/fifo.err", "elements.csv cannot be written: ");
 }
 END_TEST
 
@@ -632,6 +704,50 @@ static int stop_at_the_second(const bbm_model *m, void *solutions)
     return ++*(int *)solutions == 2;
 }
 
+static int forget_steps(const bbm_model *m, void *own)
+{
+    ((bbm_model *)own)->info.step = 0;
+    return m != own;
+}
+
+START_TEST(a_run_has_its_number_of_steps_whatever_a_monitor_does)
+{
+    bbm_model *m = square();
+
+    m->par.steps = 5;
+    m->monitor = forget_steps;
+    m->monitor_context = m;
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_run(m), m);
+}
+END_TEST
+
+/* Adds nodes, for which the array moves. */
+static void add_nodes(double x, double y, const void *model, double f[2])
+{
+    bbm_model *m = *(bbm_model *const *)model;
+
+    for (int k = 0; k < 1000; k++)
+        bbm_add_node(m, 9, 9, NULL);
+    f[0] = x;
+    f[1] = y;
+}
+
+/* From (0, 0) to (1, 0): a Gauss point lies at its share of the way. */
+START_TEST(the_function_of_a_load_may_add_nodes)
+{
+    bbm_model *m = square();
+
+    ck_ok(bbm_add_varying_line_load(m, 0, 1, add_nodes, &m), m);
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, weight;
+        bbm_gauss_point(g, &s, &weight);
+        ck_near(m->line_load[0].f[g][0], s, 1, 1e-15);      /* a rounding */
+        ck_assert(m->line_load[0].f[g][1] == 0);
+    }
+}
+END_TEST
+
 START_TEST(watch_stops_a_step_before_its_next_solution)
 {
     bbm_model *m = square();
@@ -659,6 +775,7 @@ Suite *files_suite(void)
 
     tcase_set_timeout(t, 120);
     tcase_add_unchecked_fixture(t, make_folder, NULL);
+    tcase_add_test(t, the_masses_beside_the_matrix_are_those_of_a_rectangle);
     tcase_add_loop_test(t, the_matrix_leads_to_the_displacements_that_the_program_writes, 0,
                         COUNT(matrices));
     tcase_add_test(t, what_cannot_be_written_is_status_1_with_a_message);
@@ -672,9 +789,12 @@ Suite *files_suite(void)
     tcase_add_loop_test(t, a_picture_that_cannot_be_made_is_said_and_costs_nothing_else, 0, 4);
     tcase_add_loop_test(t, without_memory_a_run_says_so_at_every_allocation, 0, 3);
     tcase_add_test(t, without_memory_an_experiment_says_so);
-    tcase_add_loop_test(t, an_interrupted_run_keeps_what_it_has_computed, 0, 3);
+    tcase_add_loop_test(t, an_interrupted_run_keeps_what_it_has_computed, 0, 12);
     tcase_add_test(t, a_second_signal_ends_a_run_at_once_and_the_next_run_removes_what_it_left);
     tcase_add_test(t, a_second_run_in_the_same_folder_is_refused_and_disturbs_nothing);
+    tcase_add_test(t, a_run_whose_folder_another_one_has_made_anew_leaves_it_alone);
+    tcase_add_loop_test(t, a_file_that_a_run_reads_is_refused_as_a_place_for_results, 0, 8);
+    tcase_add_test(t, a_pipe_under_the_name_of_a_table_is_refused);
     tcase_add_test(t, a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else);
     tcase_add_loop_test(t, what_is_left_out_has_its_default, 0, 4);
     tcase_add_test(t, a_run_that_fails_says_at_which_step_and_what_the_library_says);
@@ -682,6 +802,8 @@ Suite *files_suite(void)
     t = new_case(s, "library");
     tcase_add_test(t, a_compiler_that_breaks_the_arithmetic_is_refused);
     tcase_add_test(t, a_model_that_is_not_prepared_has_no_energy);
+    tcase_add_test(t, a_run_has_its_number_of_steps_whatever_a_monitor_does);
+    tcase_add_test(t, the_function_of_a_load_may_add_nodes);
     tcase_add_test(t, watch_stops_a_step_before_its_next_solution);
     return s;
 }

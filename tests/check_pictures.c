@@ -321,8 +321,7 @@ START_TEST(a_picture_says_its_title_and_the_time_that_it_shows)
         { "dynamic dt 0.1 steps 2\ntitle Böschung, 坡\n", ">Böschung, 坡<" },
         { "dynamic dt 0.1 steps 2\ntitle B\xF6schung\n", ">B&#246;schung<" },      /* Latin-1 */
         { "dynamic dt 0.1 steps 2\ntitle a < b & c > d\n", ">a &#60; b &#38; c &#62; d<" },
-        /* Half a pair and a slash that is too long are no UTF-8. */
-        { "dynamic dt 0.1 steps 2\ntitle \xED\xA0\x80\xC0\xAF\n", ">&#237;&#160;&#192;&#175;<" },
+        { "dynamic dt 0.1 steps 2\ntitle \xE4\xA0 \xC0\xAF\n", ">&#228;&#160; &#192;&#175;<" },
     };
     char model[LONG];
 
@@ -579,7 +578,7 @@ END_TEST
 START_TEST(the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end)
 {
     static const char *const said[] = { ">p<", ">u<", ">v<", ">u expected, 1.35 to 1.65 m<", ">to stay, -20 to 20 m<", ">Energies<", ">kinetic<",
-        ">elastic<", ">springs<", ">external<", ">gained<", ">solutions<", ">the most of a step<" };
+        ">elastic<", ">springs<", ">external<", ">gained<" };
     point first, last, low, high;
 
     ck_assert_int_eq(run_printed("told", FALL "dynamic dt 0.0005 steps 3001\nmonitor p node 2\ntitle %0120d\n"
@@ -595,9 +594,6 @@ START_TEST(the_history_has_all_curves_and_the_band_in_which_a_monitor_is_to_end)
     s = strstr(strstr(strstr(s, "stroke-width=\"0.6\"") + 1, "stroke-width=\"0.6\""), "<path");
     ck_assert_int_eq(find_ends(s, &low, &high), 4);
     ck_assert(low.y - high.y < 200 && first.y - last.y > (low.y - high.y) / 2);
-    s = strstr(text, ">gained<");       /* no ticks at 0.95, 1 and 1.05 solutions */
-    ck_assert_ptr_null(strstr(s, ">1.00<"));
-    ck_assert_int_eq(find_ends(strstr(strstr(strstr(s, ">solutions<"), "stroke-width=\"1.8\""), "<path"), &first, &last), 751);
     check_labels("history.svg", text);
     free(text);                         /* a curve that is flat leaves its band: 10 mm */
     ck_assert_int_eq(run_text("told", STEEL "block b steel 0 0 1 0 1 1 0 1\nfixblock b\nblock c steel 9 0 10 0 10 1 9 1\n"
@@ -722,25 +718,6 @@ START_TEST(water_is_drawn_as_it_presses)
 }
 END_TEST
 
-/* It presses the blocks apart. */
-START_TEST(water_in_a_joint_is_drawn_from_the_joint_into_the_blocks)
-{
-    int to[2] = { 0, 0 };
-    point joint, a, b;
-
-    ck_assert_int_eq(run_text("wet", "material r E 1e9 nu 0.2 density 2500\nblock a r 0 0 2 0 2 3 0 3\n"
-                              "block b r 2 0 4 0 4 3 2 3\nfix box 0 0 4 0\ngravity 0 -9.81\ncontact friction 30\n"
-                              "water box 2 0 2 3 2.5\nstatic\noutput svg\n"), 0);
-    char *text = read_all("out/model/wet/contacts.svg");
-    const char *s = strstr(strstr(text, "<clipPath"), "\"#0077bb\""), *end = strstr(s, "</g>");
-    find_ends(strstr(s, "<path"), &joint, &b);
-    for (; (s = strstr(s, "<path")) && s < end; to[b.x > a.x]++, s++)
-        ck_assert(find_ends(s, &a, &b) == 2 && fabs(a.x - joint.x) < 0.5);
-    ck_assert(to[0] > 5 && to[1] == to[0]);
-    free(text);
-}
-END_TEST
-
 /* A column sinks by rho g h^2/2E = 5e-5 m, which is enlarged as without the block, or by 5e-9 m. */
 START_TEST(a_block_that_is_gone_does_not_move_far_and_rounding_is_not_enlarged)
 {
@@ -811,7 +788,6 @@ Suite *pictures_suite(void)
     tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, water_is_drawn_as_it_presses, 0, 2);
-    tcase_add_test(t, water_in_a_joint_is_drawn_from_the_joint_into_the_blocks);
     tcase_add_loop_test(t, a_block_that_is_gone_does_not_move_far_and_rounding_is_not_enlarged, 0, 2);
     tcase_add_test(t, a_film_of_stages_shows_what_is_fixed_in_each);
     tcase_add_test(t, a_map_of_blocks_hides_where_they_were_and_says_that_stresses_are_means);

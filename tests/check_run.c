@@ -14,23 +14,23 @@ static const char model[] =
     STEEL "mesh ../../tests/mesh/square22.msh\nuse steel on plate\n"
     "node 11 10 10\nnode 12 11 10\nnode 13 11 11\nelement 7 ball steel 11 12 13\n"
     "block base steel -1 -2 3 -2 3 -1 -1 -1\nfixblock base\n"
-    "grid wall steel 0 -1 1 -0.5 2 1\nset tip nodes 2 3\nfix set left\n"
+    "grid wall steel 0 -1 1 -0.5 2 1\nset tip nodes 2 3\nset tip add 2\nfix set left\n"
     "load set tip of plate 10 0\ntraction set wall.right 1 0\npressure set wall.left 1\n"
     "water set wall.top -0.4\nvelocity ball 1 0\nstress plate 1 2 3\n"
     "contact friction 30\njoint wall base friction 20\n"
     "bond alpha 100\npcg omega 1\nrotation exact\n"
     "dynamic dt 0.001 steps 2 settle 1\n"
-    "monitor low at 10 10\nexpect low v -2.5e-5 within 1e-12\nexpect low moves by 1e-3\n"
+    "monitor low at 10 10\nmonitor held support set left\nexpect low v -2.5e-5 within 1e-12\nexpect low moves by 1e-3\n"
     "output every 1 svg vtk balance field s1\n";         /* v: g dt^2/2 of settling, g (2 dt)^2/2 */
 
 /* rows: -1, any number from one on. */
 static const struct { const char *file, *first; int rows; } written[] = {
-    { "nodes.csv", "node,block,x,y,u,v,sxx,syy,sxy,mises", 17 },
+    { "nodes.csv", "node,block,x,y,u,v,sxx,syy,sxy,mises,sxx_fit,syy_fit,sxy_fit", 17 },
     { "elements.csv", "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises,vx,vy,spin", 6 },
     { "contacts.csv", "corner_block,edge_block,x,y,state,normal,shear,gap", -1 },
     { "reactions.csv", "node,x,y,fx,fy", 6 },
     { "balance.csv", "block,element,force,force_share,moment,moment_share", 4 },
-    { "history.csv", "step,t,low_u,low_v", 3 },
+    { "history.csv", "step,t,low_u,low_v,held_fx,held_fy", 3 },
     { "summary.csv", "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,"
       "external,gained", 2 },
     { "timing.csv", "phase,seconds", 7 },
@@ -46,6 +46,7 @@ static const struct { const char *file, *first; int rows; } written[] = {
     { "contacts_000002.vtk", "# vtk DataFile Version 3.0", -1 },
     { "K.mtx", "%%MatrixMarket matrix coordinate real symmetric", -1 },
     { "K.mtx.rhs", "%%MatrixMarket matrix array real general", 37 },
+    { "K.mtx.mass", "%%MatrixMarket matrix coordinate real symmetric", 127 },
 };
 
 static void run_all(void)
