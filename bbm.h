@@ -96,6 +96,7 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     int    block;
     int    first, n;            /* its vertices are model.vertex[first .. first+n-1]            */
     bbm_material material;
+    double f[2];                /* N/m^2    volume force besides its weight, of (47)            */
     /* --- geometry of the step, by bbm_element_geometry --- */
     double x, y;                /* m        barycentre, from model.origin    */
     double A;                   /* m^2      area                             */

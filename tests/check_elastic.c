@@ -426,6 +426,24 @@ START_TEST(gravity_pulls_at_the_mass_of_each_element)
 }
 END_TEST
 
+/* A bar of squares, held at the left; each is pulled along x by a force of its own. With nu = 0 the
+ * row ex of K D = F has the mean of the forces on its two sides: what pulls beyond it, and half of
+ * its own. */
+START_TEST(a_volume_force_pulls_at_what_lies_before_it)
+{
+    grid g = { .lx = 5, .ly = 1, .nx = 5, .ny = 1 };
+    const bbm_material stiff = { .E = 1e6, .density = 1, .thickness = 0.5 };
+    bbm_model *m = cantilever(&stiff, &g, 0, 0);
+
+    for (int e = 0; e < 5; e++)
+        m->element[e].f[0] = 1 + e * e;
+    run_steps(m, 1);
+    double beyond = 0;
+    for (int e = 4; e >= 0; beyond += m->element[e--].f[0])
+        ck_relative(m->element[e].stress[0] * 0.5, beyond + m->element[e].f[0] / 2, SOLVED);
+}
+END_TEST
+
 /* ----------------------------------------------------------- the constant-strain finite element */
 
 static double distance_at(double alpha)
@@ -559,7 +577,8 @@ Suite *elastic_suite(void)
         { a_load_that_varies_is_asked_for_at_the_gauss_points_alone, 1 },
         { a_load_that_varies_reaches_the_element_whichever_end_is_named_first, 2 },
         { loads_of_one_node_and_of_one_edge_add_up, 1 },
-        { gravity_pulls_at_the_mass_of_each_element, 1 });
+        { gravity_pulls_at_the_mass_of_each_element, 1 },
+        { a_volume_force_pulls_at_what_lies_before_it, 1 });
     add_case(s, "finite element",
         { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 });
     return s;
