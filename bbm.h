@@ -96,6 +96,7 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     int    block;
     int    first, n;            /* its vertices are model.vertex[first .. first+n-1]            */
     bbm_material material;
+    double f[2];                /* N/m^2    volume force besides its weight, of (47)            */
     /* --- geometry of the step, by bbm_element_geometry --- */
     double x, y;                /* m        barycentre, from model.origin    */
     double A;                   /* m^2      area                             */
@@ -140,7 +141,7 @@ typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;   /* the figur
 /* The phases whose CPU time is counted. */
 enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
-typedef struct {                /* defaults: bbm_model_new; their reasons: doc/choices.md       */
+typedef struct {                /* defaults: bbm_model_new; their reasons: doc/paper.md, 4.1    */
     double dt;                  /* s        time step; INFINITY: statics, without inertia       */
     int    steps;               /* in statics: iterations of Newton-Raphson                     */
     double tolerance;           /* -        of (71), which ends the run; 0: do all steps        */

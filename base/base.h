@@ -19,6 +19,15 @@
 
 /* --------------------------------------------------------------------- the data of 3.3 and 3.4 */
 
+/* Drawn apart; at the start p[0] lies on q[0] and p[1] on q[1], at two nodes.
+ *
+ *      .------ p[1]    q[1] ------.
+ *       \         \     \          \         i runs p[0] -> p[1] along the edge, its element on the
+ *        \   i     \     \    j     \        left, and j the other way, q[1] -> q[0]
+ *         \         \     \         /
+ *          \         \     \       /         a spring k between p[0] and q[0], another between
+ *           `------- p[0]  q[0] --'          p[1] and q[1]
+ */
 struct bbm_bond {               /* an internal edge: two bonding springs                        */
     int i, j;                   /* the elements that share it                                   */
     int p[2], q[2];             /* vertices: p[0], p[1] of i coincide with q[0], q[1] of j      */

@@ -59,13 +59,15 @@ void bbm_list_gaps(bbm_model *m)
         bbm_list_fixed_point(m, v, &m->node[m->vertex[v].node]);
 }
 
-/* The part of F that comes from outside: gravity (3.6), loads at nodes and along lines (3.5). The
+/* The part of F that comes from outside: gravity and volume forces (3.6), loads at nodes and along lines (3.5). The
  * elements that meet at a node share its load equally. */
 static void gather_loads(bbm_model *m)
 {
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
-    for (int i = 0; i < m->elements; i++)
+    for (int i = 0; i < m->elements; i++) {
         bbm_gravity_submatrix(&m->element[i], m->acceleration, &m->load[6 * i]);
+        bbm_volume_submatrix(&m->element[i], m->element[i].f, &m->load[6 * i]);
+    }
     for (int v = 0; v < m->vertices; v++) {
         const int i = m->vertex[v].element, n = m->vertex[v].node;
         const int adjacent = m->adjacent_first[n + 1] - m->adjacent_first[n];

@@ -8,9 +8,10 @@
  *     Pi = 1/2 d.K d + 1/2 dd.M dd,      K = M = 2 k I.
  *
  * K stands for a rigid joint and stays. M is made only as large as the bending stiffness that the
- * elements lack: the bond is rigid in its middle and bends as the material would. A fixed edge is
- * a bond with the wall, whose mirror image bends alike. A fixed node is the mean of its corners, as
- * it is for loads.
+ * elements lack: the bond is rigid in its middle and bends as the material would. With M = 0 a grid
+ * of rectangles w_i x h_j would be loose: if element i, j turns about its centre by (-1)^(i+j)
+ * c/(w_i h_j), all middles stay together. A fixed edge is a bond with the wall, whose mirror image
+ * bends alike. A fixed node is the mean of its corners, as it is for loads.
  */
 #include <string.h>
 

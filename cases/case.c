@@ -113,7 +113,7 @@ double case_percent(double computed, double reference)
 
 /* A line is: problem, variant, quantity, x, y, converged, six_node_triangles, one more; nan where
  * there is none. */
-static void read_reference(const char *problem, const char *variant, case_reference *r)
+void case_read(const char *problem, const char *variant, case_reference *r)
 {
     char line[256], of[2][32];
     FILE *f = fopen("cases/fem.csv", "r");
@@ -211,7 +211,7 @@ static bbm_model *solve_run(case_results *r, const case_experiment *p, const cas
 {
     bbm_model *m = run->beyond ? case_beyond_model(2) : case_paper_model();
 
-    read_reference(p->name, run->variant, ref);
+    case_read(p->name, run->variant, ref);
     if (!m)
         return NULL;
     p->solve(m, run->variant, run->beyond ? CELL_QUADS : CELL_CROSSED, run->beyond ? 4 : 2, 1000);
@@ -268,7 +268,7 @@ static void print_convergence(const case_experiment *e)
     static const double alpha[4] = { 10, 100, 1000, 1e5 };
     case_reference ref;
 
-    read_reference(e->name, e->run[1].variant, &ref);
+    case_read(e->name, e->run[1].variant, &ref);
     printf("\n%s\n\n"
            "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
            "|---|---|---|---|---|", e->errors);

@@ -21,7 +21,7 @@ typedef struct {                    /* a grid of nx x ny cells                  
 
 typedef struct {                    /* values of cases/fem.csv for one problem and variant      */
     int values;
-    struct case_value { char quantity[32]; double x, y, converged, six_node; } value[50];
+    struct case_value { char quantity[32]; double x, y, converged, six_node; } value[110];
 } case_reference;
 
 typedef struct {                    /* out/NAME/results.csv                                     */
@@ -50,6 +50,8 @@ void   case_solve(bbm_model *m);                                /* prepared and 
 /* Relative error in percent: below zero means smaller, which for a displacement is stiffer. */
 double case_percent(double computed, double reference);
 
+/* The values of a variant, in the order of the file. */
+void   case_read(const char *problem, const char *variant, case_reference *r);
 const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
                                    double y);
 typedef struct {                    /* a solution of an experiment, alpha = 1000                */

@@ -127,7 +127,7 @@ static const case_point point[] = {
 /* --------------------------------------------------------------------------------------- curves */
 
 /* A quantity at the grid points of a line, given by the first node, a step of node numbers and
- * their count, against (72) and the finite element. The abscissa is x, y or the angle in
+ * their count, against (72) and six-node triangles on the same mesh. The abscissa is x, y or the angle in
  * degrees. */
 typedef struct {
     const char *file, *title, *quantity, *abscissa;
@@ -140,48 +140,42 @@ static double abscissa_of(const line_of *l, double x, double y)
 }
 
 /* A chart, and rows of results.csv. */
-static void draw_line(case_results *r, const bbm_model *const m[], const case_reference *b5,
-                      const line_of *l)
+static void draw_line(case_results *r, const bbm_model *const m[], const line_of *l)
 {
-    double at[128], value[2][128], exact[128], fem_at[16], fem[16];
-    char name[32];
-    int fems = 0;
+    double at[128], value[2][128], exact[128], fem[128];
+    char name[32], variant[16];
+    case_reference ref;
 
+    snprintf(variant, sizeof variant, "b5.%s", l->abscissa);
+    case_read("exp2", variant, &ref);
     for (int i = 0; i < l->count; i++) {
         const bbm_node *n = &m[0]->node[l->first + i * l->step];
         at[i] = abscissa_of(l, n->x, n->y);
         exact[i] = theory(l->quantity, n->x, n->y);
+        fem[i] = case_find(&ref, l->quantity, n->x, n->y)->six_node;
         for (int k = 0; k < 2; k++) {
             value[k][i] = computed(m[k], l->quantity, n->x, n->y);
             snprintf(name, sizeof name, "%s.%s", run[k].variant, l->quantity);
             case_row(r, name, (double[]){ n->x, n->y }, value[k][i], exact[i], "theory");
         }
     }
-    for (const struct case_value *f = b5->value; f < b5->value + b5->values && fems < 16; f++)
-        if (strcmp(f->quantity, l->quantity) == 0       /* on an axis, or on the hole */
-            && (l->abscissa[0] == 'x' ? f->y == 0 : l->abscissa[0] == 'y' ? f->x == 0
-                : fabs(hypot(f->x, f->y) - 1) < 1e-6)) {
-            fem_at[fems] = abscissa_of(l, f->x, f->y);
-            fem[fems++] = f->converged;
-        }
     const plot_series s[] = {
         { .name = "theory (72), infinite plate", .n = l->count, .x = at, .y = exact, .look = 1 },
         { .name = "BBM, its tractions (k5)", .n = l->count, .x = at, .y = value[1],
           .style = PLOT_MARKS, .look = 4 },
         { .name = "BBM, uniform stress (b5)", .n = l->count, .x = at, .y = value[0],
           .style = PLOT_MARKS, .look = 2 },
-        { .name = "FEM, converged (b5)", .n = fems, .x = fem_at, .y = fem, .style = PLOT_MARKS,
-          .look = 3 },
+        { .name = "FEM, six-node triangles (b5)", .n = l->count, .x = at, .y = fem, .look = 3 },
     };
     case_draw(r, plot_write_chart(case_path(r, l->file), &(plot_chart){
-        .title = l->title, .count = LENGTH(s) - !fems, .series = s,
+        .title = l->title, .count = LENGTH(s), .series = s,
         .x = { l->abscissa, l->abscissa[0] == 'a' ? "degrees" : "m" },
         .y = { l->quantity[1] == 't' ? "hoop stress" : l->quantity,
                l->quantity[0] == 's' ? "Pa" : "m" } }));
 }
 
 /* Fig. 15-19. */
-static void show(case_results *r, const bbm_model *const m[], const case_reference ref[])
+static void show(case_results *r, const bbm_model *const m[], const case_reference unused[])
 {
     enum { NX = 2 * 17, NY = 2 * 12, ROW = NX + 1 };
     const line_of line[] = {
@@ -195,8 +189,9 @@ static void show(case_results *r, const bbm_model *const m[], const case_referen
         { "fig19hoop.svg", "Hoop stress on the hole", "stt", "angle", 0, ROW, NY + 1 },
     };
 
+    (void)unused;
     for (int i = 0; i < LENGTH(line); i++)
-        draw_line(r, m, &ref[0], &line[i]);
+        draw_line(r, m, &line[i]);
 }
 
 /* Fig. 20-23. */

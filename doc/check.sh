@@ -5,6 +5,9 @@ fail() { echo "$1"; exit 1; }
 
 rm -rf "$O/drawn" && mkdir "$O/drawn" && "$O/figures" "$O/drawn"
 diff -r "$O/drawn" doc/figures || fail "doc/figures is not what the program draws: make figures"
+for f in doc/paper/*.svg; do
+    cmp -s "$f" out/exp1/"${f##*/}" || cmp -s "$f" out/exp2/"${f##*/}" || fail "copy out/exp*/${f##*/} to $f"
+done
 for f in $(sed -n 's/.*monospace[^>]*>\([a-z_]*\)<.*/\1/p' doc/figures/flow.svg); do
     grep -q "[ *]$f(" base/step.c || fail "doc/figures/flow.svg names $f, which base/step.c does not have"
 done
@@ -22,7 +25,7 @@ for f in ./*.c base/*.c beyond/*.c; do
     grep -qw "${f##*/}" doc/house.svg || fail "doc/house.svg lacks $f"
 done
 
-awk -f tests/equations.awk doc/equations.md *.c */*.c
+awk -f tests/equations.awk doc/paper.md tests/beyond.md *.c */*.c
 sed -n '/no error/!s/.*\[BBM_[A-Z_]*\] = "\([^"]*\)".*/\1/p' base/cut.c | while read -r text; do
     grep -qF -- "- **$text**" doc/failures.md || fail "doc/failures.md has no \"$text\""
 done

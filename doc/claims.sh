@@ -1,6 +1,6 @@
-# claims.sh - numbers of 08-experiments.md and beyond.md that no experiment prints, by models of beam.awk and
+# claims.sh - numbers of paper.md, 08-experiments.md and beyond.md that no experiment prints, by models of beam.awk and
 # plate.awk and by tables of the experiments:
-#     BBM=./bbm sh doc/claims.sh stress|plate|held|arc|areas|iterations|blocks|levels|squares
+#     BBM=./bbm sh doc/claims.sh table1|table2|table3|table4|table5|fig10|fig13|stress|mesh|plate|held|lines|arc|areas|iterations|blocks|levels|squares
 set -e
 mkdir -p out/claims
 
@@ -16,6 +16,27 @@ run()
     $BBM -q out/claims/claim.model -o out/claims
 }
 
+# The tables of paper.md, from the logs of the experiments.
+table1()
+{
+    grep -h '^| dt' out/exp3.log
+    echo '|---|---|---|---|---|---|---|---|'
+    awk '/^[|] dt/ { getline; getline; print $0 (NF < 17 ? " - | - |" : "") }' out/exp1.log out/exp2.log out/exp3.log
+}
+
+# The rows of the first table behind a line of a log that begins so.
+rows()
+{
+    awk -v begins="$2" 'index($0, begins) == 1 { inside = 1 } inside && /^[|]/ { print; seen = 1 } seen && !/^[|]/ { exit }' out/$1.log
+}
+
+table2() { rows exp1 '| DDA'; }
+fig10() { rows exp1 '| x [m]' | grep -E '^[|] ?(x|-|6|24|48)'; }
+table3() { rows exp1 'Table 3, a' | cut -d'|' -f1-4,6-7,9; }
+fig13() { rows exp1 'Fig. 13, a' | cut -d'|' -f1-6,8-; }
+table4() { rows exp2 'Table 4, b5' | cut -d'|' -f1-3,5-6,8-; }
+table5() { rows exp2 'Table 5, b5' | cut -d'|' -f1-4,7,9-; }
+
 # The von Mises stress at (24,6), 1000 Pa, for cells of three sizes.
 stress()
 {
@@ -27,15 +48,55 @@ stress()
     done
 }
 
-# What the size of the plate does to sxx at the corners of the quarter.
+# Errors on unstructured meshes against converged finite elements: $1 cases/$1.model, $2 variant of fem.csv, $3
+# alpha, the others what is asked.
+unstructured()
+{
+    $BBM -q cases/$1.model -d alpha=$3 -o out/claims
+    awk -F, -v name=$1 -v variant=$2 -v a=$3 -v asked="$4" '
+    FNR == NR { if ($2 == variant) fem[$3 "(" $4 "," $5 ")"] = $6; next }
+    FNR == 1 { for (k = 1; k <= NF; k++) column[$k] = k; next }
+    {
+        for (k = split(asked, q, " "); k > 0; k--)
+            if (q[k] ~ "[(]" $column["x"] "," $column["y"] "[)]")
+                is[q[k]] = $column[substr(q[k], 1, index(q[k], "(") - 1)]
+    }
+    END {
+        printf "%s, alpha %4d:", name, a
+        for (k = 1; k in q; k++)
+            printf " %s %+.*f %%", q[k], a < 1000 ? 1 : 2, 100 * (is[q[k]] / fem[q[k]] - 1)
+        print ""
+    }' cases/fem.csv out/claims/nodes.csv
+}
+
+mesh()
+{
+    unstructured beam a 1000 "v(24,0) v(48,6) mises(12,6) mises(24,6)"
+    for a in 10 100 1000; do
+        unstructured plate b5 $a "v(0,1) u(5,0)"
+    done
+}
+
+# What converged finite elements of plates of other sizes have more than (72), at the corners of the quarter.
 plate()
 {
-    for size in "5 5" "10 10" "20 20" "40 5" "5 40"; do
-        set -- $size
-        v="-v b=$1 -v h=$2 -v nx=60 -v ny=48"
-        awk $v -f doc/plate.awk | run
-        awk -F, $v -f doc/plate-stress.awk out/claims/elements.csv out/claims/nodes.csv
-    done
+    awk -F, '
+    function more(x, y,    q, t)
+    {
+        q = 1 / (x * x + y * y)
+        t = atan2(y, x)
+        return 100 * ($6 / 1e6 / (1 - q * (1.5 * cos(2 * t) + cos(4 * t)) + 1.5 * q * q * cos(4 * t)) - 1)
+    }
+    $2 !~ /^[0-9]+x[0-9]+$/ { next }
+    { split($2, size, "x"); b = size[1] / 2; h = size[2] / 2 }
+    $4 == 0 && $5 == 1 { hole = more(0, 1); n++ }
+    $4 == b && $5 == 0 { end = more(b, 0); n++ }
+    $4 == b && $5 == h { corner = more(b, h); n++ }
+    $4 == 0 && $5 == h { side = more(0, h); n++ }
+    n == 4 {
+        printf "%d m x %d m: hole %+.1f %%, end %+.1f %%, corner %+.1f %%, side %+.1f %%\n", 2 * b, 2 * h, hole, end, corner, side
+        n = 0
+    }' cases/fem.csv
 }
 
 # Displacements across the lines of symmetry.
@@ -50,6 +111,20 @@ held()
                 printf " %s", x[k]^2 < 1e-24 ? "below_1e-12" : sprintf("%.1e", x[k])
             print ""
         }'
+    done
+}
+
+# Figs. 15 to 19: plate b5 against six-node triangles, in shares of the largest value on the line.
+lines()
+{
+    for f in "15 x u" "16 y v" "17 x sxx" "18 y sxx" "19 angle sxx"; do
+        set -- $f
+        awk -F, -v f=$1 -v line=b5.$2 -v q=$3 '
+        FNR == NR && $2 == line && $3 == q { fem[sprintf("%.6f %.6f", $4, $5)] = $7; if ($7 ^ 2 > most ^ 2) most = $7 }
+        FNR != NR && $1 == "b5." q && $6 == "theory" && (k = sprintf("%.6f %.6f", $2, $3)) in fem {
+            if (($4 - fem[k]) ^ 2 > d ^ 2) d = $4 - fem[k]
+        }
+        END { printf "fig%s: %.1f %%\n", f, 100 * sqrt((d / most) ^ 2) }' cases/fem.csv out/exp2/results.csv
     done
 }
 

@@ -1,4 +1,4 @@
-# plate.awk - a quarter of a plate with a hole of radius 1 m, Experiment II, for 08-experiments.md:
+# plate.awk - a quarter of a plate with a hole of radius 1 m, Experiment II, for paper.md:
 # b metres long from the centre on and h (or b) wide, nx rings and ny rays (even) of quadrilaterals,
 # or with tri=1 of two triangles for each.
 #     awk -v b=5 -v nx=24 -v ny=16 -f doc/plate.awk > out/plate.model

@@ -570,6 +570,20 @@ int model_velocities(model_reader *r)
     return 1;
 }
 
+/* N/m^3, besides the weight; `*`: of every block. They add up. */
+int model_bodyforce(model_reader *r)
+{
+    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
+    double f[2];
+
+    if (block < 0 || !model_numbers(r, 2, f))
+        return 0;
+    for (bbm_element *e = r->p->m->element; e < r->p->m->element + r->elements; e++)
+        for (int k = 0; k < 2 && (star || e->block == block); k++)
+            e->f[k] += e->material.thickness * f[k];
+    return 1;
+}
+
 /* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
 int model_stress(model_reader *r)
 {

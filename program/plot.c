@@ -471,8 +471,17 @@ plot_colour plot_value_colour(const plot_axis *bar, double value)
     return result;
 }
 
-/* The bands side by side, their levels as far as there is room, below them what they measure and the
- * extremes, to about a hundredth of a band. */
+/* An arrow at the end of a bar, in the colour of its last band: there are values beyond. */
+static void put_beyond(plot *p, plot_box b, double side, const char *colour)
+{
+    const double x = side < 0 ? b.x : b.x + b.w;
+
+    plot_put(p, "<polygon class=\"beyond\" points=\"%.2f,%.2f %.2f,%.2f %.2f,%.2f\" fill=\"%s\" "
+             "stroke=\"#333333\"/>\n", x, b.y, x + side * b.h, b.y + b.h / 2, x, b.y + b.h, colour);
+}
+
+/* The bands side by side, an arrow where values lie beyond them, their levels as far as there is
+ * room, below them what they measure and the extremes, to about a hundredth of a band. */
 void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2])
 {
     const int bands = plot_bands(bar);
@@ -485,6 +494,11 @@ void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range
         const double middle = (bar->lo + (k + 0.5) * bar->step) / bar->scale;
         snprintf(text, sizeof text, "fill=\"%s\"", plot_value_colour(bar, middle).text);
         plot_rectangle(p, (plot_box){ b.x + k * w, b.y, w + (k < bands - 1), b.h }, text);
+    }
+    for (int k = 0; k < 2; k++) {
+        const double value = range[k] * bar->scale;
+        if (k ? value > bar->hi + 1e-6 * bar->step : value < bar->lo)
+            put_beyond(p, b, 2 * k - 1, plot_value_colour(bar, range[k]).text);
     }
     plot_rectangle(p, b, "fill=\"none\" stroke=\"#333333\"");
     levels.from = b.x;

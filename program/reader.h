@@ -200,7 +200,7 @@ int   model_finish(model_reader *r);
  * surplus. */
 typedef int model_action(model_reader *r);
 model_action model_fix, model_load_nodes, model_edge_load, model_water, model_joint,
-             model_velocities, model_stress, model_monitors, model_bolts, model_pins,
+             model_velocities, model_stress, model_bodyforce, model_monitors, model_bolts, model_pins,
              model_stage_head;
 
 #endif

@@ -486,6 +486,7 @@ static const struct kind {
     { "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts, MODEL,
       0 },
     { "pin BLOCK BLOCK at X Y", model_pins, MODEL, 0 },
+    { "bodyforce BLOCK FX FY", model_bodyforce, MODEL, 0 },
     { "velocity BLOCK VX VY [SPIN]", model_velocities, MODEL, DYNAMIC },
     { "stress BLOCK SXX SYY SXY [gradient SXX SYY SXY]", model_stress, MODEL, 0 },
     { "monitor NAME [support] WHERE [of BLOCK], or monitor NAME joint BLOCK BLOCK [WHERE], or "

@@ -51,9 +51,9 @@ static void warn_of_loads(const model *p, const char *path)
     for (int k = 0; k < p->blocks; k++)
         load |= p->velocity[k].given;
     for (int k = 0; k < 3 * m->elements; k++)
-        load |= m->element[k / 3].stress[k % 3] != 0;
+        load |= m->element[k / 3].stress[k % 3] != 0 || m->element[k / 3].f[k % 2] != 0;
     if (!load)
-        warn(path, "nothing loads the model; gravity, load, traction, pressure or fix ... by does");
+        warn(path, "nothing loads the model; gravity, load, traction, pressure, bodyforce or fix ... by does");
 }
 
 /* -------------------------------------------------------------- bodies, and what is between */

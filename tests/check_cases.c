@@ -80,17 +80,15 @@ static const target targets[] = {
     /* Experiment III: rigid motion is exact but for the solver's 1e-10; 1e-8 is the promise, 1e-3
      * for the marked point. */
     { "exp3", "without.centre.u", 0, 0, NULL, 1e-8 },
-    { "exp3", "rigid.centre.u", 0, 0, NULL, 1e-8 }, { "exp3", "beyond.centre.u", 0, 0, NULL, 1e-8 },
-    { "exp3", "beyond.mark.u", 0, 0, NULL, 1e-3 }, { "exp3", "beyond.mark.v", 0, 0, NULL, 9.81e-8 },
+    { "exp3", "rigid.centre.u", 0, 0, NULL, 1e-8 }, { "exp3", "beyond.mark.u", 0, 0, NULL, 1e-3 },
     { "exp3", "without.mark.u", 0, 0, NULL, 1e-3 }, { "exp3", "rigid.mark.u", 0, 0, NULL, 1e-3 },
     { "exp3", "gravity.mark.u", 0, 0, NULL, 1e-3 },
     /* v within the static penetration of one corner, W/(2 p_n) = 9.8e-8 m. */
     { "exp3", "without.mark.v", 0, 0, NULL, 9.81e-8 },
     { "exp3", "rigid.mark.v", 0, 0, NULL, 9.81e-8 },
-    /* On the plate of 10 GPa five grid points press with N = W/8, W/4, W/4, W/4, W/8. In the
-     * middle of an edge springs of k = alpha G t = 4e12 N/m give at most N/(4 k) less than at its
-     * ends; the block rises by the mean of that, weighted with N: 7 W/(128 k) = 1.34e-9 m. */
-    { "exp3", "gravity.mark.v", 0, 0, NULL, 1.34e-9 },
+    /* On the plate of 10 GPa the block rises by less than it has sunk: W over 4 m x 1 m shortens
+     * 2 m of it by 4.9e-6 m. */
+    { "exp3", "gravity.mark.v", 0, 0, NULL, 4.91e-6 }, { "exp3", "beyond.mark.v", 0, 0, NULL, 4.91e-6 },
 };
 
 START_TEST(an_experiment_meets_its_target)
@@ -112,10 +110,13 @@ END_TEST
  * a part of its 2 m. */
 START_TEST(on_a_plate_that_gives_way_the_block_loses_what_it_climbs)
 {
-    const double h = find_row("exp3", "gravity.mark.v", 0, 0, NULL).computed;
+    static const char *const of[2][2] = { { "gravity.centre.u", "gravity.centre.v" },
+                                          { "beyond.centre.u", "beyond.centre.v" } };
+    const double h = find_row("exp3", of[_i][1], 0, 0, NULL).computed;
+    const double lost = -find_row("exp3", of[_i][0], 0, 0, NULL).error;
 
-    ck_assert_double_le(fabs(find_row("exp3", "gravity.centre.u", 0, 0, NULL).error),
-                        3.3 * 9.81 * h);
+    ck_assert_double_gt(lost, 0);
+    ck_assert_double_le(lost, 3.3 * 9.81 * h);
 }
 END_TEST
 
@@ -268,7 +269,7 @@ Suite *cases_suite(void)
     tcase_set_tags(t, "experiments");
     tcase_add_unchecked_fixture(t, run_experiments, NULL);
     tcase_add_loop_test(t, an_experiment_meets_its_target, 0, COUNT(targets));
-    tcase_add_test(t, on_a_plate_that_gives_way_the_block_loses_what_it_climbs);
+    tcase_add_loop_test(t, on_a_plate_that_gives_way_the_block_loses_what_it_climbs, 0, 2);
     tcase_add_test(t, theory_in_the_results_is_the_textbook_formula);
     tcase_add_test(t, every_file_of_an_experiment_is_complete);
     tcase_add_test(t, two_runs_write_the_same_digits);

@@ -723,11 +723,12 @@ Suite *detection_suite(void)
         { of_two_equal_sides_the_grid_points_of_the_upper_one_touch, 2 * COUNT(ANGLES) },
         { of_two_sides_the_grid_points_of_the_shorter_one_touch, 2 },
         { rounding_in_a_model_file_does_not_undo_a_contact, 4 },
-        { sides_are_parallel_up_to_a_hundredth, 8 },
         { a_node_where_triangles_meet_on_a_straight_side_is_no_corner, 2 },
-        { points_that_face_away_from_an_edge_do_not_touch_it, 1 },
-        { a_grid_point_in_a_hollow_may_touch_up_to_a_tenth, 6 },
         { grid_points_beyond_the_end_of_a_table_are_not_held, 2 });
+    add_case(s, "entering",
+        { sides_are_parallel_up_to_a_hundredth, 8 },
+        { points_that_face_away_from_an_edge_do_not_touch_it, 1 },
+        { a_grid_point_in_a_hollow_may_touch_up_to_a_tenth, 6 });
     add_case(s, "reach",
         { the_detection_looks_as_far_as_a_block_falls_in_the_step, 8 },
         { a_list_is_the_same_if_it_has_the_same_pairs_in_the_same_step, COUNT(MOVES) },

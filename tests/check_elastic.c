@@ -74,6 +74,25 @@ START_TEST(K_is_symmetric_and_positive_definite_when_the_body_is_held)
 }
 END_TEST
 
+START_TEST(F_holds_what_both_elements_feel_and_the_wall_nothing)
+{
+    grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2 };
+    bbm_model *m = cantilever(&SOLID, &g, 1, -1);
+    bbm_submatrices s = { 0 };
+
+    ck_ok(bbm_step(m), m);
+    for (int a = 0; a < 6; a++) {
+        s.Fi[a] = 1 + a;
+        s.Fj[a] = 10 * a;
+    }
+    memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
+    bbm_add_submatrices(m, 1, 0, &s);
+    bbm_add_submatrices(m, 0, -1, &s);
+    for (int a = 0; a < 6 * m->elements; a++)
+        ck_assert_msg(m->F[a] == (a < 6 ? 10 * a + 1 + a : a < 12 ? a - 5 : 0), "F[%d] is %g", a, m->F[a]);
+}
+END_TEST
+
 /* A step of 1e12 s: the inertia left is 1e-24 of the stiffness. A rigid motion costs nothing. */
 START_TEST(K_has_three_zero_pivots_when_nothing_holds_the_body)
 {
@@ -407,6 +426,24 @@ START_TEST(gravity_pulls_at_the_mass_of_each_element)
 }
 END_TEST
 
+/* A bar of squares, held at the left; each is pulled along x by a force of its own. With nu = 0 the
+ * row ex of K D = F has the mean of the forces on its two sides: what pulls beyond it, and half of
+ * its own. */
+START_TEST(a_volume_force_pulls_at_what_lies_before_it)
+{
+    grid g = { .lx = 5, .ly = 1, .nx = 5, .ny = 1 };
+    const bbm_material stiff = { .E = 1e6, .density = 1, .thickness = 0.5 };
+    bbm_model *m = cantilever(&stiff, &g, 0, 0);
+
+    for (int e = 0; e < 5; e++)
+        m->element[e].f[0] = 1 + e * e;
+    run_steps(m, 1);
+    double beyond = 0;
+    for (int e = 4; e >= 0; beyond += m->element[e--].f[0])
+        ck_relative(m->element[e].stress[0] * 0.5, beyond + m->element[e].f[0] / 2, SOLVED);
+}
+END_TEST
+
 /* ----------------------------------------------------------- the constant-strain finite element */
 
 static double distance_at(double alpha)
@@ -520,7 +557,8 @@ Suite *elastic_suite(void)
 
     add_case(s, "K",
         { K_is_symmetric_and_positive_definite_when_the_body_is_held, 2 },
-        { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 });
+        { K_has_three_zero_pivots_when_nothing_holds_the_body, 2 },
+        { F_holds_what_both_elements_feel_and_the_wall_nothing, 1 });
     add_case(s, "patches",
         { a_strip_under_uniform_traction_has_that_stress_in_every_element, COUNT(STRESSES) },
         { an_irregular_patch_under_uniform_traction_has_that_stress_in_every_element,
@@ -539,7 +577,8 @@ Suite *elastic_suite(void)
         { a_load_that_varies_is_asked_for_at_the_gauss_points_alone, 1 },
         { a_load_that_varies_reaches_the_element_whichever_end_is_named_first, 2 },
         { loads_of_one_node_and_of_one_edge_add_up, 1 },
-        { gravity_pulls_at_the_mass_of_each_element, 1 });
+        { gravity_pulls_at_the_mass_of_each_element, 1 },
+        { a_volume_force_pulls_at_what_lies_before_it, 1 });
     add_case(s, "finite element",
         { bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_over_alpha, 1 });
     return s;

@@ -83,11 +83,15 @@ START_TEST(nodal_results_are_the_mean_over_the_elements_of_a_block_that_meet)
         m->element[0].stress[a] = 1 + a;
         m->element[1].stress[a] = 5 - 3 * a;
     }
+    m->element[0].szz = 4;
+    m->element[1].szz = 2;
     ck_assert_int_eq(bbm_nodal_result(m, 4, -1, &r), BBM_OK);              /* vertices 2 and 7 */
     ck_assert(r.u == 5.5 && r.v == 45 && r.stress[0] == 3 && r.stress[1] == 2 && r.stress[2] == 1);
-    ck_relative(r.mises, sqrt(9 - 6 + 4 + 3.0), ROUNDING);
+    ck_assert(r.szz == 3);
+    ck_relative(r.mises, sqrt(9 + 4 + 9 - 3 * 2 - 2 * 3 - 3 * 3 + 3 * 1.0), ROUNDING);
     ck_assert_int_eq(bbm_nodal_result(m, 4, 2, &r), BBM_OK);
     ck_assert(r.u == 3 && r.v == 20 && r.stress[0] == 1 && r.stress[1] == 2 && r.stress[2] == 3);
+    ck_assert(r.szz == 4);
     ck_assert_int_eq(bbm_nodal_result(m, 4, -2, &r), BBM_BAD_INDEX);
     ck_assert_int_eq(bbm_nodal_result(m, 4, 3, &r), BBM_OK);
     ck_assert(r.u == 8 && r.v == 70 && r.stress[0] == 5 && r.stress[1] == 2 && r.stress[2] == -1);

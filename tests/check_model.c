@@ -210,6 +210,15 @@ START_TEST(an_initial_stress_pushes_the_wall)
 }
 END_TEST
 
+/* The end of a bar moves by f L^2/(2 E), L = 2 m; forces of statements add up. 1e-5: what two
+ * rounds of multipliers leave. */
+START_TEST(a_body_force_stretches_a_bar)
+{
+    ck_assert_int_eq(run_text("bodyforce", STRIP "bodyforce b 3e5 0\nbodyforce * 1e5 0\nstatic\n"), 0);
+    ck_relative(cell("bodyforce", "history.csv", "1,", "end_u"), 4e5 * 4 / (2 * 2e11), 1e-5);
+}
+END_TEST
+
 /* A level ground of 10 m, and two layers of it, in which the field of its weight acts, with K0 = nu/(1 - nu):
  * nothing moves, to 1 % of rho g H^2/(2 E) = 1.2 mm, what bonds give way by, or with the joint to 3 %. */
 START_TEST(a_ground_in_its_stress_stays)
@@ -402,6 +411,7 @@ Suite *model_suite(void)
     tcase_add_test(t, a_shaken_block_follows_the_closed_form);
     tcase_add_loop_test(t, a_step_with_velocity_factor_0_reports_the_kinetic_energy_that_it_had, 0, 2);
     tcase_add_test(t, an_initial_stress_pushes_the_wall);
+    tcase_add_test(t, a_body_force_stretches_a_bar);
     tcase_add_loop_test(t, a_ground_in_its_stress_stays, 0, 4);
     tcase_add_test(t, statics_that_finds_no_equilibrium_is_status_1_and_keeps_its_steps);
     tcase_add_test(t, all_kinds_of_meshes_and_the_same_by_hand_agree);

@@ -406,6 +406,18 @@ static int times(const char *text, const char *what)
     return n;
 }
 
+/* The blocks of FLYING move by 0.1 to 0.2 m and 10 m. */
+START_TEST(a_bar_has_an_arrow_at_each_end_beyond_which_there_are_values)
+{
+    static const char *const flying[3] = { FLYING " low 0 high 20\n", FLYING " low 2 high 20\n", FLYING " low 2 high 4\n" };
+
+    ck_assert_int_eq(run_text("flying", flying[_i]), 0);
+    char *text = read_all("out/model/flying/movie.svg");
+    ck_assert_int_eq(times(text, "class=\"beyond\""), _i);
+    free(text);
+}
+END_TEST
+
 /* How often something stands in a picture of a shipped model. */
 static int count(const char *model, const char *what)
 {
@@ -421,7 +433,7 @@ static int count(const char *model, const char *what)
 START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
 {
     static const struct { const char *model; int hatched, fixed, roller, load, locked, sliding; } drawn[] = {
-        { "exp1", 0, 1, 0, 1, 0, 0 }, { "exp2", 0, 0, 1, 1, 0, 0 }, { "exp3", 1, 0, 0, 1, 0, 1 },
+        { "exp1", 0, 1, 0, 1, 0, 0 }, { "exp2", 0, 0, 1, 1, 0, 0 }, { "exp3", 0, 1, 0, 1, 0, 1 },
         { "dam", 0, 1, 1, 0, 1, 0 }, { "disc", 0, 1, 1, 1, 0, 0 },
         { "incline", 1, 0, 0, 0, 0, 1 }, { "arch", 3, 0, 0, 0, 1, 0 },
     };
@@ -765,6 +777,7 @@ Suite *pictures_suite(void)
     tcase_add_loop_test(t, a_picture_says_its_title_and_the_time_that_it_shows, 0, 8);
     tcase_add_test(t, a_film_magnifies_displacements_if_it_is_asked_to);
     tcase_add_loop_test(t, a_film_has_the_colours_of_its_field_and_one_large_value_does_not_dim_them, 0, 2);
+    tcase_add_loop_test(t, a_bar_has_an_arrow_at_each_end_beyond_which_there_are_values, 0, 3);
     tcase_add_test(t, crosses_have_the_directions_and_the_sizes_of_principal_stresses);
     tcase_add_test(t, crosses_do_not_lie_on_each_other);
     tcase_add_loop_test(t, an_arrow_is_as_wide_as_its_force_and_lies_on_both_sides_of_its_corner, 0, 2);

@@ -16,7 +16,7 @@ static const char model[] =
     "block base steel -1 -2 3 -2 3 -1 -1 -1\nfixblock base\n"
     "grid wall steel 0 -1 1 -0.5 2 1\nset tip nodes 2 3\nset tip add 2\nfix set left\n"
     "load set tip of plate 10 0\ntraction set wall.right 1 0\npressure set wall.left 1\n"
-    "water set wall.top -0.4\nvelocity ball 1 0\nstress plate 1 2 3\n"
+    "water set wall.top -0.4\nvelocity ball 1 0\nstress plate 1 2 3\nbodyforce wall 0 1\n"
     "contact friction 30\njoint wall base friction 20\n"
     "bond alpha 100\npcg omega 1\nrotation exact\n"
     "dynamic dt 0.001 steps 2 settle 1\n"

@@ -1,9 +1,11 @@
-# equations.awk - doc/equations.md against the sources: each equation of the paper has one row; a
-# function of the row cites it; each function of the row is defined in the file behind it, right under
-# a comment that cites an equation of the row; each test of the row is there:
-#     awk -f tests/equations.awk doc/equations.md SOURCES
+# equations.awk - the tables "Eq., subject, function, test" of doc/paper.md and tests/beyond.md against the sources: each
+# equation of the paper has one row, and stands as "(35)" in a formula before it; a function of the row
+# cites it; each function of the row is defined in the file behind it, right under a comment that cites
+# an equation of the row; each test of the row is there:
+#     awk -f tests/equations.awk doc/paper.md tests/beyond.md SOURCES
 #
-# Each number stands as such, "(35)", in the comment of a function: a search for it finds the place. A citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)",
+# Each number stands as such, "(35)", in the comment of a function, so that a search finds the place. A
+# citation is "Eq. (n)", and all that goes on behind it: "Eq. (18)-(23)", "Eq. (53), (60)-(62)",
 # "Eq. (57) and (61)", "Eq. (58a-f)".
 
 # The numbers that a text cites, as " 4 5 18 ".
@@ -26,7 +28,7 @@ function cited(text,    list, first, last)
 
 function fail(why)
 {
-    print "doc/equations.md: " why > "/dev/stderr"
+    print "doc/paper.md: " why > "/dev/stderr"
     failed = 1
 }
 
@@ -79,7 +81,16 @@ BEGIN {
         fail("citations are not read as they are meant")
 }
 
-FILENAME ~ /[.]md$/ { if (/^[|] / && !/^[|] Eq[.]/) line[++lines] = $0; next }
+# A table of equations begins with its head; a block of formulas has its numbers, "(20a)", in it.
+FILENAME ~ /[.]md$/ {
+    table = /^[|] Eq[.]/ || table && /^[|]/
+    if (table && /^[|] / && !/^[|] Eq[.]/)
+        line[++lines] = $0
+    formula = /^```math/ || formula && !/^```/
+    for (text = $0; formula && match(text, /\\ \([0-9]+/); text = substr(text, RSTART + RLENGTH))
+        typeset[substr(text, RSTART + 3, RLENGTH - 3)] = 1
+    next
+}
 
 # A comment counts for what follows in the next line.
 /^\/[*]/ { text = ""; inside = 1 }
@@ -107,5 +118,8 @@ END {
     for (n = 1; n <= 72; n++)
         if (rows[n] != 1 || !noted[n])
             fail("Eq. (" n ") has " rows[n] + 0 " rows; it is " (noted[n] ? "" : "not ") "cited")
+    for (n = 1; n <= 72; n++)
+        if (!typeset[n])
+            fail("no formula has the number (" n ")")
     exit failed
 }

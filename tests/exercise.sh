@@ -6,12 +6,13 @@
 #                            With DRAW=exp1 in the environment a green copy runs that experiment
 #   exercise.sh hint N STEP  prints a hint, the first or the second
 #   exercise.sh list         all exercises, and which are done
-#   exercise.sh prove        all exercises: red as they begin, green with the source as it is: the
-#                            groups of tests have run before, in `make check-library`
+#   exercise.sh prove        all exercises: red as they begin and with each wrong answer of
+#                            tests/wrong-answers.txt, green with the source as it is: the groups of
+#                            tests have run before, in `make check-library`
 #
 # An exercise is a section "### Exercise N ..." of a chapter. The table below says what is done: the
 # kind, the file, the function that is taken out, the tests: a group of those of `make quick`, or
-# `program`, a program that tests itself. An error that is to be found is a row of doc/teacher.md: the
+# `program`, a program that tests itself, or of a model what has to be predicted, and how closely. An error that is to be found is a row of doc/teacher.md: the
 # exercise, the file, a piece of a line, and what stands in its place. The hints are in doc/hints.md.
 #
 # `make exercise` gives O, where the objects are; COMPILE, FAILING, LINK, LIBS, parts of commands;
@@ -90,6 +91,16 @@ show_own()
     echo "Figures drawn with your code: $2/out/$DRAW"
 }
 
+# Whether the copy $1 has the expectation that is asked for, or a closer one.
+says_enough()
+{
+    awk -v asked="$tests" '
+    function width(t, value, percent) { return percent == "%" ? t / 100 * (value < 0 ? -value : value) : t }
+    BEGIN { split(asked, of, " ") }
+    $1 == "expect" && $2 == of[1] && $3 == of[2] && width($6, $4, $7) <= width(of[4], $4, of[5]) { enough = 1 }
+    END { exit !(enough || asked == "-") }' "$1"
+}
+
 is_a_model() { [ "$kind" = predict ] || [ "$kind" = measure ]; }
 
 begin()
@@ -104,6 +115,8 @@ begin()
     echo "The copy: $copy"
     if is_a_model; then
         grep -q '^expect ' "$copy" || { echo "Your prediction: a line \`expect\` in the copy."; return; }
+        says_enough "$copy" || { echo "Red: your prediction is a line: expect ${tests%% within*} VALUE" \
+                                      "within${tests#* within}, or closer."; exit 1; }
         ./bbm "$copy" -o "$here/result" || { echo "Red: not as expected. make hint N=$1 helps."; exit 1; }
     else
         build "$copy" "$here"
@@ -146,13 +159,41 @@ prove_one()
     copy=$here/$(basename "$file")
     mkdir -p "$here"
     write_copy "$1" "$copy"
-    is_a_model && return
+    if is_a_model; then prove_wide "$1"; return; fi
     build "$copy" "$here" > "$here/said" 2>&1 || complain "its copy cannot be built"
     ! CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "green as it begins"
     grep -q 'Failures: [1-9]\|Errors: [1-9]\|^wrong: ' "$here/said" || complain "no test is red"
+    [ "$kind" = 'find the error' ] || prove_wrong "$1"
     [ "$tests" = program ] || return 0
     build "$file" "$here"
     "$here/tests" > "$here/said" 2>&1 || complain "red with $file itself"
+}
+
+# No prediction of another quantity, or a wide one, will do.
+prove_wide()
+{
+    [ "$kind" = predict ] || return 0
+    [ "$(grep -c "^$1 expect" tests/wrong-answers.txt)" -ge 2 ] || { echo "exercise $1: fewer than two wrong answers"; exit 1; }
+    grep "^$1 expect" tests/wrong-answers.txt | while IFS= read -r answer; do
+        write_copy "$1" "$copy"
+        echo "${answer#"$1 "}" >> "$copy"
+        ! says_enough "$copy" || { echo "exercise $1 takes ${answer#"$1 "}"; exit 1; }
+    done
+}
+
+# Each wrong answer of exercise $1 is red.
+prove_wrong()
+{
+    count=0
+    grep "^$1 " tests/wrong-answers.txt > "$here/wrong"
+    while IFS= read -r answer; do
+        answer=${answer#"$1 "}
+        FROM=${answer%" => "*} TO=${answer#*" => "} awk -f $CUT "$file" > "$copy"
+        build "$copy" "$here" > "$here/said" 2>&1 || complain "the wrong answer $answer cannot be built"
+        ! CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "green with the wrong answer $answer"
+        count=$((count + 1))
+    done < "$here/wrong"
+    [ $count -ge 2 ] || complain "fewer than two wrong answers in tests/wrong-answers.txt"
 }
 
 # What is not there, or there twice, is no exercise.
@@ -181,7 +222,7 @@ prove()
         (prove_one "$number")
         count=$((count + 1))
     done
-    echo "$count exercises: red as they begin, green with the sources"
+    echo "$count exercises: red as they begin and with wrong answers, green with the sources"
 }
 
 "$@"
