@@ -392,6 +392,14 @@ static int faces_up(bbm_direction p, bbm_direction q)
     return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
 }
 
+/* Whether the sides of edge c and e face each other, by more than 120 degrees. */
+static int face_each_other(const bbm_model *m, int c, int e)
+{
+    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
+
+    return m->edge[c].first != m->edge[e].first && hypot(p.x + q.x, p.y + q.y) <= 1;
+}
+
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
  * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
  * the shorter side slides on the longer one. In statics, where nothing slides far, those of the
@@ -402,7 +410,7 @@ int bbm_carries(const bbm_model *m, int c, int e)
     const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
     const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
 
-    if (!m->par.faces || hypot(p.x + q.x, p.y + q.y) > 1)       /* they do not face each other  */
+    if (!m->par.faces || !face_each_other(m, c, e))
         return 0;
     const double ratio = mine->spacing / other->spacing;
     if (bbm_is_static(m) && fabs(ratio - 1) > STRAIGHT)
@@ -458,9 +466,10 @@ static int may_touch(const bbm_model *m, int corner, int e)
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e) || -f.d > approach + deep
-        || (f.beyond <= touch_between(m, corner, e) && f.d < -deep
-            && !find_closed(m, corner, e, LINE)))
+    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
+        return 0;
+    if (-f.d > approach + deep || (f.beyond <= touch_between(m, corner, e) && f.d < -deep
+        && !find_closed(m, corner, e, LINE)))
         return 0;
     return find_closed(m, corner, e, ITSELF)
         || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
@@ -738,7 +747,8 @@ static double steepness(bbm_direction p)
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
- * crosses last. Neither closes while P is behind both by less than the rounding of the corners.
+ * crosses last. Neither closes while P is behind both by less than the rounding of the corners, if
+ * they are no sides that face each other.
  * What was closed keeps its line until P crosses the other one. Of two lines crossed at the same
  * time the one counts that was closed at the start of the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
@@ -752,7 +762,8 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
             && enters_at_end(m, r);
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
-    if (!c->trial.was_closed && fmin(c->d_n, r->d_n) > -rounding_between(m, c->corner, c->edge))
+    if (!c->trial.was_closed && !face_each_other(m, c->edge, r->edge)
+        && fmin(c->d_n, r->d_n) > -rounding_between(m, c->corner, c->edge))
         return 1;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
