@@ -18,7 +18,7 @@
 #include "beyond.h"
 
 /* NUDGED [-]  tolerance of the solution that looks for such a direction */
-#define NUDGED 1e-6
+#define NUDGED 1e-3
 
 /* Lists the contacts of the model as it stands, closed as they are, and assembles K. What slides
  * holds again: it is at rest. */
@@ -41,9 +41,9 @@ static bbm_status assemble(bbm_model *m)
 }
 
 /* Whether the static answer that the model has come to is stable. The model stays as it is, but for
- * D, F and K. The forces that nudge it would move each unknown alone by about as much, so that no
- * mode is missed. A solution for F = 0 makes the preconditioner, from K without the stress: it has
- * to be positive definite itself. */
+ * D, F and K. Every element is pushed and turned a little, each by another amount, so that no mode
+ * is missed. A solution for F = 0 makes the preconditioner, from K without the stress: it has to be
+ * positive definite itself. */
 bbm_status bbm_find_stability(bbm_model *m, int *stable)
 {
     bbm_pcg pcg = m->par.pcg;
@@ -56,8 +56,8 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
     for (int i = 0; i < m->elements && !status; i++) {
         const bbm_element *e = &m->element[i];
         double (*D)[6] = m->K->D[m->K->place[i]];
-        for (int a = 0; a < 6; a++)
-            m->F[6 * i + a] = D[a][a] * (1 + (37 * i + 11 * a) % 19);
+        for (int a = 0; a < 3; a++)
+            m->F[6 * i + a] = e->A * (a < 2 ? 1 : sqrt(e->A)) * (1 + (37 * i + 11 * a) % 19);
         D[2][2] += e->material.thickness * e->A * (e->stress[0] + e->stress[1]);
     }
     pcg.tolerance = NUDGED;
