@@ -1,6 +1,7 @@
 # answers.sh - numbers of the answers to the exercises, by their models:
 #     BBM=./bbm sh doc/answers.sh NAME
-# NAME: patch, bar, area, slope, start, hand, passes, drop, iterations, stiff, soft, locking.
+# NAME: patch, bar, area, slope, start, hand, passes, drop, iterations, stiff, soft, locking;
+# of the lab: columns, crown, balance, swing, wave, missing.
 set -e
 HERE=out/answers
 mkdir -p $HERE
@@ -137,6 +138,87 @@ locking()
     for at in vertices moment; do
         sed "s/^static /bond at $at\nstatic /" cases/models/exp1.model > $HERE/beam.model
         run $HERE/beam.model | awk -F, -v a=$at '{ printf "%-9s tip %.4f mm\n", a, 1000 * $10 }'
+    done
+}
+
+# Lab: whether a run meets what it expects.
+ends()
+{
+    $BBM -q "$@" -o $HERE > $HERE/said 2>&1 && status=0 || status=$?
+    case $status in 0) echo stands ;; 3) echo falls ;; *) echo "exit status $status" ;; esac
+}
+
+# Lab: the slope on both sides of its limit, for fewer columns.
+columns()
+{
+    while read -r n low high; do
+        echo "$n columns: $low degrees $(ends cases/models/slope.model -d columns=$n -d phi=$low)," \
+            "$high $(ends cases/models/slope.model -d columns=$n -d phi=$high)"
+    done << END
+16 38.11 38.15
+13 38.11 38.15
+10 37.65 37.67
+END
+}
+
+# Lab: a load on both upper corners of the keystone, on both sides of what the arch bears.
+crown()
+{
+    sed 's/^gravity.*/&\nlet F 0\nlet b $(180*floor(n\/2)\/n)\nlet ra $(R + t\/2)\n\
+load at $(ra*cos(b)) $(ra*sin(b)) 0 $(-F*500)\nload at $(-ra*cos(b)) $(ra*sin(b)) 0 $(-F*500)/' \
+        cases/models/arch.model > $HERE/crown.model
+    while read -r t low high; do
+        echo "t $t m: with $low kN it $(ends $HERE/crown.model -d steps=200 -d t=$t -d F=$low)," \
+            "with $high kN it $(ends $HERE/crown.model -d steps=200 -d t=$t -d F=$high)"
+    done << END
+1.2 44 47
+1.5 214 220
+END
+}
+
+# Lab: the block let go at a distance from upright.
+balance()
+{
+    sed 's/^let steps.*/let steps 3000\nlet d 0.5/; s/^expect.*/expect top u 1 within 1.1/
+s/^monitor.*/monitor top at $(-d) $(sqrt(25 - d*d)) of block/
+s/^block block.*/let x $(sqrt(25 - d*d)\/5)\nblock block stiff 0 0 $x $(d\/5) $(x - d) $(5*x + d\/5) $(-d) $(5*x)/' \
+        cases/models/rocking.model > $HERE/balance.model
+    for d in 0.97 0.99; do
+        echo "let go at $d m: $(ends $HERE/balance.model -d d=$d)"
+    done
+}
+
+# Lab: when the block is upright, and how far its top goes on.
+swing()
+{
+    for g in 9.81 1.62; do
+        sed "s/-9.81/-$g/" cases/models/rocking.model > $HERE/swing.model
+        run $HERE/swing.model -d steps=4000 > $HERE/row
+        awk -F, -v g=$g 'NR > 1 && $3 >= 0.4927 && !t { t = $2 } NR > 1 && $3 > u { u = $3 }
+            END { printf "g %.2f: upright after %.2f s, then %.2f m further\n", g, t, u - 0.4927 }' $HERE/history.csv
+    done
+}
+
+# Lab: how much sooner the last domino has moved by 0.5 m with twice the spin. The hits make the number
+# depend on the last digits, by some 0.1 s.
+wave()
+{
+    for n in 10 20; do
+        for spin in -1.6 -3.2; do
+            run cases/models/dominoes.model -d spin=$spin -d n=$n -d steps=$((1500 + 280 * n)) > $HERE/row
+            awk -F, 'NR > 1 && $5 ^ 2 + $6 ^ 2 >= 0.25 { print $2; exit }' $HERE/history.csv
+        done | awk -v n=$n '{ t[NR] = $1 }
+            END { d = t[1] - t[2]
+                  print n " dominoes: sooner by " (d > 0.5 && d < 1 ? "between 0.5 and 1 s" : d " s") }'
+    done
+}
+
+# Lab: a domino in whose way one or two are missing.
+missing()
+{
+    for apart in 1 1.5; do
+        $BBM cases/models/dominoes.model -d n=3 -d apart=$apart -o $HERE 2>&1 |
+            sed -n "s/.*last.*: \(.*\)/apart $apart m: last \1/p"
     done
 }
 
