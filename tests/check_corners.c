@@ -507,6 +507,27 @@ START_TEST(nothing_comes_in_from_behind)
 }
 END_TEST
 
+/* A tip beside a square, 15 mm lower than its top, comes up past the square's corner and then goes
+ * over it, 2.5 mm above it: where it crosses the line of the one side it is outside the other one.
+ * It touches nothing. Turned by all angles, and mirrored. */
+START_TEST(a_tip_that_comes_up_past_a_corner_and_goes_over_it_touches_nothing)
+{
+    const double angle = radians(ANGLES[_i / 2]), side = _i % 2 ? -1 : 1;
+    const double c = cos(angle), s = sin(angle), x = 0.02 * side, y = -0.015;
+    const double vx = -4 * side, vy = 3.5, from = side > 0 ? 0.7 : PI - 0.9;
+    bbm_model *m = weightless_blocks();
+
+    add_rectangle(m, 0, ROCK, (rectangle){ side > 0 ? -1 : 0, -1, 1, 1, ANGLES[_i / 2], .fixed = 1 });
+    const int e = add_wedge(m, 1, (double[]){ c * x - s * y, s * x + c * y }, angle + from,
+                            angle + from + 0.2);
+    set_velocity(m, e, c * vx - s * vy, s * vx + c * vy);
+    run_steps(m, 1);
+    ck_assert_int_eq(m->info.contacts, 0);
+    ck_near(m->element[e].V[0], c * vx - s * vy, 4, SOLVED);
+    ck_near(m->element[e].V[1], s * vx + c * vy, 4, SOLVED);
+}
+END_TEST
+
 /* A corner P 1 cm right above a corner Q: their blocks are above each other and their sides, seen
  * from there, differ in direction by 0.005 the one way or the other. Of the two contacts that
  * stays whose foot lies on the edge. */
@@ -527,10 +548,10 @@ START_TEST(of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_t
 }
 END_TEST
 
-/* Two squares, one 2 mm above the other and 1 cm aside, come closer by 5 mm in a step and slip by 3 cm,
- * so that at both ends two corners pass each other first. What touches at the end of the step is what
- * lies over the other's side then: one corner of each. They hold the squares apart, to a tenth of the
- * 3 mm by which these would overlap. Turned by all angles, and mirrored. */
+/* Two squares, one 2 mm above the other and 1 cm aside, come closer by 5 mm in a step and slip by
+ * 3 cm, so that at both ends two corners pass each other first. What touches at the end of the step
+ * is what lies over the other's side then: one corner of each. They hold the squares apart, to a
+ * tenth of the 3 mm by which these would overlap. Turned by all angles, and mirrored. */
 START_TEST(corners_that_pass_each_other_before_they_meet_hold_their_blocks)
 {
     const double angle = ANGLES[_i / 2], side = _i % 2 ? -1 : 1, vx = 1.5 * side, vy = -0.25;
@@ -572,6 +593,7 @@ Suite *corners_suite(void)
         { of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle, 8 },
         { a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line, 4 },
         { nothing_comes_in_from_behind, 4 },
+        { a_tip_that_comes_up_past_a_corner_and_goes_over_it_touches_nothing, 2 * COUNT(ANGLES) },
         { of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_the_edge, 2 });
     return s;
 }

@@ -468,8 +468,8 @@ START_TEST(a_step_in_which_elements_turn_too_far_is_cut_or_refused)
 }
 END_TEST
 
-/* Where the corner is after the share t of the step, as a plate sees it that turns about the origin:
- * of a square that flies by v, and turns, about the middle (0, 1/2 + 2 cm + r). */
+/* Where the corner is after the share t of the step, as a plate sees it that turns about the
+ * origin: of a square that flies by v, and turns, about the middle (0, 1/2 + 2 cm + r). */
 static void seen_from_plate(const double v[2], double spin, double plate, double t, double at[2])
 {
     const double r = sqrt(0.5), x = v[0] * t + r * sin(spin * t), c = cos(plate * t);
@@ -579,7 +579,8 @@ Suite *refused_suite(void)
     tcase_add_test(failing, contacts_of_statics_are_found_again_in_the_next_step);
     tcase_add_test(failing, a_disc_that_may_roll_is_named);
     tcase_add_loop_test(failing, a_step_in_which_elements_turn_too_far_is_cut_or_refused, 0, 4);
-    tcase_add_loop_test(failing, a_step_in_which_a_corner_goes_a_curved_way_past_an_edge_is_cut, 0, 5);
+    tcase_add_loop_test(failing, a_step_in_which_a_corner_goes_a_curved_way_past_an_edge_is_cut,
+                        0, 5);
     tcase_add_loop_test(failing, statics_that_turns_elements_over_is_refused, 0, 2);
     tcase_add_test(failing, an_iteration_that_ends_without_a_solution_is_refused);
     return s;
