@@ -507,6 +507,27 @@ START_TEST(nothing_comes_in_from_behind)
 }
 END_TEST
 
+/* A tip beside a square, 15 mm lower than its top, comes up past the square's corner and then goes
+ * over it, 2.5 mm above it: where it crosses the line of the one side it is outside the other one.
+ * It touches nothing. Turned by all angles, and mirrored. */
+START_TEST(a_tip_that_comes_up_past_a_corner_and_goes_over_it_touches_nothing)
+{
+    const double angle = radians(ANGLES[_i / 2]), side = _i % 2 ? -1 : 1;
+    const double c = cos(angle), s = sin(angle), x = 0.02 * side, y = -0.015;
+    const double vx = -4 * side, vy = 3.5, from = side > 0 ? 0.7 : PI - 0.9;
+    bbm_model *m = weightless_blocks();
+
+    add_rectangle(m, 0, ROCK, (rectangle){ side > 0 ? -1 : 0, -1, 1, 1, ANGLES[_i / 2], .fixed = 1 });
+    const int e = add_wedge(m, 1, (double[]){ c * x - s * y, s * x + c * y }, angle + from,
+                            angle + from + 0.2);
+    set_velocity(m, e, c * vx - s * vy, s * vx + c * vy);
+    run_steps(m, 1);
+    ck_assert_int_eq(m->info.contacts, 0);
+    ck_near(m->element[e].V[0], c * vx - s * vy, 4, SOLVED);
+    ck_near(m->element[e].V[1], s * vx + c * vy, 4, SOLVED);
+}
+END_TEST
+
 /* A corner P 1 cm right above a corner Q: their blocks are above each other and their sides, seen
  * from there, differ in direction by 0.005 the one way or the other. Of the two contacts that
  * stays whose foot lies on the edge. */
@@ -527,6 +548,30 @@ START_TEST(of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_t
 }
 END_TEST
 
+/* Two squares, one 2 mm above the other and 1 cm aside, come closer by 5 mm in a step and slip by
+ * 3 cm, so that at both ends two corners pass each other first. What touches at the end of the step
+ * is what lies over the other's side then: one corner of each. They hold the squares apart, to a
+ * tenth of the 3 mm by which these would overlap. Turned by all angles, and mirrored. */
+START_TEST(corners_that_pass_each_other_before_they_meet_hold_their_blocks)
+{
+    const double angle = ANGLES[_i / 2], side = _i % 2 ? -1 : 1, vx = 1.5 * side, vy = -0.25;
+    const double c = cos(radians(angle)), s = sin(radians(angle));
+    bbm_model *m = weightless_blocks();
+
+    add_rectangle(m, 0, ROCK, (rectangle){ -0.5, -1, 1, 1, angle, .fixed = 0 });
+    add_rectangle(m, 1, ROCK, (rectangle){ -0.5 - 0.01 * side, 2e-3, 1, 1, angle, .fixed = 0 });
+    for (int e = 0; e < 2; e++)
+        set_velocity(m, e, (c * vx - s * vy) * (e ? 1 : -1), (s * vx + c * vy) * (e ? 1 : -1));
+    run_steps(m, 1);
+    ck_assert(contact_of(m, 1, side > 0 ? 0 : 1) != NULL);
+    ck_assert(contact_of(m, 0, side > 0 ? 2 : 3) != NULL);
+    for (int k = 0; k < 2; k++) {
+        const bbm_vertex *P = vertex_of(m, 1, k), *Q = vertex_of(m, 0, 3 - k);
+        ck_near(c * (P->y - Q->y) - s * (P->x - Q->x), 0, 3e-3, 0.1);
+    }
+}
+END_TEST
+
 Suite *corners_suite(void)
 {
     Suite *s = suite_create("corners");
@@ -541,12 +586,14 @@ Suite *corners_suite(void)
         { the_other_corner_takes_over_the_force_when_one_has_left, 2 },
         { of_two_closed_contacts_that_meet_corner_on_corner_one_stays, 1 },
         { corners_that_turn_past_each_other_close_one_contact, 4 },
+        { corners_that_pass_each_other_before_they_meet_hold_their_blocks, 2 * COUNT(ANGLES) },
         { no_shot_passes_through_a_small_block, 12 },
         { a_block_that_turns_far_in_a_step_meets_what_it_sweeps, 2 });
     add_case(s, "entrance lines",
         { of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle, 8 },
         { a_contact_that_opens_in_one_pass_and_comes_back_keeps_its_line, 4 },
         { nothing_comes_in_from_behind, 4 },
+        { a_tip_that_comes_up_past_a_corner_and_goes_over_it_touches_nothing, 2 * COUNT(ANGLES) },
         { of_two_corners_above_each_other_that_one_touches_whose_foot_lies_on_the_edge, 2 });
     return s;
 }

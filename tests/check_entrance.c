@@ -629,6 +629,29 @@ START_TEST(a_corner_that_passed_into_a_block_is_refused)
 }
 END_TEST
 
+/* The same while a third block presses on one of the two, with corners of its own or on theirs: what
+ * it touches does not hold the corner. */
+START_TEST(a_contact_with_a_third_block_accounts_for_no_corner_that_passed)
+{
+    const int upper = _i % 2, wider = _i / 2;           /* it lies on block 1, or under block 0 */
+    const double w = wider ? 1.2 : 0.6;
+    bbm_model *m = weightless_blocks();
+
+    add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 1.5, .y = 0.3, .w = 1, .h = 0.5 });
+    const int third = add_rectangle(m, 2, ROCK, (rectangle){
+        .x = (upper ? 2 : 0.5) - w / 2, .y = upper ? 0.8 : -1, .w = w, .h = 1 });
+    set_velocity(m, third, 0, upper ? -0.1 : 0.1);
+    run_steps(m, 1);
+    ck_assert_int_eq(m->info.contacts, 2);
+    ck_assert_int_eq(corner_block(m, &m->contact[0]), wider ? upper : 2);
+    shift_element(m, e, 0.99 - vertex_of(m, e, 0)->x, 0);
+    set_velocity(m, e, -1, 0);
+    ck_near(deepest_passed(m), 0.01, 0.01, 0.01);   /* the push turns it by less than 1e-4 */
+    ck_assert_int_eq(bbm_step(m), BBM_BLOCKS_OVERLAP);
+}
+END_TEST
+
 /* Three blocks meet in long steps, and a solution of the third would let a corner of one pass into
  * another, with no contact closed between them: it is cut, and no step begins with a corner inside. */
 START_TEST(a_solution_that_lets_a_corner_pass_is_cut)
@@ -713,6 +736,7 @@ Suite *entrance_suite(void)
         { a_corner_that_left_after_it_opened_inside_comes_in_anew, 2 });
     add_case(s, "passed",
         { a_corner_that_passed_into_a_block_is_refused, 3 },
+        { a_contact_with_a_third_block_accounts_for_no_corner_that_passed, 4 },
         { a_solution_that_lets_a_corner_pass_is_cut, 1 },
         { a_stone_in_a_hole_is_not_in_the_ring, 1 });
     return s;

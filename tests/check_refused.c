@@ -205,6 +205,26 @@ START_TEST(elements_of_one_block_that_overlap_are_refused)
 }
 END_TEST
 
+/* A stone of 0.4 m in the middle cell, of 1 m, of a block of 5 x 5: no side of that cell is one of
+ * the block's boundary, and the stone's corners are 0.3 m from all of them. */
+START_TEST(a_stone_in_an_inner_cell_of_another_block_is_refused)
+{
+    const int stone = _i % 2;
+    const double angle = _i / 2 * 33.0;
+    bbm_model *m = new_rock();
+    bbm_overlap o;
+
+    for (int k = 0; k < 2; k++)
+        if (k != stone)
+            add_rows(m, 0, 0, 0, 5, 5, 5, 5, angle);
+        else
+            add_rows(m, 1, 2.3, 2.3, 0.4, 0.4, 1, 1, angle);
+    ck_assert_int_eq(bbm_prepare(m), BBM_BLOCKS_OVERLAP);
+    ck_assert_int_eq(bbm_find_overlap(m, &o), BBM_OK);
+    ck_near(o.depth, 0.3, 10, 1e-15);                   /* coordinates are 10 m and smaller */
+}
+END_TEST
+
 /* 5 mm, in meshes of many elements, turned by any angle: the block in front is element by element
  * in the other. */
 START_TEST(blocks_of_many_elements_that_overlap_are_refused_at_any_angle)
@@ -448,6 +468,51 @@ START_TEST(a_step_in_which_elements_turn_too_far_is_cut_or_refused)
 }
 END_TEST
 
+/* Where the corner is after the share t of the step, as a plate sees it that turns about the
+ * origin: of a square that flies by v, and turns, about the middle (0, 1/2 + 2 cm + r). */
+static void seen_from_plate(const double v[2], double spin, double plate, double t, double at[2])
+{
+    const double r = sqrt(0.5), x = v[0] * t + r * sin(spin * t), c = cos(plate * t);
+    const double y = 0.52 + r + v[1] * t - r * cos(spin * t), s = sin(plate * t);
+
+    at[0] = c * x + s * y;
+    at[1] = c * y - s * x;
+}
+
+/* A square hangs, a corner down, 2 cm over the middle of a plate of 8 m, and touches nothing. One
+ * step leads to its end if the corner, as the plate sees it, is half-way no further off the straight
+ * way than a twentieth of the square: also where it stands still, far from the ends of the plate,
+ * and the square turns about it. */
+START_TEST(a_step_in_which_a_corner_goes_a_curved_way_past_an_edge_is_cut)
+{
+    static const struct { double v[2], spin, plate; } way[] = {
+        { { -0.2121, 0 }, 0.3, 0 }, { { 1, 0 }, 0.8, 0 }, { { 0, 0.8 }, 0.3, 0 },
+        { { 0, 0.8 }, 0, 0.15 }, { { 0, 0.8 }, 0.3, 0.3 },
+    };
+    const double *v = way[_i].v, dt = 0.01;
+    const outline square = put(&SQUARE, PI / 4, 0, 0.52 + sqrt(0.5));
+    const double V[2][6] = { { 0, 0, way[_i].plate / dt },
+                             { v[0] / dt, v[1] / dt, way[_i].spin / dt } };
+    bbm_model *m = new_rock();
+    double at[3][2];
+
+    m->par.dt = dt;
+    m->par.velocity_factor = 1;
+    add_rows(m, 0, -4, -0.5, 8, 1, 1, 1, 0);
+    add_polygon(m, 1, 4, square.x);
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < 2; e++)
+        memcpy(m->element[e].V, V[e], sizeof V[e]);
+    ck_ok(bbm_step(m), m);
+    for (int k = 0; k < 3; k++)
+        seen_from_plate(v, way[_i].spin, way[_i].plate, k / 2.0, at[k]);
+    const double off = hypot(at[1][0] - (at[0][0] + at[2][0]) / 2,
+                             at[1][1] - (at[0][1] + at[2][1]) / 2);
+    ck_assert_int_eq(m->info.cuts > 0, off > 0.05);
+    ck_assert_int_eq(m->info.contacts, 0);
+}
+END_TEST
+
 /* A load that turns an element over in the first of two steps; and one past all numbers. */
 START_TEST(statics_that_turns_elements_over_is_refused)
 {
@@ -499,6 +564,7 @@ Suite *refused_suite(void)
         { blocks_that_overlap_are_refused_with_depth_and_place, 2 * COUNT(OUTLINES) },
         { stars_overlap_where_points_lie_in_both, 100 },
         { elements_of_one_block_that_overlap_are_refused, 1 },
+        { a_stone_in_an_inner_cell_of_another_block_is_refused, 4 },
         { blocks_of_many_elements_that_overlap_are_refused_at_any_angle, 9 });
     add_case(s, "pieces",
         { a_block_falls_into_the_pieces_that_bonds_join, 1 });
@@ -513,6 +579,8 @@ Suite *refused_suite(void)
     tcase_add_test(failing, contacts_of_statics_are_found_again_in_the_next_step);
     tcase_add_test(failing, a_disc_that_may_roll_is_named);
     tcase_add_loop_test(failing, a_step_in_which_elements_turn_too_far_is_cut_or_refused, 0, 4);
+    tcase_add_loop_test(failing, a_step_in_which_a_corner_goes_a_curved_way_past_an_edge_is_cut,
+                        0, 5);
     tcase_add_loop_test(failing, statics_that_turns_elements_over_is_refused, 0, 2);
     tcase_add_test(failing, an_iteration_that_ends_without_a_solution_is_refused);
     return s;

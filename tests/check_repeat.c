@@ -166,6 +166,39 @@ START_TEST(blocks_prepared_again_in_a_run_keep_holding_each_other)
 }
 END_TEST
 
+enum { CELLS = 32 * 8 };
+
+/* Solves a cantilever of 32 x 8 quadrilaterals on two levels; with a stone that is held 10 km away,
+ * if there is one. Its D, and the iterations that it took. */
+static int solve_beside(int stone, double D[6 * CELLS])
+{
+    grid g = { .lx = 4, .ly = 1, .nx = 32, .ny = 8 };
+    bbm_model *m = new_model(&SOLID);
+
+    add_grid(m, &g, 0);
+    for (int j = 0; j <= g.ny; j++)
+        ck_ok(bbm_fix_node(m, node_at(&g, 0, j), BBM_XY, 0, 0), m);
+    ck_ok(bbm_add_load(m, node_at(&g, g.nx, g.ny), 0, -1), m);
+    if (stone)
+        add_rectangle(m, 1, 0, (rectangle){ 8e3, 6e3, 1, 1, .fixed = 1 });
+    run_steps(m, 1);
+    ck_assert_int_eq(m->elements, CELLS + stone);
+    memcpy(D, m->D, 6 * CELLS * sizeof *D);
+    return m->info.pcg.iterations;
+}
+
+/* Two levels take 13 iterations, one alone 900. */
+START_TEST(a_stone_far_away_changes_no_digit)
+{
+    double alone[6 * CELLS], beside[6 * CELLS];
+    const int iterations = solve_beside(0, alone);
+
+    ck_assert_int_lt(iterations, 100);
+    ck_assert_int_eq(solve_beside(1, beside), iterations);
+    ck_assert(memcmp(alone, beside, sizeof alone) == 0);
+}
+END_TEST
+
 Suite *repeat_suite(void)
 {
     Suite *s = suite_create("repeat");
@@ -176,6 +209,7 @@ Suite *repeat_suite(void)
     add_case(s, "repeat",
         { a_pile_falls_the_same_way_whichever_block_comes_first, 1 },
         { a_step_depends_on_the_state_and_not_on_what_is_left_in_memory, 1 },
+        { a_stone_far_away_changes_no_digit, 1 },
         { whichever_allocation_fails_contacts_leave_the_model_fit_to_go_on, 2 },
         { blocks_prepared_again_in_a_run_keep_holding_each_other, 1 });
     return s;
