@@ -517,7 +517,8 @@ START_TEST(a_tip_that_comes_up_past_a_corner_and_goes_over_it_touches_nothing)
     const double vx = -4 * side, vy = 3.5, from = side > 0 ? 0.7 : PI - 0.9;
     bbm_model *m = weightless_blocks();
 
-    add_rectangle(m, 0, ROCK, (rectangle){ side > 0 ? -1 : 0, -1, 1, 1, ANGLES[_i / 2], .fixed = 1 });
+    add_rectangle(m, 0, ROCK, (rectangle){ side > 0 ? -1 : 0, -1, 1, 1, ANGLES[_i / 2],
+                                           .fixed = 1 });
     const int e = add_wedge(m, 1, (double[]){ c * x - s * y, s * x + c * y }, angle + from,
                             angle + from + 0.2);
     set_velocity(m, e, c * vx - s * vy, s * vx + c * vy);

@@ -629,8 +629,8 @@ START_TEST(a_corner_that_passed_into_a_block_is_refused)
 }
 END_TEST
 
-/* The same while a third block presses on one of the two, with corners of its own or on theirs: what
- * it touches does not hold the corner. */
+/* The same while a third block presses on one of the two, with corners of its own or on theirs:
+ * what it touches does not hold the corner. */
 START_TEST(a_contact_with_a_third_block_accounts_for_no_corner_that_passed)
 {
     const int upper = _i % 2, wider = _i / 2;           /* it lies on block 1, or under block 0 */

@@ -480,9 +480,9 @@ static void seen_from_plate(const double v[2], double spin, double plate, double
 }
 
 /* A square hangs, a corner down, 2 cm over the middle of a plate of 8 m, and touches nothing. One
- * step leads to its end if the corner, as the plate sees it, is half-way no further off the straight
- * way than a twentieth of the square: also where it stands still, far from the ends of the plate,
- * and the square turns about it. */
+ * step leads to its end if the corner, as the plate sees it, is half-way no further off the
+ * straight way than a twentieth of the square: also where it stands still, far from the ends of the
+ * plate, and the square turns about it. */
 START_TEST(a_step_in_which_a_corner_goes_a_curved_way_past_an_edge_is_cut)
 {
     static const struct { double v[2], spin, plate; } way[] = {
