@@ -383,9 +383,9 @@ static void put_hand(page *g, const bbm_model *m)
 
 static void put_bolts(page *g, const bbm_model *m)
 {
-    for (const scene_bolt *b = g->p.bolt; b < g->p.bolt + g->p.bolts; b++)
-        for (int k = 0; k < 2 && m->info.t < b->until; k++) {
-            const scene_end *e = &b->end[k];
+    for (int n = 0; n < 2 * g->p.bolts; n++)
+        if (m->info.t < g->p.bolt[n / 2].until) {
+            const scene_end *e = &g->p.bolt[n / 2].end[n % 2];
             PUT(&g->out, e->vertex[0], e->vertex[1], e->vertex[2], e->share[0], e->share[1],
                 e->share[2]);
         }

@@ -187,7 +187,8 @@ static int name_blocks(model_reader *r)
         side[k][1] = i + j - side[k][0];
     }
     qsort(side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs);
-    for (const model_bond *b = r->bond; b < r->bond + r->bonds; b++) {
+    for (int k = 0; k < r->bonds; k++) {
+        const model_bond *b = &r->bond[k];
         const int first = b->block[0] > b->block[1];
         const int pair[2] = { b->block[first], b->block[!first] };
         if (!bsearch(pair, side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs))

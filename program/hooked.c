@@ -132,9 +132,9 @@ static void list_gaps(bbm_model *m)
     const model *p = hooked_of(m)->p;
 
     bbm_list_edge_gaps(m);
-    for (const scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
-        find_gap(m, b, bbm_add_gap(m, point_of(m, &b->end[0]).element,
-                                   point_of(m, &b->end[1]).element));
+    for (int k = 0; k < p->bolts; k++)
+        find_gap(m, &p->bolt[k], bbm_add_gap(m, point_of(m, &p->bolt[k].end[0]).element,
+                                             point_of(m, &p->bolt[k].end[1]).element));
 }
 
 /* ------------------------------------------------------------------------------------ the hooks */

@@ -317,12 +317,12 @@ static int set_number(model_reader *r, const char *word, int at)
     const int old = model_find(&r->let_of, word);
     const model_local l = { word, r->word[at].text, 0 };
 
-    for (model_local *k = r->local; k < r->local + r->locals; k++)
-        if (strcmp(k->name, word) == 0 && (k->counts || k >= r->local + r->own))
+    for (int k = 0; k < r->locals; k++)
+        if (strcmp(r->local[k].name, word) == 0 && (r->local[k].counts || k >= r->own))
             return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
                                word);
-        else if (strcmp(k->name, word) == 0)
-            return k->value = l.value, 1;
+        else if (strcmp(r->local[k].name, word) == 0)
+            return r->local[k].value = l.value, 1;
     if (old >= 0)
         return r->word[old].text = r->word[at].text, 1;
     return strchr(r->word[at - 1].source, '$') ? model_enter(r, &r->let_of, word, at)

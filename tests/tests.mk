@@ -195,7 +195,7 @@ fuzz:
 	@mkdir -p out/corpus
 	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz \
 	tests/fuzz_model.c $(READER:%=%.c) $(LIBRARY:%=%.c) -lm
-	out/fuzz -max_len=4096 -timeout=100 -max_total_time=$(or $(TIME),600) -artifact_prefix=out/ \
+	out/fuzz -max_len=4096 -timeout=100 -max_total_time=$(or $(TIME),600) -seed=$(or $(SEED),0) -artifact_prefix=out/ \
 	out/corpus tests/bad tests/mesh cases/models
 
 .PHONY: quick check memcheck sanitize smoke fuzz torture limit libcheck size check-size check-smoke check-arrows experiments
