@@ -17,8 +17,8 @@ function set_bounds()
     bound["base"] = 2900
     bound["beyond"] = 5800
     bound["program"] = 7300
-    bound["page"] = 1680
-    words_bound = 30300
+    bound["page"] = 1650
+    words_bound = 30000
     says["base"] = " with the paper"
     says["beyond"] = " with both: the library"
     says["program"] = " with `cases/`"
