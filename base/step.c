@@ -59,8 +59,8 @@ void bbm_list_gaps(bbm_model *m)
         bbm_list_fixed_point(m, v, &m->node[m->vertex[v].node]);
 }
 
-/* The part of F that comes from outside: gravity and volume forces (3.6), loads at nodes and along lines (3.5). The
- * elements that meet at a node share its load equally. */
+/* The part of F that comes from outside: gravity and volume forces (3.6), loads at nodes and along
+ * lines (3.5). The elements that meet at a node share its load equally. */
 static void gather_loads(bbm_model *m)
 {
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);

@@ -216,9 +216,10 @@ static void coarse_free(void *extra)
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
- * node[first[i+1]-1], all different, or none; -1 - v stands for a node v that is held. Rows of three nodes or more that share two of them
- * must be elements bonded along that side. place[v] is BBM_PLACES times the component of K that
- * node v is in, and less than BBM_PLACES more: near nodes should have the upper bits in common. */
+ * node[first[i+1]-1], all different, or none; -1 - v stands for a node v that is held. Rows of
+ * three nodes or more that share two of them must be elements bonded along that side. place[v] is
+ * BBM_PLACES times the component of K that node v is in, and less than BBM_PLACES more: near nodes
+ * should have the upper bits in common. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place)
 {

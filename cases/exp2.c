@@ -127,8 +127,8 @@ static const case_point point[] = {
 /* --------------------------------------------------------------------------------------- curves */
 
 /* A quantity at the grid points of a line, given by the first node, a step of node numbers and
- * their count, against (72) and six-node triangles on the same mesh. The abscissa is x, y or the angle in
- * degrees. */
+ * their count, against (72) and six-node triangles on the same mesh. The abscissa is x, y or the
+ * angle in degrees. */
 typedef struct {
     const char *file, *title, *quantity, *abscissa;
     int first, step, count;

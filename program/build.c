@@ -543,7 +543,7 @@ int model_joint(model_reader *r)
     if (!o[0].seen && !o[1].seen && !o[2].seen)
         model_note(r, "warning: this joint has what `contact` has, without friction, cohesion or "
                    "tension of its own");
-    for (int k = 7; k >= 0; k--) {              /* with a * or two and the other way; as it stands */
+    for (int k = 7; k >= 0; k--) {      /* with a * or two and the other way; as it stands */
         key = model_print(r, "%d %d", k & 1 ? -1 : block[k / 4], k & 2 ? -1 : block[1 - k / 4]);
         above |= key && model_find(&r->joint_of, key) >= 0;
     }

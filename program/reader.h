@@ -65,7 +65,8 @@ typedef struct {
     const char *path;                       /* of the model file */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    int cuts, cut_words, locals, own, depth, repeated, removed, stage;   /* own: locals before the round */
+    int cuts, cut_words, depth, repeated, removed, stage;
+    int locals, own;                        /* own: those before the round */
     model_statement *cut;                   /* [cuts]       as the file has them, and their words */
     char **cut_word;                        /* [cut_words]  */
     model_local *local;                     /* [locals]     of the round in hand */
@@ -200,7 +201,7 @@ int   model_finish(model_reader *r);
  * surplus. */
 typedef int model_action(model_reader *r);
 model_action model_fix, model_load_nodes, model_edge_load, model_water, model_joint,
-             model_velocities, model_stress, model_bodyforce, model_monitors, model_bolts, model_pins,
-             model_stage_head;
+             model_velocities, model_stress, model_bodyforce, model_monitors, model_bolts,
+             model_pins, model_stage_head;
 
 #endif

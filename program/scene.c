@@ -117,8 +117,8 @@ void scene_free(scene *s)
     s->frames = s->calls = s->failed = 0;
 }
 
-/* Makes room for one more: frames whose turn has not come go. That is the last one alone, or half of
- * them, if the turn of all had come. */
+/* Makes room for one more: frames whose turn has not come go. That is the last one alone, or half
+ * of them, if the turn of all had come. */
 static void thin_out(scene *s)
 {
     int kept = 0;
@@ -800,8 +800,8 @@ static void arrange(film *f)
     f->h = f->scale * h + over;
 }
 
-/* Crosses of blocks that are held, and where one before them, half as large at least, is nearer than
- * the longest arrow. */
+/* Crosses of blocks that are held, and where one before them, half as large at least, is nearer
+ * than the longest arrow. */
 static void hide_crosses(film *f)
 {
     const scene_force *cross = f->s->frame[f->s->frames - 1].force;
@@ -870,7 +870,7 @@ static int find_colours(film *f)
         return 0;
     for (const scene_frame *g = f->s->frame; g < f->s->frame + f->s->frames; g++)
         for (int v = 0; v < f->m->vertices; v++)
-            if (isfinite(g->value[v]) && !f->body[f->m->element[f->m->vertex[v].element].block].held)
+            if (isfinite(g->value[v]) && !body_of(f, v)->held)
                 x[n++] = g->value[v];
     n = n ? n : 1;
     qsort(x, (size_t)n, sizeof *x, by_size);

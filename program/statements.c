@@ -129,7 +129,8 @@ static int read_static(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
     model_option o[] = { COUNT("steps", &p->steps, 1),
-                         RANGE("tolerance", &p->tolerance, 0, 1, "()", "more than 0 and less than 1") };
+                         RANGE("tolerance", &p->tolerance, 0, 1, "()",
+                               "more than 0 and less than 1") };
 
     p->steps = 1;
     return model_options(r, 0, LENGTH(o), o);
@@ -171,7 +172,7 @@ static int read_bond(model_reader *r)
                 return 0;
         if (two.block[0] == two.block[1])
             return model_blame(r, "bond of a block with itself, expected two blocks");
-        int body[2] = { two.block[0], two.block[1] };       /* a forest: the first block is the root */
+        int body[2] = { two.block[0], two.block[1] };   /* a forest: the first block is the root */
         for (int k = 0; k < 2; k++)
             while (r->block[body[k]].body != body[k])
                 body[k] = r->block[body[k]].body = r->block[r->block[body[k]].body].body;
@@ -667,7 +668,8 @@ static int read_all(model_reader *r)
         while (r->statement[from].stage < stage)
             from++;
         for (int phase = NUMBERS + 1; phase < PHASES; phase++)
-            if ((phase == MODEL && stage == 0 && !model_build(r)) || !read_phase(r, phase, stage, from))
+            if ((phase == MODEL && stage == 0 && !model_build(r))
+                || !read_phase(r, phase, stage, from))
                 return 0;
         model_keep_stage(r, stage);
     }

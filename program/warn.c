@@ -53,7 +53,8 @@ static void warn_of_loads(const model *p, const char *path)
     for (int k = 0; k < 3 * m->elements; k++)
         load |= m->element[k / 3].stress[k % 3] != 0 || m->element[k / 3].f[k % 2] != 0;
     if (!load)
-        warn(path, "nothing loads the model; gravity, load, traction, pressure, bodyforce or fix ... by does");
+        warn(path, "nothing loads the model; gravity, load, traction, pressure, bodyforce or fix ... "
+                   "by does");
 }
 
 /* -------------------------------------------------------------- bodies, and what is between */
@@ -324,8 +325,8 @@ static void warn_of_cells(const model *p, const char *path)
             most = taper, worst = k / 2;
     }
     if (10 * cells > m->elements)
-        warn(path, "element %.60s of block '%.60s' is a long trapezoid (1 of %d): where rows of such "
-                   "cells bend, they lock; shorter cells or parallelograms do not",
+        warn(path, "element %.60s of block '%.60s' is a long trapezoid (1 of %d): where rows of "
+                   "such cells bend, they lock; shorter cells or parallelograms do not",
              p->element[worst], p->block[m->element[worst].block], cells);
 }
 

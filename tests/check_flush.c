@@ -316,11 +316,42 @@ START_TEST(a_ledge_lower_than_the_rounding_holds_no_block)
 }
 END_TEST
 
+/* A beam leans by 0.02 rad, its lower corner 0.1 mm inside the end of a table and above it. Behind
+ * the lines of both corners it is no ledge, but a beam that lands on the table: it sinks in by no
+ * more than its springs, v sqrt(m/p_n) = 0.05 mm at 0.05 m/s, and not by the rounding of 1 mm. */
+START_TEST(a_beam_that_lands_on_the_end_of_a_table_stays_on_it)
+{
+    const double lean = 0.02, side = _i ? -1 : 1;
+    bbm_model *m = new_blocks();
+
+    add_rectangle(m, 0, BASE, (rectangle){ .x = _i ? -3 : 0, .y = -1, .w = 3, .h = 1, .fixed = 1 });
+    const double c = cos(lean), s = sin(lean), x = side * 1e-4;
+    const double at[4][2] = { { x, 1e-4 }, { x + side * 2 * c, 1e-4 + 2 * s },
+                              { x + side * (2 * c - 0.5 * s), 1e-4 + 2 * s + 0.5 * c },
+                              { x - side * 0.5 * s, 1e-4 + 0.5 * c } };
+    int node[4], e;
+    for (int k = 0; k < 4; k++)
+        ck_ok(bbm_add_node(m, at[k][0], at[k][1], &node[k]), m);
+    ck_ok(bbm_add_element(m, 1, ROCK, 4, node, &e), m);
+    m->par.gravity[1] = -10;
+    m->par.friction = 30;
+    set_springs(m, 1e9, 4e8);
+    m->par.dt = 5e-3;
+    prepare(m);
+    for (int k = 0; k < 4; k++) {
+        ck_ok(bbm_step(m), m);
+        for (int v = 0; v < 4; v++)
+            ck_assert_double_gt(vertex_of(m, e, v)->y, -1e-4);
+    }
+}
+END_TEST
+
 Suite *flush_suite(void)
 {
     Suite *s = suite_create("flush");
 
     add_case(s, "seams", { what_slides_over_seams_low_ledges_and_open_joints_goes_on, COUNT(KIND) },
-        { a_ledge_lower_than_the_rounding_holds_no_block, 2 * COUNT(LEDGES) });
+        { a_ledge_lower_than_the_rounding_holds_no_block, 2 * COUNT(LEDGES) },
+        { a_beam_that_lands_on_the_end_of_a_table_stays_on_it, 2 });
     return s;
 }
