@@ -31,7 +31,7 @@
 
 #include "case.h"
 
-enum { STEPS = 200, SETTLE = 50, RUNS = 5 };
+enum { STEPS = 200, SETTLE = 10, RUNS = 5 };
 
 static const double F = 1e4, MASS = 2500 * 4, DT = 0.01, ROUNDING = 1e-8;     /* N, kg, s, m */
 

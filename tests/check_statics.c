@@ -202,7 +202,7 @@ START_TEST(what_a_base_weighs_changes_no_limit_and_no_force)
 {
     const double heavy[] = { 1e-6, 1e-3, 1e3, 1e6 };
 
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 8; i++) {
         bbm_model *m = turned_pile(i, _i % 2 ? 1.05 : 0.9, MEASURES[_i / 2 % 3], 1);
         bbm_model *n = turned_pile(i, _i % 2 ? 1.05 : 0.9, MEASURES[_i / 2 % 3], heavy[_i / 6]);
         ck_assert(stands(m, 1) == !(_i % 2) && stands(n, 1) == !(_i % 2));
