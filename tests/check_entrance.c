@@ -731,6 +731,7 @@ Suite *entrance_suite(void)
         { a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_it, 2 },
         { a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides, 24 },
         { a_side_may_dip_as_deep_as_contacts_of_the_solution, 2 });
+    add_case(s, "loop", { a_side_may_dip_as_deep_as_contacts_of_the_solution, 2 });
     add_case(s, "depth",
         { a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks, 2 * COUNT(DEPTHS) },
         { a_point_may_start_as_deep_as_the_contacts_of_both_blocks, 4 },

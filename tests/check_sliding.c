@@ -22,6 +22,7 @@ static bbm_contact *one_contact(bbm_model *m)
     bbm_contact *c = find_listed(m, e, 0, 0, 2);
     ck_assert_ptr_nonnull(c);
     c->anchor = 0.3;
+    c->rest = -1e-4;
     c->trial.time_left = 0.75;
     c->trial.N_of_friction = 1e5;
     c->sign = -1;
