@@ -813,10 +813,10 @@ static void draw_error(drawing *d)
         .count = MESHES + 1, .series = s });
 }
 
-/* ------------------------------------------------------- the amplitude that a step leaves, over W */
+/* ------------------------------------------------------ the amplitude that a step leaves, over W */
 
-/* The largest eigenvalue of the step of a mass on a spring, of the matrix in doc/05-loads.md; the rule
- * with beta = 1/4, gamma = 1/2 leaves all. */
+/* The largest eigenvalue of the step of a mass on a spring, of the matrix in doc/05-loads.md. The
+ * rule with beta = 1/4, gamma = 1/2 leaves all. */
 static void draw_damping(drawing *d)
 {
     enum { POINTS = 241 };

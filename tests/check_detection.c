@@ -87,7 +87,7 @@ static sight look(const outline *a, int i, const outline *b, int k)
     return (sight){ .height = (P[0] - A[0]) * n[0] + (P[1] - A[1]) * n[1],
                     .beyond = fmax(-s, s - l),
                     .clear = fmin(away[0], away[1]), .parallel = fmin(fabs(away[0]), fabs(away[1])),
-                    .bulge = (to[0] * from[1] - to[1] * from[0]) / lt / lf, 
+                    .bulge = (to[0] * from[1] - to[1] * from[0]) / lt / lf,
                     .end = s < l / 2 ? k : (k + 1) % b->n };
 }
 
@@ -481,7 +481,8 @@ START_TEST(sides_are_parallel_up_to_a_hundredth)
     int here = 0;
     for (int k = 0; k < m->contacts; k++)
         here += corner_vertex(m, &m->contact[k])->x == 0;
-    ck_assert_msg(here == (_i / 2 == 0 ? 1 + more : 1 - more), "%d corners at x = 0 may touch, expected %d", here,
+    ck_assert_msg(here == (_i / 2 == 0 ? 1 + more : 1 - more),
+                  "%d corners at x = 0 may touch, expected %d", here,
                   _i / 2 == 0 ? 1 + more : 1 - more);
 }
 END_TEST

@@ -117,7 +117,8 @@ START_TEST(K_has_three_zero_pivots_when_nothing_holds_the_body)
     }
     matrix_multiply(m->K, D, KD);
     for (int a = 0; a < n; a++)
-        ck_assert_msg(fabs(KD[a]) <= 1e5 * ROUNDING, "a rigid motion has the force %g in row %d, expected 0",
+        ck_assert_msg(fabs(KD[a]) <= 1e5 * ROUNDING,
+                      "a rigid motion has the force %g in row %d, expected 0",
                       KD[a], a);                            /* of K: alpha G t = 2e4 times D */
     free(D);
     free(A);
@@ -455,8 +456,8 @@ static void constant_force(double x, double y, const void *element, double f[2])
     f[1] = e->f[1];
 }
 
-/* What a model's elements have of their f in F is the integral (46), on distorted quadrilaterals and
- * triangles, each with a force of its own. */
+/* What a model's elements have of their f in F is the integral (46), on distorted quadrilaterals
+ * and triangles, each with a force of its own. */
 START_TEST(the_volume_force_of_a_model_is_the_integral_over_each_element)
 {
     grid g = { .lx = 3, .ly = 2, .nx = 3, .ny = 2, .triangles = _i, .jitter = 0.2 };
@@ -475,7 +476,8 @@ START_TEST(the_volume_force_of_a_model_is_the_integral_over_each_element)
                                      constant_force, &m->element[e], F);
         for (int a = 0; a < 6; a++)
             ck_assert_msg(fabs(m->load[6 * e + a] - F[a]) <= ROUNDING * 30,
-                          "element %d: load[%d] is %g, expected %g", e, a, m->load[6 * e + a], F[a]);
+                          "element %d: load[%d] is %g, expected %g", e, a,
+                          m->load[6 * e + a], F[a]);
     }
 }
 END_TEST

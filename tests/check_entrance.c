@@ -445,8 +445,8 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_of_the_solution)
     m->D[6 * 2 + 1] = -2e-3 - turn * (at[1][0] - m->element[2].x);
     m->D[6 * 2 + 2] = turn;
     look_at(m, 1, 0, _i ? -0.02 : -1e-4);
-    ck_assert_msg((find_listed(m, 2, 0, 0, 2)->state != BBM_OPEN) == _i, "a side that dips by 0.03 %s, "
-                  "with contacts %s deep", _i ? "stays open" : "closes", _i ? "20 mm" : "0.1 mm");
+    ck_assert_msg((find_listed(m, 2, 0, 0, 2)->state != BBM_OPEN) == _i,
+                  "a side that dips by 0.03 %s, with contacts %s deep", _i ? "stays open" : "closes", _i ? "20 mm" : "0.1 mm");
 }
 END_TEST
 

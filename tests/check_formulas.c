@@ -430,8 +430,8 @@ START_TEST(newmark_carries_a_constant_acceleration_without_error)
         e.D[r] = V * dt + a * dt * dt / 2;
         bbm_newmark_velocity(&e, dt, 1);
         for (int c = 0; c < 6; c++)
-            ck_assert_msg(fabs(e.V[c] - (c == r ? V + a * dt : 0)) <= ROUNDING, "V[%d] is %g, expected %g", c,
-                          e.V[c], c == r ? V + a * dt : 0);
+            ck_assert_msg(fabs(e.V[c] - (c == r ? V + a * dt : 0)) <= ROUNDING,
+                          "V[%d] is %g, expected %g", c, e.V[c], c == r ? V + a * dt : 0);
     }
 }
 END_TEST

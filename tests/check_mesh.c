@@ -68,11 +68,13 @@ START_TEST(blocks_that_lie_on_one_another_are_sorted_apart)
 }
 END_TEST
 
-static void expect_result(const bbm_model *m, int node, int block, bbm_status expected, bbm_result *r)
+static void expect_result(const bbm_model *m, int node, int block, bbm_status expected,
+                          bbm_result *r)
 {
     const bbm_status status = bbm_nodal_result(m, node, block, r);
 
-    ck_assert_msg(status == expected, "node %d, block %d: the status is \"%s\", expected \"%s\"", node, block,
+    ck_assert_msg(status == expected,
+                  "node %d, block %d: the status is \"%s\", expected \"%s\"", node, block,
                   bbm_status_text(status), bbm_status_text(expected));
 }
 

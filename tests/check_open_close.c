@@ -38,8 +38,8 @@ static int feed(bbm_model *m, double u, double v, double w, bbm_pass *pass)
 
 static void expect_end(int n, int expected, bbm_pass pass, bbm_pass end)
 {
-    ck_assert_msg(n == expected && pass == end, "%d passes, the last says %d; expected %d, %d (0 done, 1 again, "
-                  "3 give up)", n, pass, expected, end);
+    ck_assert_msg(n == expected && pass == end,
+                  "%d passes, the last says %d; expected %d, %d (0 done, 1 again, 3 give up)", n, pass, expected, end);
 }
 
 /* In and out of the table, without friction: 30 passes may change states. With friction: the
@@ -65,12 +65,13 @@ START_TEST(a_solution_that_agrees_ends_the_iteration)
 
     const int n = feed(m, u, -1e-4, -1e-4, &pass);
     expect_end(n, _i ? 3 : 2, pass, BBM_PASS_DONE);
-    ck_assert_msg(m->scratch->friction_passes == 0, "friction_passes is %d after states were judged",
+    ck_assert_msg(m->scratch->friction_passes == 0,
+                  "friction_passes is %d after states were judged",
                   m->scratch->friction_passes);
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];     /* AGREE is 1e-9 of N */
-        ck_assert_msg(c->trial.force_tolerance >= 0.9e-9 * c->N, "contact %d has the force tolerance %g",
-                      k, c->trial.force_tolerance);
+        ck_assert_msg(c->trial.force_tolerance >= 0.9e-9 * c->N,
+                      "contact %d has the force tolerance %g", k, c->trial.force_tolerance);
     }
     bbm_store_contacts(m);
     ck_assert_int_eq(m->info.contacts, 2);

@@ -6,10 +6,10 @@
 #include "models.h"
 #include "rock.h"
 
-/* ------------------------------------------------------------------------ what contacts add to (5) */
+/* ---------------------------------------------------------------------- what contacts add to (5) */
 
-/* One contact of two free blocks: its anchor, the share of the step that its shear spring has had, and
- * the N for which its friction is taken are of the test's making. */
+/* One contact of two free blocks: its anchor, the share of the step that its shear spring has had,
+ * and the N for which its friction is taken are of the test's making. */
 static bbm_contact *one_contact(bbm_model *m)
 {
     int n;
@@ -51,8 +51,8 @@ START_TEST(a_closed_contact_adds_its_springs_or_its_friction_to_K_and_F)
     for (int a = 0; a < 12; a++) {
         const int i = a / 6, row = 6 * c->element[i] + a % 6;
         const double F = -p_n * (v[0].d - c->rest) * v[0].v[i][a % 6] - T * v[1].v[i][a % 6];
-        ck_assert_msg(fabs(m->F[row] - F) <= ROUNDING * (fabs(F) + 1e5), "%s: F[%d] is %g, expected %g",
-                      state[_i], row, m->F[row], F);
+        ck_assert_msg(fabs(m->F[row] - F) <= ROUNDING * (fabs(F) + 1e5),
+                      "%s: F[%d] is %g, expected %g", state[_i], row, m->F[row], F);
         x[row] = 1;
         matrix_multiply(m->K, x, Kx);
         x[row] = 0;
@@ -60,8 +60,8 @@ START_TEST(a_closed_contact_adds_its_springs_or_its_friction_to_K_and_F)
             const int j = b / 6, column = 6 * c->element[j] + b % 6;
             const double K = p_n * v[0].v[i][a % 6] * v[0].v[j][b % 6]
                            + p_s * v[1].v[i][a % 6] * v[1].v[j][b % 6];
-            ck_assert_msg(fabs(Kx[column] - K) <= ROUNDING * m->par.p_n, "%s: K[%d][%d] is %g, expected %g",
-                          state[_i], column, row, Kx[column], K);
+            ck_assert_msg(fabs(Kx[column] - K) <= ROUNDING * m->par.p_n,
+                          "%s: K[%d][%d] is %g, expected %g", state[_i], column, row, Kx[column], K);
         }
     }
 }

@@ -194,8 +194,8 @@ void assert_same(int n, const double *x, const double *y, double tolerance)
     const double size = norm(n, y);
 
     for (int i = 0; i < n; i++)
-        ck_assert_msg(fabs(x[i] - y[i]) <= tolerance * size, "x[%d] = %.17g, expected %.17g within %.2g",
-                      i, x[i], y[i], tolerance * size);
+        ck_assert_msg(fabs(x[i] - y[i]) <= tolerance * size,
+                      "x[%d] = %.17g, expected %.17g within %.2g", i, x[i], y[i], tolerance * size);
 }
 
 void assert_solves(const dense_system *s, double *D, const bbm_pcg *pcg, bbm_pcg_info *info,
