@@ -1,6 +1,6 @@
 # answers.sh - numbers of the answers to the exercises, by their models:
 #     BBM=./bbm sh doc/answers.sh NAME
-# NAME: patch, bar, area, slope, start, hand, passes, drop, iterations, stiff, soft, locking;
+# NAME: patch, bar, area, slope, start, hand, passes, drop, iterations, stiff, soft, locking, rub;
 # of the lab: columns, crown, balance, swing, wave, missing.
 set -e
 HERE=out/answers
@@ -131,6 +131,15 @@ beam()
 
 stiff() { beam; }
 soft() { beam -d alpha=100 -d augment=0 | sed 's/  order.*//'; }
+
+# 8.4: where P ends, with friction.
+rub()
+{
+    for phi in 3 6; do
+        sed "s/friction 0 /friction $phi /; s/slider friction 0/slider friction $phi/" cases/models/exp3.model > $HERE/rub.model
+        run $HERE/rub.model | awk -F, -v p=$phi '{ printf "friction %d: u %.4f m\n", p, $3 }'
+    done
+}
 
 # 8.2: the tip.
 locking()

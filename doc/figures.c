@@ -813,6 +813,30 @@ static void draw_error(drawing *d)
         .count = MESHES + 1, .series = s });
 }
 
+/* ------------------------------------------------------ the amplitude that a step leaves, over W */
+
+/* The largest eigenvalue of the step of a mass on a spring, of the matrix in doc/05-loads.md. The
+ * rule with beta = 1/4, gamma = 1/2 leaves all. */
+static void draw_damping(drawing *d)
+{
+    enum { POINTS = 241 };
+    double W[POINTS], left[POINTS], all[POINTS];
+
+    for (int k = 0; k < POINTS; k++) {
+        W[k] = 0.05 * k;
+        const double W2 = W[k] * W[k], half = (4 - W2) / (2 * (2 + W2)), det = 2 / (2 + W2);
+        const double root = half * half - det;
+        left[k] = root < 0 ? sqrt(det) : fabs(half) + sqrt(root);
+        all[k] = 1;
+    }
+    plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 400 }, &(plot_chart){
+        .title = "Amplitude after a step",
+        .x = { "W = w dt", NULL }, .y = { "share of that before", NULL }, .count = 2,
+        .series = (plot_series[]){
+            { .name = "the paper: beta 1/2, gamma 1", .n = POINTS, .x = W, .y = left, .look = 2 },
+            { .name = "beta 1/4, gamma 1/2", .n = POINTS, .x = W, .y = all, .look = 1 } } });
+}
+
 /* --------------------------------------------------------- the stress of elements, and of nodes */
 
 enum { CELLS_HIGH = 8, STEPS = 8 };
@@ -956,6 +980,7 @@ int main(int count, char *argument[])
         { "rock", 1020, 305, draw_rock }, { "setup", 930, 420, draw_setup },
         { "bending", 660, 655, draw_bending }, { "error", 700, 460, draw_error },
         { "stress", 700, 460, draw_stress }, { "thrust", 870, 300, draw_thrust },
+        { "damping", 700, 400, draw_damping },
     };
     int failed = count != 2;
 

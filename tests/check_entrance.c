@@ -84,6 +84,14 @@ START_TEST(a_block_that_falls_past_the_end_of_a_table_does_not_notice_it)
 }
 END_TEST
 
+/* The corner is in contact, and next to nothing deep. */
+static void expect_stop(const bbm_model *m, int e, int corner)
+{
+    ck_assert_msg(contact_of(m, e, corner) != NULL, "corner %d has no contact", corner);
+    ck_assert_msg(m->info.penetration < 1e-3, "%g m deep, expected less than 1 mm",
+                  m->info.penetration);
+}
+
 /* A block spins by 0.1 rad in a step, from 0.05 rad to one side to 0.05 rad to the other: the
  * corner that gets below the table's top by 8 mm is one whose side pointed into the table at the
  * start. Turned by all angles, and mirrored. */
@@ -99,8 +107,7 @@ START_TEST(a_corner_that_turns_towards_an_edge_in_the_step_is_stopped_by_it)
     set_velocity(m, e, s, -c);
     m->element[e].V[2] = -10 * side;
     run_steps(m, 1);
-    ck_assert(contact_of(m, e, _i % 2 ? 0 : 1) != NULL);
-    ck_assert(m->info.penetration < 1e-3);
+    expect_stop(m, e, _i % 2 ? 0 : 1);
     for (int k = 0; k < 4; k++)
         ck_assert(c * vertex_of(m, e, k)->y - s * vertex_of(m, e, k)->x > -1e-3);
 }
@@ -123,8 +130,7 @@ START_TEST(a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_
     set_velocity(m, e, 0, _i ? -1 : 0);
     set_velocity(m, far, 10, 0);
     run_steps(m, 1);
-    ck_assert(contact_of(m, e, 1) != NULL);
-    ck_assert(m->info.penetration < 1e-3);
+    expect_stop(m, e, 1);
 }
 END_TEST
 
@@ -413,7 +419,9 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
     end->x = flat[0] + way * sqrt(1 - sine * sine);
     end->y = -sine;
     start_step(m, &n);
-    ck_assert_int_eq(find_listed(m, f, 0, 0, 2) != NULL, _i / 2 % 2 == 0);
+    ck_assert_msg((find_listed(m, f, 0, 0, 2) != NULL) == (_i / 2 % 2 == 0),
+                  "a side that dips by the sine %g %s, with at most %g in place",
+                  sine, _i / 2 % 2 ? "may touch" : "may not touch", most);
 }
 END_TEST
 
@@ -432,12 +440,13 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_of_the_solution)
     add_wedge(m, 1, at[1], 0, radians(60));
     set_velocity(m, 2, 0, -1);
     start_step(m, &n);
-    ck_assert_int_eq(look_at(m, 1, 0, -0.02), 1);
+    ck_assert_msg(look_at(m, 1, 0, -0.02) == 1, "the wedge on the table does not touch it");
     m->D[6 * 2] = turn * (at[1][1] - m->element[2].y);
     m->D[6 * 2 + 1] = -2e-3 - turn * (at[1][0] - m->element[2].x);
     m->D[6 * 2 + 2] = turn;
     look_at(m, 1, 0, _i ? -0.02 : -1e-4);
-    ck_assert_int_eq(find_listed(m, 2, 0, 0, 2)->state != BBM_OPEN, _i);
+    ck_assert_msg((find_listed(m, 2, 0, 0, 2)->state != BBM_OPEN) == _i,
+                  "a side that dips by 0.03 %s, with contacts %s deep", _i ? "stays open" : "closes", _i ? "20 mm" : "0.1 mm");
 }
 END_TEST
 
@@ -722,6 +731,7 @@ Suite *entrance_suite(void)
         { a_corner_that_a_load_turns_towards_an_edge_in_the_step_is_stopped_by_it, 2 },
         { a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides, 24 },
         { a_side_may_dip_as_deep_as_contacts_of_the_solution, 2 });
+    add_case(s, "loop", { a_side_may_dip_as_deep_as_contacts_of_the_solution, 2 });
     add_case(s, "depth",
         { a_point_may_start_twice_as_deep_as_the_closed_contacts_of_its_blocks, 2 * COUNT(DEPTHS) },
         { a_point_may_start_as_deep_as_the_contacts_of_both_blocks, 4 },

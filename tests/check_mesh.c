@@ -68,12 +68,31 @@ START_TEST(blocks_that_lie_on_one_another_are_sorted_apart)
 }
 END_TEST
 
+static void expect_result(const bbm_model *m, int node, int block, bbm_status expected,
+                          bbm_result *r)
+{
+    const bbm_status status = bbm_nodal_result(m, node, block, r);
+
+    ck_assert_msg(status == expected,
+                  "node %d, block %d: the status is \"%s\", expected \"%s\"", node, block,
+                  bbm_status_text(status), bbm_status_text(expected));
+}
+
+static void expect_mean(const bbm_result *r, const double expected[6])
+{
+    const double got[6] = { r->u, r->v, r->stress[0], r->stress[1], r->stress[2], r->szz };
+    static const char *const name[6] = { "u", "v", "sxx", "syy", "sxy", "szz" };
+
+    for (int k = 0; k < 6; k++)
+        ck_assert_msg(got[k] == expected[k], "%s is %g, expected %g", name[k], got[k], expected[k]);
+}
+
 START_TEST(nodal_results_are_the_mean_over_the_elements_of_a_block_that_meet)
 {
     bbm_model *m = two_squares(2, 3);
     bbm_result r;
 
-    ck_assert_int_eq(bbm_nodal_result(m, 1, -1, &r), BBM_BAD_INDEX);  /* nothing prepared yet */
+    expect_result(m, 1, -1, BBM_BAD_INDEX, &r);  /* nothing prepared yet */
     ck_ok(bbm_prepare(m), m);
     for (int v = 0; v < m->vertices; v++) {
         m->vertex[v].u = 1 + v;
@@ -85,25 +104,23 @@ START_TEST(nodal_results_are_the_mean_over_the_elements_of_a_block_that_meet)
     }
     m->element[0].szz = 4;
     m->element[1].szz = 2;
-    ck_assert_int_eq(bbm_nodal_result(m, 4, -1, &r), BBM_OK);              /* vertices 2 and 7 */
-    ck_assert(r.u == 5.5 && r.v == 45 && r.stress[0] == 3 && r.stress[1] == 2 && r.stress[2] == 1);
-    ck_assert(r.szz == 3);
+    expect_result(m, 4, -1, BBM_OK, &r);              /* vertices 2 and 7 */
+    expect_mean(&r, (double[]){ 5.5, 45, 3, 2, 1, 3 });
     ck_relative(r.mises, sqrt(9 + 4 + 9 - 3 * 2 - 2 * 3 - 3 * 3 + 3 * 1.0), ROUNDING);
-    ck_assert_int_eq(bbm_nodal_result(m, 4, 2, &r), BBM_OK);
-    ck_assert(r.u == 3 && r.v == 20 && r.stress[0] == 1 && r.stress[1] == 2 && r.stress[2] == 3);
-    ck_assert(r.szz == 4);
-    ck_assert_int_eq(bbm_nodal_result(m, 4, -2, &r), BBM_BAD_INDEX);
-    ck_assert_int_eq(bbm_nodal_result(m, 4, 3, &r), BBM_OK);
-    ck_assert(r.u == 8 && r.v == 70 && r.stress[0] == 5 && r.stress[1] == 2 && r.stress[2] == -1);
-    ck_assert_int_eq(bbm_nodal_result(m, 0, 2, &r), BBM_OK);
-    ck_assert_int_eq(bbm_nodal_result(m, 0, 3, &r), BBM_BAD_INDEX);  /* block 3 is not there */
-    ck_assert_int_eq(bbm_nodal_result(m, 6, -1, &r), BBM_BAD_INDEX);
-    ck_assert_int_eq(bbm_nodal_result(m, -1, -1, &r), BBM_BAD_INDEX);
+    expect_result(m, 4, 2, BBM_OK, &r);
+    expect_mean(&r, (double[]){ 3, 20, 1, 2, 3, 4 });
+    expect_result(m, 4, -2, BBM_BAD_INDEX, &r);
+    expect_result(m, 4, 3, BBM_OK, &r);
+    expect_mean(&r, (double[]){ 8, 70, 5, 2, -1, 2 });
+    expect_result(m, 0, 2, BBM_OK, &r);
+    expect_result(m, 0, 3, BBM_BAD_INDEX, &r);  /* block 3 is not there */
+    expect_result(m, 6, -1, BBM_BAD_INDEX, &r);
+    expect_result(m, -1, -1, BBM_BAD_INDEX, &r);
     for (int v = 0; v < m->vertices; v++)
         m->element[m->vertex[v].element].block = 0;  /* block 0 is a block, not all of them */
     m->element[1].block = 1;
-    ck_assert_int_eq(bbm_nodal_result(m, 4, 0, &r), BBM_OK);
-    ck_assert(r.u == 3);
+    expect_result(m, 4, 0, BBM_OK, &r);
+    ck_assert_msg(r.u == 3, "u of block 0 is %g, expected 3", r.u);
 }
 END_TEST
 

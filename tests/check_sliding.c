@@ -1,8 +1,71 @@
 /* check_sliding.c - section 3.8: friction against closed forms, and how contacts go along where
  * blocks slide. */
+#include <string.h>
+
 #include "check.h"
 #include "models.h"
 #include "rock.h"
+
+/* ---------------------------------------------------------------------- what contacts add to (5) */
+
+/* One contact of two free blocks: its anchor, the share of the step that its shear spring has had,
+ * and the N for which its friction is taken are of the test's making. */
+static bbm_contact *one_contact(bbm_model *m)
+{
+    int n;
+
+    m->par.friction = 30;
+    add_rectangle(m, 0, ROCK, (rectangle){ -2, -1, 4, 1, 20, .fixed = 0 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, 1, 20, .fixed = 0 });
+    m->hook->friction = NULL;               /* of beyond/: friction in K */
+    start_step(m, &n);
+    bbm_contact *c = find_listed(m, e, 0, 0, 2);
+    ck_assert_ptr_nonnull(c);
+    c->anchor = 0.3;
+    c->rest = -1e-4;
+    c->trial.time_left = 0.75;
+    c->trial.N_of_friction = 1e5;
+    c->sign = -1;
+    return c;
+}
+
+/* p_n n n^T + p s s^T for e and g of both elements in one vector of 12, entry by entry. OPEN adds
+ * nothing; LOCK has the share of p_s; SLIDE has no shear spring, but the friction N tan 30 against
+ * the slip, Eq. (69). Sums of two terms: ROUNDING. */
+START_TEST(a_closed_contact_adds_its_springs_or_its_friction_to_K_and_F)
+{
+    static const char *const state[] = { "OPEN", "LOCK", "SLIDE" };
+    bbm_model *m = weightless_blocks();
+    bbm_contact *c = one_contact(m);
+    bbm_spring v[2];
+    double x[12] = { 0 }, Kx[12];
+
+    c->state = _i == 0 ? BBM_OPEN : _i == 1 ? BBM_LOCK : BBM_SLIDE;
+    bbm_contact_vectors(m, c, c->anchor, v);
+    ck_ok(bbm_lay_out_matrix(m), m);
+    bbm_matrix_clear(m->K);
+    memset(m->F, 0, 12 * sizeof *m->F);
+    bbm_assemble_contacts(m);
+    const double p_n = _i ? m->par.p_n : 0, p_s = _i == 1 ? 0.75 * m->par.p_s : 0;
+    const double T = _i == 2 ? -1e5 * tan(radians(30)) : p_s * v[1].d;
+    for (int a = 0; a < 12; a++) {
+        const int i = a / 6, row = 6 * c->element[i] + a % 6;
+        const double F = -p_n * (v[0].d - c->rest) * v[0].v[i][a % 6] - T * v[1].v[i][a % 6];
+        ck_assert_msg(fabs(m->F[row] - F) <= ROUNDING * (fabs(F) + 1e5),
+                      "%s: F[%d] is %g, expected %g", state[_i], row, m->F[row], F);
+        x[row] = 1;
+        matrix_multiply(m->K, x, Kx);
+        x[row] = 0;
+        for (int b = 0; b < 12; b++) {
+            const int j = b / 6, column = 6 * c->element[j] + b % 6;
+            const double K = p_n * v[0].v[i][a % 6] * v[0].v[j][b % 6]
+                           + p_s * v[1].v[i][a % 6] * v[1].v[j][b % 6];
+            ck_assert_msg(fabs(Kx[column] - K) <= ROUNDING * m->par.p_n,
+                          "%s: K[%d][%d] is %g, expected %g", state[_i], column, row, Kx[column], K);
+        }
+    }
+}
+END_TEST
 
 /* ------------------------------------------------------------------------------------- friction */
 
@@ -580,6 +643,8 @@ Suite *sliding_suite(void)
 {
     Suite *s = suite_create("sliding");
 
+    add_case(s, "contacts in K",
+        { a_closed_contact_adds_its_springs_or_its_friction_to_K_and_F, 3 });
     add_case(s, "friction",
         { a_block_slides_down_an_incline_as_the_closed_form_says, 2 * COUNT(SLIDING) },
         { the_plain_way_to_agree_finds_the_same_friction, 1 },

@@ -225,8 +225,8 @@ START_TEST(statics_ends_in_balance_on_the_moved_geometry)
     ck_assert(m->info.step > 3 && m->info.step < 60);
     ck_assert(result_at(m, node_at(&g, 6, 2)).v < -0.02);
     out_of_balance(m, f);
-    for (int a = 0; a < 3; a++)
-        ck_near(f[a], 0, 10, 1e-8);  /* residual forces, of K D: 1e-11 of it */
+    const double most = fmax(fabs(f[0]), fmax(fabs(f[1]), fabs(f[2])));
+    ck_near(most, 0, 10, 1e-8);         /* residual forces, of K D: 1e-11 of it */
 }
 END_TEST
 

@@ -7,12 +7,14 @@
 #   exercise.sh hint N STEP  prints a hint, the first or the second
 #   exercise.sh list         all exercises, and which are done
 #   exercise.sh prove        all exercises: red as they begin and with each wrong answer of
-#                            tests/wrong-answers.txt, green with the source as it is: the groups of
-#                            tests have run before, in `make check-library`
+#                            tests/wrong-answers.txt, green with the source as it is, or with the
+#                            right answer of that file: the groups of tests have run before, in
+#                            `make check-library`. What is red says what was expected, not in C
 #
 # An exercise is a section "### Exercise N ..." of a chapter. The table below says what is done: the
 # kind, the file, the function that is taken out, the tests: a group of those of `make quick`, or
-# `program`, a program that tests itself, or of a model what has to be predicted, and how closely. An error that is to be found is a row of doc/teacher.md: the
+# `program`, a program that tests itself, or what a model is asked for, and how closely: to predict,
+# a line `expect`, or to measure, a line `# answer NUMBER`. An error that is to be found is a row of doc/teacher.md: the
 # exercise, the file, a piece of a line, and what stands in its place. The hints are in doc/hints.md.
 #
 # `make exercise` gives O, where the objects are; COMPILE, FAILING, LINK, LIBS, parts of commands;
@@ -91,14 +93,29 @@ show_own()
     echo "Figures drawn with your code: $2/out/$DRAW"
 }
 
-# Whether the copy $1 has the expectation that is asked for, or a closer one.
-says_enough()
+# Whether the copy $2 of exercise $1 answers what is asked for, as closely as that, and as
+# tests/wrong-answers.txt has it right. A wide expectation is met by anything: no answer.
+answers()
 {
-    awk -v asked="$tests" '
-    function width(t, value, percent) { return percent == "%" ? t / 100 * (value < 0 ? -value : value) : t }
-    BEGIN { split(asked, of, " ") }
-    $1 == "expect" && $2 == of[1] && $3 == of[2] && width($6, $4, $7) <= width(of[4], $4, of[5]) { enough = 1 }
-    END { exit !(enough || asked == "-") }' "$1"
+    awk -v n="$1" -v asked="$tests" '
+    function size(x) { return x < 0 ? -x : x }
+    function width(w, value, percent) { return percent ~ /%/ ? w / 100 * size(value) : w }
+    BEGIN { parts = split(asked, of, " "); what = of[1] (of[2] == "within" ? "" : " " of[2]) }
+    FNR == NR && $1 == n && $2 == "right" && match($0, "(expect|answer)[^>]*$") {
+        split(substr($0, RSTART), r, " ")
+        right[++rights] = r[1] == "answer" ? r[2] : r[4]
+    }
+    FNR == NR { next }
+    $1 == "expect" && $2 " " $3 == what { value = $4; mine = width($6, $4, $7) }
+    $1 == "#" && $2 == what { value = $3; mine = 0 }
+    value != "" {
+        for (k = 1; k <= rights; k++) {
+            most = width(of[parts - (of[parts] == "%")], right[k], of[parts])
+            enough = enough || (mine <= 1.001 * most && size(value - right[k]) <= most)
+        }
+        value = ""
+    }
+    END { exit !enough }' tests/wrong-answers.txt "$2"
 }
 
 is_a_model() { [ "$kind" = predict ] || [ "$kind" = measure ]; }
@@ -114,10 +131,12 @@ begin()
     echo "The task: $page, Exercise $1"
     echo "The copy: $copy"
     if is_a_model; then
-        grep -q '^expect ' "$copy" || { echo "Your prediction: a line \`expect\` in the copy."; return; }
-        says_enough "$copy" || { echo "Red: your prediction is a line: expect ${tests%% within*} VALUE" \
-                                      "within${tests#* within}, or closer."; exit 1; }
-        ./bbm "$copy" -o "$here/result" || { echo "Red: not as expected. make hint N=$1 helps."; exit 1; }
+        line="expect ${tests%% within*} VALUE within${tests#*within}"
+        [ "$kind" = predict ] || line="# answer NUMBER, good to${tests#*within}"
+        grep -q '^expect \|^# answer ' "$copy" || { echo "Your answer: a line \`$line\` in the copy."; return; }
+        answers "$1" "$copy" || { echo "Red: not the value, or not a line \`$line\`. make hint N=$1 helps."; exit 1; }
+        [ "$kind" = measure ] || ./bbm "$copy" -o "$here/result" || \
+            { echo "Red: the model does otherwise. make hint N=$1 helps."; exit 1; }
     else
         build "$copy" "$here"
         CK_RUN_CASE=$tests "$here/tests" || { echo "Red: not yet right. make hint N=$1 helps."; exit 1; }
@@ -159,25 +178,38 @@ prove_one()
     copy=$here/$(basename "$file")
     mkdir -p "$here"
     write_copy "$1" "$copy"
-    if is_a_model; then prove_wide "$1"; return; fi
+    if is_a_model; then prove_model "$1"; return; fi
     build "$copy" "$here" > "$here/said" 2>&1 || complain "its copy cannot be built"
     ! CK_RUN_CASE=$tests "$here/tests" > "$here/said" 2>&1 || complain "green as it begins"
     grep -q 'Failures: [1-9]\|Errors: [1-9]\|^wrong: ' "$here/said" || complain "no test is red"
+    speaks
     [ "$kind" = 'find the error' ] || prove_wrong "$1"
     [ "$tests" = program ] || return 0
     build "$file" "$here"
     "$here/tests" > "$here/said" 2>&1 || complain "red with $file itself"
 }
 
-# No prediction of another quantity, or a wide one, will do.
-prove_wide()
+# No red test shows the student a piece of source, or an entry without its number.
+speaks()
 {
-    [ "$kind" = predict ] || return 0
-    [ "$(grep -c "^$1 expect" tests/wrong-answers.txt)" -ge 2 ] || { echo "exercise $1: fewer than two wrong answers"; exit 1; }
-    grep "^$1 expect" tests/wrong-answers.txt | while IFS= read -r answer; do
-        write_copy "$1" "$copy"
-        echo "${answer#"$1 "}" >> "$copy"
-        ! says_enough "$copy" || { echo "exercise $1 takes ${answer#"$1 "}"; exit 1; }
+    ! grep "Assertion '\|: [A-Za-z]*\[[a-z]\] = " "$here/said" || complain "a red test prints its source"
+}
+
+# A wrong answer to a model is red, another quantity or a wide one, too; the right one is green.
+prove_model()
+{
+    [ "$(grep -c "^$1 [ea]" tests/wrong-answers.txt)" -ge 2 ] || { echo "exercise $1: fewer than two wrong answers"; exit 1; }
+    grep "^$1 [ear]" tests/wrong-answers.txt | while IFS= read -r answer; do
+        answer=${answer#"$1 "} edit=
+        case $answer in right*) edit=${answer#right} edit=${edit%=> *} answer=${answer##*=> } ;; esac
+        write_copy "$1" "$copy.new"
+        { sed "$edit" "$copy.new"; echo "$answer" | sed 's/^answer/# answer/'; } > "$copy"
+        if [ -z "$edit" ]; then
+            ! answers "$1" "$copy" || { echo "exercise $1 takes $answer"; exit 1; }
+        else
+            answers "$1" "$copy" || { echo "exercise $1 refuses $answer"; exit 1; }
+            [ "$kind" = measure ] || "$O/bbm" -q "$copy" -o "$here/result" > "$here/said" 2>&1 || complain "red with $answer"
+        fi
     done
 }
 

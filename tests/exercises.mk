@@ -14,7 +14,7 @@ hint:
 exercises:
 	@sh tests/exercise.sh list
 
-check-exercises: check-library $O/quick $O/doc/exercises/own.o $(ALONE) $O/paper/exp2
+check-exercises: check-library $O/quick $O/bbm $O/doc/exercises/own.o $(ALONE) $O/paper/exp2
 	+@$(EXERCISE) prove
 
 .PHONY: exercise hint exercises check-exercises

@@ -59,6 +59,9 @@ void check_iterates(const dense_system *s, double W[MOST_6][MOST_6], bbm_pcg pcg
 
 double norm(int n, const double *x);
 void assert_same(int n, const double *x, const double *y, double tolerance);
+/* The solver ends with this status. */
+void assert_solves(const dense_system *s, double *D, const bbm_pcg *pcg, bbm_pcg_info *info,
+                   bbm_status expected);
 bbm_pcg accurate(double omega, const bbm_method *method);
 
 /* K = tridiagonal (c, 1, c), six times. */
