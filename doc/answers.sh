@@ -212,7 +212,7 @@ swing()
 # depend on the last digits, by some 0.1 s.
 wave()
 {
-    for n in 10 20; do
+    for n in 6 12; do
         for spin in -1.6 -3.2; do
             run cases/models/dominoes.model -d spin=$spin -d n=$n -d steps=$((1500 + 280 * n)) > $HERE/row
             awk -F, 'NR > 1 && $5 ^ 2 + $6 ^ 2 >= 0.25 { print $2; exit }' $HERE/history.csv
