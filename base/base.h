@@ -101,6 +101,7 @@ typedef struct {                /* what the detection and the open-close iterati
     double N_of_friction;       /* N        the N that friction is taken for                    */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
+    double digits;              /* N        what a spring makes of the rounding of positions    */
     bbm_contact_state next_state;               /* in the next pass                             */
     int    closings;            /* how often it has closed in the step                          */
 } bbm_trial;
