@@ -188,8 +188,9 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
         add_contact(m, c);
     m->beyond->lack = fmax(lack_of(&b[find_worst(m, lack_of)]),
                            breach_share(&b[find_worst(m, breach_share)]));
-    for (int i = 0; i < m->elements && !bbm_is_static(m); i++)
-        add_inertia(m, i);
+    for (int i = 0; i < m->elements; i++)
+        if (bbm_has_inertia(m, i))
+            add_inertia(m, i);
     const int worst = find_worst(m, lack_of), broken = find_worst(m, breach_share);
     const double lack = lack_of(&b[worst]), breach = breach_share(&b[broken]);
     if (lack > (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
