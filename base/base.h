@@ -101,6 +101,7 @@ typedef struct {                /* what the detection and the open-close iterati
     double N_of_friction;       /* N        the N that friction is taken for                    */
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
+    double digits;              /* N        what a spring makes of the rounding of positions    */
     bbm_contact_state next_state;               /* in the next pass                             */
     int    closings;            /* how often it has closed in the step                          */
 } bbm_trial;
@@ -257,6 +258,12 @@ struct bbm_hooks {
 /* --------------------------------------------- what the files of the library share, bottom up */
 
 static inline int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
+
+/* Whether element i has inertia: not in statics, nor in its steps from rest if it is held. */
+static inline int bbm_has_inertia(const bbm_model *m, int i)
+{
+    return !bbm_is_static(m) && !(isinf(m->par.dt) && m->K->body[i] < 0);
+}
 
 /* How points move in the present step; NULL: the paper's way. */
 static inline const bbm_motion *bbm_motion_of(const bbm_model *m)

@@ -20,10 +20,12 @@
  *             their component of K is solved: the solver is not more exact
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
- * ROUGH  [-]  but at most this share of that force does. Stiffer springs do not settle */
+ * ROUGH  [-]  but at most this share of that force does. Stiffer springs do not settle
+ * FIT    [-]  and at most this share where states have to fit: friction is right to 0.01 degrees */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define ROUGH 1e-3
+#define FIT 2e-4
 
 /* The most passes in a row that change friction forces alone. */
 enum { FRICTION_PASSES = 100 };
@@ -151,15 +153,17 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
 
 /* The force tolerance of each contact: a share of its own force, or of the force on a body by which
  * its component is solved. The error of every N is small against this force alone. What the spring
- * makes of the rounding of positions is added. */
+ * makes of the rounding of positions is added, but not in statics, whose one solution has none. */
 static void find_tolerances(const bbm_model *m)
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         const double force = fmax(fabs(c->N), m->K->forces[bbm_component_of(m->K, c->element[0])]);
-        const double digits = m->par.p_n * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y)) * DIGITS;
-        c->trial.force_tolerance = AGREE * force + fmin(digits, ROUGH * force);
+        const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
+        const double digits = fmin(m->par.p_n * lever * DIGITS, ROUGH * force);
+        c->trial.digits = bbm_is_static(m) ? 0 : digits;
+        c->trial.force_tolerance = AGREE * force + fmin(c->trial.digits, FIT * force);
     }
 }
 

@@ -106,7 +106,7 @@ static void assemble_element(bbm_model *m, int i)
     bbm_submatrix s = { { { 0 } }, { 0 } };
 
     bbm_elastic_submatrix(&m->element[i], &s);
-    if (!bbm_is_static(m))
+    if (bbm_has_inertia(m, i))
         bbm_inertia_submatrix(&m->element[i], m->h, &s);
     bbm_matrix_add(m->K, i, i, s.K);
     for (int a = 0; a < 6; a++)

@@ -37,6 +37,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double x, y, area, size;    /* m, m, m^2, m     the centre, and how large it is             */
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
+    double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 
 typedef struct {                /* joints.c: a joint of its own strength                        */
@@ -82,6 +83,7 @@ struct bbm_beyond {
     int *body;                  /* [elements] the first element of its body: what bonds join    */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
     double lack;                /* -        the most that a body has left, without inertia      */
+    double breach;              /* -        the most against a law in all dynamic steps         */
     bbm_account *account;       /* [elements]                                                   */
     double gained;              /* J        what dynamic steps have made beyond the balance     */
     double gain;                /* -        the most that one made, against what was there      */

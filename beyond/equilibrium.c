@@ -7,6 +7,12 @@
  * directions; what is left of the moment counts against these times the size of the body. So N and
  * N m do not mix, and however heavy another body is, it excuses nothing.
  *
+ * Each contact is judged by its law anew, whatever its state was accepted for. It does not pull,
+ * and it is as deep as N says; friction holds no more than its cone; an open one is not inside. A bolt
+ * turns nothing by itself. The force by which one of these is broken counts against the forces on
+ * each of its bodies. Statics has to keep the laws. In dynamics a spring that is too stiff for the
+ * digits of a position cannot, and a shorter step does not help: what is broken is noted and told.
+ *
  * The springs of bonds pull at both their ends, which are a gap apart where a step begins with open
  * bonds. Their forces cancel, but for that lever: it is taken along, and is no force of the body.
  */
@@ -39,10 +45,19 @@ static void begin_bodies(bbm_model *m)
     }
 }
 
-/* Adds a force on element i, F as on the right of (5). In dynamics its lever is that of the middle
+/* A force on element i that should not be, or is missing. */
+static void add_breach(bbm_model *m, int i, double force)
+{
+    bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
+
+    b->breach = fmax(b->breach, force);
+}
+
+/* Adds a force on element i, F as on the right of (5); returns its moment about the origin. In
+ * dynamics its lever is that of the middle
  * of the step, and F[2] is its moment times tan(r/2)/(r/2), see rotation.c. `counts`: 1, or 0 for
  * bonds. k: the stiffness that makes it of displacements and of their rounding. */
-static void add_force(bbm_model *m, int i, const double F[6], int counts, double k)
+static double add_force(bbm_model *m, int i, const double F[6], int counts, double k)
 {
     const bbm_element *e = &m->element[i];
     bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
@@ -56,9 +71,11 @@ static void add_force(bbm_model *m, int i, const double F[6], int counts, double
     b->moment += F[2] / turns + X * F[1] - Y * F[0];
     b->forces += counts * fmax(hypot(F[0], F[1]), pair);
     b->rounding += counts * ROUNDING * k * (fabs(D[0]) + fabs(D[1]) + fabs(D[2]) * b->size);
+    return F[2] / turns + (X + b->x) * F[1] - (Y + b->y) * F[0];
 }
 
-/* Adds the forces of a bond, a fixed point or a bolt. */
+/* Adds the forces of a bond, a fixed point or a bolt. Between two bodies in dynamics their moments
+ * have to cancel. */
 static void add_gap(bbm_model *m, const bbm_gap *g)
 {
     const int *body = m->beyond->body, counts = g->j < 0 || body[g->i] != body[g->j];
@@ -71,9 +88,14 @@ static void add_gap(bbm_model *m, const bbm_gap *g)
         Fi[a] = -f[0] * g->Ti[0][a] - f[1] * g->Ti[1][a];
         Fj[a] = f[0] * g->Tj[0][a] + f[1] * g->Tj[1][a];
     }
-    add_force(m, g->i, Fi, counts, g->W[0][0] + g->W[1][1]);
-    if (g->j >= 0)
-        add_force(m, g->j, Fj, counts, g->W[0][0] + g->W[1][1]);
+    double moment = add_force(m, g->i, Fi, counts, g->W[0][0] + g->W[1][1]);
+    if (g->j < 0)
+        return;
+    moment += add_force(m, g->j, Fj, counts, g->W[0][0] + g->W[1][1]);
+    if (counts && bbm_motion_of(m)) {
+        add_breach(m, g->i, fabs(moment) / m->beyond->balance[body[g->i]].size);
+        add_breach(m, g->j, fabs(moment) / m->beyond->balance[body[g->j]].size);
+    }
 }
 
 /* The forces of a contact on its elements, as on the right of (5). */
@@ -85,6 +107,32 @@ void bbm_contact_forces(const bbm_model *m, const bbm_contact *c, double F[BBM_P
     bbm_contact_vectors(m, c, c->anchor, v);
     for (int k = 0; k < 6 * c->parts; k++)
         F[k / 6][k % 6] = c->N * v[0].v[k / 6][k % 6] - T * v[1].v[k / 6][k % 6];
+}
+
+/* The force by which a contact breaks its law. An open one may be as deep as rounding. */
+static double breach_of(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_vertex *P = bbm_start_of(m, c->corner);
+    const double digits = c->state == BBM_OPEN ? ROUNDING * hypot(P->x, P->y) : 0;
+    const double N = bbm_normal_force(m, c->d_n + digits - c->rest);
+    const double T = fabs(bbm_shear_force(c)) - bbm_shear_strength(&c->strength, c->N);
+
+    return c->state != BBM_OPEN ? fmax(fmax(fabs(N - c->N), T), -N - c->strength.tension)
+         : bbm_is_blocked(m, c) ? 0 : N;
+}
+
+/* Adds the forces of a contact, and what they break of its law. */
+static void add_contact(bbm_model *m, const bbm_contact *c)
+{
+    const double breach = breach_of(m, c);
+    double F[BBM_PARTS][6] = { { 0 } };
+
+    if (c->state != BBM_OPEN)
+        bbm_contact_forces(m, c, F);
+    for (int k = 0; k < c->parts; k++) {
+        add_force(m, c->element[k], F[k], 1, c->state == BBM_OPEN ? 0 : m->par.p_n);
+        add_breach(m, c->element[k], breach);
+    }
 }
 
 /* Adds the inertia of an element, both sides of (16), (17). */
@@ -100,7 +148,7 @@ static void add_inertia(bbm_model *m, int i)
     add_force(m, i, F, 1, 0);
 }
 
-/* The share that a body lacks of balance. */
+/* Of the forces on a body the share that is left, and that which breaks laws. */
 static double lack_of(const bbm_balance *b)
 {
     const double left = fmax(hypot(b->force[0], b->force[1]), fabs(b->moment) / b->size);
@@ -108,45 +156,51 @@ static double lack_of(const bbm_balance *b)
     return left > b->rounding + NO_FORCE ? left / b->forces : 0;
 }
 
-/* The element that stands for the body that lacks most. */
-static int find_worst(const bbm_model *m)
+static double breach_share(const bbm_balance *b)
+{
+    return b->breach > NO_FORCE ? b->breach / (b->forces + b->breach) : 0;
+}
+
+/* The element that stands for the body of which the most is left or broken. */
+static int find_worst(const bbm_model *m, double (*share)(const bbm_balance *b))
 {
     const bbm_balance *b = m->beyond->balance;
     int worst = 0;
 
     for (int i = 1; i < m->elements; i++)
-        worst = lack_of(&b[i]) > lack_of(&b[worst]) ? i : worst;
+        worst = share(&b[i]) > share(&b[worst]) ? i : worst;
     return worst;
 }
 
-/* Refuses a solution in which the forces on a body do not balance. Notes what is left without
- * inertia. */
+/* Refuses a solution in which the forces on a body do not balance, or in statics a contact breaks
+ * its law. Notes what is left or broken without inertia. */
 bbm_status bbm_check_equilibrium(bbm_model *m)
 {
     const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     const bbm_balance *b = m->beyond->balance;
-    double F[BBM_PARTS][6];
 
     begin_bodies(m);
     for (int i = 0; i < m->elements; i++)
         add_force(m, i, &m->load[6 * i], 1, 0);
     for (int k = 0; k < m->gaps; k++)
         add_gap(m, &m->gap[k]);
-    for (; c < end; c++) {
-        const int parts = c->state == BBM_OPEN ? 0 : c->parts;
-        if (parts > 0)
-            bbm_contact_forces(m, c, F);
-        for (int k = 0; k < parts; k++)
-            add_force(m, c->element[k], F[k], 1, m->par.p_n);
-    }
-    m->beyond->lack = lack_of(&b[find_worst(m)]);
-    for (int i = 0; i < m->elements && !bbm_is_static(m); i++)
-        add_inertia(m, i);
-    const int worst = find_worst(m);
-    const double lack = lack_of(&b[worst]);
-    if (lack <= (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
-        return BBM_OK;
-    return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: forces on block %d lack %.2g of balance: the "
-                    "stiffnesses of materials, bonds and contacts are too far apart",
-                    m->info.step + 1, m->element[worst].block, lack);
+    for (; c < end; c++)
+        add_contact(m, c);
+    m->beyond->lack = fmax(lack_of(&b[find_worst(m, lack_of)]),
+                           breach_share(&b[find_worst(m, breach_share)]));
+    for (int i = 0; i < m->elements; i++)
+        if (bbm_has_inertia(m, i))
+            add_inertia(m, i);
+    const int worst = find_worst(m, lack_of), broken = find_worst(m, breach_share);
+    const double lack = lack_of(&b[worst]), breach = breach_share(&b[broken]);
+    if (lack > (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
+        return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: forces on block %d lack %.2g of balance: "
+                        "the stiffnesses of materials, bonds and contacts are too far apart",
+                        m->info.step + 1, m->element[worst].block, lack);
+    if (bbm_is_static(m) && breach > BBM_BALANCED)
+        return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: contacts of block %d carry %.2g of its "
+                        "forces against their law", m->info.step + 1, m->element[broken].block,
+                        breach);
+    m->beyond->breach = isinf(m->par.dt) ? 0 : fmax(m->beyond->breach, breach);
+    return BBM_OK;
 }

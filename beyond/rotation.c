@@ -155,7 +155,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
             off |= bbm_motion_of(m) && turn_off(m, i) > DIRECTION;
             force = fmax(force, hypot(m->F[6 * i], m->F[6 * i + 1]));
         }
-        const double bound = fmax(share * force, c->trial.force_tolerance);
+        const double bound = fmax(share * force, c->trial.force_tolerance + c->trial.digits);
         bbm_end_distances(m, c, c->anchor, d);
         off = off || bbm_normal_stiffness(m) * fabs(d[0] - c->d_n) > bound
            || (m->par.p_s * fabs(c->trial.time_left * d[1] - c->d_s) > bound

@@ -199,8 +199,9 @@ static void summarise(const model *p, const char *folder)
     bbm_energies(m, &e);
     if (m->beyond->restitution >= 0
         && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
-        printf("of what hits came with in their normal velocities %.0f %% was given back\n",
-               100 * m->beyond->hit[1] / m->beyond->hit[0]);
+        printf("of what hits came with in their normal velocities %.0f %% was given back, %.0f %% "
+               "asked for\n", 100 * m->beyond->hit[1] / m->beyond->hit[0],
+               100 * m->beyond->restitution * m->beyond->restitution);
     printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);

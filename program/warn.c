@@ -401,6 +401,9 @@ void warn_after(const model *p, const char *path)
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         warn(path, "elements turn by more than 0.1 rad, which statics takes as small: lengths are "
                    "wrong; dynamic with velocity_factor 0 has them right");
+    if (p->m->beyond->breach > BBM_BALANCED)
+        warn(path, "contacts held up to %.1g of the forces on a block against their law: positions "
+                   "have no more digits; a smaller kn helps", p->m->beyond->breach);
     if (!p->dynamic && bbm_find_stability(p->m, &stable) == BBM_OK && !stable)
         warn(path, "in equilibrium, but not stable: a push, however small, moves it on and on");
     if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)

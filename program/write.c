@@ -157,19 +157,21 @@ static void put_bolts(FILE *f, const write_results *w)
                 b->strength == 0 ? "REMOVED" : b->until < INFINITY ? "BROKEN" : "HOLDS");
 }
 
-/* What is left of the forces on each body in the last solution, and its share of all of them. */
+/* What is left of the forces on each body in the last solution, what a contact or bolt of it has
+ * against its law, and their shares of all of them. */
 static void put_balance(FILE *f, const write_results *w)
 {
     const model *p = w->p;
 
-    fprintf(f, "block,element,force,force_share,moment,moment_share\n");
+    fprintf(f, "block,element,force,force_share,moment,moment_share,breach,breach_share\n");
     for (int e = 0; e < p->m->elements; e++) {
         const bbm_balance *b = &p->m->beyond->balance[e];
         const double force = hypot(b->force[0], b->force[1]), all = b->forces > 0 ? b->forces : 1;
         if (b->area == 0 || field_is_gone(p->m, p->m->element[e].first))
             continue;
         fprintf(f, "%s,%s", p->block[p->m->element[e].block], p->element[e]);
-        put_numbers(f, 4, (double[]){ force, force / all, b->moment, b->moment / (all * b->size) });
+        put_numbers(f, 6, (double[]){ force, force / all, b->moment, b->moment / (all * b->size),
+                                      b->breach, b->breach / (all + b->breach) });
         fputc('\n', f);
     }
 }

@@ -29,7 +29,7 @@ static const struct { const char *file, *first; int rows; } written[] = {
     { "elements.csv", "element,block,x,y,u,v,rotation,sxx,syy,sxy,mises,vx,vy,spin", 6 },
     { "contacts.csv", "corner_block,edge_block,x,y,state,normal,shear,gap", -1 },
     { "reactions.csv", "node,x,y,fx,fy", 6 },
-    { "balance.csv", "block,element,force,force_share,moment,moment_share", 4 },
+    { "balance.csv", "block,element,force,force_share,moment,moment_share,breach,breach_share", 4 },
     { "history.csv", "step,t,low_u,low_v,held_fx,held_fy", 3 },
     { "summary.csv", "step,t,open_close,pcg_iterations,residual,contacts,kinetic,elastic,springs,"
       "external,gained", 2 },

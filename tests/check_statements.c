@@ -413,6 +413,9 @@ END_TEST
 #define CELLS(a, b, c, d, e, f) ROCK "node 1 " a " 0\nnode 2 " b " 0\nnode 3 " c " 0\nnode 4 0 1\nnode 5 4 1\nnode 6 8 1\nnode 7 " d \
     " 2\nnode 8 " e " 2\nnode 9 " f " 2\nelement 1 b rock 1 2 5 4\nelement 2 b rock 2 3 6 5\nelement 3 b rock 4 5 8 7\n" \
     "element 4 b rock 5 6 9 8\nfix node 1\nfix node 4\nfix node 7\nload node 9 0 -1\nstatic\n"
+/* On a slope of 30 degrees; far from the origin: the last digit of 30 m times kn is 0.7 % of its weight. */
+#define PEBBLE ROCK "block base rock 0 -1 30 -1 30 0 0 0\nfixblock base\nblock b rock 20 0 20.01 0 20.01 0.01 20 0.01\n" \
+    "gravity $(9.81*tan(30)) -9.81\ndynamic dt 0.01 steps 20\n"
 static const char slips[] = "warning: no friction between blocks: `contact friction DEGREES` gives it";
 static const struct { const char *text, *said; } doubtful[] = {
     { FALLS, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds them" }, { FALLS "fix at 0 0\n", NULL },
@@ -468,6 +471,9 @@ static const struct { const char *text, *said; } doubtful[] = {
       "shorter cells or parallelograms do not\n" },
     { CELLS("0", "3.5", "8", "0", "4.5", "8") "bond at vertices\n", NULL }, { CELLS("-1", "3", "7", "1", "5", "9"), NULL },
     { CELLS("0", "3.9", "8", "0", "4.1", "8"), NULL },
+    { PEBBLE "contact friction 29.995 kn 1e12\n", "of the forces on a block against their law: "
+      "positions have no more digits; a smaller kn helps\n" },
+    { PEBBLE "contact friction 29.995 kn 1e8 ks 1e8\n", NULL },
 };
 
 START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)

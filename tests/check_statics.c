@@ -216,6 +216,52 @@ START_TEST(what_a_base_weighs_changes_no_limit_and_no_force)
 }
 END_TEST
 
+/* A corner of two small stones between three large held blocks, pushed by 0.97 of what they hold,
+ * friction 15.3 degrees. Static steps alone do not find where it stands. */
+static bbm_model *corner(double heavy)
+{
+    const double p[][4][2] = {
+        { { 8.440325, 0.872304 }, { -0.996219, 8.541026 }, { -4.780229, 3.884711 },
+          { 4.656314, -3.784011 } },
+        { { 4.656314, -3.784011 }, { 0, 0 }, { -0.075821, -0.093299 }, { 4.580494, -3.877310 } },
+        { { -0.123915, 0.100701 }, { -4.780229, 3.884711 }, { -4.856050, 3.791412 },
+          { -0.199735, 0.007402 } },
+        { { 0, 0 }, { -0.123915, 0.100701 }, { -0.139631, 0.081362 }, { -0.109098, -0.134248 } },
+        { { -0.139631, 0.081362 }, { -0.240614, -0.042900 }, { -0.116699, -0.143601 },
+          { -0.109098, -0.134248 } },
+    };
+    bbm_model *m = new_blocks();
+
+    m->par.dt = INFINITY;
+    m->par.friction = 15.305207864701828;
+    measure_scene(m, MEASURES[0], heavy, 0, (double[]){ 6.1868572950054537, 7.6130740710463209 });
+    m->material[BASE].E *= 100;
+    for (int b = 0; b < 5; b++) {
+        add_polygon(m, b, 4, p[b]);
+        m->element[b].material = m->material[b < 3 ? BASE : ROCK];
+        for (int k = 0; k < 4 && b < 3; k++)
+            ck_ok(bbm_fix_node(m, m->vertex[4 * b + k].node, BBM_XY, 0, 0), m);
+    }
+    ck_ok(bbm_add_load(m, m->vertex[18].node, -192.45181041218706, -166.52717269216538), m);
+    return m;
+}
+
+/* Steps from rest end where friction holds, which depends on their way: the inertia of what is held
+ * has no part in it. The last digit of the weight of a block, of 4e12 N, is 4e-4 N; contacts carry
+ * up to 300 N. */
+START_TEST(what_is_held_has_no_inertia_in_steps_from_rest)
+{
+    bbm_model *m = corner(1), *n = corner((double[]){ 1e-6, 1e-3, 1e3, 1e6 }[_i]);
+
+    ck_assert(stands(m, 1) && stands(n, 1));
+    for (int b = 3; b < 5; b++)
+        for (int a = 0; a < b; a++)
+            ck_near(normal_force(n, a, b), normal_force(m, a, b), 4e-4, 1);
+    release(m);
+    release(n);
+}
+END_TEST
+
 /* A ladder from (1, 0) on the ground to (0, y) at the wall, its weight at x. At the limit N mu is
  * the friction on the ground and the pressure on the wall: mu^2 x + mu y = 1 - x. */
 START_TEST(a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_form)
@@ -234,6 +280,26 @@ START_TEST(a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_for
     add_rectangle(m, 1, BASE, (rectangle){ .x = -1, .y = 0, .w = 1, .h = 5, .fixed = 1 });
     add_polygon(m, 2, 4, p);
     ck_assert_int_eq(stands(m, 1), !falls);
+}
+END_TEST
+
+/* A stone far from the ends of its slope of 30 degrees, where the digits of a position make up to 1
+ * % of its weight; and far from the origin. Friction of 0.02 degrees is 8e-4 of its weight. */
+START_TEST(a_small_stone_slides_below_the_slope_anywhere_on_a_base_of_any_weight)
+{
+    const double size[] = { 0.1, 0.01 }, at[] = { 0, 12, 1000 }, slope = radians(30);
+    const double x = at[_i / 2 % 3], s = size[_i / 6 % 2];
+    const int falls = _i % 2;
+    bbm_model *m = new_blocks();
+
+    m->par.dt = INFINITY;
+    m->par.friction = falls ? 29.98 : 30.02;
+    measure_scene(m, MEASURES[0], _i / 12 ? 1e6 : 1, 0.3,
+                  (double[]){ GRAVITY * sin(slope), -GRAVITY * cos(slope) });
+    add_rectangle(m, 0, BASE, (rectangle){ .x = x - 12, .y = -2, .w = 18, .h = 2, .fixed = 1,
+                                           .angle = 0.3 * 180 / PI });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = x, .w = s, .h = s, .angle = 0.3 * 180 / PI });
+    ck_assert_msg(stands(m, 1) == !falls, "%s", bbm_message(m));
 }
 END_TEST
 
@@ -270,6 +336,101 @@ START_TEST(forces_and_moments_on_each_body_are_judged_against_its_own)
     m->monitor_context = &p;
     ck_assert_int_eq(bbm_step(m), refused ? BBM_NOT_CONVERGED : BBM_OK);
     ck_assert(!refused || strstr(bbm_message(m), "block 0 lack"));
+}
+END_TEST
+
+/* In place of moving the model: a contact of the stone is to hold `force` more than its law lets
+ * it, by a cone that is too narrow or a spring that is too short, or a corner of another block is
+ * inside though open. What is said of the first solution. */
+typedef struct { int law; double force; int broken; bbm_status said; } breach;
+
+static bbm_status break_law(bbm_model *m)
+{
+    breach *b = m->monitor_context;
+
+    for (int k = 0; k < m->scratch->contacts && !b->broken; k++) {
+        bbm_contact *c = &m->scratch->contact[k];
+        if (corner_block(m, c) != (b->law == 2 ? 2 : 1))
+            continue;
+        ck_assert_int_eq(c->state, b->law == 2 ? BBM_OPEN : BBM_LOCK);
+        if (b->law == 0)
+            c->strength.tan_phi = (fabs(c->T) - b->force) / c->N;
+        else if (b->law == 1)
+            c->rest += b->force / m->par.p_n;
+        else
+            c->d_n = -b->force / m->par.p_n;
+        b->broken = 1;
+        b->said = bbm_check_equilibrium(m);
+    }
+    return BBM_STOPPED;
+}
+
+/* A stone on a slope, beside a block that hangs so close above it that it touches. The weight of
+ * each counts twice, with what bears it, in dynamics up to four times, with what slows it: a share
+ * of 2.5e-7 or 4e-6 is broken, or half of it. In dynamics it is noted. */
+START_TEST(what_contacts_have_against_their_laws_is_refused_in_statics_and_noted_in_dynamics)
+{
+    const int refused = _i % 2, law = _i / 2 % 3, moves = _i / 6;
+    bbm_model *m = new_blocks();
+    breach b = { .law = law };
+
+    m->par.dt = moves ? 0.01 : INFINITY;
+    m->par.friction = 60;
+    measure_scene(m, MEASURES[0], 1, 0, (double[]){ GRAVITY * 0.5, -GRAVITY });
+    set_springs(m, 1e10, 4e9);              /* the last digit of a metre is 1e-10 of the weight */
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -3, .y = -1, .w = 7, .h = 1, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 1 });
+    add_rectangle(m, 2, ROCK, (rectangle){ .x = 2, .y = 1e-12, .w = 1, .h = 1, .fixed = 1 });
+    const double W = 2500 * hypot(0.5, 1) * GRAVITY;
+    b.force = (refused ? 8e-6 : 5e-7) * W;
+    ck_ok(bbm_prepare(m), m);
+    m->monitor_context = &b;
+    m->hook->move = break_law;
+    ck_assert_int_eq(bbm_step(m), BBM_STOPPED);
+    ck_assert(b.broken);
+    ck_assert_int_eq(b.said, refused && !moves ? BBM_NOT_CONVERGED : BBM_OK);
+    ck_near(m->beyond->breach, moves * 0.375 * b.force / W, b.force / W, 0.13);
+}
+END_TEST
+
+/* Behind the library's own gaps a bolt of 2 m between two squares, tight, that pulls along itself
+ * or across. */
+static void list_bolt(bbm_model *m, int across)
+{
+    const bbm_vertex P = { .x = m->element[0].x, .y = m->element[0].y };
+    const bbm_vertex Q = { .x = m->element[1].x, .y = m->element[1].y };
+
+    bbm_list_edge_gaps(m);
+    bbm_gap *g = bbm_add_gap(m, 0, 1);
+    bbm_bonding_gap(&m->element[0], &P, &m->element[1], &Q, 0, g);
+    g->elastic = 1;
+    g->W[across][across] = 1e3;
+    g->d0[across] = 1;
+    g->d0[!across] = 0;
+}
+
+static void list_straight_bolt(bbm_model *m) { list_bolt(m, 0); }
+static void list_crooked_bolt(bbm_model *m) { list_bolt(m, 1); }
+
+static bbm_status judge_alone(bbm_model *m)
+{
+    ck_assert_int_eq(bbm_check_equilibrium(m), BBM_OK);
+    return BBM_STOPPED;
+}
+
+/* Across, 1e3 N make a couple of 2e3 N m from nothing, on squares of 1 m: 2e3 N beside the force
+ * itself and what slows each square. */
+START_TEST(a_bolt_that_makes_angular_momentum_is_told)
+{
+    bbm_model *m = weightless_blocks();
+
+    m->hook->list_gaps = _i ? list_crooked_bolt : list_straight_bolt;
+    add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 2, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    m->hook->move = judge_alone;
+    ck_assert_int_eq(bbm_step(m), BBM_STOPPED);
+    ck_near(m->beyond->breach, _i * 0.5, 1, _i ? 0.01 : SOLVED);
 }
 END_TEST
 
@@ -340,7 +501,11 @@ Suite *statics_suite(void)
           2 * COUNT(MEASURES) },
         { what_a_base_weighs_changes_no_limit_and_no_force, 24 },
         { a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_form, 6 },
-        { forces_and_moments_on_each_body_are_judged_against_its_own, 8 * COUNT(MEASURES) });
+        { what_is_held_has_no_inertia_in_steps_from_rest, 4 },
+        { a_small_stone_slides_below_the_slope_anywhere_on_a_base_of_any_weight, 24 },
+        { forces_and_moments_on_each_body_are_judged_against_its_own, 8 * COUNT(MEASURES) },
+        { what_contacts_have_against_their_laws_is_refused_in_statics_and_noted_in_dynamics, 12 },
+        { a_bolt_that_makes_angular_momentum_is_told, 2 });
     tcase_add_loop_test(new_case(s, "wedged"), a_contact_that_no_friction_holds_opens, 0, 6);
     return s;
 }

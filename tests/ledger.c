@@ -274,6 +274,18 @@ void scene_overlap(const bbm_model *m, double deepest[SCENE_BLOCKS][SCENE_BLOCKS
             deepest[k / SCENE_BLOCKS][k % SCENE_BLOCKS] = 0;
 }
 
+/* By how much a contact pulls, or its shear force leaves the cone of Mohr and Coulomb, against its normal force and what
+ * moves the lighter of its two elements: its weight, and what stops it in a step. */
+static double against_law(const bbm_model *m, const bbm_contact *c, double speed)
+{
+    const double cone = fmax(0, c->N * c->strength.tan_phi + c->strength.shear);
+    const double excess = fmax(fabs(c->T) - cone, -c->N - c->strength.tension);
+    const double M = fmin(mass(&m->element[c->element[0]]), mass(&m->element[c->element[1]]));
+    const double g = hypot(m->par.gravity[0], m->par.gravity[1]);
+
+    return c->state == BBM_OPEN ? 0 : fmax(0, excess) / (fabs(c->N) + M * (g + speed / m->par.dt));
+}
+
 void scene_balance(const bbm_model *m, scene_ledger *l)
 {
     memset(l, 0, sizeof *l);
@@ -286,8 +298,10 @@ void scene_balance(const bbm_model *m, scene_ledger *l)
         l->springs += bond_energy(m, &m->bond[b]);
         l->stiffness += 2 * bond_stiffness(m, &m->element[m->bond[b].i], &m->element[m->bond[b].j]);
     }
-    for (int k = 0; k < m->contacts; k++)
+    for (int k = 0; k < m->contacts; k++) {
         l->springs += contact_energy(m, &m->contact[k]);
+        l->law = fmax(l->law, against_law(m, &m->contact[k], l->speed));
+    }
 }
 
 void scene_remember(const bbm_model *m, scene_memory *before)

@@ -45,11 +45,12 @@ typedef struct {                /* what there is at one moment                  
     double stiffness, speed;    /* N/m, m/s     of all bonds and fixed points; the largest                      */
     double overlap;             /* m        of two blocks, at most, beyond their deepest contact, scene_overlap */
     int pair[2];                /* those blocks                                                                 */
+    double law;                 /* -        what a contact carries against its law                              */
 } scene_ledger;
 
 typedef struct { double x[2], V[6]; } scene_memory;     /* barycentre and velocity of an element before a step   */
 
-enum { RULE_GAIN, RULE_MOMENTUM, RULE_TURNING, RULE_OVERLAP, RULE_BITS, RULE_UNITS, RULE_ORDER, RULE_FAR, RULE_FRAME, RULES };
+enum { RULE_GAIN, RULE_MOMENTUM, RULE_TURNING, RULE_OVERLAP, RULE_LAW, RULE_BITS, RULE_UNITS, RULE_ORDER, RULE_FAR, RULE_FRAME, RULES };
 
 extern const struct scene_rule { const char *text; double bound; } scene_rule[RULES];
 

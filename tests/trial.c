@@ -18,6 +18,7 @@
  * momentum           rounding, 300 steps
  * angular momentum   directions of forces that are right to the same 1e-4 turn by that share of the impulse; 3e-6 is seen
  * overlap            forces within 1e-9 of the largest agree: 1e-9 of 1e8 N at p_n = 1e6 N/m
+ * cones              forces within 1e-9 of the largest agree; rounding of places makes more of stiff springs
  * other units, order, frame    the same 1e-9 of forces, over three steps in contact, for each step since the first: what a
  *                    hit makes of rounding is a velocity, which parts the twins by as much in each step; 2e-7 is seen
  * bits               smaller numbers are dropped by the solver
@@ -27,6 +28,7 @@ const struct scene_rule scene_rule[RULES] = {
     [RULE_MOMENTUM] = { "momentum drifts",                               1e-9  },
     [RULE_TURNING]  = { "angular momentum drifts",                       1e-5  },
     [RULE_OVERLAP]  = { "blocks overlap deeper than their contacts [m]", 1e-7  },
+    [RULE_LAW]      = { "contacts leave their cones",                    1e-6  },
     [RULE_BITS]     = { "other units, powers of two, differ [m]",        1e-90 },
     [RULE_UNITS]    = { "other units differ [m]",                        1e-6  },
     [RULE_ORDER]    = { "another order differs [m]",                     1e-6  },
@@ -155,6 +157,7 @@ void scene_try(const test_scene *s, int verbose, scene_trial *t)
         const double gain = gain_of(m, before, &start, &end);
         note(t, RULE_GAIN, gain, m->info.step);
         note(t, RULE_OVERLAP, end.overlap, m->info.step);
+        note(t, RULE_LAW, end.law, m->info.step);
         left += forces_left(m, &end) * m->par.dt;
         off += scene_turning_off(m, before);
         if (is_isolated(s))
