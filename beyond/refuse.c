@@ -61,22 +61,37 @@ int bbm_contact_turns_over(const bbm_model *m)
     return over;
 }
 
+/* How far the corner of a contact, as its edge sees it, is half-way off the middle of the straight
+ * way, m. From the centre of j P1 goes from x0 to x1, over x. By then j has turned by a, and at the
+ * end by 2 a, so that this is |x - (R(a) x0 + R(-a) x1)/2|. */
+static double curve_of(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_element *i = &m->element[c->element[0]], *j = &m->element[c->element[1]];
+    const bbm_vertex *P1 = bbm_start_of(m, c->corner);
+    const double *Di = &m->D[6 * c->element[0]], *Dj = &m->D[6 * c->element[1]];
+    const double half[6] = { Di[0] / 2, Di[1] / 2, Di[2] / 2, Di[3] / 2, Di[4] / 2, Di[5] / 2 };
+    const double cosine = cos(Dj[2] / 2), sine = sin(Dj[2] / 2);
+    double whole[2], u[2];
+
+    bbm_move(m, i, Di, P1->x, P1->y, whole);
+    bbm_move(m, i, half, P1->x, P1->y, u);
+    const double x = (whole[0] - Dj[0]) / 2, y = (whole[1] - Dj[1]) / 2;
+    const double X = P1->x - j->x, Y = P1->y - j->y;
+    return hypot(X + u[0] - Dj[0] / 2 - cosine * (X + x) - sine * y,
+                 Y + u[1] - Dj[1] / 2 - cosine * (Y + y) + sine * x);
+}
+
 /* An element that turns while a corner of it, or one at an edge of it, goes a way that is too far
- * off the straight one, by 1/8 of way times turn; or -1. */
+ * off the straight one; or -1. */
 static int curving_element(const bbm_model *m)
 {
-    const bbm_contact *c = m->scratch->contact;
+    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     int far = -1;
 
-    for (int k = 0; k < m->scratch->contacts && far < 0 && bbm_motion_of(m); k++) {
-        const double size = bbm_size_at(m, &c[k]);
-        const double along = bbm_way_along(m, c[k].corner, c[k].edge) + c[k].trial.past[0];
-        const double way = hypot(c[k].d_n - c[k].trial.d_n0, along);
-        const double ri = fabs(m->D[6 * c[k].element[0] + 2]);
-        const double rj = fabs(m->D[6 * c[k].element[1] + 2]);
-        if (c[k].state == BBM_OPEN && way * (ri + rj) / 8 > CURVE * size)
-            far = c[k].element[ri <= rj];
-    }
+    for (; c < end && far < 0 && bbm_motion_of(m); c++)
+        if (c->state == BBM_OPEN && curve_of(m, c) > CURVE * bbm_size_at(m, c))
+            far = c->element[fabs(m->D[6 * c->element[0] + 2])
+                             <= fabs(m->D[6 * c->element[1] + 2])];
     return far;
 }
 

@@ -38,7 +38,6 @@ enum { LEFT = 92, RIGHT = 24, OVER = 40, UNDER = 56, BAR = 76, ARROW = PLOT_SYMB
 /* One of so many values may lie beyond each end of the colours, and be larger than a cross. */
 enum { OUTSIDE = 100, LARGER = 20 };
 
-static const double nothing[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
 static const double VISIBLE = 0.3;      /* pixels: what moves less stays                          */
 static const double FAIR = 0.5;         /* of an element's width: how much an edge may change     */
 static const double MOST = 1e5;         /* displacements are magnified: above, rounding is seen   */
@@ -834,7 +833,8 @@ static void measure(film *f)
                                             : is_stress(kind) ? 0.6 * element : ARROW));
         if (round == 1 && f->s->field && !has_colours(f->s->field))
             hide_crosses(f);
-        memcpy(f->window, nothing, sizeof nothing);
+        for (int a = 0; a < 2; a++)
+            f->window[a][0] = INFINITY, f->window[a][1] = -INFINITY;
         for (int i = 0; i < f->s->frames; i++) {
             for (int v = 0; v < f->m->vertices; v++)
                 plot_widen(f->window, position(f, i, v).x, position(f, i, v).y);
@@ -1031,9 +1031,9 @@ typedef struct { double x, y, value; } sample;     /* pixels */
 static double find_scale(const scene *s, const bbm_model *m)
 {
     const point *x = s->frame[0].at, *d = s->frame[1].at;
-    double range[2][2], moved = 0, fair = INFINITY;
+    double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
+    double moved = 0, fair = INFINITY;
 
-    memcpy(range, nothing, sizeof nothing);
     for (int v = 0; v < m->vertices; v++) {
         plot_widen(range, x[v].x, x[v].y);
         moved = fmax(moved, hypot(d[v].x, d[v].y));
