@@ -225,6 +225,20 @@ START_TEST(a_stone_in_an_inner_cell_of_another_block_is_refused)
 }
 END_TEST
 
+START_TEST(blocks_side_by_side_overlap_nowhere)
+{
+    bbm_model *m = new_rock();
+    bbm_overlap o;
+
+    for (int k = 0; k < 2; k++)
+        add_rows(m, k, k, 0, 1, 1, 2, 2, 0);
+    ck_assert_int_eq(bbm_prepare(m), BBM_OK);
+    ck_assert_int_eq(bbm_find_overlap(m, &o), BBM_OK);
+    ck_assert_int_eq(o.i, -1);
+    release(m);
+}
+END_TEST
+
 /* 5 mm, in meshes of many elements, turned by any angle: the block in front is element by element
  * in the other. */
 START_TEST(blocks_of_many_elements_that_overlap_are_refused_at_any_angle)
@@ -566,6 +580,7 @@ Suite *refused_suite(void)
         { stars_overlap_where_points_lie_in_both, 100 },
         { elements_of_one_block_that_overlap_are_refused, 1 },
         { a_stone_in_an_inner_cell_of_another_block_is_refused, 4 },
+        { blocks_side_by_side_overlap_nowhere, 1 },
         { blocks_of_many_elements_that_overlap_are_refused_at_any_angle, 9 });
     add_case(s, "pieces",
         { a_block_falls_into_the_pieces_that_bonds_join, 1 });
