@@ -191,7 +191,7 @@ static int node_of(int number) { return number < 0 ? -1 - number : number; }
 
 /* start, mode, first, held, and node in the caller's numbers. */
 static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, const int *node,
-                             int middles, coarse_space *c)
+                             const int *middles, coarse_space *c)
 {
     const size_t rows = (size_t)K->n + 1;
 
@@ -207,7 +207,7 @@ static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, c
     for (int i = 0; i < K->n; i++) {
         const int *from = first + K->caller[i];
         int n = c->first[i];
-        c->mode[i + 1] = c->mode[i] + (middles && from[1] == from[0] + 4 ? 2 : 0);
+        c->mode[i + 1] = c->mode[i] + (middles && middles[K->caller[i]] ? 2 : 0);
         for (int k = from[0]; k < from[1]; k++, n++) {
             c->node[n] = node_of(node[k]);
             c->held[n] = node[k] < 0;
@@ -260,11 +260,11 @@ static void coarse_free(void *extra)
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
  * node[first[i+1]-1], all different, or none; -1 - v stands for a node v that is held, or in
- * contact. middles: rows of four nodes are quadrilaterals with bonds in the middles of their sides.
- * place[v] is BBM_PLACES times the component of K that node v is in, and less than BBM_PLACES more:
- * near nodes should have the upper bits in common. */
+ * contact. middles[i], if not NULL: row i has modes, a quadrilateral whose bonds with its like are
+ * in the middles of their sides. place[v] is BBM_PLACES times the component of K that node v is in,
+ * and less than BBM_PLACES more: near nodes should have the upper bits in common. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
-                             const long long *place, int middles)
+                             const long long *place, const int *middles)
 {
     for (int k = 0; k < first[K->n]; k++)
         if (node_of(node[k]) >= nodes)

@@ -26,8 +26,8 @@
  * with blocks of 2 to 300 elements they break even at 1 to 4. */
 #define CROSSED 3.0
 
-/* Bonds an element, from which on modes pay where there are contacts: blocks of 7 x 7 have as many.
- * Measured: with 2 x 2 a step takes 1.2 times as long, with 7 x 7 as long, with 12 x 12 half. */
+/* Bonds an element, from which on modes pay: blocks of 7 x 7 have as many. Measured: with blocks of
+ * 2 x 2 a step takes 1.2 times as long, of 7 x 7 as long, of 12 x 12 half. */
 #define MANY_BONDS (12 / 7.0)
 
 /* The unknowns r0, ex, ey, gxy of a linear displacement are Q times its slopes ux, uy, vx, vy. With
@@ -91,6 +91,17 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
+/* Whether an element has modes: a quadrilateral bonded in its middles, in a model of many, and no
+ * part of a single row, which bends by the moments of its bonds alone. */
+static int has_modes(const bbm_model *m, const bbm_element *e)
+{
+    const bbm_vertex *v = &m->vertex[e->first];
+
+    return e->n == 4 && m->beyond->bonding != BBM_VERTICES
+        && m->bonds > MANY_BONDS * m->elements
+        && (v[0].edge < 0 || v[2].edge < 0) && (v[1].edge < 0 || v[3].edge < 0);
+}
+
 /* Where each vertex lies: in its component of K, and in a square round this, which is halved again
  * and again, left and right and then below and above. From its first bit on, what place[v] is more
  * than BBM_PLACES times the component says in which half. */
@@ -122,14 +133,15 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
-    int *up = calloc(4 * v + 2 * n + 1, sizeof *up), nodes = 0;
+    int *up = calloc(4 * v + 3 * n + 1, sizeof *up), nodes = 0;
     long long *place = calloc(v, sizeof *place);
     bbm_box *box = malloc(n * sizeof *box);
 
     if (!up || !place || !box)
         return free(up), free(place), free(box), BBM_NO_MEMORY;
     int *number = up + v, *node = number + v, *first = node + v;
-    int *worth = first + n + 1, *held = worth + n;                  /* [components of K], [nodes] */
+    int *worth = first + n + 1;                                     /* [components of K] */
+    int *middles = worth + n, *held = middles + n;
     for (int k = 0; k < m->vertices; k++)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
@@ -147,7 +159,6 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
             number[k] = nodes;
             place[nodes++] = place[k];
         }
-    const int pays = m->scratch->contacts == 0 || m->bonds > MANY_BONDS * m->elements;
     for (int k = 0; k < 3 * m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k / 3];
         const bbm_edge *e = &m->edge[k % 3 ? c->edge : c->corner];
@@ -162,9 +173,9 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
             node[first[i] + k] = is_held ? -1 - at : at;
         }
         first[i + 1] = first[i] + in * e->n;
+        middles[i] = in && has_modes(m, e);
     }
-    const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node, place,
-                                                m->beyond->bonding != BBM_VERTICES && pays);
+    const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node, place, middles);
     free(up);
     free(place);
     free(box);

@@ -654,6 +654,33 @@ START_TEST(supports_of_quadrilaterals_by_the_thousand_cost_few_iterations)
 }
 END_TEST
 
+/* A bar of one row bends by the moments of its bonds alone, which Kc has to know: left out as on a
+ * mesh, it takes 53 iterations. */
+START_TEST(a_bar_of_one_row_beside_a_mesh_takes_few_iterations)
+{
+    static const int nx[2] = { 20, 40 }, ny[2] = { 20, 1 };
+    bbm_model *m = beyond_model();
+
+    bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
+    for (int k = 0; k < 2; k++) {
+        const int first = m->nodes, across = nx[k] + 1;
+        for (int n = 0; n < across * (ny[k] + 1); n++)
+            bbm_add_node(m, n % across, n / across - 10 * k, NULL);
+        for (int n = 0; n < nx[k] * ny[k]; n++) {
+            const int a = first + n / nx[k] * across + n % nx[k];
+            bbm_add_element(m, k, 0, 4, (int [4]){ a, a + 1, a + 1 + across, a + across }, NULL);
+        }
+        for (int j = 0; j <= ny[k]; j++)
+            bbm_fix_node(m, first + j * across, BBM_XY, 0, 0);
+        bbm_add_load(m, first + nx[k], 0, -1);
+    }
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    ck_assert_int_le(m->info.pcg.iterations, 24);
+    release(m);
+}
+END_TEST
+
 /* Both to 1e-12 of what each measures; the condition of K is some 1e6. */
 START_TEST(two_levels_and_one_reach_the_same_displacements)
 {
@@ -840,6 +867,7 @@ Suite *coarse_suite(void)
         { iterations_on_two_levels_are_few_and_hardly_grow_with_the_mesh, 17 },
         { quadrilaterals_by_the_thousand_take_no_more_iterations, 3 },
         { supports_of_quadrilaterals_by_the_thousand_cost_few_iterations, 2 },
+        { a_bar_of_one_row_beside_a_mesh_takes_few_iterations, 1 },
         { two_levels_and_one_reach_the_same_displacements, MESHES },
         { corners_that_a_bond_ties_together_are_one_coarse_node, 1 },
         { one_level_is_used_where_two_do_not_pay, 6 });
