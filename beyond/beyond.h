@@ -98,9 +98,9 @@ bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with a
 typedef struct { double f, fx, fy; } bbm_linear;    /* f(x, y) at the centroid, 1/m: its slopes */
 extern const bbm_method bbm_two_level;
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
-                             const long long *place);
+                             const long long *place, const int *middles);
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double Q[4][4], bbm_linear f,
-                                  double x, double y);
+                                  const bbm_element *e);
 
 /* factor.c */
 typedef struct { int from, to; size_t at; } bbm_part;  /* columns, in pairs; its first entry in A */

@@ -1,5 +1,5 @@
 /* coarse.c - a second, coarse level for the SSOR-PCG of solver.c, by which the number of iterations
- * does not grow with a mesh of triangles.
+ * does not grow with the mesh.
  *
  * SSOR removes in one iteration what is stiff and local, but carries news of the load by one
  * element per sweep; the finer the mesh, the more iterations. What it is slow at is known
@@ -20,97 +20,121 @@
  *
  *     (D + L) y = r,   f = D y + L P Kc^-1 P^T L^T y,   (D + L^T) u = f,
  *
- * positive definite by its form. On triangles some 15 iterations suffice on a mesh of any fineness.
- * What the nodes of a model are, and P, is in interpolation.c.
+ * positive definite by its form. On triangles some 15 iterations suffice on a mesh of any fineness,
+ * on quadrilaterals some 20. What the nodes of a model are, and P, is in interpolation.c.
+ *
+ * The bond of two elements with a side in common opens by no displacement of the nodes, if they are
+ * triangles, or quadrilaterals bonded in the middle of the side. So it has no part in Kc, which is
+ * the sum of what the elements have without such bonds. K_ij E, where E continues the linear
+ * displacement of i into j, is less what the bond adds to K_ii: the element's own stiffness is K_ii
+ * + sum_j K_ij E. On quadrilaterals this leaves out the moments of the bonds, which feel little
+ * else than the hourglass, displacements of the four corners to and fro by turns, in which P does
+ * not move the element. Kc gets a small stiffness against it, as do quadrilaterals with one point
+ * of integration (Flanagan and Belytschko, Int. J. Num. Meth. Eng. 17, 1981). All other blocks of K
+ * enter Kc whole.
+ *
+ * Modes. A quadrilateral bonded in its middles has two coarse nodes more, its modes, which no other
+ * element has: (u, v) s, and (u, v) t, with s and t the linear functions that are -1/2 and 1/2 in
+ * the middles of two opposite sides and 0 in the others. Along a row of elements s may be up and
+ * down by turns, with a size that changes slowly: that opens the bonds very little, though no nodes
+ * make it, and no sweep sees much of it. So Kc also has the entries between a mode and itself, and
+ * between the modes of two elements across their side: a chain for each row of elements, at the
+ * price of a sweep. All other entries of modes are left out.
  *
  * Kc is factored by Cholesky (factor.c), in the order of nested dissection (A. George, SIAM J.
  * Numer. Anal. 10, 1973). The plane is halved again and again. What joins the halves of a cell are
  * entries of Kc between a node in the one and a node in the other; the nodes in the lower half that
  * have such entries are numbered behind all others of the cell. Without them nothing joins the
  * halves, nor does an entry of the factor. They are few: n nodes have a factor of some n log n
- * entries, in place of the n^1.5 of a band.
+ * entries, in place of the n^1.5 of a band. The modes follow in the order of the rows.
  *
- * Rows i and j with a side in common. The springs of a side measure gaps between t_i and t_j, the
- * displacements of the side as either element has it. P gives a triangle there what is linear
- * between the two nodes of the side, s, so t_i = t_j = s. But on a quadrilateral t_i hangs on all
- * four nodes, and Kc would join two nodes that no element has both: its factor would have nearly
- * three times as many entries. So Kc measures t_i - s and t_j - s in place of t_i - t_j. A linear
- * displacement opens none of these. With R for the unknowns of i, or j, that s makes, K_ij adds
- *
- *     P_i^T K_ij P_j - (P_i - R_i)^T K_ij (P_j - R_j),
- *
- * and Kc still is positive semidefinite. At alpha = 100 a large model takes a third more iterations
- * and 0.6 of the time. A small one would gain nothing, and one with contacts would lose: they keep
- * K_ij whole. So do two rows with a held node: between them there may be a spring of negative
- * stiffness (bending.c), and with that the sum might not be positive.
- *
- * Displacements of the nodes that move no element (the hourglass of quadrilaterals) have no
- * stiffness: of their pivots rounding is left, some eps of what was summed up before it cancelled.
- * They are struck out: the coarse space is then a little smaller, and the preconditioner as
- * positive definite as before.
+ * Displacements of the nodes that move no element have no stiffness: of their pivots rounding is
+ * left, some eps of what was summed up before it cancelled. They are struck out: the coarse space
+ * is then a little smaller, and the preconditioner as positive definite as before.
  */
 #include <stdlib.h>
 #include <string.h>
 
 #include "beyond.h"
 
-/* Nodes of a large model. Measured, alpha = 100 and 1000: with 2,000 nodes a solution takes as long
- * by the smaller Kc, with 2,600 it takes 0.8 and 0.9 of the time. */
-#define LARGE 2500
+/* [-] against the hourglass, of E t. Measured, alpha = 10 to 1e5: with ten times as much iterations
+ * grow with alpha; with none they are half as many again. */
+#define HOURGLASS 1e-3
 
 typedef struct {
-    int n;                      /* nodes, some without a corner                                 */
-    int large;                  /* of many nodes, and without contacts                          */
+    int nodes;                  /* without modes; some without a corner                         */
     int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
-                                /*           start[i] .. start[j]-1                             */
-    int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1] */
+                                /*           start[i] .. start[j]-1 ...                         */
+    int *mode;                  /* [rows+1]  ... and the modes mode[i] .. mode[j]-1             */
+    int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1],*/
+                                /*           those of its corners, then its modes               */
     int *held;                  /* as node: it is                                               */
     bbm_linear *P;              /* as node                                                      */
-    double (*at)[2];            /* as node: from the row's centroid                             */
-    double (*Q)[4][4];          /* [rows]   unknowns 2 to 5 of the slopes ux, uy, vx, vy        */
+    double (*at)[2];            /* [rows]    centroid                                           */
+    double (*Q)[4][4];          /* [rows]    unknowns 2 to 5 of the slopes ux, uy, vx, vy       */
+    double *hourglass;          /* [rows]    stiffness against it, N/m                          */
     bbm_factor Kc;              /* then its factor                                              */
-    double *x;                  /* [2 n]     a vector                                           */
+    double *x;                  /* [2 (nodes + modes)]  a vector                                */
     double *z;                  /* [6 rows]  a vector                                           */
 } coarse_space;
 
 /* ----------------------------------------------------------------------------------- the layout */
 
-/* The corners of row i that row j has, too, if both are elements with a side in common, that is,
- * share two of three nodes or more. Returns how many nodes both have, these twice; 0: they share
- * nodes, but no side, or one that Kc takes whole; -1: they share none. */
-static int find_side(const coarse_space *c, int i, int j, int corner[2])
-{
-    const int ni = c->first[i + 1] - c->first[i], nj = c->first[j + 1] - c->first[j];
-    int common = 0, held = 0;
+static int has_modes(const coarse_space *c, int i) { return c->mode[i + 1] > c->mode[i]; }
 
-    for (int a = c->first[i]; a < c->first[i + 1]; a++)
-        for (int b = c->first[j]; b < c->first[j + 1]; b++)
-            if (c->node[a] == c->node[b]) {
-                corner[common++ % 2] = a;
-                held |= c->held[a];
+static int corners(const coarse_space *c, int i)
+{
+    return c->first[i + 1] - c->first[i] - (has_modes(c, i) ? 2 : 0);
+}
+
+/* What the block of the rows i and j adds to Kc: WHOLE, all of it; ACROSS, what modes across a side
+ * have. Nothing to be added whole is the bond of two triangles, or of two quadrilaterals with modes
+ * at no node that is held. mode: where those of i and j across their side stand. */
+enum { WHOLE = 1, ACROSS = 2 };
+
+static int find_share(const coarse_space *c, int i, int j, int mode[2])
+{
+    const int ni = corners(c, i), nj = corners(c, j), modes = has_modes(c, i) && has_modes(c, j);
+    int common = 0, held = 0, sum[2] = { 0 };
+
+    for (int a = 0; a < ni; a++)
+        for (int b = 0; b < nj; b++)
+            if (c->node[c->first[i] + a] == c->node[c->first[j] + b]) {
+                common++;
+                held |= c->held[c->first[i] + a];
+                sum[0] += a;
+                sum[1] += b;
             }
-    if (common == 2 && ni > 2 && nj > 2 && (ni + nj == 6 || (c->large && !held)))
-        return ni + nj;
-    return common > 0 ? 0 : -1;
+    mode[0] = c->first[i] + ni + (sum[0] != 3);     /* corners 1 and 2, or 3 and 0 */
+    mode[1] = c->first[j] + nj + (sum[1] != 3);
+    if (common != 2 || !(modes || (ni == 3 && nj == 3)))
+        return WHOLE;
+    return modes ? ACROSS | (held ? WHOLE : 0) : 0;
+}
+
+static int add_entry(int (*entry)[2], int n, int p, int q)
+{
+    if (entry)
+        memcpy(entry[n], (int [2]){ p, q }, sizeof *entry);
+    return n + 1;
 }
 
 /* The entries of Kc below its diagonal: the pairs of nodes that meet in an element, or in elements
- * that a block of K joins without a common side, some several times. entry NULL: counts them. With
- * a block of a contact or a bolt, which share no node, a model no longer counts as large: it would
- * take far more iterations by the smaller Kc. */
-static int list_entries(const bbm_matrix *K, coarse_space *c, int (*entry)[2])
+ * whose block is added whole, and the modes across a side; some several times. Returns their
+ * number; entry NULL: no more than that. */
+static int list_entries(const bbm_matrix *K, const coarse_space *c, int (*entry)[2])
 {
-    int n = 0, p[2];
+    int n = 0, mode[2];
 
     for (int i = 0; i < K->n; i++)
         for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
-            const int j = k < K->first[i + 1] ? i - K->back[k] : i, side = find_side(c, i, j, p);
-            const int before = n;
-            for (int a = c->first[i]; a < c->first[i + 1] && side <= 0; a++)
-                for (int b = i == j ? a + 1 : c->first[j]; b < c->first[j + 1]; b++, n++)
-                    if (entry)
-                        memcpy(entry[n], (int [2]){ c->node[a], c->node[b] }, sizeof *entry);
-            c->large &= side >= 0 || n == before;
+            const int j = k < K->first[i + 1] ? i - K->back[k] : i;
+            const int share = find_share(c, i, j, mode);
+            if (share & ACROSS)
+                n = add_entry(entry, n, c->node[mode[0]], c->node[mode[1]]);
+            for (int a = 0; a < corners(c, i) && share & WHOLE; a++)
+                for (int b = i == j ? a + 1 : 0; b < corners(c, j); b++)
+                    n = add_entry(entry, n, c->node[c->first[i] + a], c->node[c->first[j] + b]);
         }
     return n;
 }
@@ -129,15 +153,17 @@ static int compare_keys(const void *a, const void *b)
     return (p[k] > q[k]) - (p[k] < q[k]);
 }
 
-/* Numbers the nodes by sorted keys, also in the entries. key, number: [n], scratch, the first 0. */
+/* Numbers the nodes by sorted keys, also in the entries; modes stay. key, number: [n], scratch, the
+ * first 0. */
 static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *place, int entries,
                          int (*entry)[2], long long (*key)[KEYS], int *number)
 {
     for (int k = 0; k < entries; k++) {
         const int p = entry[k][0], q = entry[k][1];
-        key[place[p] < place[q] ? p : q][SIZE] |= place[p] ^ place[q];
+        if (p < c->nodes)
+            key[place[p] < place[q] ? p : q][SIZE] |= place[p] ^ place[q];
     }
-    for (int v = 0; v < c->n; v++) {
+    for (int v = 0; v < c->nodes; v++) {
         long long all = 0;
         while (all < key[v][SIZE])
             all = 2 * all + 1;
@@ -145,15 +171,17 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *
         key[v][LAST] = place[v] | all;
         key[v][NODE] = v;
     }
-    qsort(key, (size_t)c->n, sizeof *key, compare_keys);
-    for (int k = 0; k < c->n; k++)
+    qsort(key, (size_t)c->nodes, sizeof *key, compare_keys);
+    for (int k = 0; k < c->nodes; k++)
         number[key[k][NODE]] = k;
     for (int a = 0; a < c->first[K->n]; a++)
-        c->node[a] = number[c->node[a]];
+        if (c->node[a] < c->nodes)
+            c->node[a] = number[c->node[a]];
     for (int k = 0; k < 2 * entries; k++)
-        entry[k / 2][k % 2] = number[entry[k / 2][k % 2]];
+        if (entry[k / 2][k % 2] < c->nodes)
+            entry[k / 2][k % 2] = number[entry[k / 2][k % 2]];
     for (int k = 0, v = 0; k <= K->components; k++) {
-        while (v < c->n && key[v][LAST] < BBM_PLACES * k)
+        while (v < c->nodes && key[v][LAST] < BBM_PLACES * k)
             v++;
         c->start[K->start[k]] = v;
     }
@@ -161,41 +189,56 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *
 
 static int node_of(int number) { return number < 0 ? -1 - number : number; }
 
-static bbm_status lay_out(const bbm_matrix *K, int nodes, const int *first, const int *node,
-                          const long long *place, coarse_space *c)
+/* start, mode, first, held, and node in the caller's numbers. */
+static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, const int *node,
+                             const int *middles, coarse_space *c)
 {
-    const size_t corners = (size_t)first[K->n], rows = (size_t)K->n + 1;
+    const size_t rows = (size_t)K->n + 1;
 
-    c->n = nodes;
-    c->start = calloc(2 * rows + 2 * corners, sizeof *c->start);
-    c->P = calloc(corners * (sizeof *c->P + sizeof *c->at) + rows * sizeof *c->Q, 1);
-    c->x = calloc(2 * (size_t)nodes + 6 * rows, sizeof *c->x);
-    if (!c->start || !c->P || !c->x)
+    c->nodes = nodes;
+    c->start = calloc(3 * rows + 3 * (size_t)first[K->n], sizeof *c->start);
+    if (!c->start)
         return BBM_NO_MEMORY;
-    c->at = (double (*)[2])(c->P + corners);
-    c->Q = (double (*)[4][4])(c->at + corners);
-    c->first = c->start + rows;
+    c->mode = c->start + rows;
+    c->first = c->mode + rows;
     c->node = c->first + rows;
-    c->held = c->node + corners;
-    c->z = c->x + 2 * nodes;
+    c->held = c->node + 3 * first[K->n] / 2;
+    c->mode[0] = nodes;
     for (int i = 0; i < K->n; i++) {
         const int *from = first + K->caller[i];
-        c->first[i + 1] = c->first[i] + from[1] - from[0];
-        for (int a = c->first[i], k = from[0]; k < from[1]; a++, k++) {
-            c->held[a] = node[k] < 0;
-            c->node[a] = node_of(node[k]);
+        int n = c->first[i];
+        c->mode[i + 1] = c->mode[i] + (middles && middles[K->caller[i]] ? 2 : 0);
+        for (int k = from[0]; k < from[1]; k++, n++) {
+            c->node[n] = node_of(node[k]);
+            c->held[n] = node[k] < 0;
         }
+        for (int k = c->mode[i]; k < c->mode[i + 1]; k++)
+            c->node[n++] = k;
+        c->first[i + 1] = n;
     }
-    c->large = nodes > LARGE;
-    list_entries(K, c, NULL);               /* clears `large` if there are contacts: counted anew */
+    return BBM_OK;
+}
+
+static bbm_status lay_out(const bbm_matrix *K, const long long *place, coarse_space *c)
+{
+    const size_t rows = (size_t)K->n, nodes = (size_t)c->nodes, all = (size_t)c->mode[K->n];
+    const size_t columns = (size_t)c->first[K->n];
     const int entries = list_entries(K, c, NULL);
-    int (*entry)[2] = calloc((size_t)entries + (size_t)nodes, sizeof *entry);
-    long long (*key)[KEYS] = calloc((size_t)nodes, sizeof *key);
+    int (*entry)[2] = calloc((size_t)entries + nodes, sizeof *entry);
+    long long (*key)[KEYS] = calloc(nodes, sizeof *key);
     bbm_status status = BBM_NO_MEMORY;
-    if (entry && key) {
+
+    c->P = calloc(columns * sizeof *c->P + rows * (sizeof *c->at + sizeof *c->Q
+                                                   + sizeof *c->hourglass), 1);
+    c->x = calloc(2 * all + 6 * rows, sizeof *c->x);
+    if (c->P && c->x && entry && key) {
+        c->at = (double (*)[2])(c->P + columns);
+        c->Q = (double (*)[4][4])(c->at + rows);
+        c->hourglass = (double *)(c->Q + rows);
+        c->z = c->x + 2 * all;
         list_entries(K, c, entry);
         number_nodes(K, c, place, entries, entry, key, entry[entries]);
-        status = bbm_factor_lay_out(&c->Kc, nodes, entries, entry);
+        status = bbm_factor_lay_out(&c->Kc, (int)all, entries, entry);
     }
     free(entry);
     free(key);
@@ -216,12 +259,12 @@ static void coarse_free(void *extra)
 }
 
 /* Gives K a coarse space in place of the one it had: block row i has the nodes node[first[i]] ..
- * node[first[i+1]-1], all different, or none; -1 - v stands for a node v that is held. Rows of
- * three nodes or more that share two of them must be elements bonded along that side. place[v] is
- * BBM_PLACES times the component of K that node v is in, and less than BBM_PLACES more: near nodes
- * should have the upper bits in common. */
+ * node[first[i+1]-1], all different, or none; -1 - v stands for a node v that is held, or in
+ * contact. middles[i], if not NULL: row i has modes, a quadrilateral whose bonds with its like are
+ * in the middles of their sides. place[v] is BBM_PLACES times the component of K that node v is in,
+ * and less than BBM_PLACES more: near nodes should have the upper bits in common. */
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
-                             const long long *place)
+                             const long long *place, const int *middles)
 {
     for (int k = 0; k < first[K->n]; k++)
         if (node_of(node[k]) >= nodes)
@@ -233,7 +276,8 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     if (first[K->n] == 0)
         return BBM_OK;
     coarse_space *c = calloc(1, sizeof *c);
-    const bbm_status status = c ? lay_out(K, nodes, first, node, place, c) : BBM_NO_MEMORY;
+    bbm_status status = c ? list_nodes(K, nodes, first, node, middles, c) : BBM_NO_MEMORY;
+    status = status ? status : lay_out(K, place, c);
     if (status)
         coarse_free(c);
     K->extra = status ? NULL : c;
@@ -241,19 +285,21 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
 }
 
 /* The displacement (u, v) of the k-th node of block row i alone displaces the row by f (u, v), f
- * linear in x and y; (x, y) [m]: where the node lies. Both are taken from the element's centroid.
- * u0 and v0 are the values there, the other unknowns Q times the slopes ux, uy, vx, vy. */
+ * linear in x and y. u0 and v0 are the values at the centroid of its element e, the other unknowns
+ * Q times the slopes ux, uy, vx, vy. */
 bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double Q[4][4], bbm_linear f,
-                                  double x, double y)
+                                  const bbm_element *e)
 {
     const coarse_space *c = K->extra;
-    const int *first = c && i >= 0 && i < K->n ? &c->first[K->place[i]] : NULL;
+    const int row = c && i >= 0 && i < K->n ? K->place[i] : -1;
 
-    if (!first || k < 0 || k >= first[1] - first[0])
+    if (row < 0 || k < 0 || k >= corners(c, row))
         return BBM_BAD_INDEX;
-    c->P[first[0] + k] = f;
-    memcpy(c->at[first[0] + k], (double [2]){ x, y }, sizeof *c->at);
-    memcpy(c->Q[K->place[i]], Q, sizeof *c->Q);
+    c->P[c->first[row] + k] = f;
+    c->at[row][0] = e->x;
+    c->at[row][1] = e->y;
+    c->hourglass[row] = HOURGLASS * e->material.E * e->material.thickness;
+    memcpy(c->Q[row], Q, sizeof *c->Q);
     K->ready = 0;
     return BBM_OK;
 }
@@ -287,14 +333,14 @@ static void take_block(double B[6][6], double Q[4][4], double W[6][6])
     }
 }
 
-/* Y = s B P, by columns. */
-static void multiply(double s, double B[6][6], const bbm_linear *P, double Y[2][6])
+/* Y = B P, by columns. */
+static void multiply(double B[6][6], const bbm_linear *P, double Y[2][6])
 {
     for (int a = 0; a < 6; a++) {
         double row[2] = { 0 };
         add_to_node(P, B[a], row);
-        Y[0][a] = s * row[0];
-        Y[1][a] = s * row[1];
+        Y[0][a] = row[0];
+        Y[1][a] = row[1];
     }
 }
 
@@ -317,51 +363,101 @@ static void add_block(const coarse_space *c, const bbm_linear *P, int i, double 
     }
 }
 
-/* Z = P - R of corner a of a row with this side: R is 1 at a and 0 at the side's other end and
- * does not change across the side, or 0 if a is not on the side. Returns whether it is. */
-static int find_rest(const coarse_space *c, int a, const int side[2], bbm_linear *Z)
+/* own += B E, where E continues values and slopes by the way d. */
+static void add_continued(double B[6][6], const double d[2], double own[6][6])
 {
-    const int common = a == side[0] || a == side[1];
-    const double *from = c->at[a], *to = c->at[side[a == side[0]]];
-    const double x = to[0] - from[0], y = to[1] - from[1], l2 = x * x + y * y;
-    const double r = common / l2, f = to[0] * x + to[1] * y;
-
-    *Z = (bbm_linear){ c->P[a].f - r * f, c->P[a].fx + r * x, c->P[a].fy + r * y };
-    return common;
+    for (int a = 0; a < 6; a++)
+        for (int b = 0; b < 6; b++)
+            own[a][b] += B[a][b] + (b < 2 ? 0 : B[a][b / 4] * d[b % 2]);
 }
 
-/* Kc = P^T (D + L + L^T) P, but for rows with a side in common what the head says, and its factor.
- * Between triangles all of that is 0 but the sums of a node with itself. */
+/* What the block B of the rows i and j adds, to the corners or to the elements' own stiffness, and
+ * to the modes. */
+static void add_pair(const coarse_space *c, int i, int j, double B[6][6], double (*own)[6][6])
+{
+    const double way[2] = { c->at[j][0] - c->at[i][0], c->at[j][1] - c->at[i][1] };
+    double Y[2][6], transposed[6][6];
+    int mode[2];
+    const int share = find_share(c, i, j, mode);
+
+    for (int b = c->first[j]; b < c->first[j] + corners(c, j) && share & WHOLE; b++) {
+        multiply(B, &c->P[b], Y);
+        for (int a = c->first[i]; a < c->first[i] + corners(c, i); a++)
+            add_block(c, &c->P[a], c->node[a], Y, c->node[b], 0);
+    }
+    if (share & ACROSS) {
+        multiply(B, &c->P[mode[1]], Y);
+        add_block(c, &c->P[mode[0]], c->node[mode[0]], Y, c->node[mode[1]], 0);
+    }
+    if (share & WHOLE)
+        return;
+    for (int a = 0; a < 36; a++)
+        transposed[a / 6][a % 6] = B[a % 6][a / 6];
+    add_continued(B, way, own[i]);
+    add_continued(transposed, (double [2]){ -way[0], -way[1] }, own[j]);
+}
+
+/* P of the modes of row i, s and t: half of what two corners next to each other do, less half of
+ * what the others do. Adds their block of Kc. */
+static void add_modes(const coarse_space *c, int i, double B[6][6])
+{
+    const bbm_linear *P = &c->P[c->first[i]];
+    double Y[2][6];
+
+    for (int k = 0; k < 2; k++) {
+        const bbm_linear *up[2] = { P + 1 + k, P + 2 + k }, *down[2] = { P, P + 3 - 2 * k };
+        bbm_linear *mode = &c->P[c->first[i] + 4 + k];
+        mode->f = (up[0]->f + up[1]->f - down[0]->f - down[1]->f) / 2;
+        mode->fx = (up[0]->fx + up[1]->fx - down[0]->fx - down[1]->fx) / 2;
+        mode->fy = (up[0]->fy + up[1]->fy - down[0]->fy - down[1]->fy) / 2;
+        multiply(B, mode, Y);
+        add_block(c, mode, c->mode[i] + k, Y, c->mode[i] + k, 1);
+    }
+}
+
+/* The stiffness of an element without bonds, and against its hourglass, to and fro by turns. */
+static void add_element(const coarse_space *c, int i, double own[6][6])
+{
+    const int *node = c->node + c->first[i];
+    const bbm_linear *P = &c->P[c->first[i]];
+    double Y[2][6];
+
+    for (int b = 0; b < corners(c, i); b++) {
+        multiply(own, &P[b], Y);
+        for (int a = 0; a <= b; a++)
+            add_block(c, &P[a], node[a], Y, node[b], a == b);
+    }
+    for (int k = 0; k < 32 && has_modes(c, i); k++) {
+        const int p = 2 * node[k / 8] + k % 2, q = 2 * node[k / 2 % 4] + k % 2;
+        if (p >= q)
+            *bbm_entry(&c->Kc, p, q) += (k / 8 + k / 2) % 2 ? -c->hourglass[i] : c->hourglass[i];
+    }
+}
+
+/* Kc, and its factor. own: the elements' own stiffness against values and slopes, in the room of
+ * the six vectors of an iteration that has not begun. */
 static void make_coarse(bbm_matrix *K)
 {
     const coarse_space *c = K->extra;
-    double V[6][6], B[6][6], Y[2][6], W[2][6];
-    int p[2], q[2];
-    bbm_linear Z;
+    double (*own)[6][6] = (double (*)[6][6])K->x;
+    double V[6][6], B[6][6];
 
-    memset(c->Kc.A, 0, (c->Kc.entries + 2 * (size_t)c->n) * sizeof *c->Kc.A);
-    for (int i = 0; i < K->n; i++)
-        for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
-            const int D = k == K->first[i + 1], j = D ? i : i - K->back[k];
-            const int side = find_side(c, i, j, p);
-            find_side(c, j, i, q);
-            take_block(D ? K->D[i] : K->L[k], c->Q[j], V);
+    memset(c->Kc.A, 0, (c->Kc.entries + 2 * (size_t)c->Kc.n) * sizeof *c->Kc.A);
+    memset(own, 0, (size_t)K->n * sizeof *own);
+    for (int i = 0; i < K->n; i++) {
+        take_block(K->D[i], c->Q[i], V);
+        take_block(V, c->Q[i], B);
+        add_continued(B, (double [2]){ 0 }, own[i]);
+        if (has_modes(c, i))
+            add_modes(c, i, B);
+        for (int k = K->first[i]; k < K->first[i + 1]; k++) {
+            take_block(K->L[k], c->Q[i - K->back[k]], V);
             take_block(V, c->Q[i], B);
-            for (int b = c->first[j]; b < c->first[j + 1]; b++) {
-                const int common = side > 6 && find_rest(c, b, q, &Z);
-                multiply(1, B, &c->P[b], Y);
-                if (side > 6)
-                    multiply(-1, B, &Z, W);
-                for (int a = c->first[i]; a < (D ? b + 1 : c->first[i + 1]); a++) {
-                    if (side == 6 ? c->node[a] != c->node[b]
-                                  : side > 6 && !find_rest(c, a, p, &Z) && !common)
-                        continue;
-                    add_block(c, &c->P[a], c->node[a], Y, c->node[b], D && a == b);
-                    if (side > 6)
-                        add_block(c, &Z, c->node[a], W, c->node[b], 0);
-                }
-            }
+            add_pair(c, i, i - K->back[k], B, own);
         }
+    }
+    for (int i = 0; i < K->n; i++)
+        add_element(c, i, own[i]);
     bbm_factor_make(&c->Kc);
 }
 
@@ -390,18 +486,21 @@ static void interpolate(const bbm_matrix *K, const coarse_space *c)
 static void correct(const bbm_matrix *K, const double *y, double *f)
 {
     const coarse_space *c = K->extra;
-    const int from = c->start[K->from], to = c->start[K->to];
+    const int range[2][2] = { { c->start[K->from], c->start[K->to] },
+                              { c->mode[K->from], c->mode[K->to] } };
     double s[6];
 
     memset(c->z + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *c->z);
-    memset(c->x + 2 * from, 0, 2 * (size_t)(to - from) * sizeof *c->x);
+    for (int k = 0; k < 2; k++)
+        memset(c->x + 2 * range[k][0], 0, 2 * (size_t)(range[k][1] - range[k][0]) * sizeof *c->x);
     bbm_add_upper(K, y, c->z);
     for (int i = K->from; i < K->to; i++) {
         take_to_slopes(c->Q[i], &c->z[6 * i], s);
         for (int a = c->first[i]; a < c->first[i + 1]; a++)
             add_to_node(&c->P[a], s, &c->x[2 * c->node[a]]);
     }
-    bbm_substitute(&c->Kc, from, to, c->x);
+    for (int k = 0; k < 2; k++)
+        bbm_substitute(&c->Kc, range[k][0], range[k][1], c->x);
     interpolate(K, c);
     bbm_add_lower(K, c->z, f);
 }

@@ -26,16 +26,17 @@ const field field_table[] = {
 
 /* All of them in the order of the table, by Mohr's circle; motion: the rotation so far, and the
  * velocity that the last step hands on; fit: stress. */
-static double value(const field *f, const bbm_result *r, const double motion[4],
-                    const double fit[3])
+static void list_values(const bbm_result *r, const double motion[4], const double fit[3],
+                        double all[FIELD_ROWS])
 {
     const double *s = r->stress, middle = (s[0] + s[1]) / 2;
     const double radius = hypot((s[0] - s[1]) / 2, s[2]);
-    const double all[] = { r->u, r->v, motion[0], s[0], s[1], s[2], r->mises, middle + radius,
-                           middle - radius, fabs(middle) + radius, motion[1], motion[2],
-                           motion[3], fit[0], fit[1], fit[2] };
+    const double list[FIELD_ROWS] = {
+        r->u, r->v, motion[0], s[0], s[1], s[2], r->mises, middle + radius, middle - radius,
+        fabs(middle) + radius, motion[1], motion[2], motion[3], fit[0], fit[1], fit[2]
+    };
 
-    return all[f - field_table];
+    memcpy(all, list, sizeof list);
 }
 
 double field_place(const bbm_model *m, int v, int axis)
@@ -65,8 +66,10 @@ double field_of_element(const field *f, const bbm_model *m, int element)
     const double *s = e->stress;
     const bbm_result r = { .u = e->sum[0], .v = e->sum[1], .stress = { s[0], s[1], s[2] },
                            .mises = bbm_mises(s, e->szz) };
+    double all[FIELD_ROWS];
 
-    return value(f, &r, (double[]){ e->sum[2], e->V[0], e->V[1], e->V[2] }, s);
+    list_values(&r, (double[]){ e->sum[2], e->V[0], e->V[1], e->V[2] }, s, all);
+    return all[f - field_table];
 }
 
 #define ON_A_LINE 1e-9          /* what is left of a square where barycentres lie on a line */
@@ -103,7 +106,8 @@ static void fit_stress(const bbm_model *m, int node, int block, double s[3])
         s[k] = G[0][3 + k] / G[0][0];
 }
 
-double field_of_node(const field *f, const bbm_model *m, int node, int block)
+/* All that field_of_node knows; with `fits` the plane fit, else the stress in its place. */
+static void list_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS])
 {
     const int first = m->adjacent_first[node], end = m->adjacent_first[node + 1];
     double motion[4] = { 0 };
@@ -117,9 +121,22 @@ double field_of_node(const field *f, const bbm_model *m, int node, int block)
             motion[1 + k] += e->V[k] / (end - first);
     }
     double fit[3] = { r.stress[0], r.stress[1], r.stress[2] };
-    if (f->files == FIELD_NODES && block >= 0)
+    if (fits && block >= 0)
         fit_stress(m, node, block, fit);
-    return value(f, &r, motion, fit);
+    list_values(&r, motion, fit, all);
+}
+
+void field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS])
+{
+    list_node(m, node, block, 1, all);
+}
+
+double field_of_node(const field *f, const bbm_model *m, int node, int block)
+{
+    double all[FIELD_ROWS];
+
+    list_node(m, node, block, f->files == FIELD_NODES, all);
+    return all[f - field_table];
 }
 
 /* N n - T m, m from P2 to P3 and n out of the edge's block. */

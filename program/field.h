@@ -20,7 +20,8 @@ typedef struct {
     int files;
 } field;
 
-extern const field field_table[];       /* the last row has no name                             */
+enum { FIELD_ROWS = 16 };
+extern const field field_table[];       /* [FIELD_ROWS], and one without a name                 */
 
 /* Whether a stage has removed the block of vertex v, by the mark that stage.c gives its elements.
  * No other one has it: szz is at most half of sx + sy. */
@@ -37,6 +38,7 @@ const field *field_find(const char *name);                      /* NULL: there i
 double field_of_element(const field *f, const bbm_model *m, int element);
 /* That of the mean displacement, stress and motion of the elements of a block that meet there. */
 double field_of_node(const field *f, const bbm_model *m, int node, int block);    /* -1: all */
+void   field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS]);
 
 /* The force of a contact that carries N and T on the corner's block, as a vector. */
 void field_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2]);

@@ -98,10 +98,13 @@ static void put_results(FILE *f, const model *p, int files)
             continue;
         fprintf(f, "%s,%s", nodes ? p->node[n] : p->element[k], p->block[block]);
         put_numbers(f, 2, nodes ? (double[]){ m->node[n].x, m->node[n].y } : p->centre[k]);
+        double all[FIELD_ROWS];
+        if (nodes)
+            field_all_of_node(m, n, block, all);
         for (const field *q = field_table; q->name; q++)
             if (q->files & files)
-                fprintf(f, ",%.15g", nodes ? field_of_node(q, m, n, block)
-                                           : field_of_element(q, m, k));
+                put_numbers(f, 1, nodes ? &all[q - field_table]
+                                        : (double[]){ field_of_element(q, m, k) });
         fputc('\n', f);
     }
 }
