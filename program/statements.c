@@ -164,7 +164,11 @@ static int read_bond(model_reader *r)
     int kind = 2;
     model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
                          COUNT("augment", &b->multiplier_rounds, 0),
-                         CHOICE("at", &kind, "vertices|moment|auto") };
+                         CHOICE("at", &kind, "vertices|moment|auto"),
+                         ABOVE_ZERO("tension", &b->bond_tension),
+                         ABOVE_ZERO("cohesion", &b->bond_cohesion),
+                         ANGLE("friction", &b->bond_friction),
+                         FROM_ZERO("energy", &b->bond_energy) };
 
     if (model_look(r) && model_find(&r->block_of, model_look(r)) >= 0) {
         for (int k = 0; k < 2; k++)
@@ -464,8 +468,8 @@ static const struct kind {
     { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
     { "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]", read_dynamic, ALONE,
       ONCE },
-    { "bond [alpha VALUE] [augment N] [at vertices|moment|auto], or bond BLOCK BLOCK", read_bond,
-      BLOCKS, 0 },
+    { "bond [alpha VALUE] [augment N] [at vertices|moment|auto] [tension PASCAL cohesion PASCAL "
+      "friction DEGREES [energy VALUE]], or bond BLOCK BLOCK", read_bond, BLOCKS, 0 },
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
     { "output [every N] [vtk] [balance] [svg] [film] [field NAME] [scale N] [low VALUE] "
