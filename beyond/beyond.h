@@ -56,9 +56,11 @@ typedef struct {                /* crack.c: of a bond                           
     int    bond;                /* its number at the start                                      */
     int    tooth;               /* 0: as new; more: how often it has softened, or broken        */
     int    pushes[2];           /* its ends are closed                                          */
-    double rest[2][2];          /* m        of the springs there, along the normal and across   */
+    int    shears;              /* more than it pulls                                           */
+    double rest[2];             /* m        of the spring at the first end, along the normal    */
+                                /*          and across; less that of the other one              */
+    double s[3];                /* Pa       s, t, s1 of crack.c                                 */
     double across;              /* -        how well it lies across the tension around it       */
-    int    chosen, shears;      /* it breaks now; by shear                                      */
 } bbm_crack;
 
 typedef struct {                /* crack.c: a bond that has broken                              */
@@ -95,7 +97,7 @@ struct bbm_beyond {
     bbm_crack *crack, *kept;    /* [bonds]  crack.c: of the step in hand; of the last one       */
     double *best;               /* [nodes]  scratch                                             */
     int breaks;                 /* passes of the step in hand in which bonds broke              */
-    int parts;                  /* bonds broke in the last step                                 */
+    int parts, last;            /* bonds broke in the last step; the last one to do so          */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */

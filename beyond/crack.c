@@ -44,117 +44,102 @@ enum { TEETH = 10, BROKEN = TEETH + 1, BREAKS = 1000 };
 
 /* ------------------------------------------------------------------------------ how bonds soften */
 
-/* Where tooth j ends, as a share of w_c; as much of the strength is gone there. */
-static double end_of_tooth(int j) { return j == 0 ? 0 : (j - 0.5) / TEETH; }
+/* Where tooth j ends, as a share of w_c; as much of the strength is gone there. Behind the last
+ * tooth nothing is left. */
+static double end_of(int j) { return j == 0 ? 0 : fmin(1, (j - 0.5) / TEETH); }
 
-/* The strength that is left, as a share. */
-static double left(const bbm_crack *c) { return c->tooth == BROKEN ? 0 : 1 - end_of_tooth(c->tooth); }
+/* c of a tooth, in tension/w_c. */
+static double slope_of(int tooth) { return 1 / end_of(tooth) - 1; }
 
-/* The area of a bond at the start. */
-static double area_of(const bbm_model *m, const bbm_bond *b)
+/* What a bond has taken that begins a tooth, in tension w_c for each area: under each tooth before
+ * it 1/2 c (w^2 - the last w^2), less what it stores now. */
+static double taken(int tooth)
 {
-    const bbm_node *P = &m->node[m->vertex[b->p[0]].node], *Q = &m->node[m->vertex[b->p[1]].node];
+    double sum = tooth == 0 ? 0 : -slope_of(tooth) * pow(end_of(tooth - 1), 2) / 2;
 
-    return hypot(Q->x - P->x, Q->y - P->y) * fmin(m->element[b->i].material.thickness,
-                                                  m->element[b->j].material.thickness);
+    for (int j = 1; j < tooth; j++)
+        sum += slope_of(j) * (pow(end_of(j), 2) - pow(end_of(j - 1), 2)) / 2;
+    return sum;
 }
 
-/* w_c: the sum of 1/2 c_j (w_j^2 - w_(j-1)^2) over the teeth is the energy of an area of 1. */
-static double last_opening(const bbm_beyond *y)
+/* The outward normal n of element i on its bond, at the start or as it is turned now. Returns the
+ * area of the bond. */
+static double find_normal(const bbm_model *m, const bbm_bond *b, int now, double n[2])
 {
-    double sum = 0;
+    const bbm_node *P = &m->node[m->vertex[b->p[0]].node], *Q = &m->node[m->vertex[b->p[1]].node];
+    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+    const double x = Q->y - P->y, y = P->x - Q->x, l = hypot(x, y);
+    const double r = now * (i->sum[2] + j->sum[2]) / 2;
 
-    for (int j = 1; j <= TEETH; j++)
-        sum += (1 / end_of_tooth(j) - 1) / 2
-             * (pow(end_of_tooth(j), 2) - pow(end_of_tooth(j - 1), 2));
-    return y->bond_energy / (y->bond_tension * sum);
+    n[0] = (x * cos(r) - y * sin(r)) / l;
+    n[1] = (x * sin(r) + y * cos(r)) / l;
+    return l * fmin(i->material.thickness, j->material.thickness);
 }
 
 /* c of both ends of a bond together, N/m. */
 static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
 {
     const bbm_beyond *y = m->beyond;
+    const double w_c = y->bond_energy / (y->bond_tension * taken(BROKEN));
+    double n[2];
 
     return tooth == BROKEN ? 0
-         : area_of(m, b) * y->bond_tension * (1 / end_of_tooth(tooth) - 1) / last_opening(y);
+         : find_normal(m, b, 0, n) * y->bond_tension * slope_of(tooth) / w_c;
 }
 
-/* By how much the elements of a bond have turned. */
-static double turn_of(const bbm_model *m, const bbm_bond *b)
+/* How often a bond has softened. */
+static int tooth_of(const bbm_model *m, int b)
 {
-    return (m->element[b->i].sum[2] + m->element[b->j].sum[2]) / 2;
+    return m->is_prepared && m->beyond->crack ? m->beyond->crack[b].tooth : 0;
 }
 
-/* The outward normal of element i on its bond, turned by r from where it was at the start. */
-static void find_normal(const bbm_model *m, const bbm_bond *b, double r, double n[2])
-{
-    const bbm_node *P = &m->node[m->vertex[b->p[0]].node], *Q = &m->node[m->vertex[b->p[1]].node];
-    const double x = Q->y - P->y, y = P->x - Q->x, l = hypot(x, y);
+int bbm_is_broken(const bbm_model *m, int b) { return tooth_of(m, b) == BROKEN; }
 
-    n[0] = (x * cos(r) - y * sin(r)) / l;
-    n[1] = (x * sin(r) + y * cos(r)) / l;
-}
-
-/* The crack of a bond of a prepared model; NULL: it is as new. */
-static bbm_crack *crack_of(const bbm_model *m, int b)
-{
-    bbm_crack *c = m->is_prepared && m->beyond->crack ? &m->beyond->crack[b] : NULL;
-
-    return c && c->tooth > 0 ? c : NULL;
-}
-
-int bbm_is_broken(const bbm_model *m, int b)
-{
-    return crack_of(m, b) && crack_of(m, b)->tooth == BROKEN;
-}
-
-/* Lists the two springs of a bond that softens or has broken; 0: it does not. `rest`, where they
- * have no length, turns with the bond. */
+/* Lists the two springs of a bond that softens or has broken; 0: it does not. `rest`, where the
+ * first has no length and less that of the second, turns with the bond. */
 int bbm_list_crack(bbm_model *m, int b)
 {
-    const bbm_crack *c = crack_of(m, b);
     const bbm_bond *of = &m->bond[b];
+    const bbm_element *i = &m->element[of->i], *j = &m->element[of->j];
     double n[2], N[2];
 
-    if (!c)
+    if (tooth_of(m, b) == 0)
         return 0;
-    const bbm_element *i = &m->element[of->i], *j = &m->element[of->j];
+    const bbm_crack *c = &m->beyond->crack[b];
+    const double soft = softness(m, of, c->tooth) / 2;
     bbm_list_bond(m, of);
-    find_normal(m, of, turn_of(m, of), n);
-    find_normal(m, of, i->middle ? 0 : turn_of(m, of), N);
+    find_normal(m, of, 1, n);
+    find_normal(m, of, !i->middle, N);
     for (int end = 0; end < 2; end++) {
         bbm_gap *g = &m->gap[m->gaps - 2 + end];
-        const double soft = softness(m, of, c->tooth) / 2;
-        const double push = c->pushes[end] ? g->W[0][0] - soft : 0;
+        const double push = c->pushes[end] ? g->W[0][0] - soft : 0, sign = end ? -1 : 1;
         g->own = (bbm_multiplier){ { 0 }, { 0 } };
         g->elastic = 1;
         for (int a = 0; a < 4; a++)
             g->W[a / 2][a % 2] = (a % 3 == 0 ? soft : 0) + push * N[a / 2] * N[a % 2];
         if (i->middle)
             bbm_turn_opening(i, j, g);
-        g->d0[0] -= c->rest[end][0] * n[0] - c->rest[end][1] * n[1];
-        g->d0[1] -= c->rest[end][0] * n[1] + c->rest[end][1] * n[0];
+        g->d0[0] -= sign * (c->rest[0] * n[0] - c->rest[1] * n[1]);
+        g->d0[1] -= sign * (c->rest[0] * n[1] + c->rest[1] * n[0]);
     }
     return 1;
 }
 
-/* -------------------------------------------------------------------------------- which one breaks */
+/* ------------------------------------------------------------------------------ which one breaks */
 
-/* Adds the stress around a node to a sum of stress times area, and the area. */
+/* Adds the stress around a node of a body, times area, and the area. */
 static void add_stress(const bbm_model *m, int node, int body, double sum[4])
 {
     double E[3][3];
 
     for (int a = m->adjacent_first[node]; a < m->adjacent_first[node + 1]; a++) {
-        const int i = m->vertex[m->adjacent[a]].element;
+        const int i = m->vertex[m->adjacent[a]].element, counts = m->beyond->body[i] == body;
         const bbm_element *e = &m->element[i];
-        if (m->beyond->body[i] != body)
-            continue;
         bbm_elastic_matrix(&e->material, E);
-        sum[3] += e->A;
+        sum[3] += counts * e->A;
         for (int k = 0; k < 3; k++)
-            sum[k] += e->A * (e->stress[k] + E[k][0] * m->D[6 * i + 3] + E[k][1] * m->D[6 * i + 4]
-                              + E[k][2] * m->D[6 * i + 5]);
+            sum[k] += counts * e->A * (e->stress[k] + E[k][0] * m->D[6 * i + 3]
+                                       + E[k][1] * m->D[6 * i + 4] + E[k][2] * m->D[6 * i + 5]);
     }
 }
 
@@ -162,60 +147,55 @@ static void add_stress(const bbm_model *m, int node, int body, double sum[4])
 static void find_traction(const bbm_model *m, int b, double s[3])
 {
     const bbm_bond *of = &m->bond[b];
-    double n[2], d[2], f[2] = { 0, 0 }, sum[4] = { 0 };
+    double n[2], d[2], f[2] = { 0, 0 }, S[4] = { 0 };
+    const double area = find_normal(m, of, 1, n);
+    const int softens = tooth_of(m, b) > 0;
 
-    find_normal(m, of, turn_of(m, of), n);
-    for (int end = 0; end < 2 && !crack_of(m, b); end++)
-        add_stress(m, m->vertex[of->p[end]].node, m->beyond->body[of->i], sum);
-    for (int r = 0; r < 2 && !crack_of(m, b); r++)
-        f[r] = (sum[r] * n[r] + sum[2] * n[1 - r]) / sum[3];
-    for (const bbm_gap *g = &m->gap[2 * b]; g < &m->gap[2 * b + 2] && crack_of(m, b); g++) {
+    for (int end = 0; end < 2; end++) {
+        const bbm_gap *g = &m->gap[2 * b + end];
+        add_stress(m, m->vertex[of->p[end]].node, m->beyond->body[of->i], S);
         bbm_gap_length(m, g, d);
         for (int r = 0; r < 2; r++)
-            f[r] -= (g->W[r][0] * d[0] + g->W[r][1] * d[1]) / area_of(m, of);
+            f[r] -= (g->W[r][0] * d[0] + g->W[r][1] * d[1]) / area;
     }
+    for (int r = 0; r < 2 && !softens; r++)
+        f[r] = (S[r] * n[r] + S[2] * n[1 - r]) / S[3];
     s[0] = f[0] * n[0] + f[1] * n[1];
     s[1] = f[1] * n[0] - f[0] * n[1];
-    s[2] = crack_of(m, b) ? s[0] : (sum[0] + sum[1]) / 2 / sum[3]
-                                 + hypot((sum[0] - sum[1]) / 2, sum[2]) / sum[3];
+    s[2] = softens ? s[0] : ((S[0] + S[1]) / 2 + hypot((S[0] - S[1]) / 2, S[2])) / S[3];
 }
 
-/* How well each bond lies across the tension around it, and the best at each node. */
-static void find_best(const bbm_model *m)
+/* How well a bond that is as new lies across the tension around it, and the best one at each of its
+ * nodes. */
+static void find_across(const bbm_model *m, int b)
 {
-    bbm_beyond *y = m->beyond;
-    double s[3];
+    bbm_crack *c = &m->beyond->crack[b];
 
-    memset(y->best, 0, (size_t)m->nodes * sizeof *y->best);
-    for (int b = 0; b < m->bonds; b++) {
-        bbm_crack *c = &y->crack[b];
-        find_traction(m, b, s);
-        c->across = s[0] > 0 && c->tooth == 0 ? s[0] / s[2] : 0;
-        for (int end = 0; end < 2; end++) {
-            double *best = &y->best[m->vertex[m->bond[b].p[end]].node];
-            *best = fmax(*best, c->across);
-        }
+    find_traction(m, b, c->s);
+    c->across = c->tooth == 0 && c->s[0] > 0 ? c->s[0] / c->s[2] : 0;
+    for (int end = 0; end < 2; end++) {
+        double *best = &m->beyond->best[m->vertex[m->bond[b].p[end]].node];
+        *best = fmax(*best, c->across);
     }
 }
 
 /* The load of a bond against its strength; more than 1: it breaks. */
-static double find_load(const bbm_model *m, int b, int *shears)
+static double find_load(const bbm_model *m, int b)
 {
     const bbm_beyond *y = m->beyond;
-    const bbm_crack *c = &y->crack[b];
-    double s[3];
+    bbm_crack *c = &y->crack[b];
+    const double best = fmin(y->best[m->vertex[m->bond[b].p[0]].node],
+                             y->best[m->vertex[m->bond[b].p[1]].node]);
+    const double left = 1 - end_of(c->tooth), friction = bbm_tangent(y->bond_friction);
 
     if (c->tooth == BROKEN)
         return 0;
-    find_traction(m, b, s);
-    const double *best[2] = { &y->best[m->vertex[m->bond[b].p[0]].node],
-                              &y->best[m->vertex[m->bond[b].p[1]].node] };
-    const int best_across = c->across >= (1 - SAME) * fmin(*best[0], *best[1]);
-    const double pulled = c->tooth > 0 || (best_across && s[0] > 0)
-                        ? s[2] / (y->bond_tension * left(c)) : 0;
-    const double strength = y->bond_cohesion * left(c) - s[0] * bbm_tangent(y->bond_friction);
-    const double sheared = strength > 0 ? fabs(s[1]) / strength : s[0] > 0 ? INFINITY : 0;
-    *shears = sheared > pulled;
+    const double strength = y->bond_cohesion * left - c->s[0] * friction;
+    const int pulls = c->s[0] > 0 && (c->tooth > 0 || c->across >= (1 - SAME) * best);
+    const double pulled = pulls ? c->s[2] / (y->bond_tension * left) : 0;
+    const double sheared = strength > 0 ? fabs(c->s[1]) / strength : c->s[0] > 0 ? INFINITY : 0;
+
+    c->shears = sheared > pulled;
     return fmax(pulled, sheared);
 }
 
@@ -225,41 +205,38 @@ static void damage(bbm_model *m, int b)
 {
     bbm_crack *c = &m->beyond->crack[b];
     const bbm_bond *of = &m->bond[b];
-    const double k = 2 * bbm_bonding_stiffness(m->par.alpha, &m->element[of->i],
-                                               &m->element[of->j]);
-    double n[2], d[2][2];
+    const bbm_vertex *v = m->vertex, *P = &v[of->p[0]], *Q = &v[of->q[0]];
+    const bbm_vertex *R = &v[of->p[1]], *S = &v[of->q[1]];
+    const double k = bbm_bonding_stiffness(m->par.alpha, &m->element[of->i], &m->element[of->j]);
+    const double x = (P->u - Q->u - R->u + S->u) / 2, y = (P->v - Q->v - R->v + S->v) / 2;
+    double n[2];
 
-    find_normal(m, of, turn_of(m, of), n);
-    for (int end = 0; end < 2; end++) {
-        d[end][0] = m->vertex[of->p[end]].u - m->vertex[of->q[end]].u;
-        d[end][1] = m->vertex[of->p[end]].v - m->vertex[of->q[end]].v;
-    }
-    for (int end = 0; end < 2 && c->tooth == 0; end++) {
-        const double x = (d[end][0] - d[1 - end][0]) / 2, y = (d[end][1] - d[1 - end][1]) / 2;
-        c->rest[end][0] = x * n[0] + y * n[1];
-        c->rest[end][1] = y * n[0] - x * n[1];
-        c->pushes[end] = c->shears;
+    if (c->tooth == 0) {
+        find_normal(m, of, 1, n);
+        c->rest[0] = x * n[0] + y * n[1];
+        c->rest[1] = y * n[0] - x * n[1];
+        c->pushes[0] = c->pushes[1] = c->shears;
     }
     do
         c->tooth = m->beyond->bond_energy > 0 ? c->tooth + 1 : BROKEN;
-    while (softness(m, of, c->tooth) >= k);
+    while (softness(m, of, c->tooth) >= 2 * k);
+    m->beyond->last = b;
 }
 
-/* Whether the ends of cracks push that are closed, and no others. */
+/* Lets those ends of cracks push that are closed, and no others; whether there were others. */
 static int renew_pushes(bbm_model *m)
 {
     double n[2], d[2];
     int changes = 0;
 
-    for (int b = 0; b < m->bonds; b++)
-        for (int end = 0; end < 2 && crack_of(m, b); end++) {
-            int *pushes = &crack_of(m, b)->pushes[end];
-            const int did = *pushes;
-            find_normal(m, &m->bond[b], turn_of(m, &m->bond[b]), n);
-            bbm_gap_length(m, &m->gap[2 * b + end], d);
-            *pushes = d[0] * n[0] + d[1] * n[1] > 0;
-            changes += *pushes != did;
-        }
+    for (int k = 0; k < 2 * m->bonds; k++) {
+        int *pushes = &m->beyond->crack[k / 2].pushes[k % 2];
+        find_normal(m, &m->bond[k / 2], 1, n);
+        bbm_gap_length(m, &m->gap[k], d);
+        const int closed = tooth_of(m, k / 2) > 0 && d[0] * n[0] + d[1] * n[1] > 0;
+        changes |= closed != *pushes;
+        *pushes = closed;
+    }
     return changes;
 }
 
@@ -269,24 +246,20 @@ bbm_pass bbm_break_bonds(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
     double most = 1;
-    int changes, shears;
 
     if (y->bond_tension <= 0)
         return BBM_PASS_DONE;
-    changes = renew_pushes(m);
-    if (!changes && (bbm_is_static(m) || isfinite(m->par.dt))) {
-        find_best(m);
+    if (!renew_pushes(m)) {
+        memset(y->best, 0, (size_t)m->nodes * sizeof *y->best);
         for (int b = 0; b < m->bonds; b++)
-            most = fmax(most, find_load(m, b, &shears));
-        for (int b = 0; b < m->bonds && most > 1; b++)
-            y->crack[b].chosen = find_load(m, b, &y->crack[b].shears) >= most * (1 - SAME);
-        for (int b = 0; b < m->bonds && most > 1; b++)
-            if (y->crack[b].chosen)
+            find_across(m, b);
+        for (int b = 0; b < m->bonds; b++)
+            most = fmax(most, find_load(m, b));
+        if (most == 1 || (isinf(m->par.dt) && !bbm_is_static(m)))
+            return BBM_PASS_DONE;
+        for (int b = 0; b < m->bonds; b++)
+            if (find_load(m, b) >= most * (1 - SAME))
                 damage(m, b);
-    }
-    if (!changes && most <= 1)
-        return BBM_PASS_DONE;
-    if (!changes) {
         m->scratch->passes = m->scratch->one_until = y->round = 0;
         y->breaks++;
     }
@@ -294,7 +267,7 @@ bbm_pass bbm_break_bonds(bbm_model *m)
     return y->breaks > BREAKS ? BBM_PASS_GIVE_UP : BBM_PASS_AGAIN;
 }
 
-/* -------------------------------------------------------------------------------------- fragments */
+/* ------------------------------------------------------------------------------------- fragments */
 
 /* The side of a bond that starts at vertex v becomes a boundary edge. */
 static void open_side(bbm_model *m, int v, int next)
@@ -319,28 +292,27 @@ static void add_places(bbm_model *m, double sign)
     }
 }
 
-/* The detection begins anew with all boundaries as they were at the start, body by body. */
+/* Puts all vertices where they were at the start (0), or back where they are (1). */
+static void place_vertices(bbm_model *m, int now)
+{
+    for (bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++) {
+        v->x = m->node[v->node].x - m->origin[0] + now * v->u;
+        v->y = m->node[v->node].y - m->origin[1] + now * v->v;
+    }
+}
+
+/* The detection begins anew, body by body, with all boundaries as they were at the start. */
 static bbm_status renew_detection(bbm_model *m)
 {
-    bbm_vertex *now = m->vertex, *start = malloc((size_t)m->vertices * sizeof *start);
-
-    if (!start)
-        return bbm_out_of_memory(m);
-    for (int v = 0; v < m->vertices; v++) {
-        start[v] = now[v];
-        start[v].x -= now[v].u;
-        start[v].y -= now[v].v;
-    }
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->beyond->body[m->edge[e].element];
     bbm_detect_free(m->scratch);
-    m->vertex = start;
+    place_vertices(m, 0);
     const bbm_status status = bbm_detect_new(m);
-    m->vertex = now;
-    free(start);
+    place_vertices(m, 1);
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->element[m->edge[e].element].block;
-    return status ? bbm_out_of_memory(m) : BBM_OK;
+    return status;
 }
 
 /* What has broken in the last step is a boundary, and what has come off is a body. */
@@ -351,22 +323,22 @@ static bbm_status part_bodies(bbm_model *m)
 
     add_places(m, -1);
     for (int b = 0; b < m->bonds; b++) {
-        const bbm_bond *of = &m->bond[b];
-        if (bbm_is_broken(m, b) && m->vertex[of->p[0]].edge < 0) {
-            open_side(m, of->p[0], of->p[1]);
-            open_side(m, of->q[1], of->q[0]);
+        const bbm_bond of = m->bond[b];
+        if (bbm_is_broken(m, b) && m->vertex[of.p[0]].edge < 0) {
+            open_side(m, of.p[0], of.p[1]);
+            open_side(m, of.q[1], of.q[0]);
         }
-        if (y->body[of->i] != y->body[of->j])
+        if (y->body[of.i] != y->body[of.j])
             continue;
-        m->bond[kept] = *of;
-        y->kept[kept] = y->crack[b];
+        m->bond[kept] = of;
+        y->crack[kept] = y->kept[kept] = y->crack[b];
         memmove(&m->gap[2 * kept++], &m->gap[2 * b], 2 * sizeof *m->gap);
     }
-    memmove(&m->gap[2 * kept], &m->gap[2 * m->bonds],
-            (size_t)(m->gaps - 2 * m->bonds) * sizeof *m->gap);
     m->gaps -= 2 * (m->bonds - kept);
+    memmove(&m->gap[2 * kept], &m->gap[2 * m->bonds],
+            (size_t)(m->gaps - 2 * kept) * sizeof *m->gap);
     m->bonds = kept;
-    memcpy(y->crack, y->kept, (size_t)kept * sizeof *y->crack);
+    y->parts = 0;
     add_places(m, 1);
     return renew_detection(m);
 }
@@ -379,28 +351,26 @@ bbm_status bbm_start_cracks(bbm_model *m)
     memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
     y->breaks = 0;
     bbm_find_pieces(m, y->body);
-    const bbm_status status = y->parts ? part_bodies(m) : BBM_OK;
-    y->parts = 0;
-    return status;
+    return y->parts ? part_bodies(m) : BBM_OK;
 }
 
 /* The step went well: notes what broke, and what softening has taken. */
 void bbm_keep_cracks(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
+    double n[2];
 
     for (int b = 0; b < m->bonds; b++) {
-        const bbm_crack *c = &y->crack[b];
+        bbm_crack *c = &y->crack[b];
         const bbm_vertex *P = &m->vertex[m->bond[b].p[0]], *Q = &m->vertex[m->bond[b].p[1]];
-        for (int j = y->kept[b].tooth; j < c->tooth && y->bond_energy > 0; j++)
-            y->crack_energy += j == 0 ? 0 : pow(end_of_tooth(j) * last_opening(y), 2) / 2
-                             * (softness(m, &m->bond[b], j) - softness(m, &m->bond[b], j + 1));
-        if (c->tooth != BROKEN || y->kept[b].tooth == BROKEN)
-            continue;
-        y->broke[y->broken++] = (bbm_break){ m->info.step + 1, c->bond, c->shears,
-                                             (P->x + Q->x) / 2 + m->origin[0],
-                                             (P->y + Q->y) / 2 + m->origin[1] };
-        y->parts = 1;
+        y->crack_energy += (taken(c->tooth) - taken(y->kept[b].tooth)) / taken(BROKEN)
+                         * y->bond_energy * find_normal(m, &m->bond[b], 0, n);
+        if (c->tooth == BROKEN && y->kept[b].tooth != BROKEN) {
+            y->broke[y->broken++] = (bbm_break){ m->info.step + 1, c->bond, c->shears,
+                                                 (P->x + Q->x) / 2 + m->origin[0],
+                                                 (P->y + Q->y) / 2 + m->origin[1] };
+            y->parts = 1;
+        }
     }
     memcpy(y->kept, y->crack, (size_t)m->bonds * sizeof *y->crack);
 }
@@ -414,10 +384,10 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
 
     while (!status && y->broken > 0 && y->passed[0] >= 0) {
         bbm_contact c = { .corner = y->passed[0], .edge = y->passed[1], .inside = 1, .hit = 2 };
-        (void)bbm_depth_behind(m, c.corner, c.edge, &c.edge);
         bbm_contact *more = realloc(m->contact, ((size_t)m->contacts + 1) * sizeof *more);
         if (!more)
             return BBM_NO_MEMORY;
+        (void)bbm_depth_behind(m, c.corner, c.edge, &c.edge);
         m->contact = more;
         m->contact[m->contacts++] = c;
         qsort(m->contact, (size_t)m->contacts, sizeof *m->contact, bbm_compare_pairs);
@@ -431,29 +401,25 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
     return status;
 }
 
-/* A step has failed because bonds broke, or for another reason. */
+/* A step has failed, because of bonds that broke in it or for another reason. */
 bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
 {
     const bbm_beyond *y = m->beyond;
-    const bbm_crack *last = NULL;
-    int pieces = 0;
 
-    for (int b = 0; b < m->bonds; b++)
-        last = y->crack && y->crack[b].tooth > y->kept[b].tooth ? &y->crack[b] : last;
-    if (!last || s == BBM_NO_MEMORY || s == BBM_STOPPED)
-        return bbm_try_otherwise(m, s);
+    if (!m->is_prepared || s == BBM_NO_MEMORY || s == BBM_STOPPED)
+        return s;
+    const int tried = bbm_find_pieces(m, y->body), last = y->last;
+    memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
+    const int parts = tried - bbm_find_pieces(m, y->body);
     if (y->breaks > BREAKS)
         return bbm_fail(m, s, "step %d: bonds break in more than %d passes; a smaller dt or load "
                         "helps", m->info.step + 1, BREAKS);
-    for (int i = 0; i < m->elements; i++)
-        pieces -= y->body[i] == i;
-    pieces += bbm_find_pieces(m, y->body);
-    const int of = m->element[m->bond[last - y->crack].i].block;
-    if (!bbm_is_static(m) || pieces == 0)
+    if (!bbm_is_static(m) || parts == 0)
         return bbm_try_otherwise(m, s);
-    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, and %d piece%s come%s "
-                    "off; dynamics shows how", m->info.step + 1, of, pieces,
-                    pieces == 1 ? "" : "s", pieces == 1 ? "s" : "");
+    const bbm_vertex *P = &m->vertex[m->bond[last].p[0]];
+    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, at last at (%g, %g); "
+                    "dynamics shows how its pieces fall", m->info.step + 1,
+                    m->element[P->element].block, P->x + m->origin[0], P->y + m->origin[1]);
 }
 
 /* Of a prepared model. */
@@ -465,12 +431,9 @@ bbm_status bbm_lay_out_cracks(bbm_model *m)
     y->crack = calloc(2 * n, sizeof *y->crack);
     y->best = calloc((size_t)m->nodes, sizeof *y->best);
     y->broke = calloc(n, sizeof *y->broke);
-    if (!y->crack || !y->best || !y->broke)
-        return BBM_NO_MEMORY;
-    y->kept = y->crack + n;
-    for (int b = 0; b < m->bonds; b++)
-        y->crack[b].bond = y->kept[b].bond = b;
-    y->broken = y->caught = y->parts = 0;
-    y->crack_energy = 0;
-    return BBM_OK;
+    y->kept = y->crack ? y->crack + n : NULL;
+    for (int b = 0; b < m->bonds && y->kept; b++)
+        y->kept[b].bond = b;
+    y->crack_energy = y->broken = y->caught = y->parts = 0;
+    return y->crack && y->best && y->broke ? BBM_OK : BBM_NO_MEMORY;
 }

@@ -260,14 +260,19 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 }
 
 /* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.
- * Else 0, and where it is on its way out. */
+ * Else 0, and where it is on its way out. A fragment may have been made there, and its corners count
+ * each for itself. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    int nearest = edge;
+    int nearest = edge, first = 0, n = m->contacts;
     const double depth = bbm_depth_behind(m, corner, edge, &nearest);
 
+    if (m->beyond->broken > 0)
+        for (first = m->edge[corner].contact, n = 0;
+             first + n < m->contacts && m->contact[first + n].corner == corner;)
+            n++;
     return depth == 0 || moves_out(m, corner, nearest)
-        || depth_between(m, m->contact, m->contacts, corner, edge) >= 0 ? 0 : depth;
+        || depth_between(m, m->contact + first, n, corner, edge) >= 0 ? 0 : depth;
 }
 
 /* Refuses a step before which, or a solution by which, a corner has passed the edge; end: the model

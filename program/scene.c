@@ -141,6 +141,7 @@ static int make_frame(scene_frame *f, const bbm_model *m)
     f->value = malloc((size_t)m->vertices * sizeof *f->value);
     f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
     f->load = malloc((size_t)m->nodes * sizeof *f->load);
+    f->edges = m->edges;
     for (int n = 0; n < m->nodes && f->load; n++)
         memcpy(f->load[n], m->node[n].load, sizeof f->load[n]);
     for (scene_line l; scene_edge_load(m, f->lines, &l); )
@@ -216,7 +217,7 @@ static void put_contact_forces(scene_frame *f, const bbm_model *m)
 
 void scene_record(scene *s, const bbm_model *m)
 {
-    scene_frame f = { .time = m->info.t, .call = s->calls++, .edges = m->edges };
+    scene_frame f = { .time = m->info.t, .call = s->calls++ };
 
     if (!s->frame) {
         s->frame = calloc(FRAMES, sizeof *s->frame);

@@ -187,6 +187,11 @@ static int read_bond(model_reader *r)
     if (r->bonding++)
         return model_blame(r, "%s for the second time, expected its options once", r->s->name);
     const int good = model_options(r, 0, LENGTH(o), o);
+    if (good && (b->bond_tension > 0) != (b->bond_cohesion > 0))
+        return model_blame(r, "bonds break by tension and by shear, expected tension and cohesion");
+    if (good && b->bond_tension == 0 && (b->bond_friction > 0 || b->bond_energy > 0))
+        return model_blame(r, "friction and energy of bonds that do not break, expected tension "
+                           "and cohesion");
     b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
     return good;
 }
