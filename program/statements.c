@@ -474,7 +474,7 @@ static const struct kind {
     { "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]", read_dynamic, ALONE,
       ONCE },
     { "bond [alpha VALUE] [augment N] [at vertices|moment|auto] [tension PASCAL cohesion PASCAL "
-      "friction DEGREES [energy VALUE]], or bond BLOCK BLOCK", read_bond, BLOCKS, 0 },
+      "[friction DEGREES] [energy VALUE]], or bond BLOCK BLOCK", read_bond, BLOCKS, 0 },
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
     { "output [every N] [vtk] [balance] [svg] [film] [field NAME] [scale N] [low VALUE] "
