@@ -70,9 +70,8 @@ typedef struct {                /* crack.c: a bond that has broken              
 
 struct bbm_beyond {
     /* --- settings --- */
-    double bond_tension, bond_cohesion;     /* Pa       crack.c; 0: bonds do not break          */
-    double bond_friction;       /* degree                                                       */
-    double bond_energy;         /* J/m^2    that softening takes; 0: brittle                    */
+    double bond_tension, bond_cohesion, bond_friction, bond_energy;     /* Pa, Pa, degree, J/m^2 */
+                                /*          crack.c; tension 0: none breaks; energy 0: brittle  */
     bbm_bonding  bonding;       /* bending.c                                                    */
     bbm_rotation rotation;      /* rotation.c                                                   */
     double cohesion, tension;   /* Pa       joints.c: of unbroken joints                        */
@@ -96,8 +95,8 @@ struct bbm_beyond {
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     bbm_crack *crack, *kept;    /* [bonds]  crack.c: of the step in hand; of the last one       */
     double *best;               /* [nodes]  scratch                                             */
-    int breaks;                 /* passes of the step in hand in which bonds broke              */
-    int parts, last;            /* bonds broke in the last step; the last one to do so          */
+    int breaks, parts, last;    /* passes of the step in hand in which bonds broke; they did in */
+                                /*          the last step; the last bond to do so               */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */

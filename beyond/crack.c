@@ -42,7 +42,7 @@
 #define SAME 1e-6
 enum { TEETH = 10, BROKEN = TEETH + 1, BREAKS = 1000 };
 
-/* ------------------------------------------------------------------------------ how bonds soften */
+/* ----------------------------------------------------------------------------- how bonds soften */
 
 /* Where tooth j ends, as a share of w_c; as much of the strength is gone there. Behind the last
  * tooth nothing is left. */
@@ -80,11 +80,10 @@ static double find_normal(const bbm_model *m, const bbm_bond *b, int now, double
 static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
 {
     const bbm_beyond *y = m->beyond;
-    const double w_c = y->bond_energy / (y->bond_tension * taken(BROKEN));
+    const double T = y->bond_tension, w_c = y->bond_energy / (T * taken(BROKEN));
     double n[2];
 
-    return tooth == BROKEN ? 0
-         : find_normal(m, b, 0, n) * y->bond_tension * slope_of(tooth) / w_c;
+    return tooth == BROKEN ? 0 : find_normal(m, b, 0, n) * T * slope_of(tooth) / w_c;
 }
 
 /* How often a bond has softened. */
@@ -125,7 +124,7 @@ int bbm_list_crack(bbm_model *m, int b)
     return 1;
 }
 
-/* ------------------------------------------------------------------------------ which one breaks */
+/* ----------------------------------------------------------------------------- which one breaks */
 
 /* Adds the stress around a node of a body, times area, and the area. */
 static void add_stress(const bbm_model *m, int node, int body, double sum[4])
@@ -267,14 +266,7 @@ bbm_pass bbm_break_bonds(bbm_model *m)
     return y->breaks > BREAKS ? BBM_PASS_GIVE_UP : BBM_PASS_AGAIN;
 }
 
-/* ------------------------------------------------------------------------------------- fragments */
-
-/* The side of a bond that starts at vertex v becomes a boundary edge. */
-static void open_side(bbm_model *m, int v, int next)
-{
-    m->vertex[v].edge = m->edges;
-    m->edge[m->edges++] = (bbm_edge){ .element = m->vertex[v].element, .a = v, .b = next };
-}
+/* ------------------------------------------------------------------------------------ fragments */
 
 /* Where the corners of contacts lie, times a sign, is added to where they count from. Two elements
  * share a corner no more when a bond between them has broken, and it jumps. Contacts keep their
@@ -301,7 +293,8 @@ static void place_vertices(bbm_model *m, int now)
     }
 }
 
-/* The detection begins anew, body by body, with all boundaries as they were at the start. */
+/* The detection begins anew, body by body, with all boundaries as they were at the start. Without
+ * memory for it the model has to be prepared anew. */
 static bbm_status renew_detection(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++)
@@ -312,6 +305,7 @@ static bbm_status renew_detection(bbm_model *m)
     place_vertices(m, 1);
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->element[m->edge[e].element].block;
+    m->is_prepared = !status;
     return status;
 }
 
@@ -324,9 +318,11 @@ static bbm_status part_bodies(bbm_model *m)
     add_places(m, -1);
     for (int b = 0; b < m->bonds; b++) {
         const bbm_bond of = m->bond[b];
-        if (bbm_is_broken(m, b) && m->vertex[of.p[0]].edge < 0) {
-            open_side(m, of.p[0], of.p[1]);
-            open_side(m, of.q[1], of.q[0]);
+        const int side[2][2] = { { of.p[0], of.p[1] }, { of.q[1], of.q[0] } };
+        for (int k = 0; k < 2 && bbm_is_broken(m, b) && m->vertex[side[k][0]].edge < 0; k++) {
+            const bbm_edge new = { k ? of.j : of.i, side[k][0], side[k][1], .block = 0 };
+            m->vertex[new.a].edge = m->edges;
+            m->edge[m->edges++] = new;
         }
         if (y->body[of.i] != y->body[of.j])
             continue;

@@ -260,8 +260,8 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 }
 
 /* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.
- * Else 0, and where it is on its way out. A fragment may have been made there, and its corners count
- * each for itself. */
+ * Else 0, and where it is on its way out. A fragment may have been made there, and its corners
+ * count each for itself. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
     int nearest = edge, first = 0, n = m->contacts;
