@@ -35,7 +35,7 @@ O        = out/build
 # --- the files: the core, the library, the experiments, ./bbm ---
 PAPER    = bbm contact solver
 BASE     = build cut detect open_close order solve step
-BEYOND   = beyond bending coarse energy equilibrium factor impact interpolation joints mesh multipliers overlap \
+BEYOND   = beyond bending coarse crack energy equilibrium factor impact interpolation joints mesh multipliers overlap \
            refuse rotation sliding stability statics surroundings sweep
 CORE     = $(PAPER) $(BASE:%=base/%)
 LIBRARY  = $(CORE) $(BEYOND:%=beyond/%)

@@ -125,7 +125,8 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
                                 /*          P1 inside starts unloaded: then it is negative      */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
-    int    hit;                 /* a hook has given it an impulse in place of its spring's      */
+    int    hit;                 /* a hook has given it an impulse in place of its spring's; 2:  */
+                                /*          a hook has found P1 inside, which holds it there    */
     bbm_trial trial;
 };
 

@@ -466,6 +466,8 @@ static int may_touch(const bbm_model *m, int corner, int e)
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
+    if (find_closed(m, corner, e, ITSELF) && find_closed(m, corner, e, ITSELF)->hit > 1)
+        return 1;
     if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
     if (-f.d > approach + deep || (f.beyond <= touch_between(m, corner, e) && f.d < -deep
@@ -774,9 +776,9 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
 int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 {
     const int *line = c->trial.entrance;
-    int blocked = !admits(m, c);
+    int blocked = c->hit < 2 && !admits(m, c);
 
-    for (int k = 0; k < 4 && !blocked; k++)
+    for (int k = 0; k < 4 && c->hit < 2 && !blocked; k++)
         blocked = line[k] >= 0 && counts(m, &m->scratch->contact[line[k]], c);
     return blocked;
 }

@@ -173,7 +173,7 @@ static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
  *     R^T d = d0 + H (Ti Di - Tj Dj - 2 t J dm),      H = (1 + R^T)/2 = [1 t; -t 1]/(1 + t^2),
  *
  * is linear in D as T_m is, see rotation.c. */
-static void turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
+void bbm_turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
 {
     const double *Di = i->middle->D, *Dj = j->middle->D;
     const double r = (Di[2] + Dj[2]) / 2, t = tan(r / 2), f = r == 0 ? 1 : 2 * t / r;
@@ -283,7 +283,7 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
     bond_moment(m, b, M);
     list_edge(m, b->i, b->j, end, BBM_XY & ~held_edge(m, i, b->p[0]), k, M);
     if (i->middle)
-        turn_opening(i, j, &m->gap[m->gaps - 1]);
+        bbm_turn_opening(i, j, &m->gap[m->gaps - 1]);
 }
 
 /* The vertex before v in its element. */
@@ -381,7 +381,8 @@ static void list_fixed(bbm_model *m, int v)
 void bbm_list_edge_gaps(bbm_model *m)
 {
     for (int b = 0; b < m->bonds; b++)
-        list_bond(m, &m->bond[b]);
+        if (!bbm_list_crack(m, b))
+            list_bond(m, &m->bond[b]);
     for (int v = 0; v < m->vertices; v++)
         list_fixed(m, v);
 }

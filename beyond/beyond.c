@@ -14,6 +14,9 @@ static void free_prepared(bbm_beyond *b)
     free(b->account);
     free(b->body);
     free(b->balance);
+    free(b->crack);
+    free(b->best);
+    free(b->broke);
 }
 
 static void release(bbm_model *m)
@@ -38,10 +41,11 @@ static bbm_status check(bbm_model *m)
     b->account = calloc(n, sizeof *b->account);
     b->body = calloc(n, sizeof *b->body);
     b->balance = calloc(n, sizeof *b->balance);
+    const bbm_status cracks = bbm_lay_out_cracks(m);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
     if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account || !b->body
-        || !b->balance)
+        || !b->balance || cracks)
         return BBM_NO_MEMORY;
     bbm_find_pieces(m, b->body);
     bbm_note_springs(m, 0);
@@ -65,7 +69,7 @@ static bbm_status begin(bbm_model *m)
         m->acceleration[a] -= b->shake[a] * swing;
     b->made *= m->h < m->par.dt;                    /* a step begins whole */
     b->passed[0] = -1;
-    return BBM_OK;
+    return bbm_start_cracks(m);
 }
 
 /* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
@@ -95,7 +99,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)
         return next;
     if (!bbm_middle_is_off(m))
-        return next;
+        return next == BBM_PASS_DONE ? bbm_break_bonds(m) : next;
     bbm_set_middle(m);
     bbm_list_gaps(m);
     return BBM_PASS_AGAIN;
@@ -122,6 +126,7 @@ static bbm_status move(bbm_model *m)
         || (status = bbm_jump(m, &end)) || (status = bbm_check_balance(m, &end)))
         return status;
     bbm_store_multipliers(m);
+    bbm_keep_cracks(m);
     bbm_stop_supports(m);
     memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
     memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);
@@ -152,7 +157,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .check = check,
         .begin = begin,
         .listed = listed,
-        .find_pairs = bbm_find_near_pairs,
+        .find_pairs = bbm_catch_corners,
         .strength = bbm_joint_strength,
         .partner = bbm_find_partner,
         .vectors = bbm_shared_vectors,
@@ -163,7 +168,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .before_solution = before_solution,
         .renew = renew,
         .move = move,
-        .failed = bbm_try_otherwise,
+        .failed = bbm_say_cracks,
     };
     return BBM_OK;
 }

@@ -53,8 +53,26 @@ typedef struct {                /* surroundings.c: on the edge that starts at th
     double q[BBM_GAUSS][2];     /* N/m      all of it at the Gauss points, of the step          */
 } bbm_edge_load;
 
+typedef struct {                /* crack.c: of a bond                                           */
+    int    bond;                /* its number at the start                                      */
+    int    tooth;               /* 0: as new; more: how often it has softened, or broken        */
+    int    pushes[2];           /* its ends are closed                                          */
+    int    shears;              /* more than it pulls                                           */
+    double rest[2];             /* m        of the spring at the first end, along the normal    */
+                                /*          and across; less that of the other one              */
+    double s[3];                /* Pa       s, t, s1 of crack.c                                 */
+    double across;              /* -        how well it lies across the tension around it       */
+} bbm_crack;
+
+typedef struct {                /* crack.c: a bond that has broken                              */
+    int    step, bond, shears;
+    double x, y;                /* m        its middle then                                     */
+} bbm_break;
+
 struct bbm_beyond {
     /* --- settings --- */
+    double bond_tension, bond_cohesion, bond_friction, bond_energy;     /* Pa, Pa, degree, J/m^2 */
+                                /*          crack.c; tension 0: none breaks; energy 0: brittle  */
     bbm_bonding  bonding;       /* bending.c                                                    */
     bbm_rotation rotation;      /* rotation.c                                                   */
     double cohesion, tension;   /* Pa       joints.c: of unbroken joints                        */
@@ -76,9 +94,16 @@ struct bbm_beyond {
     bbm_middle *middle;         /* [elements], rotation.c                                       */
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
+    bbm_crack *crack, *kept;    /* [bonds]  crack.c: of the step in hand; of the last one       */
+    double *best;               /* [nodes]  scratch                                             */
+    int breaks, parts, last;    /* passes of the step in hand in which bonds broke; they did in */
+                                /*          the last step; the last bond to do so               */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
+    int broken, caught;         /* crack.c: bonds; corners that were inside another body        */
+    bbm_break *broke;           /* [broken] in the order of steps                               */
+    double crack_energy;        /* J        that softening has taken                            */
     double work;                /* J        of loads and gravity, in all steps                  */
     int *body;                  /* [elements] the first element of its body: what bonds join    */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
@@ -144,6 +169,7 @@ int        bbm_contacts_are_off(const bbm_model *m, double share);
 void       bbm_condense(int n, int rows, double *W);                 /* [n][n] */
 void       bbm_bending_moments(const bbm_element *e, const bbm_vertex vertex[], double M[2][2][2]);
 void       bbm_edge_gap(const bbm_gap end[2], double sign, double W[2][2], bbm_gap *g);
+void       bbm_turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g);
 void       bbm_list_edge_gaps(bbm_model *m);
 int        bbm_find_partner(const bbm_model *m, int v);
 void       bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2]);
@@ -153,6 +179,16 @@ void       bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2]);   
 void       bbm_start_multipliers(bbm_model *m);
 bbm_pass   bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);
+
+/* crack.c */
+bbm_status bbm_lay_out_cracks(bbm_model *m);
+int        bbm_is_broken(const bbm_model *m, int b);
+int        bbm_list_crack(bbm_model *m, int b);
+bbm_pass   bbm_break_bonds(bbm_model *m);
+bbm_status bbm_start_cracks(bbm_model *m);
+void       bbm_keep_cracks(bbm_model *m);
+bbm_status bbm_catch_corners(bbm_model *m, double search);
+bbm_status bbm_say_cracks(bbm_model *m, bbm_status s);
 
 /* sliding.c */
 bbm_status bbm_lay_out_sliding(bbm_model *m);
@@ -216,6 +252,7 @@ typedef struct {                /* elements i < j that overlap                  
 } bbm_overlap;
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
+double     bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest);    /* m    */
 double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
 bbm_status bbm_check_passed(bbm_model *m);              /* of all that the sweep has met        */
 bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end);   /* in the step in hand      */

@@ -244,7 +244,7 @@ static int moves_out(const bbm_model *m, int corner, int edge)
 
 /* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are, and
  * the edge that it is nearest to; else 0. */
-static double depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
+double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 {
     const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, edge);
     const bbm_vertex *b = bbm_end_of(m, edge);
@@ -260,14 +260,19 @@ static double depth_behind(const bbm_model *m, int corner, int edge, int *neares
 }
 
 /* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.
- * Else 0, and where it is on its way out. */
+ * Else 0, and where it is on its way out. A fragment may have been made there, and its corners
+ * count each for itself. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    int nearest = edge;
-    const double depth = depth_behind(m, corner, edge, &nearest);
+    int nearest = edge, first = 0, n = m->contacts;
+    const double depth = bbm_depth_behind(m, corner, edge, &nearest);
 
+    if (m->beyond->broken > 0)
+        for (first = m->edge[corner].contact, n = 0;
+             first + n < m->contacts && m->contact[first + n].corner == corner;)
+            n++;
     return depth == 0 || moves_out(m, corner, nearest)
-        || depth_between(m, m->contact, m->contacts, corner, edge) >= 0 ? 0 : depth;
+        || depth_between(m, m->contact + first, n, corner, edge) >= 0 ? 0 : depth;
 }
 
 /* Refuses a step before which, or a solution by which, a corner has passed the edge; end: the model
@@ -303,7 +308,7 @@ bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
         int nearest = c->edge;
         if (c->state != BBM_OPEN || c->d_n >= 0 || c->trial.was_closed || c->inside)
             continue;
-        const double depth = depth_behind(end, c->corner, c->edge, &nearest);
+        const double depth = bbm_depth_behind(end, c->corner, c->edge, &nearest);
         if (depth > DEEPER * fmax(0, depth_between(m, list, n, c->corner, c->edge)))
             return refuse(m, end, c->corner, c->edge, depth);
     }

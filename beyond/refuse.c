@@ -120,7 +120,7 @@ bbm_status bbm_check_solution(bbm_model *m)
 bbm_status bbm_check_depth(bbm_model *m)
 {
     for (const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts; c < end; c++)
-        if (c->state != BBM_OPEN && -c->d_n / bbm_size_at(m, c) > DEEP)
+        if (c->state != BBM_OPEN && c->hit < 2 && -c->d_n / bbm_size_at(m, c) > DEEP)
             return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in "
                             "block %d, a tenth of the smaller one; larger stiffnesses p_n, p_s "
                             "help", m->info.step + 1, m->edge[c->corner].block, -c->d_n,

@@ -4,7 +4,7 @@
 set -eu
 LIMITS="arch:t=1 topple:phi=19 slope:phi=38.114 slope:wet=0.5:phi=38.98 tilt:gx=4.76864 spread:half=0.601
     dominoes:spin=-1.45 shaken:phi=34 wall:A=8:courses=4:bricks=8 conveyor:phi=9.9 keyblock:part=0.99
-    portal:part=1.01 retaining:part=1.01 water:part=1.01 bolted:part=0.99"
+    portal:part=1.01 retaining:part=1.01 water:part=1.01 bolted:part=0.99 brazil:part=1.05 wedge:T=4e6"
 mkdir -p out/models
 models=0 limits=0
 for m in cases/models/*.model; do

@@ -10,4 +10,6 @@ int scene_edge_load(const bbm_model *m, int k, scene_line *l)
     return 0;
 }
 
+int scene_is_cracked(const bbm_model *m) { return (void)m, 0; }
+
 void exp1_show_beyond(const case_reference *b) { (void)b; }

@@ -1,4 +1,4 @@
-/* edge_load.c - the loads of edges that pictures show. `make paper` has paper.c in its place. */
+/* edge_load.c - the loads of edges that pictures show, and whether there are cracks. `make paper` has paper.c in its place. */
 #include "../beyond/beyond.h"
 #include "scene.h"
 
@@ -13,3 +13,5 @@ int scene_edge_load(const bbm_model *m, int k, scene_line *l)
                        .level = e->level + m->origin[1], .weight = e->weight };
     return 1;
 }
+
+int scene_is_cracked(const bbm_model *m) { return m->beyond && m->beyond->broken > 0; }

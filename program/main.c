@@ -192,6 +192,10 @@ static void summarise(const model *p, const char *folder)
         printf("t = %g s, ", m->info.t);
     printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
            m->info.pcg.residual);
+    if (m->beyond->broken > 0 || m->beyond->crack_energy > 0)
+        printf("%d bond%s broke, %d bodies; softening took %.6g J; %d corner%s caught inside\n",
+               m->beyond->broken, plural(m->beyond->broken), bbm_find_pieces(m, m->beyond->body),
+               m->beyond->crack_energy, m->beyond->caught, plural(m->beyond->caught));
     if (p->dynamic)                                         /* below 1e-12 it is rounding */
         printf(m->beyond->gain > 1e-12
                ? "no step made more than %.1e of its energy beyond the work of loads\n"

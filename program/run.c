@@ -41,6 +41,8 @@ bbm_status run_step(run *r)
         return BBM_STEPS_EXHAUSTED;
     model_move_supports(r->p);
     const bbm_status status = bbm_step(m);
+    if (!status && bbm_start_cracks(m))                         /* what has come off is a body  */
+        return bbm_out_of_memory(m);
     r->stage_is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
                                                       : m->info.step == par->steps);
     for (int k = 0; k < r->p->bolts && !r->p->dynamic; k++)     /* one breaks in the next step */

@@ -140,6 +140,7 @@ static int make_frame(scene_frame *f, const bbm_model *m)
     f->value = malloc((size_t)m->vertices * sizeof *f->value);
     f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
     f->load = malloc((size_t)m->nodes * sizeof *f->load);
+    f->edges = m->edges;
     for (int n = 0; n < m->nodes && f->load; n++)
         memcpy(f->load[n], m->node[n].load, sizeof f->load[n]);
     for (scene_line l; scene_edge_load(m, f->lines, &l); )
@@ -183,6 +184,8 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
         const int i = m->vertex[v].node, gone = f->held[v] == SCENE_GONE;
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
+        if (scene_is_cracked(m))                        /* a crack parts what meets at a node   */
+            r.u = m->vertex[v].u, r.v = m->vertex[v].v;
         f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0),
                                    times[0] * field_place(m, v, 1) }
                  : (point){ times[0] * m->node[i].x + times[1] * r.u,
@@ -386,6 +389,21 @@ static void put_outline(film *f, int frame, const body *b)
     }
 }
 
+/* The boundary edges of a block one by one; those of a crack that is still to open have no length.
+ */
+static void put_edges(film *f, int frame, const body *b)
+{
+    for (int k = b->first; k < b->first + b->n; k++) {
+        const int v = f->vertex[k], e = f->m->vertex[v].edge;
+        if (e < 0)
+            continue;
+        const point p = at(f, frame, v);
+        const point q = e < f->s->frame[frame].edges ? at(f, frame, f->m->edge[e].b) : p;
+        plot_point(&f->p, "M", p.x, p.y);
+        plot_point(&f->p, " ", q.x, q.y);
+    }
+}
+
 /* The number of values of an animation: a frame each, the last one again and again. */
 static int value_count(const film *f) { return f->s->frames + HOLD; }
 
@@ -448,8 +466,11 @@ static void draw_block(film *f, int frame, const body *b)
         e.n = f->m->element[f->m->vertex[f->vertex[e.first]].element].n;
         put_shape(f, frame, &e, NULL, 0.3, put_elements);
     }
-    put_shape(f, frame, b, coloured ? "none" : b->held ? "url(#held)" : tint[b->tint], 1.3,
-              put_outline);
+    const int cracks = f->m->edges > f->s->frame[0].edges;
+    put_shape(f, frame, b, coloured ? "none" : b->held ? "url(#held)" : tint[b->tint],
+              cracks ? 0 : 1.3, put_outline);
+    if (cracks)
+        put_shape(f, frame, b, "none", 1.3, put_edges);
     if (!coloured && !is_moving(f, b))
         put_shape(f, frame, b, "none", 0.3, put_elements);
 }

@@ -36,6 +36,7 @@ typedef struct {                /* what was recorded at one time                
     double time;                /* s                                                              */
     int    call;                /* of scene_record, from 0                                        */
     int    forces, lines;       /* lines: loads of edges                                          */
+    int    edges;               /* of the boundary: further ones open in a crack, later           */
     double (*load)[2];          /* N        [nodes]                                               */
     scene_point *at;            /* m        [vertices]                                            */
     int    *held;               /*          [vertices] BBM_X + BBM_Y, SCENE_MOVED; SCENE_GONE     */
@@ -91,5 +92,6 @@ typedef struct {
 
 /* edge_load.c: load k of those that are given for an edge; 0: there are no more. */
 int scene_edge_load(const bbm_model *m, int k, scene_line *l);
+int scene_is_cracked(const bbm_model *m);           /* edge_load.c: bonds have broken            */
 
 #endif

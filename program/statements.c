@@ -164,7 +164,11 @@ static int read_bond(model_reader *r)
     int kind = 2;
     model_option o[] = { ABOVE_ZERO("alpha", &r->p->m->par.alpha),
                          COUNT("augment", &b->multiplier_rounds, 0),
-                         CHOICE("at", &kind, "vertices|moment|auto") };
+                         CHOICE("at", &kind, "vertices|moment|auto"),
+                         ABOVE_ZERO("tension", &b->bond_tension),
+                         ABOVE_ZERO("cohesion", &b->bond_cohesion),
+                         ANGLE("friction", &b->bond_friction),
+                         FROM_ZERO("energy", &b->bond_energy) };
 
     if (model_look(r) && model_find(&r->block_of, model_look(r)) >= 0) {
         for (int k = 0; k < 2; k++)
@@ -183,6 +187,11 @@ static int read_bond(model_reader *r)
     if (r->bonding++)
         return model_blame(r, "%s for the second time, expected its options once", r->s->name);
     const int good = model_options(r, 0, LENGTH(o), o);
+    if (good && (b->bond_tension > 0) != (b->bond_cohesion > 0))
+        return model_blame(r, "bonds break by tension and by shear, expected tension and cohesion");
+    if (good && b->bond_tension == 0 && (b->bond_friction > 0 || b->bond_energy > 0))
+        return model_blame(r, "friction and energy of bonds that do not break, expected tension "
+                           "and cohesion");
     b->bonding = kind == 0 ? BBM_VERTICES : BBM_MOMENT;
     return good;
 }
@@ -464,8 +473,8 @@ static const struct kind {
     { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
     { "dynamic dt VALUE steps N [velocity_factor VALUE] [settle N] [ramp T]", read_dynamic, ALONE,
       ONCE },
-    { "bond [alpha VALUE] [augment N] [at vertices|moment|auto], or bond BLOCK BLOCK", read_bond,
-      BLOCKS, 0 },
+    { "bond [alpha VALUE] [augment N] [at vertices|moment|auto] [tension PASCAL cohesion PASCAL "
+      "[friction DEGREES] [energy VALUE]], or bond BLOCK BLOCK", read_bond, BLOCKS, 0 },
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
     { "output [every N] [vtk] [balance] [svg] [film] [field NAME] [scale N] [low VALUE] "

@@ -160,6 +160,17 @@ static void put_bolts(FILE *f, const write_results *w)
                 b->strength == 0 ? "REMOVED" : b->until < INFINITY ? "BROKEN" : "HOLDS");
 }
 
+/* The bonds that have broken, in the order of steps, where they were then. */
+static void put_cracks(FILE *f, const write_results *w)
+{
+    const bbm_beyond *b = w->p->m->beyond;
+
+    fprintf(f, "step,bond,x,y,mode\n");
+    for (const bbm_break *k = b->broke; k < b->broke + b->broken; k++)
+        fprintf(f, "%d,%d,%.15g,%.15g,%s\n", k->step, k->bond + 1, k->x, k->y,
+                k->shears ? "SHEAR" : "TENSION");
+}
+
 /* What is left of the forces on each body in the last solution, what a contact or bolt of it has
  * against its law, and their shares of all of them. */
 static void put_balance(FILE *f, const write_results *w)
@@ -504,7 +515,7 @@ static int is_ours(const char *name)
 {
     static const char *const form[] = {
         "nodes.csv%n", "elements.csv%n", "history.csv%n", "summary.csv%n", "timing.csv%n",
-        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "balance.csv%n", "contacts.svg%n",
+        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "cracks.csv%n", "balance.csv%n", "contacts.svg%n",
         "movie.svg%n", "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n",
         "contacts_%*[0-9].vtk%n", "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
     };
@@ -661,6 +672,7 @@ void write_close(write_results *w)
         { "reactions.csv", put_reactions },
         { "balance.csv", p->balance ? put_balance : NULL },
         { "bolts.csv", p->bolts ? put_bolts : NULL },
+        { "cracks.csv", p->m->beyond->bond_tension > 0 ? put_cracks : NULL },
     };
 
     holds_folder(w);

@@ -1,0 +1,435 @@
+/* crack.c - bonds that break: where a body breaks first, and how its fragments fall. It is no
+ * measure of how strong a notched body is: ahead of a notch the stress grows with a finer mesh.
+ *
+ * Beyond the paper, whose last sentence announces it. Around a bond there is the stress sigma, the
+ * mean by area over the elements of its body that meet at its two nodes. With n the normal of the
+ * bond, s and t the normal and the shear component of sigma n, and s1 the larger principal stress,
+ * a bond holds as long as
+ *
+ *     s1 <= tension     and     |t| <= cohesion - s tan(friction),        s > 0: tension.
+ *
+ * The first one is asked of the bond that lies best across the tension at one of its nodes, the
+ * one with the largest s/s1. So a mesh whose bonds all lie askew is as strong as another one.
+ *
+ * When all else in a step has settled, the bond with the largest load breaks, and those that are
+ * loaded as much, which symmetry asks for. Then the step is solved again, until all hold. So one
+ * crack runs before a cloud of them appears. Nothing has moved by then: the order is that of the
+ * loads and not of the list, and a step that is tried again begins with the cracks of the last one.
+ *
+ * A bond that has broken, or that softens, has a spring at each of its two ends, with w the opening
+ * and v the slip there. In compression it has the stiffness k of (4), else what is left of it:
+ *
+ *     Pi = 1/2 k min(0, w)^2 + 1/2 c (max(0, w)^2 + v^2),     0 <= c < k.
+ *
+ * Brittle (energy 0): c = 0 at once. Else the tension of the bond falls along the teeth of a saw
+ * about the line from its strength at w = 0 to 0 at w = w_c. At each tooth c falls, and together
+ * they take the energy times the area. The Pi of a tooth is nowhere more than that of the last one:
+ * no bond makes energy by breaking, and K stays positive definite. In an open or closed crack there
+ * is no friction.
+ *
+ * Fragments. From the next step on both sides of a broken bond are boundary edges. Where broken
+ * bonds go all round a piece, it is a body of its own: they leave the list of bonds, and contacts
+ * take their place. A body has no contacts with itself, so that the springs above stay where a
+ * crack ends inside. A corner that lies in another body, and that no contact has kept out, is taken
+ * as one that has opened there: it may go out, and no deeper. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "beyond.h"
+
+/* SAME [-]  loads that differ less are the same: symmetry, and the rounding of a solution
+ * BREAKS    the most passes of a step in which bonds break */
+#define SAME 1e-6
+enum { TEETH = 10, BROKEN = TEETH + 1, BREAKS = 1000 };
+
+/* ----------------------------------------------------------------------------- how bonds soften */
+
+/* Where tooth j ends, as a share of w_c; as much of the strength is gone there. Behind the last
+ * tooth nothing is left. */
+static double end_of(int j) { return j == 0 ? 0 : fmin(1, (j - 0.5) / TEETH); }
+
+/* c of a tooth, in tension/w_c. */
+static double slope_of(int tooth) { return 1 / end_of(tooth) - 1; }
+
+/* What a bond has taken that begins a tooth, in tension w_c for each area: under each tooth before
+ * it 1/2 c (w^2 - the last w^2), less what it stores now. */
+static double taken(int tooth)
+{
+    double sum = tooth == 0 ? 0 : -slope_of(tooth) * pow(end_of(tooth - 1), 2) / 2;
+
+    for (int j = 1; j < tooth; j++)
+        sum += slope_of(j) * (pow(end_of(j), 2) - pow(end_of(j - 1), 2)) / 2;
+    return sum;
+}
+
+/* The outward normal n of element i on its bond, at the start or as it is turned now. Returns the
+ * area of the bond. */
+static double find_normal(const bbm_model *m, const bbm_bond *b, int now, double n[2])
+{
+    const bbm_node *P = &m->node[m->vertex[b->p[0]].node], *Q = &m->node[m->vertex[b->p[1]].node];
+    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+    const double x = Q->y - P->y, y = P->x - Q->x, l = hypot(x, y);
+    const double r = now * (i->sum[2] + j->sum[2]) / 2;
+
+    n[0] = (x * cos(r) - y * sin(r)) / l;
+    n[1] = (x * sin(r) + y * cos(r)) / l;
+    return l * fmin(i->material.thickness, j->material.thickness);
+}
+
+/* c of both ends of a bond together, N/m. */
+static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
+{
+    const bbm_beyond *y = m->beyond;
+    const double T = y->bond_tension, w_c = y->bond_energy / (T * taken(BROKEN));
+    double n[2];
+
+    return tooth == BROKEN ? 0 : find_normal(m, b, 0, n) * T * slope_of(tooth) / w_c;
+}
+
+/* How often a bond has softened. */
+static int tooth_of(const bbm_model *m, int b)
+{
+    return m->is_prepared && m->beyond->crack ? m->beyond->crack[b].tooth : 0;
+}
+
+int bbm_is_broken(const bbm_model *m, int b) { return tooth_of(m, b) == BROKEN; }
+
+/* Lists the two springs of a bond that softens or has broken; 0: it does not. `rest`, where the
+ * first has no length and less that of the second, turns with the bond. */
+int bbm_list_crack(bbm_model *m, int b)
+{
+    const bbm_bond *of = &m->bond[b];
+    const bbm_element *i = &m->element[of->i], *j = &m->element[of->j];
+    double n[2], N[2];
+
+    if (tooth_of(m, b) == 0)
+        return 0;
+    const bbm_crack *c = &m->beyond->crack[b];
+    const double soft = softness(m, of, c->tooth) / 2;
+    bbm_list_bond(m, of);
+    find_normal(m, of, 1, n);
+    find_normal(m, of, !i->middle, N);
+    for (int end = 0; end < 2; end++) {
+        bbm_gap *g = &m->gap[m->gaps - 2 + end];
+        const double push = c->pushes[end] ? g->W[0][0] - soft : 0, sign = end ? -1 : 1;
+        g->own = (bbm_multiplier){ { 0 }, { 0 } };
+        g->elastic = 1;
+        for (int a = 0; a < 4; a++)
+            g->W[a / 2][a % 2] = (a % 3 == 0 ? soft : 0) + push * N[a / 2] * N[a % 2];
+        if (i->middle)
+            bbm_turn_opening(i, j, g);
+        g->d0[0] -= sign * (c->rest[0] * n[0] - c->rest[1] * n[1]);
+        g->d0[1] -= sign * (c->rest[0] * n[1] + c->rest[1] * n[0]);
+    }
+    return 1;
+}
+
+/* ----------------------------------------------------------------------------- which one breaks */
+
+/* Adds the stress around a node of a body, times area, and the area. */
+static void add_stress(const bbm_model *m, int node, int body, double sum[4])
+{
+    double E[3][3];
+
+    for (int a = m->adjacent_first[node]; a < m->adjacent_first[node + 1]; a++) {
+        const int i = m->vertex[m->adjacent[a]].element, counts = m->beyond->body[i] == body;
+        const bbm_element *e = &m->element[i];
+        bbm_elastic_matrix(&e->material, E);
+        sum[3] += counts * e->A;
+        for (int k = 0; k < 3; k++)
+            sum[k] += counts * e->A * (e->stress[k] + E[k][0] * m->D[6 * i + 3]
+                                       + E[k][1] * m->D[6 * i + 4] + E[k][2] * m->D[6 * i + 5]);
+    }
+}
+
+/* s, t and s1 of a bond: of the stress around it, or if it softens of its own springs. */
+static void find_traction(const bbm_model *m, int b, double s[3])
+{
+    const bbm_bond *of = &m->bond[b];
+    double n[2], d[2], f[2] = { 0, 0 }, S[4] = { 0 };
+    const double area = find_normal(m, of, 1, n);
+    const int softens = tooth_of(m, b) > 0;
+
+    for (int end = 0; end < 2; end++) {
+        const bbm_gap *g = &m->gap[2 * b + end];
+        add_stress(m, m->vertex[of->p[end]].node, m->beyond->body[of->i], S);
+        bbm_gap_length(m, g, d);
+        for (int r = 0; r < 2; r++)
+            f[r] -= (g->W[r][0] * d[0] + g->W[r][1] * d[1]) / area;
+    }
+    for (int r = 0; r < 2 && !softens; r++)
+        f[r] = (S[r] * n[r] + S[2] * n[1 - r]) / S[3];
+    s[0] = f[0] * n[0] + f[1] * n[1];
+    s[1] = f[1] * n[0] - f[0] * n[1];
+    s[2] = softens ? s[0] : ((S[0] + S[1]) / 2 + hypot((S[0] - S[1]) / 2, S[2])) / S[3];
+}
+
+/* How well a bond that is as new lies across the tension around it, and the best one at each of its
+ * nodes. */
+static void find_across(const bbm_model *m, int b)
+{
+    bbm_crack *c = &m->beyond->crack[b];
+
+    find_traction(m, b, c->s);
+    c->across = c->tooth == 0 && c->s[0] > 0 ? c->s[0] / c->s[2] : 0;
+    for (int end = 0; end < 2; end++) {
+        double *best = &m->beyond->best[m->vertex[m->bond[b].p[end]].node];
+        *best = fmax(*best, c->across);
+    }
+}
+
+/* The load of a bond against its strength; more than 1: it breaks. */
+static double find_load(const bbm_model *m, int b)
+{
+    const bbm_beyond *y = m->beyond;
+    bbm_crack *c = &y->crack[b];
+    const double best = fmin(y->best[m->vertex[m->bond[b].p[0]].node],
+                             y->best[m->vertex[m->bond[b].p[1]].node]);
+    const double left = 1 - end_of(c->tooth), friction = bbm_tangent(y->bond_friction);
+
+    if (c->tooth == BROKEN)
+        return 0;
+    const double strength = y->bond_cohesion * left - c->s[0] * friction;
+    const int pulls = c->s[0] > 0 && (c->tooth > 0 || c->across >= (1 - SAME) * best);
+    const double pulled = pulls ? c->s[2] / (y->bond_tension * left) : 0;
+    const double sheared = strength > 0 ? fabs(c->s[1]) / strength : c->s[0] > 0 ? INFINITY : 0;
+
+    c->shears = sheared > pulled;
+    return fmax(pulled, sheared);
+}
+
+/* The next tooth that is softer than the bond, or the end. The first time the two ends get springs
+ * of their own: as long as the bond in the mean, and nothing of its bending is left in them. */
+static void damage(bbm_model *m, int b)
+{
+    bbm_crack *c = &m->beyond->crack[b];
+    const bbm_bond *of = &m->bond[b];
+    const bbm_vertex *v = m->vertex, *P = &v[of->p[0]], *Q = &v[of->q[0]];
+    const bbm_vertex *R = &v[of->p[1]], *S = &v[of->q[1]];
+    const double k = bbm_bonding_stiffness(m->par.alpha, &m->element[of->i], &m->element[of->j]);
+    const double x = (P->u - Q->u - R->u + S->u) / 2, y = (P->v - Q->v - R->v + S->v) / 2;
+    double n[2];
+
+    if (c->tooth == 0) {
+        find_normal(m, of, 1, n);
+        c->rest[0] = x * n[0] + y * n[1];
+        c->rest[1] = y * n[0] - x * n[1];
+        c->pushes[0] = c->pushes[1] = c->shears;
+    }
+    do
+        c->tooth = m->beyond->bond_energy > 0 ? c->tooth + 1 : BROKEN;
+    while (softness(m, of, c->tooth) >= 2 * k);
+    m->beyond->last = b;
+}
+
+/* Lets those ends of cracks push that are closed, and no others; whether there were others. */
+static int renew_pushes(bbm_model *m)
+{
+    double n[2], d[2];
+    int changes = 0;
+
+    for (int k = 0; k < 2 * m->bonds; k++) {
+        int *pushes = &m->beyond->crack[k / 2].pushes[k % 2];
+        find_normal(m, &m->bond[k / 2], 1, n);
+        bbm_gap_length(m, &m->gap[k], d);
+        const int closed = tooth_of(m, k / 2) > 0 && d[0] * n[0] + d[1] * n[1] > 0;
+        changes |= closed != *pushes;
+        *pushes = closed;
+    }
+    return changes;
+}
+
+/* All has settled: do all bonds hold, and push where they are closed? If not, once more. Steps from
+ * rest, with which statics looks for an equilibrium, break nothing. */
+bbm_pass bbm_break_bonds(bbm_model *m)
+{
+    bbm_beyond *y = m->beyond;
+    double most = 1;
+
+    if (y->bond_tension <= 0)
+        return BBM_PASS_DONE;
+    if (!renew_pushes(m)) {
+        memset(y->best, 0, (size_t)m->nodes * sizeof *y->best);
+        for (int b = 0; b < m->bonds; b++)
+            find_across(m, b);
+        for (int b = 0; b < m->bonds; b++)
+            most = fmax(most, find_load(m, b));
+        if (most == 1 || (isinf(m->par.dt) && !bbm_is_static(m)))
+            return BBM_PASS_DONE;
+        for (int b = 0; b < m->bonds; b++)
+            if (find_load(m, b) >= most * (1 - SAME))
+                damage(m, b);
+        m->scratch->passes = m->scratch->one_until = y->round = 0;
+        y->breaks++;
+    }
+    bbm_list_gaps(m);
+    return y->breaks > BREAKS ? BBM_PASS_GIVE_UP : BBM_PASS_AGAIN;
+}
+
+/* ------------------------------------------------------------------------------------ fragments */
+
+/* Where the corners of contacts lie, times a sign, is added to where they count from. Two elements
+ * share a corner no more when a bond between them has broken, and it jumps. Contacts keep their
+ * forces. */
+static void add_places(bbm_model *m, double sign)
+{
+    for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+        double P[2], a[2], b[2];
+        bbm_point_at(m, m->edge[c->corner].a, P);
+        bbm_point_at(m, m->edge[c->edge].a, a);
+        bbm_point_at(m, m->edge[c->edge].b, b);
+        const double x = b[0] - a[0], y = b[1] - a[1], l = hypot(x, y);
+        c->rest += sign * ((P[0] - a[0]) * y - (P[1] - a[1]) * x) / l;
+        c->anchor += sign * ((P[0] - a[0]) * x + (P[1] - a[1]) * y) / (l * l);
+    }
+}
+
+/* Puts all vertices where they were at the start (0), or back where they are (1). */
+static void place_vertices(bbm_model *m, int now)
+{
+    for (bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++) {
+        v->x = m->node[v->node].x - m->origin[0] + now * v->u;
+        v->y = m->node[v->node].y - m->origin[1] + now * v->v;
+    }
+}
+
+/* The detection begins anew, body by body, with all boundaries as they were at the start. Without
+ * memory for it the model has to be prepared anew. */
+static bbm_status renew_detection(bbm_model *m)
+{
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].block = m->beyond->body[m->edge[e].element];
+    bbm_detect_free(m->scratch);
+    place_vertices(m, 0);
+    const bbm_status status = bbm_detect_new(m);
+    place_vertices(m, 1);
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].block = m->element[m->edge[e].element].block;
+    m->is_prepared = !status;
+    return status;
+}
+
+/* What has broken in the last step is a boundary, and what has come off is a body. */
+static bbm_status part_bodies(bbm_model *m)
+{
+    bbm_beyond *y = m->beyond;
+    int kept = 0;
+
+    add_places(m, -1);
+    for (int b = 0; b < m->bonds; b++) {
+        const bbm_bond of = m->bond[b];
+        const int side[2][2] = { { of.p[0], of.p[1] }, { of.q[1], of.q[0] } };
+        for (int k = 0; k < 2 && bbm_is_broken(m, b) && m->vertex[side[k][0]].edge < 0; k++) {
+            const bbm_edge new = { k ? of.j : of.i, side[k][0], side[k][1], .block = 0 };
+            m->vertex[new.a].edge = m->edges;
+            m->edge[m->edges++] = new;
+        }
+        if (y->body[of.i] != y->body[of.j])
+            continue;
+        m->bond[kept] = of;
+        y->crack[kept] = y->kept[kept] = y->crack[b];
+        memmove(&m->gap[2 * kept++], &m->gap[2 * b], 2 * sizeof *m->gap);
+    }
+    m->gaps -= 2 * (m->bonds - kept);
+    memmove(&m->gap[2 * kept], &m->gap[2 * m->bonds],
+            (size_t)(m->gaps - 2 * kept) * sizeof *m->gap);
+    m->bonds = kept;
+    y->parts = 0;
+    add_places(m, 1);
+    return renew_detection(m);
+}
+
+/* A step, or a part of one, begins with the cracks of the last one. */
+bbm_status bbm_start_cracks(bbm_model *m)
+{
+    bbm_beyond *y = m->beyond;
+
+    memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
+    y->breaks = 0;
+    bbm_find_pieces(m, y->body);
+    return y->parts ? part_bodies(m) : BBM_OK;
+}
+
+/* The step went well: notes what broke, and what softening has taken. */
+void bbm_keep_cracks(bbm_model *m)
+{
+    bbm_beyond *y = m->beyond;
+    double n[2];
+
+    for (int b = 0; b < m->bonds; b++) {
+        bbm_crack *c = &y->crack[b];
+        const bbm_vertex *P = &m->vertex[m->bond[b].p[0]], *Q = &m->vertex[m->bond[b].p[1]];
+        y->crack_energy += (taken(c->tooth) - taken(y->kept[b].tooth)) / taken(BROKEN)
+                         * y->bond_energy * find_normal(m, &m->bond[b], 0, n);
+        if (c->tooth == BROKEN && y->kept[b].tooth != BROKEN) {
+            y->broke[y->broken++] = (bbm_break){ m->info.step + 1, c->bond, c->shears,
+                                                 (P->x + Q->x) / 2 + m->origin[0],
+                                                 (P->y + Q->y) / 2 + m->origin[1] };
+            y->parts = 1;
+        }
+    }
+    memcpy(y->kept, y->crack, (size_t)m->bonds * sizeof *y->crack);
+}
+
+/* Finds near pairs. Where bonds have broken, a corner that has passed into another body becomes a
+ * contact that has opened inside, and all begins once more. */
+bbm_status bbm_catch_corners(bbm_model *m, double search)
+{
+    bbm_beyond *y = m->beyond;
+    bbm_status status = bbm_find_near_pairs(m, search);
+
+    while (!status && y->broken > 0 && y->passed[0] >= 0) {
+        bbm_contact c = { .corner = y->passed[0], .edge = y->passed[1], .inside = 1, .hit = 2 };
+        bbm_contact *more = realloc(m->contact, ((size_t)m->contacts + 1) * sizeof *more);
+        if (!more)
+            return BBM_NO_MEMORY;
+        (void)bbm_depth_behind(m, c.corner, c.edge, &c.edge);
+        m->contact = more;
+        m->contact[m->contacts++] = c;
+        qsort(m->contact, (size_t)m->contacts, sizeof *m->contact, bbm_compare_pairs);
+        for (int k = m->contacts - 1; k >= 0; k--)
+            m->edge[m->contact[k].corner].contact = k;
+        y->caught++;
+        y->passed[0] = -1;
+        m->scratch->pairs = 0;
+        status = bbm_find_near_pairs(m, search);
+    }
+    return status;
+}
+
+/* A step has failed, because of bonds that broke in it or for another reason. */
+bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
+{
+    const bbm_beyond *y = m->beyond;
+
+    if (!m->is_prepared || s == BBM_NO_MEMORY || s == BBM_STOPPED)
+        return s;
+    const int tried = bbm_find_pieces(m, y->body), last = y->last;
+    memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
+    const int parts = tried - bbm_find_pieces(m, y->body);
+    if (y->breaks > BREAKS)
+        return bbm_fail(m, s, "step %d: bonds break in more than %d passes; a smaller dt or load "
+                        "helps", m->info.step + 1, BREAKS);
+    if (!bbm_is_static(m) || parts == 0)
+        return bbm_try_otherwise(m, s);
+    const bbm_vertex *P = &m->vertex[m->bond[last].p[0]];
+    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, at last at (%g, %g); "
+                    "dynamics shows how its pieces fall", m->info.step + 1,
+                    m->element[P->element].block, P->x + m->origin[0], P->y + m->origin[1]);
+}
+
+/* Of a prepared model. */
+bbm_status bbm_lay_out_cracks(bbm_model *m)
+{
+    bbm_beyond *y = m->beyond;
+    const size_t n = (size_t)m->bonds + 1;
+
+    y->crack = calloc(2 * n, sizeof *y->crack);
+    y->best = calloc((size_t)m->nodes, sizeof *y->best);
+    y->broke = calloc(n, sizeof *y->broke);
+    y->kept = y->crack ? y->crack + n : NULL;
+    for (int b = 0; b < m->bonds && y->kept; b++)
+        y->kept[b].bond = b;
+    y->crack_energy = y->broken = y->caught = y->parts = 0;
+    return y->crack && y->best && y->broke ? BBM_OK : BBM_NO_MEMORY;
+}
