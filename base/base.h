@@ -76,6 +76,8 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     /* --- detect.c --- */
     int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
+    int    joined[2];           /* of its start: the edges that end and start there, but of a   */
+                                /*          block that lies flush where it covers one           */
     int    side;                /* the first edge of the straight side that it belongs to       */
     double span, spacing;       /* m        set in that first edge: the side's starting length, */
                                 /*          and the mean length of its edges                    */

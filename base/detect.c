@@ -25,6 +25,9 @@
  * same time, the one that was closed counts, or else the flatter one, the same in any order of the
  * blocks.
  *
+ * In dynamics two corners of A and B that lie flush are none for a third block: the boundary of the
+ * one goes on as that of the other, and the faces between them are covered.
+ *
  * Two lines that coincide are one contact, of P on Q's edge or of Q on P's. That one stays whose
  * projection is on its edge. At a tie it is the one that it was before, or else the one whose edge
  * faces up.
@@ -116,8 +119,9 @@ static void link_edges(bbm_model *m)
         int v = m->edge[e].b;
         while (m->vertex[v].edge < 0)
             v = -1 - m->vertex[v].edge;
-        m->edge[e].after = m->vertex[v].edge;
-        m->edge[m->edge[e].after].before = e;
+        const int after = m->edge[e].after = m->vertex[v].edge;
+        m->edge[after].before = m->edge[after].joined[0] = e;
+        m->edge[after].joined[1] = after;
     }
 }
 
@@ -368,21 +372,52 @@ double bbm_allowed_depth(const bbm_model *m, int c, int e)
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
 
+/* Whether two edges lie along one line and face each other. */
+static int lie_flush(const bbm_model *m, int e, int f)
+{
+    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
+
+    return hypot(p.x + q.x, p.y + q.y) <= PARALLEL;
+}
+
+/* The edge that ends at a corner c (0) or starts there (1), as another corner Q meets it: its own,
+ * or the one that goes on from it in a block that lies flush and covers its own. Not where a side
+ * of Q lies along the other side of c: there Q passes c, or does not, by their rounding. */
+static int side_at(const bbm_model *m, int c, int which, int Q)
+{
+    const int own[2] = { m->edge[c].before, c }, joined = m->edge[c].joined[which];
+    const int other = own[!which];
+
+    return m->edge[joined].first == m->edge[Q].first || lie_flush(m, other, Q)
+        || lie_flush(m, other, m->edge[Q].before) ? own[which] : joined;
+}
+
+/* Whether the edge is covered where the corner is: another block lies flush with its end there. */
+static int is_covered(const bbm_model *m, int corner, int e)
+{
+    const int Q = end_near(m, corner, e), end = Q != e, cover = side_at(m, Q, !end, corner);
+    const int side = end ? m->edge[cover].after : m->edge[cover].before;
+    const double s = project(m, corner, e).s, from = end ? m->edge[e].along.length - s : s;
+
+    return cover != e && 2 * from < m->edge[side].along.length;
+}
+
 /* Whether a corner can enter over an edge. Neither of its two sides points into the edge by more
  * than an angle, after its block has turned by r against that of the edge, and the block is convex
  * there. Either end of a side may be as deep as closed contacts are. A grid point inside a straight
  * side may come to lie in a hollow, where that side bends. */
 static int can_enter(const bbm_model *m, int corner, int e, double r, double angle)
 {
-    const bbm_direction t = m->edge[e].along, q = m->edge[corner].along;
-    const bbm_direction p = m->edge[m->edge[corner].before].along;
+    const int Q = end_near(m, corner, e);
+    const bbm_direction t = m->edge[e].along, p = m->edge[side_at(m, corner, 0, Q)].along;
+    const bbm_direction q = m->edge[side_at(m, corner, 1, Q)].along;
     const bbm_direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
     const double dip = 2 * fmin(reach_of(m, corner)->depth_now, reach_of(m, e)->depth_now);
 
     if (!is_corner(m, corner))
         return fmin(cross(q, s), cross(s, p)) >= -BENT;
     return cross(q, s) >= -angle - dip / fmin(q.length, t.length)
-        && cross(s, p) >= -angle - dip / fmin(p.length, t.length) && is_convex(m, corner);
+        && cross(s, p) >= -angle - dip / fmin(p.length, t.length) && cross(p, q) > -PARALLEL;
 }
 
 /* Two edges along p and q face each other. Whether the outward normal of the first, (p.y, -p.x),
@@ -453,12 +488,9 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
     return found;
 }
 
-/* Whether the corner may come to touch the edge in this step. A corner that is still outside may
- * turn before it does, as when a side falls flat on an edge. */
-static int may_touch(const bbm_model *m, int corner, int e)
+/* Whether the corner may come to the edge in this step, and not from behind it. */
+static int is_near(const bbm_model *m, int corner, int e)
 {
-    const reach *of = m->scratch->reach;
-    const double turns = of[bbm_element_of(m, corner)].turn + of[bbm_element_of(m, e)].turn;
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
     const double deep = bbm_allowed_depth(m, corner, e);
     const projection f = project(m, corner, e);
@@ -468,22 +500,31 @@ static int may_touch(const bbm_model *m, int corner, int e)
         return 0;
     if (find_closed(m, corner, e, ITSELF) && find_closed(m, corner, e, ITSELF)->hit > 1)
         return 1;
-    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
+    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e) || -f.d > approach + deep)
         return 0;
-    if (-f.d > approach + deep || (f.beyond <= touch_between(m, corner, e) && f.d < -deep
-        && !find_closed(m, corner, e, LINE)))
-        return 0;
-    return find_closed(m, corner, e, ITSELF)
-        || can_enter(m, corner, e, 0, f.d > 0 ? turns : PARALLEL);
+    return f.beyond > touch_between(m, corner, e) || f.d >= -deep
+        || find_closed(m, corner, e, LINE);
 }
 
-/* Adds a corner and an edge to the pairs, if they may touch. */
+/* Whether the corner may touch the edge. What was closed may. A corner that is still outside may
+ * turn before it does, as when a side falls flat on an edge. */
+static int may_touch(const bbm_model *m, int corner, int e)
+{
+    const reach *of = m->scratch->reach;
+    const double turns = of[bbm_element_of(m, corner)].turn + of[bbm_element_of(m, e)].turn;
+    const double angle = project(m, corner, e).d > 0 ? turns : PARALLEL;
+
+    return find_closed(m, corner, e, ITSELF)
+        || (!is_covered(m, corner, e) && can_enter(m, corner, e, 0, angle));
+}
+
+/* Adds a corner and an edge to the pairs, if they are near. */
 bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
 {
     bbm_contact_scratch *w = m->scratch;
 
     m->info.candidates++;
-    if (!may_touch(m, corner, edge))
+    if (!is_near(m, corner, edge))
         return BBM_OK;
     const pair found = { corner, edge, 0 };
     return bbm_append(m, (void **)&w->pair, &w->pairs, sizeof found, &found, NULL);
@@ -530,7 +571,7 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
     const int Q = end ? m->edge[p.edge].after : p.edge;
 
     if (kind == NEXT)
-        return (pair){ p.corner, end ? Q : m->edge[Q].before, 0 };
+        return (pair){ p.corner, side_at(m, Q, end, p.corner), 0 };
     return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
 }
 
@@ -562,15 +603,49 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     return here != there ? there : !faces_up(t, u);
 }
 
-/* Drops the pairs that another one stands for; all are judged on the full list. */
-static void drop_duplicates(bbm_model *m)
+/* Finds where the corners of two blocks lie flush, with a side of each on one of the other: there
+ * the boundary of one goes on as that of the other. */
+static void join_flush_corners(bbm_model *m)
+{
+    for (int e = 0; e < m->edges; e++) {
+        m->edge[e].joined[0] = m->edge[e].before;
+        m->edge[e].joined[1] = e;
+    }
+    for (int k = 0; k < 2 * m->scratch->pairs && !bbm_is_static(m); k++) {
+        const pair p = m->scratch->pair[k / 2];
+        const int P = p.corner, end = k % 2, Q = end ? m->edge[p.edge].after : p.edge;
+        const int side = end ? P : m->edge[P].before;
+        const bbm_direction t = m->edge[p.edge].along;
+        const projection f = project(m, P, p.edge);
+        if (!lie_flush(m, p.edge, side) || !is_corner(m, P) || !is_corner(m, Q)
+            || hypot(f.d, f.s - end * t.length) > contact_depth(m, P, Q))
+            continue;
+        m->edge[Q].joined[!end] = end ? m->edge[P].before : P;
+        m->edge[P].joined[end] = end ? Q : m->edge[Q].before;
+    }
+}
+
+/* Whether another pair stands for this one. */
+static int is_duplicate(const bbm_model *m, pair p)
+{
+    int found = 0;
+
+    for (int way = 0; way < 6 && !found; way++)
+        found = gives_way(m, p, way / 3, (meeting)(way % 3));
+    return found;
+}
+
+/* Whether the pair may not touch. */
+static int is_hidden(const bbm_model *m, pair p) { return !may_touch(m, p.corner, p.edge); }
+
+/* Drops some of the pairs; all are judged on the full list. */
+static void drop_pairs(bbm_model *m, int (*is_dropped)(const bbm_model *m, pair p))
 {
     bbm_contact_scratch *w = m->scratch;
     int kept = 0;
 
     for (int k = 0; k < w->pairs; k++)
-        for (int way = 0; way < 6; way++)
-            w->pair[k].dropped |= gives_way(m, w->pair[k], way / 3, (meeting)(way % 3));
+        w->pair[k].dropped = is_dropped(m, w->pair[k]);
     for (int k = 0; k < w->pairs; k++)
         if (!w->pair[k].dropped)
             w->pair[kept++] = w->pair[k];
@@ -594,6 +669,14 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     return old;
 }
 
+/* Whether edge f lies in the direction of edge e. */
+static int goes_straight_on(const bbm_model *m, int e, int f)
+{
+    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
+
+    return hypot(p.x - q.x, p.y - q.y) <= PARALLEL;
+}
+
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
  * each other is open, or there is no such line and the projection is off the edge. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
@@ -604,6 +687,8 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
+        if (goes_straight_on(m, c->edge, r.edge))
+            continue;
         if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, 0, PARALLEL))
             return 1;
         lines++;
@@ -639,7 +724,10 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         const pair other = k % 2 == 0 ? meet(m, p, k / 2, NEXT)
                          : coincide(m, p.edge, flush.edge) ? meet(m, p, k / 2, OTHER) : flush;
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
-        const int meets = is_convex(m, Q) && !coincide(m, p.edge, other.edge);
+        const bbm_direction in = m->edge[side_at(m, Q, 0, p.corner)].along;
+        const bbm_direction out = m->edge[side_at(m, Q, 1, p.corner)].along;
+        const int meets = k % 2 == 0 ? cross(in, out) > -PARALLEL && is_corner(m, Q)
+                        : is_convex(m, Q) && !coincide(m, p.edge, other.edge);
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
     }
     c->trial.has_left = has_left(m, c);
@@ -658,8 +746,11 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
     for (int k = m->contacts - 1; k >= 0; k--)
         m->edge[m->contact[k].corner].contact = k;
     const bbm_status status = find_pairs(m);
-    if (!status)
-        drop_duplicates(m);
+    if (!status) {
+        join_flush_corners(m);
+        drop_pairs(m, is_hidden);
+        drop_pairs(m, is_duplicate);
+    }
     *same = !status && w->is_listed && w->contacts == w->pairs;
     for (int k = 0; k < w->pairs && *same; k++)
         *same = bbm_compare_pairs(&w->contact[k], &w->pair[k]) == 0;
@@ -759,6 +850,8 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
 
     if (r->state != BBM_OPEN)
         return 1;
+    if (goes_straight_on(m, c->edge, r->edge))
+        return r->d_n < 0 && is_on_edge(m, r, 1) && (!is_on_edge(m, c, 1) || r->edge < c->edge);
     if (r->d_n >= 0)
         return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= 0
             && enters_at_end(m, r);

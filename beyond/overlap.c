@@ -252,7 +252,8 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
     const double s = x * u + y * v;
 
     if (m->edge[corner].first == m->edge[edge].first || m->edge[corner].side != corner
-        || x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
+        || m->edge[corner].joined[0] != m->edge[corner].before
+        || m->edge[corner].joined[1] != corner || x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
         return 0;
     const double depth = depth_in_block(m, (point){ P->x, P->y }, edge,
                                         bbm_allowed_depth(m, corner, edge), nearest);
