@@ -68,9 +68,14 @@ typedef struct {
 } body;                         /*              edge: the first; near: the block at the gap     */
 
 /* next: edge; group: of blocks that touch; piece: of elements that are bonded; met: pairs that are
- * close; alike: pairs of meshes of one material with a side in common. */
-typedef struct { const model *p; body *body; bbm_box *box; int *next, *group, *piece, met, alike; }
-bodies;
+ * close; alike: pairs of meshes of one material with a side in common; ledges: pairs that
+ * touch, with corners less apart than they are rounded by. */
+typedef struct {
+    const model *p;
+    body *body;
+    bbm_box *box;
+    int *next, *group, *piece, met, alike, ledges;
+} bodies;
 
 #define CLOSE 0.01
 
@@ -128,8 +133,8 @@ static void warn_of_pieces(const bodies *s, const char *path)
 }
 
 /* The least distance, if it is below `far`, of a corner of block a from an edge of b that it faces.
- * Counts the corners that touch, and those that are corners of both. */
-static double find_gap(const bodies *s, const body *a, const body *b, double far, int count[2])
+ * Counts the corners that touch, those that are corners of both, and those nearly so. */
+static double find_gap(const bodies *s, const body *a, const body *b, double far, int count[3])
 {
     const bbm_model *m = s->p->m;
     const double touch = MODEL_TOUCH / CLOSE * far;
@@ -145,7 +150,9 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
             const double way = bbm_way_along(m, e, f), d = model_distance(m, e, f);
             if (way > -touch && way < m->edge[f].along.length + touch)
                 least = fmin(least, d);
+            const double apart = hypot(d, fmax(0, way));
             count[1] += d <= touch && way < touch;
+            count[2] += apart > touch && apart < fmin(bbm_rounding(m, e), bbm_rounding(m, f));
         }
         count[0] += least <= touch;
         gap = fmin(gap, least);
@@ -162,7 +169,7 @@ static void compare(bodies *s, const char *path, int one, int two)
     const int i = one > two ? one : two, j = one + two - i;
     body *a = &s->body[i], *b = &s->body[j], *of = group_of(s, i), *to = group_of(s, j);
     const double size = fmin(a->size, b->size), far = CLOSE * size;
-    int count[2] = { 0 };
+    int count[3] = { 0 };
 
     const double gap = fmin(find_gap(s, a, b, far, count), find_gap(s, b, a, far, count));
     s->met += gap < far;
@@ -170,6 +177,9 @@ static void compare(bodies *s, const char *path, int one, int two)
         to->held += of == to ? 0 : of->held;
         to->thrown |= of->thrown;
         s->group[of - s->body] = (int)(to - s->body);
+        if (count[2] > 0 && s->ledges++ == 0)
+            warn(path, "corners of blocks '%.60s' and '%.60s' are less apart than they are rounded by, "
+                 "and no obstacle; `contact round 0` is sharp", s->p->block[j], s->p->block[i]);
     } else if (gap < fmin(far, a->gap)) {
         a->gap = gap, a->near = j;
     }

@@ -407,6 +407,8 @@ END_TEST
 #define TWO ROCK "block base rock 0 0 10 0 10 1 0 1\nfixblock base\n"
 #define STONE TWO "block stone rock 4 1 5 1 5 2 4 2\n"
 #define REST "gravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n"
+#define SLABS(ledge, round) ROCK "block a rock 0 0 2 0 2 1 0 1\nblock b rock 2 0 4 0 4 " ledge " 2 " ledge "\nfixblock a\nfixblock b\n" \
+    "block c rock 0.5 1 1.5 1 1.5 2 0.5 2\ngravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30" round "\n"
 #define FALLS "block b rock 0 0 1 0 1 1\ngravity 0 -10\ndynamic dt 0.01 steps 2\n" ROCK
 #define PAIR FALLS "block c rock 0 0 1 1 0 1\nfixblock b\n"
 #define ROD "material a E 2e11 nu 0.3 density 7800 thickness 0.5\ngrid rod a 0 0 10 0.5 20 1\nfix set rod.left\nstatic\n"
@@ -421,6 +423,8 @@ static const struct { const char *text, *said; } doubtful[] = {
     { FALLS, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds them" }, { FALLS "fix at 0 0\n", NULL },
     { FALLS "fixblock b\n", NULL }, { PAIR, slips }, { PAIR "contact kn 1e9\n", slips }, { PAIR "contact friction 0\n", NULL },
     { PAIR "contact friction 30\n", NULL }, { PAIR "contact kn 0\n", NULL }, { PAIR "joint b c\n", ":7: warning: this joint" },
+    { SLABS("1.001", ""), "corners of blocks 'a' and 'b' are less apart than they are rounded by" },
+    { SLABS("1.003", ""), NULL }, { SLABS("1.001", " round 0"), NULL },
     { ROD "load set rod.right 0 1\noutput film\n", ":6: warning: statics has no film" },
     /* turns by P L^2/(2 E I): 0.05, 0.19 */
     { ROD "load set rod.right 0 1e6\n", NULL }, { ROD "load set rod.right 0 4e6\n", "elements turn by more than 0.1 rad, "
