@@ -14,9 +14,9 @@ function set_bounds()
     name["paper"] = "the paper: `bbm.h`, `bbm.c`, `contact.c`, `solver.c`, `base/step.c`"
     name["base"] = "the rest of `base/`"
     bound["paper"] = 1100
-    bound["base"] = 2900
-    bound["beyond"] = 5800
-    bound["program"] = 7300
+    bound["base"] = 2950
+    bound["beyond"] = 6400
+    bound["program"] = 7400
     bound["page"] = 1650
     words_bound = 30000
     says["base"] = " with the paper"
