@@ -761,6 +761,7 @@ START_TEST(watch_stops_a_step_before_its_next_solution)
     m->monitor_context = &solutions;
     ck_ok(bbm_prepare(m), m);
     ck_assert_int_eq(bbm_step(m), BBM_STOPPED);
+    ck_assert_msg(strstr(bbm_message(m), "step 1") != NULL, "%s", bbm_message(m));
     ck_assert_int_eq(solutions, 2);
     ck_assert_int_eq(m->info.step, 0);
     ck_assert(m->element[0].sum[0] == 0 && m->vertex[2].u == 0);
