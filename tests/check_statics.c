@@ -484,7 +484,7 @@ START_TEST(a_contact_that_no_friction_holds_opens)
         }
     m->par.dt = 0.01;
     set_springs(m, 5e12, 2e12);
-    m->par.gravity[0] = -6 - 1.5 * _i;
+    m->par.gravity[0] = -6 - 3 * _i;
     run_steps(m, 2);
 }
 END_TEST
@@ -506,6 +506,6 @@ Suite *statics_suite(void)
         { forces_and_moments_on_each_body_are_judged_against_its_own, 8 * COUNT(MEASURES) },
         { what_contacts_have_against_their_laws_is_refused_in_statics_and_noted_in_dynamics, 12 },
         { a_bolt_that_makes_angular_momentum_is_told, 2 });
-    tcase_add_loop_test(new_case(s, "wedged"), a_contact_that_no_friction_holds_opens, 0, 6);
+    tcase_add_loop_test(new_case(s, "wedged"), a_contact_that_no_friction_holds_opens, 0, 3);
     return s;
 }
