@@ -52,7 +52,6 @@ function loadModel(name, text) {
     return said;
   run = { handle, name, frames: [], bytes: 0, state: 0, warned: warnings,
     curves: {}, due: 0, at: 0 };
-  run.d = numbersOf('d');
   keepFrame();
   run.monitors = times(run.frames[0].o.length / 4, k =>
     [textOf('o', k), ...textOf('q', k).replace('|moves|stays', '').split('|')]);
@@ -67,6 +66,8 @@ function keepFrame() {
   const frame = { o: facts.slice(FACTS.length), failure };
   FACTS.forEach((name, k) => { frame[name] = facts[k]; });
   ARRAYS.forEach(what => { frame[what] = numbersOf(what); });
+  const d = numbersOf('d'), last = run.frames.at(-1)?.d;        /* more where bonds have broken */
+  run.d = frame.d = last?.length === d.length ? last : d;
   frame.said = rows(frame, 'x').map((_, k) => textOf('x', k));
   if (failure)
     frame.step = Math.min(frame.step + 1, frame.steps);

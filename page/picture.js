@@ -78,17 +78,16 @@ function paint(g, path, { fill, line, width = 1.3, dash = [] }, place = [0, 0], 
 const join = ([a, b, c, d], [A, B, C, D]) =>
   [Math.min(a, A), Math.min(b, B), Math.max(c, C), Math.max(d, D)];
 
-/* The blocks: their elements, edges, boxes, tints, and whether all of one is held. */
+/* The blocks: their elements, boxes, tints, and whether all of one is held. */
 function findShape() {
   const [frame] = run.frames, blocks = [];
-  const block = b => blocks[b] ??= { held: true, elements: [], edges: [],
+  const block = b => blocks[b] ??= { held: true, elements: [],
     box: [Infinity, Infinity, -Infinity, -Infinity] };
   for (const [x, y, , , held, b] of rows(frame, 'v')) {
     block(b).box = join(block(b).box, [x, y, x, y]);
     block(b).held &&= held === 3;
   }
   rows(frame, 'e').forEach((e, k) => block(e[22]).elements.push([k, e[23], e[24]]));
-  rows(run, 'd').forEach(([a, b, of]) => block(of).edges.push([a, b]));
   blocks.forEach((b, k) => { b.tint = chooseTint(blocks.slice(0, k).reverse(), b.box); });
   Object.assign(run, { blocks, v: frame.v, box: blocks.map(b => b.box).reduce(join) });
 }
@@ -136,7 +135,7 @@ function painter(frame, canvas = sizeOf('view')) {
   const at = rows(frame, 'v').map(([x, y, u, v]) => to(x + m * u, y + m * v));
   const outline = ([, first, n]) => trace(p.g, at.slice(first, first + n), true);
   const thin = Math.min(1, Math.sqrt(p.w * p.h / run.blocks.length) / 30);     /* for many blocks */
-  return { ...p, s, at, outline, thin, corner: d => at[run.d[3 * d]] };
+  return { ...p, s, at, outline, thin, corner: d => at[frame.d[3 * d]] };
 }
 
 function hatch() {
@@ -160,7 +159,7 @@ function drawBlocks({ g, frame, outline, at, thin }) {
   Map.groupBy(run.blocks, b => b.held ? held : of ? null : TINTS[b.tint]).forEach((blocks, fill) =>
     paint(g, () => blocks.forEach(b => b.elements.forEach(outline)),
       { line: '#667788', width: 0.5 * thin, fill }));
-  paint(g, () => run.blocks.forEach(b => b.edges.forEach(([p, q]) => trace(g, [at[p], at[q]]))),
+  paint(g, () => rows(frame, 'd').forEach(([p, q]) => trace(g, [at[p], at[q]])),
     { line: css('--ink'), width: 1.3 * thin });
   return name && { name, unit, low, high };
 }
@@ -226,8 +225,9 @@ function drawForces(p) {
 function drawThrust({ g, frame, corner }) {
   const felt = run.blocks.map(() => new Map()), line = css('--thrust');
   for (const [c, e, state, fx, fy, N] of rows(frame, 'c')) {
-    const pair = [c, e].map(d => run.d[3 * d + 2]), [x, y] = corner(c);
-    [1, -1].forEach((sign, k) => state && felt[pair[k]].set(pair[1 - k], [N * x, N * y, sign * fx,
+    const pair = [c, e].map(d => frame.d[3 * d + 2]), [x, y] = corner(c);
+    const isOther = state && pair[0] !== pair[1];
+    [1, -1].forEach((sign, k) => isOther && felt[pair[k]].set(pair[1 - k], [N * x, N * y, sign * fx,
       -sign * fy, N].map((a, i) => a + (felt[pair[k]].get(pair[1 - k])?.[i] ?? 0))));
   }
   let lines = felt.map((by, k) => {
