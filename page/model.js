@@ -5,7 +5,7 @@
 'use strict';
 
 const STRIDE = { v: 6, e: 26, d: 3, c: 10, l: 4, x: 5, k: 2, b: 6, h: 7 },
-  ARRAYS = [...'veclxpbh'];
+  ARRAYS = [...'vecdlxpbh'];
 const FACTS = ('step t steps dynamic settling settle begun dt passes iterations residual cuts ' +
   'contacts penetration candidates change kinetic elastic springs work gained scale').split(' ');
 /* States of contacts; what precedes a look at them, as in page.h. */
@@ -52,7 +52,6 @@ function loadModel(name, text) {
     return said;
   run = { handle, name, frames: [], bytes: 0, state: 0, warned: warnings,
     curves: {}, due: 0, at: 0 };
-  run.d = numbersOf('d');
   keepFrame();
   run.monitors = times(run.frames[0].o.length / 4, k =>
     [textOf('o', k), ...textOf('q', k).replace('|moves|stays', '').split('|')]);
@@ -67,6 +66,7 @@ function keepFrame() {
   const frame = { o: facts.slice(FACTS.length), failure };
   FACTS.forEach((name, k) => { frame[name] = facts[k]; });
   ARRAYS.forEach(what => { frame[what] = numbersOf(what); });
+  run.d = frame.d;                              /* cracks add edges */
   frame.said = rows(frame, 'x').map((_, k) => textOf('x', k));
   if (failure)
     frame.step = Math.min(frame.step + 1, frame.steps);

@@ -78,17 +78,16 @@ function paint(g, path, { fill, line, width = 1.3, dash = [] }, place = [0, 0], 
 const join = ([a, b, c, d], [A, B, C, D]) =>
   [Math.min(a, A), Math.min(b, B), Math.max(c, C), Math.max(d, D)];
 
-/* The blocks: their elements, edges, boxes, tints, and whether all of one is held. */
+/* The blocks: their elements, boxes, tints, and whether all of one is held. */
 function findShape() {
   const [frame] = run.frames, blocks = [];
-  const block = b => blocks[b] ??= { held: true, elements: [], edges: [],
+  const block = b => blocks[b] ??= { held: true, elements: [],
     box: [Infinity, Infinity, -Infinity, -Infinity] };
   for (const [x, y, , , held, b] of rows(frame, 'v')) {
     block(b).box = join(block(b).box, [x, y, x, y]);
     block(b).held &&= held === 3;
   }
   rows(frame, 'e').forEach((e, k) => block(e[22]).elements.push([k, e[23], e[24]]));
-  rows(run, 'd').forEach(([a, b, of]) => block(of).edges.push([a, b]));
   blocks.forEach((b, k) => { b.tint = chooseTint(blocks.slice(0, k).reverse(), b.box); });
   Object.assign(run, { blocks, v: frame.v, box: blocks.map(b => b.box).reduce(join) });
 }
@@ -160,7 +159,7 @@ function drawBlocks({ g, frame, outline, at, thin }) {
   Map.groupBy(run.blocks, b => b.held ? held : of ? null : TINTS[b.tint]).forEach((blocks, fill) =>
     paint(g, () => blocks.forEach(b => b.elements.forEach(outline)),
       { line: '#667788', width: 0.5 * thin, fill }));
-  paint(g, () => run.blocks.forEach(b => b.edges.forEach(([p, q]) => trace(g, [at[p], at[q]]))),
+  paint(g, () => rows(frame, 'd').forEach(([p, q]) => trace(g, [at[p], at[q]])),
     { line: css('--ink'), width: 1.3 * thin });
   return name && { name, unit, low, high };
 }

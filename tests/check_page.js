@@ -183,6 +183,8 @@ async function checkRuns() {
       `${sum.open_close} ${sum.contacts}`);
     await p.shot(name);
   }
+  assert(!/NOT/.test(await runAll('wedge.model')));      /* pieces part by the last digits of libm */
+  assert(await p.do('run.d.length > run.frames[0].d.length'));
 }
 
 async function checkSliderAndLink() {
