@@ -617,9 +617,9 @@ static void join_flush_corners(bbm_model *m)
         const int side = end ? P : m->edge[P].before;
         const bbm_direction t = m->edge[p.edge].along;
         const projection f = project(m, P, p.edge);
+        const double touch = touch_between(m, P, Q) + rounding_between(m, P, p.edge);
         if (!lie_flush(m, p.edge, side) || !is_corner(m, P) || !is_corner(m, Q)
-            || hypot(f.d, f.s - end * t.length)
-               > fmin(contact_depth(m, P, Q), touch_between(m, P, Q) + rounding_between(m, P, p.edge)))
+            || hypot(f.d, f.s - end * t.length) > fmin(contact_depth(m, P, Q), touch))
             continue;
         m->edge[Q].joined[!end] = end ? m->edge[P].before : P;
         m->edge[P].joined[end] = end ? Q : m->edge[Q].before;

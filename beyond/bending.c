@@ -322,7 +322,9 @@ static int first_corner(const bbm_model *m, int v)
  *
  *     K d.d = sum_i K/n d_i.d_i - sum_{i<j} K/n^2 (d_i - d_j).(d_i - d_j):
  *
- * a spring holds each corner, and one of negative stiffness parts each two. */
+ * a spring holds each corner, and one of negative stiffness parts each two. Where a bond softens or
+ * has broken nothing would hold the sides of the crack together, and each corner is held. In
+ * dynamics it is from the start where bonds may break, since to catch a corner makes energy. */
 static void list_held_node(bbm_model *m, int v)
 {
     const int i = m->vertex[v].element;
@@ -337,7 +339,9 @@ static void list_held_node(bbm_model *m, int v)
         quadrilaterals += e->n == 4;
         K += bbm_fixed_stiffness(m->par.alpha, e);
     }
-    if (!alone.held || quadrilaterals < 2 || m->beyond->bonding == BBM_VERTICES) {
+    if (!alone.held || quadrilaterals < 2 || m->beyond->bonding == BBM_VERTICES
+        || (m->beyond->bond_tension > 0 && !bbm_is_static(m))
+        || (m->is_prepared && m->beyond->best[m->vertex[v].node] > 0)) {
         bbm_list_fixed_point(m, v, &alone);
         return;
     }
@@ -380,6 +384,8 @@ static void list_fixed(bbm_model *m, int v)
 /* What glues, with whole edges where quadrilaterals meet. */
 void bbm_list_edge_gaps(bbm_model *m)
 {
+    for (int n = 0; n < m->nodes && m->is_prepared; n++)
+        m->beyond->best[n] = 0;
     for (int b = 0; b < m->bonds; b++)
         if (!bbm_list_crack(m, b))
             list_bond(m, &m->bond[b]);

@@ -45,8 +45,10 @@ static bbm_status check(bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
     if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account || !b->body
-        || !b->balance || cracks)
+        || !b->balance)
         return BBM_NO_MEMORY;
+    if (cracks)
+        return cracks;
     bbm_find_pieces(m, b->body);
     bbm_note_springs(m, 0);
     return bbm_check_overlap(m);

@@ -28,6 +28,7 @@ typedef struct {                /* energy.c: of an element, and of the component
     double springs[2];          /* J        in springs that count at the element: at the start, */
                                 /*          and in the solution in hand                         */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
+    double held;                /* J        work of the supports of element i, in a part of one */
     int    jumps;               /* impact.c: the component does; -1: and nothing is kept        */
     double asked;               /* -        of the energy that hits are to give back            */
     double mass;                /* kg       in a hit: what is free to move                      */
@@ -95,7 +96,7 @@ struct bbm_beyond {
     bbm_element *end_element;   /* [elements], energy.c: the end of the step                    */
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     bbm_crack *crack, *kept;    /* [bonds]  crack.c: of the step in hand; of the last one       */
-    double *best;               /* [nodes]  scratch                                             */
+    double *best;               /* [nodes]  scratch; in a list 1: cracks end there              */
     int breaks, parts, last;    /* passes of the step in hand in which bonds broke; they did in */
                                 /*          the last step; the last bond to do so               */
     int edge_loads;

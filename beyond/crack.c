@@ -94,8 +94,8 @@ static int tooth_of(const bbm_model *m, int b)
 
 int bbm_is_broken(const bbm_model *m, int b) { return tooth_of(m, b) == BROKEN; }
 
-/* Lists the two springs of a bond that softens or has broken; 0: it does not. `rest`, where the
- * first has no length and less that of the second, turns with the bond. */
+/* Lists the two springs of a bond that softens or has broken, and marks its nodes; 0: it does not.
+ * `rest`, where the first has no length and less that of the second, turns with the bond. */
 int bbm_list_crack(bbm_model *m, int b)
 {
     const bbm_bond *of = &m->bond[b];
@@ -112,6 +112,7 @@ int bbm_list_crack(bbm_model *m, int b)
     for (int end = 0; end < 2; end++) {
         bbm_gap *g = &m->gap[m->gaps - 2 + end];
         const double push = c->pushes[end] ? g->W[0][0] - soft : 0, sign = end ? -1 : 1;
+        m->beyond->best[m->vertex[of->p[end]].node] = 1;
         g->own = (bbm_multiplier){ { 0 }, { 0 } };
         g->elastic = 1;
         for (int a = 0; a < 4; a++)
@@ -418,11 +419,32 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
                     m->element[P->element].block, P->x + m->origin[0], P->y + m->origin[1]);
 }
 
+/* What breaking bonds are not for: hits that have no stress, cracks wider than their elements. */
+static bbm_status check_cracks(bbm_model *m)
+{
+    const bbm_beyond *y = m->beyond;
+    double n[2];
+
+    if (y->bond_tension > 0 && y->restitution >= 0)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "restitution and bonds that break: its jump has no "
+                        "stress that breaks any, expected one of the two");
+    for (const bbm_bond *b = m->bond; b < m->bond + m->bonds && y->bond_energy > 0; b++) {
+        const double open = y->bond_energy / (y->bond_tension * taken(BROKEN));
+        const double side = find_normal(m, b, 0, n) / fmin(m->element[b->i].material.thickness,
+                                                           m->element[b->j].material.thickness);
+        if (open > side)
+            return bbm_fail(m, BBM_BAD_PARAMETER, "a crack that softens is free at %.3g m, by "
+                            "energy/tension, expected at most the %.3g m of a bond", open, side);
+    }
+    return BBM_OK;
+}
+
 /* Of a prepared model. */
 bbm_status bbm_lay_out_cracks(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
     const size_t n = (size_t)m->bonds + 1;
+    const bbm_status status = check_cracks(m);
 
     y->crack = calloc(2 * n, sizeof *y->crack);
     y->best = calloc((size_t)m->nodes, sizeof *y->best);
@@ -431,5 +453,5 @@ bbm_status bbm_lay_out_cracks(bbm_model *m)
     for (int b = 0; b < m->bonds && y->kept; b++)
         y->kept[b].bond = b;
     y->crack_energy = y->broken = y->caught = y->parts = 0;
-    return y->crack && y->best && y->broke ? BBM_OK : BBM_NO_MEMORY;
+    return y->crack && y->best && y->broke ? status : BBM_NO_MEMORY;
 }

@@ -141,6 +141,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         const double lever = hypot(m->element[i].x, m->element[i].y);
         of->gain += sum_of(energy_of(end, i, 1)) - before;
         of->there += before + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
+        add_work(of, b->account[i].held);
         for (int a = 0; a < 6; a++)
             add_work(of, load[a] * m->D[6 * i + a]);
     }
@@ -152,10 +153,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     }
     for (int n = 0; n < m->nodes; n++) {
         const int i = m->vertex[m->adjacent[m->adjacent_first[n]]].element;
-        bbm_account *of = &b->account[bbm_component_of(m->K, i)];
-        for (int a = 0; a < 2; a++)
-            add_work(of, b->support[n].force[a] * b->share * b->support[n].moved[a]);
-        add_work(of, b->support[n].jump_work);
+        add_work(&b->account[bbm_component_of(m->K, i)], b->support[n].jump_work);
     }
     for (int c = 0; c < m->elements && (bbm_is_static(m) || m->par.velocity_factor < 1); c++)
         b->account[c].gain = b->account[c].there = 0;

@@ -9,9 +9,10 @@
  *
  * Each contact is judged by its law anew, whatever its state was accepted for. It does not pull,
  * and it is as deep as N says; friction holds no more than its cone; an open one is not inside. A
- * bolt turns nothing by itself. The force by which one of these is broken counts against the forces on
- * each of its bodies. Statics has to keep the laws. In dynamics a spring that is too stiff for the
- * digits of a position cannot, and a shorter step does not help: what is broken is noted and told.
+ * bolt turns nothing by itself. The force by which one of these is broken counts against the forces
+ * on each of its bodies. Statics has to keep the laws. In dynamics a spring that is too stiff for
+ * the digits of a position cannot, and a shorter step does not help: what is broken is noted and
+ * told.
  *
  * The springs of bonds pull at both their ends, which are a gap apart where a step begins with open
  * bonds. Their forces cancel, but for that lever: it is taken along, and is no force of the body.

@@ -143,10 +143,16 @@ static double *force_of(const bbm_model *m, int node)
     return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].force;
 }
 
-/* The forces of the supports on their nodes, of the solution. The gap of an edge is the mean of
- * those of its ends, (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
+/* The forces of the supports on their nodes, of the solution, and in a step their work at each
+ * element: a node may lie in several bodies. The gap of an edge is the mean of those of its ends,
+ * (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
 void bbm_find_reactions(bbm_model *m)
 {
+    const bbm_support *s = m->beyond->support;
+    const double share = m->beyond->jump_of ? 0 : m->beyond->share;
+
+    for (int i = 0; i < m->elements; i++)
+        m->beyond->account[i].held *= share == 0;
     for (int n = 0; n < m->nodes; n++)
         memset(force_of(m, n), 0, 2 * sizeof *force_of(m, n));
     for (int k = 0; k < m->gaps; k++) {
@@ -159,6 +165,8 @@ void bbm_find_reactions(bbm_model *m)
             const double half = (g->own.f[a] + g->W[a][0] * d[0] + g->W[a][1] * d[1]) / 2;
             force_of(m, g->node[0])[a] -= half;
             force_of(m, g->node[1])[a] -= g->elastic ? -half : half;
+            m->beyond->account[g->i].held -= share * half
+                * (s[g->node[0]].moved[a] + (g->elastic ? -1 : 1) * s[g->node[1]].moved[a]);
         }
     }
 }

@@ -5,7 +5,7 @@
 'use strict';
 
 const STRIDE = { v: 6, e: 26, d: 3, c: 10, l: 4, x: 5, k: 2, b: 6, h: 7 },
-  ARRAYS = [...'veclxpbh'];
+  ARRAYS = [...'vecdlxpbh'];
 const FACTS = ('step t steps dynamic settling settle begun dt passes iterations residual cuts ' +
   'contacts penetration candidates change kinetic elastic springs work gained scale').split(' ');
 /* States of contacts; what precedes a look at them, as in page.h. */
@@ -66,8 +66,7 @@ function keepFrame() {
   const frame = { o: facts.slice(FACTS.length), failure };
   FACTS.forEach((name, k) => { frame[name] = facts[k]; });
   ARRAYS.forEach(what => { frame[what] = numbersOf(what); });
-  const d = numbersOf('d'), last = run.frames.at(-1)?.d;        /* more where bonds have broken */
-  run.d = frame.d = last?.length === d.length ? last : d;
+  run.d = frame.d;                              /* cracks add edges */
   frame.said = rows(frame, 'x').map((_, k) => textOf('x', k));
   if (failure)
     frame.step = Math.min(frame.step + 1, frame.steps);

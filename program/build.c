@@ -770,33 +770,12 @@ static int blame_free(model_reader *r)
                       r->p->block[m->element[loose].block], near);
 }
 
-/* What bonds that break cannot be beside: hits that load none, and pieces that are carried away. */
-static int check_breaking(model_reader *r)
-{
-    const model *p = r->p;
-    const bbm_model *m = p->m;
-    const model_place at = { .file = r->path };
-
-    for (int b = 0; b < m->bonds && m->beyond->bond_tension > 0; b++) {
-        const int block = m->element[m->bond[b].i].block;
-        if (m->beyond->restitution >= 0)
-            return model_fail(r, at, "restitution beside bonds that break, expected one of them: a hit "
-                              "that takes no time loads no bond");
-        if (p->gone[block])
-            return model_fail(r, at, "a stage removes block '%.60s', whose bonds may break, expected "
-                              "one that stays", p->block[block]);
-    }
-    return 1;
-}
-
 /* What takes part in the steps is hooked in; statics must be held. */
 int model_finish(model_reader *r)
 {
     model *p = r->p;
-
-    if (!check_breaking(r))
-        return 0;
     const bbm_status status = !model_hook(r) || p->dynamic ? BBM_OK : bbm_check_held(p->m);
+
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);
     if (status)

@@ -139,8 +139,11 @@ void model_next_stage(model *p)
                          || field_is_gone(m, b->end[1].vertex[0])))
             b->k = b->strength = 0, b->until = m->info.t;
     for (int k = 0; k < m->gaps; k++)
-        if (k >= 2 * m->bonds || field_is_gone(m, m->element[m->gap[k].i].first))
+        if (k >= 2 * m->bonds || field_is_gone(m, m->element[m->gap[k].i].first)) {
             m->gap[k].own = (bbm_multiplier){ 0 };
+            if (k < 2 * m->bonds)                       /* a crack without its slip and opening */
+                memset(m->beyond->kept[k / 2].rest, 0, sizeof m->beyond->kept->rest);
+        }
     m->contacts = 0;
     for (int k = 0; k < contacts; k++)
         if (!field_is_gone(m, m->edge[m->contact[k].corner].a)

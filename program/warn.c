@@ -53,8 +53,8 @@ static void warn_of_loads(const model *p, const char *path)
     for (int k = 0; k < 3 * m->elements; k++)
         load |= m->element[k / 3].stress[k % 3] != 0 || m->element[k / 3].f[k % 2] != 0;
     if (!load)
-        warn(path, "nothing loads the model; gravity, load, traction, pressure, bodyforce or fix ... "
-                   "by does");
+        warn(path, "nothing loads the model; gravity, load, traction, pressure, bodyforce or "
+                   "fix ... by does");
 }
 
 /* -------------------------------------------------------------- bodies, and what is between */
@@ -178,8 +178,8 @@ static void compare(bodies *s, const char *path, int one, int two)
         to->thrown |= of->thrown;
         s->group[of - s->body] = (int)(to - s->body);
         if (count[2] > 0 && s->ledges++ == 0)
-            warn(path, "corners of blocks '%.60s' and '%.60s' are less apart than they are rounded by, "
-                 "and no obstacle; `contact round 0` is sharp", s->p->block[j], s->p->block[i]);
+            warn(path, "corners of blocks '%.60s' and '%.60s' are less apart than they are rounded "
+                 "by, and no obstacle; `contact round 0` is sharp", s->p->block[j], s->p->block[i]);
     } else if (gap < fmin(far, a->gap)) {
         a->gap = gap, a->near = j;
     }

@@ -515,8 +515,8 @@ static int is_ours(const char *name)
 {
     static const char *const form[] = {
         "nodes.csv%n", "elements.csv%n", "history.csv%n", "summary.csv%n", "timing.csv%n",
-        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "cracks.csv%n", "balance.csv%n", "contacts.svg%n",
-        "movie.svg%n", "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n",
+        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "cracks.csv%n", "balance.csv%n",
+        "contacts.svg%n", "movie.svg%n", "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n",
         "contacts_%*[0-9].vtk%n", "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
     };
     char picture[LONGEST];

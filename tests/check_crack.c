@@ -173,6 +173,53 @@ START_TEST(a_bar_that_breaks_through_in_statics_says_so)
 }
 END_TEST
 
+/* A bar lies on the middle of its top, and both ends are pressed down: it breaks from above. Held
+ * corners stay: what is left of them is the spring of alpha, and nothing opens. */
+START_TEST(a_support_holds_both_sides_of_a_crack)
+{
+    grid g = { .lx = 6, .ly = 2, .nx = 6, .ny = 4 };
+    bbm_model *m = new_model(&STONE);
+
+    add_grid(m, &g, 0);
+    m->beyond->bonding = BBM_MOMENT;
+    m->beyond->bond_tension = 1e6;
+    m->beyond->bond_cohesion = 3e6;
+    m->beyond->bond_friction = 35;
+    bbm_fix_node(m, node_at(&g, 3, 4), BBM_XY, 0, 0);
+    bbm_fix_node(m, node_at(&g, 0, 0), BBM_X, 0, 0);
+    for (int k = 0; k < 2; k++)
+        bbm_add_load(m, node_at(&g, 6 * k, 0), 0, -1e6);
+    if (_i == 1) {
+        m->par.dt = 1e-4;
+        m->par.velocity_factor = 1;
+    }
+    ck_ok(bbm_prepare(m), m);
+    for (int k = 0; k < (_i == 1 ? 60 : 1); k++)
+        ck_ok(bbm_step(m), m);
+    ck_assert_int_gt(m->beyond->broken, 0);
+    double most = 0, held = 0;
+    for (int v = 0; v < m->vertices; v++) {
+        const double way = hypot(m->vertex[v].u, m->vertex[v].v);
+        most = fmax(most, way);
+        if (m->vertex[v].node == node_at(&g, 3, 4))
+            held = fmax(held, way);
+    }
+    ck_assert_msg(held < 0.02 * most, "%g of %g", held, most);  /* 0.17 by the mean of the corners */
+}
+END_TEST
+
+START_TEST(more_passes_with_breaks_than_the_bound_are_said)
+{
+    grid g;
+    bbm_model *m = plate(QUADS, &g, 1e6, 1e7, 30);
+
+    ck_ok(bbm_prepare(m), m);
+    m->beyond->breaks = 1001;
+    ck_assert_int_eq(bbm_say_cracks(m, BBM_OPEN_CLOSE), BBM_OPEN_CLOSE);
+    ck_assert_msg(strstr(bbm_message(m), "bonds break in more than 1000 passes"), "%s", bbm_message(m));
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------------ fragments */
 
 enum { NX = 4, NY = 3, CELLS = NX * NY };
@@ -268,6 +315,28 @@ START_TEST(bodies_that_break_keep_momentum_and_make_no_energy)
 }
 END_TEST
 
+/* Two squares that part have a node in common, by which a support moves both. */
+START_TEST(a_support_that_moves_two_fragments_works_on_each)
+{
+    bbm_model *m = two_squares(0, 0);
+
+    m->par.dt = 1e-4;
+    m->par.velocity_factor = 1;
+    m->beyond->bond_tension = 1e-3;
+    m->beyond->bond_cohesion = 1;
+    bbm_fix_node(m, 1, BBM_XY, 0, 0);
+    ck_ok(bbm_prepare(m), m);
+    m->element[0].V[0] = -1;
+    m->element[1].V[0] = 1;
+    for (int k = 1; k <= 100; k++) {
+        bbm_move_support(m, 1, 0, -1e-4 * k);
+        ck_ok(bbm_step(m), m);
+    }
+    ck_assert_int_eq(m->beyond->broken, 1);
+    ck_assert_msg(m->beyond->gain <= 1e-9, "gain %g", m->beyond->gain);
+}
+END_TEST
+
 /* The bonds that broke in so many steps, each as its two elements in the plain order and the step. */
 static int find_broken(const look *l, int triangles, int steps, int broken[][3])
 {
@@ -317,8 +386,11 @@ Suite *crack_suite(void)
     add_case(s, "strength", { a_bar_holds_its_tension_and_no_more, MESHES },
              { under_pressure_the_shear_strength_is_c_and_s_tan_phi, MESHES },
              { a_crack_that_softens_takes_its_energy_times_its_area, 2 },
-             { a_bar_that_breaks_through_in_statics_says_so, 1 });
+             { a_bar_that_breaks_through_in_statics_says_so, 1 },
+             { a_support_holds_both_sides_of_a_crack, 2 },
+             { more_passes_with_breaks_than_the_bound_are_said, 1 });
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
+             { a_support_that_moves_two_fragments_works_on_each, 1 },
              { the_same_bonds_break_in_any_order_units_and_direction, 2 });
     return s;
 }

@@ -770,6 +770,14 @@ END_TEST
 
 static const char *const solved[] = { "static\n", "dynamic dt 0.01 steps 60 velocity_factor 0\n" };
 
+/* It leaves no spring of a crack behind: what stays is at rest, and would be given energy. */
+START_TEST(a_block_with_cracks_can_be_removed)
+{
+    ck_assert_int_eq(shell("{ sed '/^monitor/d; /^expect/d' cases/models/wedge.model; echo 'stage off steps 5 remove "
+                           "stone'; echo end; } | %s/bbm -q - -d G=20 -d steps=10 -o out/model/removed", BUILD), 0);
+}
+END_TEST
+
 START_TEST(a_column_springs_back_when_its_top_is_removed)
 {
     const double w = 20000, E = 1e12, kn = 1e14;
@@ -925,6 +933,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_pin_lets_turn_and_carries_what_a_hinge_does, 0, 2);
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
+    tcase_add_test(t, a_block_with_cracks_can_be_removed);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
