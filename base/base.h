@@ -76,6 +76,8 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     /* --- detect.c --- */
     int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
+    int    meets[2];            /* of its start: another block covers the edge that ends or     */
+                                /*          starts there, its corner not farther than rounding  */
     int    joined[2];           /* of its start: the edges that end and start there, but of a   */
                                 /*          block that lies flush where it covers one           */
     int    side;                /* the first edge of the straight side that it belongs to       */

@@ -610,6 +610,7 @@ static void join_flush_corners(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         m->edge[e].joined[0] = m->edge[e].before;
         m->edge[e].joined[1] = e;
+        m->edge[e].meets[0] = m->edge[e].meets[1] = 0;
     }
     for (int k = 0; k < 2 * m->scratch->pairs && !bbm_is_static(m); k++) {
         const pair p = m->scratch->pair[k / 2];
@@ -617,9 +618,12 @@ static void join_flush_corners(bbm_model *m)
         const int side = end ? P : m->edge[P].before;
         const bbm_direction t = m->edge[p.edge].along;
         const projection f = project(m, P, p.edge);
-        const double touch = touch_between(m, P, Q) + rounding_between(m, P, p.edge);
+        const double apart = hypot(f.d, f.s - end * t.length);
         if (!lie_flush(m, p.edge, side) || !is_corner(m, P) || !is_corner(m, Q)
-            || hypot(f.d, f.s - end * t.length) > fmin(contact_depth(m, P, Q), touch))
+            || apart > touch_between(m, P, Q) + rounding_between(m, P, p.edge))
+            continue;
+        m->edge[Q].meets[!end] = m->edge[P].meets[end] = 1;
+        if (apart > contact_depth(m, P, Q))
             continue;
         m->edge[Q].joined[!end] = end ? m->edge[P].before : P;
         m->edge[P].joined[end] = end ? Q : m->edge[Q].before;
@@ -678,8 +682,22 @@ static int goes_straight_on(const bbm_model *m, int e, int f)
     return hypot(p.x - q.x, p.y - q.y) <= PARALLEL;
 }
 
+/* Whether P hangs on a ledge: on a covered face of a corner Q, by less than the rounding behind the
+ * other face, which is free. There P is at the surface, and the covered face is not in the way. A
+ * joint with strength holds it all the same. */
+static int is_on_ledge(const bbm_model *m, const bbm_contact *c)
+{
+    const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
+    const int other = end ? Q : m->edge[Q].before, *meets = m->edge[Q].meets;
+
+    return c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && !meets[end]
+        && project(m, c->corner, other).d > -rounding_between(m, c->corner, c->edge)
+        && can_enter(m, c->corner, other, 0, PARALLEL);
+}
+
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
- * each other is open, or there is no such line and the projection is off the edge. */
+ * each other is open, or there is no such line and the projection is off the edge. It also has on a
+ * ledge. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     int lines = 0;
@@ -694,7 +712,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
             return 1;
         lines++;
     }
-    return c->trial.beyond_end && lines == 0;
+    return (c->trial.beyond_end && lines == 0) || is_on_ledge(m, c);
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
