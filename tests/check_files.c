@@ -402,7 +402,7 @@ START_TEST(without_memory_a_run_says_so_at_every_allocation)
     snprintf(path, sizeof path, "out/model/%s.model", short_of_memory[_i].model);
     write_text(path, short_of_memory[_i].text);
     while (!run_short(_i, n, &kept))            /* the first n allocations succeed, then none */
-        n++;
+        n += 5;
     ck_assert_int_gt(n, 100);
     ck_assert_int_gt(kept, 0);
     for (int k = 1; k <= n; k++)                /* the k-th alone fails */
