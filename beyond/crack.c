@@ -32,6 +32,7 @@
  * take their place. A body has no contacts with itself, so that the springs above stay where a
  * crack ends inside. A corner that lies in another body, and that no contact has kept out, is taken
  * as one that has opened there: it may go out, and no deeper. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -223,17 +224,22 @@ static void damage(bbm_model *m, int b)
     m->beyond->last = b;
 }
 
-/* Lets those ends of cracks push that are closed, and no others; whether there were others. */
+/* Lets those ends of cracks push that are closed, and no others; whether there were others. One that
+ * would carry less than SAME of the strength is closed or open only by rounding, and stays. */
 static int renew_pushes(bbm_model *m)
 {
+    const bbm_beyond *y = m->beyond;
     double n[2], d[2];
     int changes = 0;
 
     for (int k = 0; k < 2 * m->bonds; k++) {
-        int *pushes = &m->beyond->crack[k / 2].pushes[k % 2];
-        find_normal(m, &m->bond[k / 2], 1, n);
+        const bbm_bond *b = &m->bond[k / 2];
+        const double A = find_normal(m, b, 1, n), none = SAME * fmin(y->bond_tension, y->bond_cohesion);
+        const double stiff = bbm_bonding_stiffness(m->par.alpha, &m->element[b->i], &m->element[b->j]);
+        int *pushes = &y->crack[k / 2].pushes[k % 2];
         bbm_gap_length(m, &m->gap[k], d);
-        const int closed = tooth_of(m, k / 2) > 0 && d[0] * n[0] + d[1] * n[1] > 0;
+        const double p = stiff * (d[0] * n[0] + d[1] * n[1]) / A;
+        const int closed = tooth_of(m, k / 2) > 0 && (*pushes ? p > -none : p > none);
         changes |= closed != *pushes;
         *pushes = closed;
     }
@@ -398,25 +404,57 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
     return status;
 }
 
-/* A step has failed, because of bonds that broke in it or for another reason. */
+/* Whether the body of element i is a piece of its block. */
+static int is_piece(const bbm_model *m, int i)
+{
+    int others = 0;
+
+    for (int j = 0; j < m->elements; j++)
+        others |= m->element[j].block == m->element[i].block
+               && m->beyond->body[j] != m->beyond->body[i];
+    return others;
+}
+
+/* A static step has found no equilibrium, and no support holds this piece. */
+static bbm_status say_loose(bbm_model *m, bbm_status s, int piece)
+{
+    const bbm_element *e = &m->element[piece];
+
+    if (s != BBM_FREE_TO_MOVE && s != BBM_OPEN_CLOSE && s != BBM_STEP_TOO_LONG
+        && s != BBM_NOT_POSITIVE_DEFINITE && s != BBM_NOT_CONVERGED)
+        return s;
+    m->blamed[0] = piece;
+    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, and no support holds "
+                    "its piece at (%g, %g); dynamics shows how its pieces fall", m->info.step + 1,
+                    e->block, e->x + m->origin[0], e->y + m->origin[1]);
+}
+
+/* A step has failed, because of bonds that broke in it or before, or for another reason. */
 bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
 {
     const bbm_beyond *y = m->beyond;
+    const int breaks = y->breaks;
+    bbm_status found = BBM_OK;
+    int loose = -1;
 
     if (!m->is_prepared || s == BBM_NO_MEMORY || s == BBM_STOPPED)
         return s;
-    const int tried = bbm_find_pieces(m, y->body), last = y->last;
+    const int tried = bbm_find_pieces(m, y->body);
+    if (bbm_is_static(m) && breaks + y->broken > 0)
+        found = bbm_find_loose(m, y->body, is_piece, &loose);
     memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
     const int parts = tried - bbm_find_pieces(m, y->body);
-    if (y->breaks > BREAKS)
+    if (found)
+        return found;
+    if (breaks > BREAKS)
         return bbm_fail(m, s, "step %d: bonds break in more than %d passes; a smaller dt or load "
                         "helps", m->info.step + 1, BREAKS);
-    if (!bbm_is_static(m) || parts == 0)
-        return bbm_try_otherwise(m, s);
-    const bbm_vertex *P = &m->vertex[m->bond[last].p[0]];
-    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, at last at (%g, %g); "
-                    "dynamics shows how its pieces fall", m->info.step + 1,
-                    m->element[P->element].block, P->x + m->origin[0], P->y + m->origin[1]);
+    if (loose < 0 || parts == 0)
+        s = bbm_try_otherwise(m, s);
+    const size_t n = strlen(m->message);
+    if (s == BBM_OPEN_CLOSE && breaks > 0)
+        snprintf(m->message + n, sizeof m->message - n, "; bonds broke in %d of them", breaks);
+    return loose < 0 ? s : say_loose(m, s, loose);
 }
 
 /* What breaking bonds are not for: hits that have no stress, cracks wider than their elements. */

@@ -57,7 +57,30 @@ static int is_regular(double G[3][3])
     return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
 }
 
-static int body(const bbm_model *m, int i) { return bbm_component_of(m->K, i); }
+/* The first element of a body that the wall does not hold by itself, and that is asked for; -1: there
+ * is none. body[i] < m->elements numbers the body of element i. */
+bbm_status bbm_find_loose(const bbm_model *m, const int body[],
+                          int (*is_asked)(const bbm_model *m, int i), int *loose)
+{
+    const bbm_element *e = m->element;
+    struct { int first; double G[3][3]; } *of = calloc((size_t)m->elements, sizeof *of);
+
+    *loose = -1;
+    if (!of)
+        return BBM_NO_MEMORY;
+    for (int i = m->elements - 1; i >= 0; i--)
+        of[body[i]].first = i;
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
+        const int b = body[g->i], o = of[b].first;
+        if (g->j < 0)
+            add_hold(*g, e[g->i].x - e[o].x, e[g->i].y - e[o].y, of[b].G);
+    }
+    for (int i = 0; i < m->elements && *loose < 0; i++)
+        if (of[body[i]].first == i && !is_regular(of[body[i]].G) && (!is_asked || is_asked(m, i)))
+            *loose = i;
+    free(of);
+    return BBM_OK;
+}
 
 /* Statics needs bodies that the wall holds, by themselves or through contacts; a component of K is
  * a body. That a contact holds in each direction is too kind to it: a block on a slope passes, and
@@ -65,25 +88,10 @@ static int body(const bbm_model *m, int i) { return bbm_component_of(m->K, i); }
 bbm_status bbm_check_supports(bbm_model *m)
 {
     const bbm_element *e = m->element;
-    struct { int first; double G[3][3]; } *of;                  /* a body                       */
     int loose = -1;
 
-    if (!bbm_is_static(m))
-        return BBM_OK;
-    of = calloc((size_t)m->elements, sizeof *of);
-    if (!of)
+    if (bbm_is_static(m) && bbm_find_loose(m, m->K->component, NULL, &loose))
         return BBM_NO_MEMORY;
-    for (int i = m->elements - 1; i >= 0; i--)
-        of[body(m, i)].first = i;
-    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
-        const int b = body(m, g->i), o = of[b].first;
-        if (g->j < 0)
-            add_hold(*g, e[g->i].x - e[o].x, e[g->i].y - e[o].y, of[b].G);
-    }
-    for (int i = 0; i < m->elements && loose < 0; i++)
-        if (of[body(m, i)].first == i && !is_regular(of[body(m, i)].G))
-            loose = i;
-    free(of);
     if (loose < 0)
         return BBM_OK;
     m->blamed[0] = loose;

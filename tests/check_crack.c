@@ -173,6 +173,68 @@ START_TEST(a_bar_that_breaks_through_in_statics_says_so)
 }
 END_TEST
 
+/* Its right end goes 1 mm out, 1 mm in, and out again. What has broken or softened bears the pressure
+ * E A u/l of theory; nu = 0, as its ends are held. */
+START_TEST(a_bar_that_broke_is_pressed_shut_and_pulled_again)
+{
+    const double u[3] = { 1e-3, -1e-3, 1e-3 }, EA = 10e9 * 2 * 3;
+    const int softens = _i == 1;
+    bbm_material stone = STONE;
+    double pull[3];
+
+    stone.nu = 0;
+    bbm_model *m = new_model(&stone);
+    grid g = { .lx = 6, .ly = 3, .nx = softens ? 6 : 2, .ny = 3 };
+    add_grid(m, &g, 0);
+    m->par.p_n = m->par.p_s = 1e3 * stone.E;
+    m->par.alpha = 1000;
+    m->beyond->multiplier_rounds = 3;
+    m->beyond->bonding = BBM_MOMENT;
+    m->beyond->bond_tension = 1e6;
+    m->beyond->bond_cohesion = 3e6;
+    m->beyond->bond_energy = softens ? 100 : 0;
+    for (int j = 0; j <= g.ny; j++) {
+        bbm_fix_node(m, node_at(&g, 0, j), softens && j > 0 ? BBM_X : BBM_XY, 0, 0);
+        bbm_fix_node(m, node_at(&g, g.nx, j), softens ? BBM_X : BBM_XY, 0, 0);
+    }
+    ck_ok(bbm_prepare(m), m);
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j <= g.ny; j++)
+            bbm_move_support(m, node_at(&g, g.nx, j), u[k], 0);
+        for (int step = 0; step < 3; step++)
+            ck_ok(bbm_step(m), m);
+        pull[k] = 0;
+        for (int j = 0; j <= g.ny; j++)
+            pull[k] += m->beyond->support[node_at(&g, g.nx, j)].force[0];
+    }
+    ck_assert_int_eq(m->beyond->broken > 0, !softens);
+    ck_assert_msg(pull[0] < 0.8 * EA * u[0] / 6 && pull[0] >= -SOLVED * EA, "%g", pull[0]);
+    ck_near(pull[2], pull[0], EA * u[0] / 6, 4 * 1e-3 / 6);     /* strains on the moved geometry */
+    ck_relative(pull[1], EA * u[1] / 6, 5 / m->par.alpha);      /* five cracks, springs of alpha */
+}
+END_TEST
+
+/* Its middle lies free between two cracks. */
+START_TEST(a_piece_that_no_support_holds_is_named)
+{
+    grid g;
+    bbm_model *m = plate(QUADS, &g, 1e6, 3e6, 35);
+
+    m->beyond->bonding = BBM_MOMENT;
+    for (int j = 0; j <= g.ny; j++) {
+        bbm_fix_node(m, node_at(&g, 0, j), BBM_XY, 0, 0);
+        bbm_fix_node(m, node_at(&g, g.nx, j), BBM_XY, 1e-3, 0);
+    }
+    ck_ok(bbm_prepare(m), m);
+    bbm_status status = BBM_OK;
+    for (int k = 0; k < 5 && !status; k++)
+        status = bbm_step(m);
+    ck_assert_int_eq(status, BBM_NO_EQUILIBRIUM);
+    ck_assert_msg(strstr(bbm_message(m), "block 0 breaks through, and no support holds its piece at"),
+                  "%s", bbm_message(m));
+}
+END_TEST
+
 /* A bar lies on the middle of its top, and both ends are pressed down: it breaks from above. Held
  * corners stay: what is left of them is the spring of alpha, and nothing opens. */
 START_TEST(a_support_holds_both_sides_of_a_crack)
@@ -387,6 +449,8 @@ Suite *crack_suite(void)
              { under_pressure_the_shear_strength_is_c_and_s_tan_phi, MESHES },
              { a_crack_that_softens_takes_its_energy_times_its_area, 2 },
              { a_bar_that_breaks_through_in_statics_says_so, 1 },
+             { a_bar_that_broke_is_pressed_shut_and_pulled_again, 2 },
+             { a_piece_that_no_support_holds_is_named, 1 },
              { a_support_holds_both_sides_of_a_crack, 2 },
              { more_passes_with_breaks_than_the_bound_are_said, 1 });
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
