@@ -457,7 +457,8 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
     return loose < 0 ? s : say_loose(m, s, loose);
 }
 
-/* What breaking bonds are not for: hits that have no stress, cracks wider than their elements. */
+/* What breaking bonds are not for: hits that have no stress; corners that come off inside another
+ * piece where no contact begins unloaded, see bbm_rest_of; cracks wider than their elements. */
 static bbm_status check_cracks(bbm_model *m)
 {
     const bbm_beyond *y = m->beyond;
@@ -466,6 +467,9 @@ static bbm_status check_cracks(bbm_model *m)
     if (y->bond_tension > 0 && y->restitution >= 0)
         return bbm_fail(m, BBM_BAD_PARAMETER, "restitution and bonds that break: its jump has no "
                         "stress that breaks any, expected one of the two");
+    if (y->bond_tension > 0 && y->rotation == BBM_LINEAR && isfinite(m->par.dt))
+        return bbm_fail(m, BBM_BAD_PARAMETER, "linear rotation and bonds that break: contacts would "
+                        "throw out corners that come off inside another piece, expected exact");
     for (const bbm_bond *b = m->bond; b < m->bond + m->bonds && y->bond_energy > 0; b++) {
         const double open = y->bond_energy / (y->bond_tension * taken(BROKEN));
         const double side = find_normal(m, b, 0, n) / fmin(m->element[b->i].material.thickness,
