@@ -282,6 +282,29 @@ START_TEST(more_passes_with_breaks_than_the_bound_are_said)
 }
 END_TEST
 
+/* A corner of soft bonds may open into another body before it is one. Stiffer contacts would not
+ * help against that. */
+START_TEST(a_corner_that_softening_has_put_inside_is_no_fault_of_the_contacts)
+{
+    bbm_model *m = two_squares(0, 1);
+    bbm_contact c = { .corner = 0, .edge = 5, .state = BBM_LOCK, .d_n = -0.5, .trial.d_n0 = -0.5 };
+
+    ck_ok(bbm_prepare(m), m);
+    bbm_contact *const own = m->scratch->contact;
+    m->scratch->contact = &c;
+    m->scratch->contacts = 1;
+    ck_assert_int_eq(bbm_check_depth(m), BBM_TOO_SOFT);
+    m->beyond->broken = 1;
+    m->beyond->bond_energy = 20;
+    ck_assert_int_eq(bbm_check_depth(m), BBM_BAD_PARAMETER);
+    ck_assert_msg(strstr(bbm_message(m), "less energy or more tension helps"), "%s", bbm_message(m));
+    c.trial.carried = 1;
+    ck_assert_int_eq(bbm_check_depth(m), BBM_TOO_SOFT);
+    m->scratch->contact = own;
+    m->scratch->contacts = 0;
+}
+END_TEST
+
 /* ------------------------------------------------------------------------------------ fragments */
 
 enum { NX = 4, NY = 3, CELLS = NX * NY };
@@ -452,7 +475,8 @@ Suite *crack_suite(void)
              { a_bar_that_broke_is_pressed_shut_and_pulled_again, 2 },
              { a_piece_that_no_support_holds_is_named, 1 },
              { a_support_holds_both_sides_of_a_crack, 2 },
-             { more_passes_with_breaks_than_the_bound_are_said, 1 });
+             { more_passes_with_breaks_than_the_bound_are_said, 1 },
+             { a_corner_that_softening_has_put_inside_is_no_fault_of_the_contacts, 1 });
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
              { a_support_that_moves_two_fragments_works_on_each, 1 },
              { the_same_bonds_break_in_any_order_units_and_direction, 2 });
