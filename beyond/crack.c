@@ -224,21 +224,22 @@ static void damage(bbm_model *m, int b)
     m->beyond->last = b;
 }
 
-/* Lets those ends of cracks push that are closed, and no others; whether there were others. One that
- * would carry less than SAME of the strength is closed or open only by rounding, and stays. */
+/* Lets those ends of cracks push that are closed, and no others; whether there were others. One
+ * that would carry less than SAME of the strength is closed or open by rounding alone, and stays. */
 static int renew_pushes(bbm_model *m)
 {
     const bbm_beyond *y = m->beyond;
+    const double none = SAME * fmin(y->bond_tension, y->bond_cohesion);
     double n[2], d[2];
     int changes = 0;
 
     for (int k = 0; k < 2 * m->bonds; k++) {
         const bbm_bond *b = &m->bond[k / 2];
-        const double A = find_normal(m, b, 1, n), none = SAME * fmin(y->bond_tension, y->bond_cohesion);
-        const double stiff = bbm_bonding_stiffness(m->par.alpha, &m->element[b->i], &m->element[b->j]);
+        const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+        const double stiff = bbm_bonding_stiffness(m->par.alpha, i, j) / find_normal(m, b, 1, n);
         int *pushes = &y->crack[k / 2].pushes[k % 2];
         bbm_gap_length(m, &m->gap[k], d);
-        const double p = stiff * (d[0] * n[0] + d[1] * n[1]) / A;
+        const double p = stiff * (d[0] * n[0] + d[1] * n[1]);
         const int closed = tooth_of(m, k / 2) > 0 && (*pushes ? p > -none : p > none);
         changes |= closed != *pushes;
         *pushes = closed;
@@ -468,8 +469,9 @@ static bbm_status check_cracks(bbm_model *m)
         return bbm_fail(m, BBM_BAD_PARAMETER, "restitution and bonds that break: its jump has no "
                         "stress that breaks any, expected one of the two");
     if (y->bond_tension > 0 && y->rotation == BBM_LINEAR && isfinite(m->par.dt))
-        return bbm_fail(m, BBM_BAD_PARAMETER, "linear rotation and bonds that break: contacts would "
-                        "throw out corners that come off inside another piece, expected exact");
+        return bbm_fail(m, BBM_BAD_PARAMETER, "linear rotation and bonds that break: contacts "
+                        "would throw out corners that come off inside another piece, expected "
+                        "exact");
     for (const bbm_bond *b = m->bond; b < m->bond + m->bonds && y->bond_energy > 0; b++) {
         const double open = y->bond_energy / (y->bond_tension * taken(BROKEN));
         const double side = find_normal(m, b, 0, n) / fmin(m->element[b->i].material.thickness,

@@ -57,8 +57,8 @@ static int is_regular(double G[3][3])
     return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
 }
 
-/* The first element of a body that the wall does not hold by itself, and that is asked for; -1: there
- * is none. body[i] < m->elements numbers the body of element i. */
+/* The first element of a body that the wall does not hold by itself, and that is asked for; -1:
+ * there is none. body[i] < m->elements numbers the body of element i. */
 bbm_status bbm_find_loose(const bbm_model *m, const int body[],
                           int (*is_asked)(const bbm_model *m, int i), int *loose)
 {

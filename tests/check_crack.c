@@ -173,8 +173,8 @@ START_TEST(a_bar_that_breaks_through_in_statics_says_so)
 }
 END_TEST
 
-/* Its right end goes 1 mm out, 1 mm in, and out again. What has broken or softened bears the pressure
- * E A u/l of theory; nu = 0, as its ends are held. */
+/* Its right end goes 1 mm out, 1 mm in, and out again. What has broken or softened bears the
+ * pressure E A u/l of theory; nu = 0, as its ends are held. */
 START_TEST(a_bar_that_broke_is_pressed_shut_and_pulled_again)
 {
     const double u[3] = { 1e-3, -1e-3, 1e-3 }, EA = 10e9 * 2 * 3;
@@ -230,8 +230,8 @@ START_TEST(a_piece_that_no_support_holds_is_named)
     for (int k = 0; k < 5 && !status; k++)
         status = bbm_step(m);
     ck_assert_int_eq(status, BBM_NO_EQUILIBRIUM);
-    ck_assert_msg(strstr(bbm_message(m), "block 0 breaks through, and no support holds its piece at"),
-                  "%s", bbm_message(m));
+    ck_assert_msg(strstr(bbm_message(m), "breaks through, and no support holds its piece at"), "%s",
+                  bbm_message(m));
 }
 END_TEST
 
@@ -383,19 +383,24 @@ static void find_momentum(const bbm_model *m, double P[3])
     }
 }
 
+/* The moment of momentum of an element that strains is kept to the order of its strain, 1e-5 here,
+ * whether bonds break or not. Elements of 300 E show whether breaking takes some: to 1e-7. */
 START_TEST(bodies_that_break_keep_momentum_and_make_no_energy)
 {
     const look plain = { 0, 0, 0, 1 };
     bbm_model *m = crash(&plain, _i % 2, _i / 2 * 20);
     double before[3], after[3];
 
+    for (int i = 0; i < m->elements; i++)
+        m->element[i].material.E *= 300;
+    m->par.pcg.tolerance = 1e-15;
     find_momentum(m, before);
     run_steps(m, 600);
     find_momentum(m, after);
     ck_assert_int_gt(m->beyond->broken, 5);
     for (int a = 0; a < 2; a++)
         ck_near(after[a], before[a], hypot(before[0], before[1]), SOLVED);
-    ck_near(after[2], before[2], before[2], 1e-5);  /* as much as without a break, in the step's order */
+    ck_near(after[2], before[2], before[2], 1e-7);
     ck_assert_msg(m->beyond->gain <= 1e-9, "gain %g", m->beyond->gain);
 }
 END_TEST
