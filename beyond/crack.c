@@ -366,7 +366,7 @@ void bbm_keep_cracks(bbm_model *m)
 
     for (int b = 0; b < m->bonds; b++) {
         bbm_crack *c = &y->crack[b];
-        const bbm_vertex *P = &m->vertex[m->bond[b].p[0]], *Q = &m->vertex[m->bond[b].p[1]];
+        const bbm_vertex *P = &m->vertex[m->bond[b].p[0]], *Q = &m->vertex[m->bond[b].q[1]];
         y->crack_energy += (taken(c->tooth) - taken(y->kept[b].tooth)) / taken(BROKEN)
                          * y->bond_energy * find_normal(m, &m->bond[b], 0, n);
         if (c->tooth == BROKEN && y->kept[b].tooth != BROKEN) {

@@ -427,6 +427,24 @@ START_TEST(a_support_that_moves_two_fragments_works_on_each)
 }
 END_TEST
 
+START_TEST(a_crack_is_said_to_be_between_its_sides)
+{
+    bbm_model *m = two_squares(0, 0);
+
+    m->par.dt = 1e-4;
+    m->par.velocity_factor = 1;
+    m->beyond->bond_tension = m->beyond->bond_cohesion = 1;
+    m->beyond->bond_energy = 0.1;               /* it opens by some 0.1 m before it breaks */
+    ck_ok(bbm_prepare(m), m);
+    for (int i = 0; i < 2; i++)
+        m->element[i].V[0] = 2 * i - 1;
+    run_steps(m, 2000);
+    ck_assert_int_eq(m->beyond->broken, 1);
+    ck_near(m->beyond->broke[0].x, 1, 1, SOLVED);
+    ck_near(m->beyond->broke[0].y, 0.5, 1, SOLVED);
+}
+END_TEST
+
 /* The bonds that broke in so many steps, each as its two elements in the plain order and the step. */
 static int find_broken(const look *l, int triangles, int steps, int broken[][3])
 {
@@ -484,6 +502,7 @@ Suite *crack_suite(void)
              { a_corner_that_softening_has_put_inside_is_no_fault_of_the_contacts, 1 });
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
              { a_support_that_moves_two_fragments_works_on_each, 1 },
+             { a_crack_is_said_to_be_between_its_sides, 1 },
              { the_same_bonds_break_in_any_order_units_and_direction, 2 });
     return s;
 }
