@@ -77,6 +77,12 @@ static double find_normal(const bbm_model *m, const bbm_bond *b, int now, double
     return l * fmin(i->material.thickness, j->material.thickness);
 }
 
+/* N/m, of the spring at each end of a bond, Eq. (4). */
+static double stiffness(const bbm_model *m, const bbm_bond *b)
+{
+    return bbm_bonding_stiffness(m->par.alpha, &m->element[b->i], &m->element[b->j]);
+}
+
 /* c of both ends of a bond together, N/m. */
 static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
 {
@@ -208,7 +214,6 @@ static void damage(bbm_model *m, int b)
     const bbm_bond *of = &m->bond[b];
     const bbm_vertex *v = m->vertex, *P = &v[of->p[0]], *Q = &v[of->q[0]];
     const bbm_vertex *R = &v[of->p[1]], *S = &v[of->q[1]];
-    const double k = bbm_bonding_stiffness(m->par.alpha, &m->element[of->i], &m->element[of->j]);
     const double x = (P->u - Q->u - R->u + S->u) / 2, y = (P->v - Q->v - R->v + S->v) / 2;
     double n[2];
 
@@ -220,12 +225,12 @@ static void damage(bbm_model *m, int b)
     }
     do
         c->tooth = m->beyond->bond_energy > 0 ? c->tooth + 1 : BROKEN;
-    while (softness(m, of, c->tooth) >= 2 * k);
+    while (softness(m, of, c->tooth) >= 2 * stiffness(m, of));
     m->beyond->last = b;
 }
 
 /* Lets those ends of cracks push that are closed, and no others; whether there were others. One
- * that would carry less than SAME of the strength is closed or open by rounding alone, and stays. */
+ * that would carry less than SAME of the strength is closed or open by rounding only, and stays. */
 static int renew_pushes(bbm_model *m)
 {
     const bbm_beyond *y = m->beyond;
@@ -234,13 +239,13 @@ static int renew_pushes(bbm_model *m)
     int changes = 0;
 
     for (int k = 0; k < 2 * m->bonds; k++) {
-        const bbm_bond *b = &m->bond[k / 2];
-        const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
-        const double stiff = bbm_bonding_stiffness(m->par.alpha, i, j) / find_normal(m, b, 1, n);
+        const double area = find_normal(m, &m->bond[k / 2], 1, n);
         int *pushes = &y->crack[k / 2].pushes[k % 2];
+        if (y->crack[k / 2].tooth == 0)
+            continue;
         bbm_gap_length(m, &m->gap[k], d);
-        const double p = stiff * (d[0] * n[0] + d[1] * n[1]);
-        const int closed = tooth_of(m, k / 2) > 0 && (*pushes ? p > -none : p > none);
+        const double p = stiffness(m, &m->bond[k / 2]) * (d[0] * n[0] + d[1] * n[1]) / area;
+        const int closed = *pushes ? p > -none : p > none;
         changes |= closed != *pushes;
         *pushes = closed;
     }
@@ -421,8 +426,8 @@ static bbm_status say_loose(bbm_model *m, bbm_status s, int piece)
 {
     const bbm_element *e = &m->element[piece];
 
-    if (s != BBM_FREE_TO_MOVE && s != BBM_OPEN_CLOSE && s != BBM_STEP_TOO_LONG
-        && s != BBM_NOT_POSITIVE_DEFINITE && s != BBM_NOT_CONVERGED)
+    if (s == BBM_NO_EQUILIBRIUM || (s != BBM_FREE_TO_MOVE && (s < BBM_NOT_POSITIVE_DEFINITE
+                                                              || s > BBM_OPEN_CLOSE)))
         return s;
     m->blamed[0] = piece;
     return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, and no support holds "
@@ -447,14 +452,12 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
     const int parts = tried - bbm_find_pieces(m, y->body);
     if (found)
         return found;
-    if (breaks > BREAKS)
-        return bbm_fail(m, s, "step %d: bonds break in more than %d passes; a smaller dt or load "
-                        "helps", m->info.step + 1, BREAKS);
-    if (loose < 0 || parts == 0)
+    if (breaks <= BREAKS && (loose < 0 || parts == 0))
         s = bbm_try_otherwise(m, s);
     const size_t n = strlen(m->message);
     if (s == BBM_OPEN_CLOSE && breaks > 0)
-        snprintf(m->message + n, sizeof m->message - n, "; bonds broke in %d of them", breaks);
+        snprintf(m->message + n, sizeof m->message - n, "; in %d of the passes bonds broke: a "
+                 "smaller dt or load helps", breaks);
     return loose < 0 ? s : say_loose(m, s, loose);
 }
 
@@ -463,15 +466,14 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
 static bbm_status check_cracks(bbm_model *m)
 {
     const bbm_beyond *y = m->beyond;
+    const char *why = y->restitution >= 0 ? "restitution: its jump has no stress that breaks any"
+                    : y->rotation == BBM_LINEAR && isfinite(m->par.dt) ? "linear rotation: its "
+                      "contacts throw out corners that come off inside another piece" : NULL;
     double n[2];
 
-    if (y->bond_tension > 0 && y->restitution >= 0)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "restitution and bonds that break: its jump has no "
-                        "stress that breaks any, expected one of the two");
-    if (y->bond_tension > 0 && y->rotation == BBM_LINEAR && isfinite(m->par.dt))
-        return bbm_fail(m, BBM_BAD_PARAMETER, "linear rotation and bonds that break: contacts "
-                        "would throw out corners that come off inside another piece, expected "
-                        "exact");
+    if (y->bond_tension > 0 && why)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "bonds that break and %s, expected one of the two",
+                        why);
     for (const bbm_bond *b = m->bond; b < m->bond + m->bonds && y->bond_energy > 0; b++) {
         const double open = y->bond_energy / (y->bond_tension * taken(BROKEN));
         const double side = find_normal(m, b, 0, n) / fmin(m->element[b->i].material.thickness,

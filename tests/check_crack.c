@@ -278,7 +278,7 @@ START_TEST(more_passes_with_breaks_than_the_bound_are_said)
     ck_ok(bbm_prepare(m), m);
     m->beyond->breaks = 1001;
     ck_assert_int_eq(bbm_say_cracks(m, BBM_OPEN_CLOSE), BBM_OPEN_CLOSE);
-    ck_assert_msg(strstr(bbm_message(m), "bonds break in more than 1000 passes"), "%s", bbm_message(m));
+    ck_assert_msg(strstr(bbm_message(m), "in 1001 of the passes bonds broke"), "%s", bbm_message(m));
 }
 END_TEST
 
@@ -297,7 +297,7 @@ START_TEST(a_corner_that_softening_has_put_inside_is_no_fault_of_the_contacts)
     m->beyond->broken = 1;
     m->beyond->bond_energy = 20;
     ck_assert_int_eq(bbm_check_depth(m), BBM_BAD_PARAMETER);
-    ck_assert_msg(strstr(bbm_message(m), "less energy or more tension helps"), "%s", bbm_message(m));
+    ck_assert_msg(strstr(bbm_message(m), "less energy or more tension"), "%s", bbm_message(m));
     c.trial.carried = 1;
     ck_assert_int_eq(bbm_check_depth(m), BBM_TOO_SOFT);
     m->scratch->contact = own;
