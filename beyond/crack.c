@@ -32,7 +32,6 @@
  * take their place. A body has no contacts with itself, so that the springs above stay where a
  * crack ends inside. A corner that lies in another body, and that no contact has kept out, is taken
  * as one that has opened there: it may go out, and no deeper. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -410,15 +409,19 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
     return status;
 }
 
-/* Whether the body of element i is a piece of its block. */
-static int is_piece(const bbm_model *m, int i)
+/* The first element of a piece of a block that no support holds in statics; -1: there is none. */
+static int find_loose(const bbm_model *m)
 {
-    int others = 0;
+    const int *body = m->beyond->body;
 
-    for (int j = 0; j < m->elements; j++)
-        others |= m->element[j].block == m->element[i].block
-               && m->beyond->body[j] != m->beyond->body[i];
-    return others;
+    for (int i = 0; i < m->elements && bbm_is_static(m); i++) {
+        int others = 0;
+        for (int j = 0; j < m->elements && body[i] == i; j++)
+            others |= m->element[j].block == m->element[i].block && body[j] != i;
+        if (others && !bbm_is_held(m, body, i))
+            return i;
+    }
+    return -1;
 }
 
 /* A static step has found no equilibrium, and no support holds this piece. */
@@ -440,25 +443,22 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
 {
     const bbm_beyond *y = m->beyond;
     const int breaks = y->breaks;
-    bbm_status found = BBM_OK;
-    int loose = -1;
 
     if (!m->is_prepared || s == BBM_NO_MEMORY || s == BBM_STOPPED)
         return s;
     const int tried = bbm_find_pieces(m, y->body);
-    if (bbm_is_static(m) && breaks + y->broken > 0)
-        found = bbm_find_loose(m, y->body, is_piece, &loose);
+    const int loose = breaks + y->broken > 0 ? find_loose(m) : -1;
     memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
     const int parts = tried - bbm_find_pieces(m, y->body);
-    if (found)
-        return found;
     if (breaks <= BREAKS && (loose < 0 || parts == 0))
         s = bbm_try_otherwise(m, s);
-    const size_t n = strlen(m->message);
-    if (s == BBM_OPEN_CLOSE && breaks > 0)
-        snprintf(m->message + n, sizeof m->message - n, "; in %d of the passes bonds broke: a "
-                 "smaller dt or load helps", breaks);
-    return loose < 0 ? s : say_loose(m, s, loose);
+    if (loose >= 0)
+        return say_loose(m, s, loose);
+    const int told = bbm_is_static(m) && m->scratch->contacts > 0;      /* by statics.c */
+    return s != BBM_OPEN_CLOSE || breaks == 0 || told ? s
+         : bbm_fail(m, s, "step %d at t = %g, %d passes, %d contacts, and bonds broke in %d "
+                    "passes; a smaller dt or load helps", m->info.step + 1, m->info.t,
+                    m->info.passes, m->scratch->contacts, breaks);
 }
 
 /* What breaking bonds are not for: hits that have no stress; corners that come off inside another
