@@ -21,7 +21,7 @@ typedef struct {                /* surroundings.c, of a node                    
     double moved[2];            /* m        its wall point, since that step                     */
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
-    double jump[2], jump_work;  /* N, J     impact.c: its force in the jump, and the work       */
+    double jump[2];             /* N        impact.c: its force in the jump                     */
 } bbm_support;
 
 typedef struct {                /* energy.c: of an element, and of the component of this number */
