@@ -21,7 +21,7 @@ typedef struct {                /* surroundings.c, of a node                    
     double moved[2];            /* m        its wall point, since that step                     */
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
-    double jump[2], jump_work;  /* N, J     impact.c: its force in the jump, and the work       */
+    double jump[2];             /* N        impact.c: its force in the jump                     */
 } bbm_support;
 
 typedef struct {                /* energy.c: of an element, and of the component of this number */
@@ -231,6 +231,7 @@ int        bbm_contact_turns_over(const bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
 double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m                    */
 bbm_status bbm_check_depth(bbm_model *m);
+int        bbm_is_held(const bbm_model *m, const int body[], int i);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
 bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */
 bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end);

@@ -76,6 +76,12 @@ static double find_normal(const bbm_model *m, const bbm_bond *b, int now, double
     return l * fmin(i->material.thickness, j->material.thickness);
 }
 
+/* N/m, of the spring at each end of a bond, Eq. (4). */
+static double stiffness(const bbm_model *m, const bbm_bond *b)
+{
+    return bbm_bonding_stiffness(m->par.alpha, &m->element[b->i], &m->element[b->j]);
+}
+
 /* c of both ends of a bond together, N/m. */
 static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
 {
@@ -207,7 +213,6 @@ static void damage(bbm_model *m, int b)
     const bbm_bond *of = &m->bond[b];
     const bbm_vertex *v = m->vertex, *P = &v[of->p[0]], *Q = &v[of->q[0]];
     const bbm_vertex *R = &v[of->p[1]], *S = &v[of->q[1]];
-    const double k = bbm_bonding_stiffness(m->par.alpha, &m->element[of->i], &m->element[of->j]);
     const double x = (P->u - Q->u - R->u + S->u) / 2, y = (P->v - Q->v - R->v + S->v) / 2;
     double n[2];
 
@@ -219,21 +224,27 @@ static void damage(bbm_model *m, int b)
     }
     do
         c->tooth = m->beyond->bond_energy > 0 ? c->tooth + 1 : BROKEN;
-    while (softness(m, of, c->tooth) >= 2 * k);
+    while (softness(m, of, c->tooth) >= 2 * stiffness(m, of));
     m->beyond->last = b;
 }
 
-/* Lets those ends of cracks push that are closed, and no others; whether there were others. */
+/* Lets those ends of cracks push that are closed, and no others; whether there were others. One
+ * that would carry less than SAME of the strength is closed or open by rounding only, and stays. */
 static int renew_pushes(bbm_model *m)
 {
+    const bbm_beyond *y = m->beyond;
+    const double none = SAME * fmin(y->bond_tension, y->bond_cohesion);
     double n[2], d[2];
     int changes = 0;
 
     for (int k = 0; k < 2 * m->bonds; k++) {
-        int *pushes = &m->beyond->crack[k / 2].pushes[k % 2];
-        find_normal(m, &m->bond[k / 2], 1, n);
+        const double area = find_normal(m, &m->bond[k / 2], 1, n);
+        int *pushes = &y->crack[k / 2].pushes[k % 2];
+        if (y->crack[k / 2].tooth == 0)
+            continue;
         bbm_gap_length(m, &m->gap[k], d);
-        const int closed = tooth_of(m, k / 2) > 0 && d[0] * n[0] + d[1] * n[1] > 0;
+        const double p = stiffness(m, &m->bond[k / 2]) * (d[0] * n[0] + d[1] * n[1]) / area;
+        const int closed = *pushes ? p > -none : p > none;
         changes |= closed != *pushes;
         *pushes = closed;
     }
@@ -359,7 +370,7 @@ void bbm_keep_cracks(bbm_model *m)
 
     for (int b = 0; b < m->bonds; b++) {
         bbm_crack *c = &y->crack[b];
-        const bbm_vertex *P = &m->vertex[m->bond[b].p[0]], *Q = &m->vertex[m->bond[b].p[1]];
+        const bbm_vertex *P = &m->vertex[m->bond[b].p[0]], *Q = &m->vertex[m->bond[b].q[1]];
         y->crack_energy += (taken(c->tooth) - taken(y->kept[b].tooth)) / taken(BROKEN)
                          * y->bond_energy * find_normal(m, &m->bond[b], 0, n);
         if (c->tooth == BROKEN && y->kept[b].tooth != BROKEN) {
@@ -398,36 +409,71 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
     return status;
 }
 
-/* A step has failed, because of bonds that broke in it or for another reason. */
+/* The first element of a piece of a block that no support holds in statics; -1: there is none. */
+static int find_loose(const bbm_model *m)
+{
+    const int *body = m->beyond->body;
+
+    for (int i = 0; i < m->elements && bbm_is_static(m); i++) {
+        int others = 0;
+        for (int j = 0; j < m->elements && body[i] == i; j++)
+            others |= m->element[j].block == m->element[i].block && body[j] != i;
+        if (others && !bbm_is_held(m, body, i))
+            return i;
+    }
+    return -1;
+}
+
+/* A static step has found no equilibrium, and no support holds this piece. */
+static bbm_status say_loose(bbm_model *m, bbm_status s, int piece)
+{
+    const bbm_element *e = &m->element[piece];
+
+    if (s == BBM_NO_EQUILIBRIUM || (s != BBM_FREE_TO_MOVE && (s < BBM_NOT_POSITIVE_DEFINITE
+                                                              || s > BBM_OPEN_CLOSE)))
+        return s;
+    m->blamed[0] = piece;
+    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, and no support holds "
+                    "its piece at (%g, %g); dynamics shows how its pieces fall", m->info.step + 1,
+                    e->block, e->x + m->origin[0], e->y + m->origin[1]);
+}
+
+/* A step has failed, because of bonds that broke in it or before, or for another reason. */
 bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
 {
     const bbm_beyond *y = m->beyond;
+    const int breaks = y->breaks;
 
     if (!m->is_prepared || s == BBM_NO_MEMORY || s == BBM_STOPPED)
         return s;
-    const int tried = bbm_find_pieces(m, y->body), last = y->last;
+    const int tried = bbm_find_pieces(m, y->body);
+    const int loose = breaks + y->broken > 0 ? find_loose(m) : -1;
     memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
     const int parts = tried - bbm_find_pieces(m, y->body);
-    if (y->breaks > BREAKS)
-        return bbm_fail(m, s, "step %d: bonds break in more than %d passes; a smaller dt or load "
-                        "helps", m->info.step + 1, BREAKS);
-    if (!bbm_is_static(m) || parts == 0)
-        return bbm_try_otherwise(m, s);
-    const bbm_vertex *P = &m->vertex[m->bond[last].p[0]];
-    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, at last at (%g, %g); "
-                    "dynamics shows how its pieces fall", m->info.step + 1,
-                    m->element[P->element].block, P->x + m->origin[0], P->y + m->origin[1]);
+    if (breaks <= BREAKS && (loose < 0 || parts == 0))
+        s = bbm_try_otherwise(m, s);
+    if (loose >= 0)
+        return say_loose(m, s, loose);
+    const int told = bbm_is_static(m) && m->scratch->contacts > 0;      /* by statics.c */
+    return s != BBM_OPEN_CLOSE || breaks == 0 || told ? s
+         : bbm_fail(m, s, "step %d at t = %g, %d passes, %d contacts, and bonds broke in %d "
+                    "passes; a smaller dt or load helps", m->info.step + 1, m->info.t,
+                    m->info.passes, m->scratch->contacts, breaks);
 }
 
-/* What breaking bonds are not for: hits that have no stress, cracks wider than their elements. */
+/* What breaking bonds are not for: hits that have no stress; corners that come off inside another
+ * piece where no contact begins unloaded, see bbm_rest_of; cracks wider than their elements. */
 static bbm_status check_cracks(bbm_model *m)
 {
     const bbm_beyond *y = m->beyond;
+    const char *why = y->restitution >= 0 ? "restitution: its jump has no stress that breaks any"
+                    : y->rotation == BBM_LINEAR && isfinite(m->par.dt) ? "linear rotation: its "
+                      "contacts throw out corners that come off inside another piece" : NULL;
     double n[2];
 
-    if (y->bond_tension > 0 && y->restitution >= 0)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "restitution and bonds that break: its jump has no "
-                        "stress that breaks any, expected one of the two");
+    if (y->bond_tension > 0 && why)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "bonds that break and %s, expected one of the two",
+                        why);
     for (const bbm_bond *b = m->bond; b < m->bond + m->bonds && y->bond_energy > 0; b++) {
         const double open = y->bond_energy / (y->bond_tension * taken(BROKEN));
         const double side = find_normal(m, b, 0, n) / fmin(m->element[b->i].material.thickness,

@@ -151,10 +151,6 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         b->account[bbm_component_of(m->K, P->element)].gain -= ROUNDING * fabs(c->N)
                                                               * hypot(P->x, P->y);
     }
-    for (int n = 0; n < m->nodes; n++) {
-        const int i = m->vertex[m->adjacent[m->adjacent_first[n]]].element;
-        add_work(&b->account[bbm_component_of(m->K, i)], b->support[n].jump_work);
-    }
     for (int c = 0; c < m->elements && (bbm_is_static(m) || m->par.velocity_factor < 1); c++)
         b->account[c].gain = b->account[c].there = 0;
 }

@@ -292,19 +292,23 @@ static int find_causes(const bbm_model *m, const bbm_model *end)
     return any;
 }
 
-/* The work of each support that moves: its force on h times the mean of V' and V''. */
-static void find_work(bbm_model *m, const bbm_model *end)
+/* The work of the supports that move, at each element: the force of each spring on h times the mean
+ * of V' and V'' at its end. The elements of the jump have V'/2, and -d0 is h/2 V'' of the wall. */
+static void find_work(bbm_model *m)
 {
-    double v[2];
+    double d[2];
 
     bbm_find_reactions(m);
-    for (int n = 0; n < m->nodes; n++) {
-        const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
-        const bbm_element *e = &end->element[P->element];
-        bbm_support *s = &m->beyond->support[n];
-        bbm_displacement(&m->element[P->element], e->V, P->x, P->y, v);
-        for (int a = 0; a < 2 && moves(m, n); a++)
-            s->jump_work += s->jump[a] * m->h / 2 * (v[a] + support_velocity(m, n, a));
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
+        if (g->j >= 0 || !(moves(m, g->node[0]) || moves(m, g->node[1])))
+            continue;
+        bbm_gap_length(m, g, d);
+        for (int a = 0; a < 2; a++) {
+            double way = -g->d0[a];
+            for (int k = 0; k < 6; k++)
+                way += m->h * g->Ti[a][k] * m->element[g->i].V[k];
+            m->beyond->account[g->i].held -= (g->W[a][0] * d[0] + g->W[a][1] * d[1]) * way;
+        }
     }
 }
 
@@ -312,7 +316,7 @@ static void find_work(bbm_model *m, const bbm_model *end)
  * spring of one that has had its impulse starts unloaded. */
 static void take(bbm_model *m, bbm_model *end)
 {
-    find_work(m, end);
+    find_work(m);
     for (int a = 0; a < 6 * m->elements; a++)
         if (account_of(m, a / 6)->jumps)
             end->element[a / 6].V[a % 6] = 2 / m->h * m->D[a];

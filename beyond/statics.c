@@ -57,38 +57,34 @@ static int is_regular(double G[3][3])
     return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
 }
 
-static int body(const bbm_model *m, int i) { return bbm_component_of(m->K, i); }
+/* Whether the wall holds the body of element i by itself; body[] has a number for each element. */
+int bbm_is_held(const bbm_model *m, const int body[], int i)
+{
+    const bbm_element *e = m->element;
+    double G[3][3] = { { 0 } };
+
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
+        if (g->j < 0 && body[g->i] == body[i])
+            add_hold(*g, e[g->i].x - e[i].x, e[g->i].y - e[i].y, G);
+    return is_regular(G);
+}
 
 /* Statics needs bodies that the wall holds, by themselves or through contacts; a component of K is
  * a body. That a contact holds in each direction is too kind to it: a block on a slope passes, and
  * fails later. */
 bbm_status bbm_check_supports(bbm_model *m)
 {
-    const bbm_element *e = m->element;
-    struct { int first; double G[3][3]; } *of;                  /* a body                       */
-    int loose = -1;
+    const int *body = m->K->component;
 
-    if (!bbm_is_static(m))
-        return BBM_OK;
-    of = calloc((size_t)m->elements, sizeof *of);
-    if (!of)
-        return BBM_NO_MEMORY;
-    for (int i = m->elements - 1; i >= 0; i--)
-        of[body(m, i)].first = i;
-    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
-        const int b = body(m, g->i), o = of[b].first;
-        if (g->j < 0)
-            add_hold(*g, e[g->i].x - e[o].x, e[g->i].y - e[o].y, of[b].G);
+    for (int i = 0; i < m->elements && bbm_is_static(m); i++) {
+        const bbm_element *e = &m->element[i];
+        if ((i > 0 && body[i] == body[i - 1]) || bbm_is_held(m, body, i))
+            continue;
+        m->blamed[0] = i;
+        return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
+                        e->block, i, e->x + m->origin[0], e->y + m->origin[1]);
     }
-    for (int i = 0; i < m->elements && loose < 0; i++)
-        if (of[body(m, i)].first == i && !is_regular(of[body(m, i)].G))
-            loose = i;
-    free(of);
-    if (loose < 0)
-        return BBM_OK;
-    m->blamed[0] = loose;
-    return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
-                    e[loose].block, loose, e[loose].x + m->origin[0], e[loose].y + m->origin[1]);
+    return BBM_OK;
 }
 
 /* Whether every body of a prepared model is held, by itself or through contacts. */

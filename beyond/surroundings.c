@@ -131,7 +131,7 @@ void bbm_place_supports(bbm_model *m)
     for (int n = 0; n < m->nodes; n++)
         for (int a = 0; a < 2; a++) {
             bbm_support *s = &m->beyond->support[n];
-            s->jump[a] = s->jump_work = 0;
+            s->jump[a] = 0;
             if (s->moved[a] != 0)
                 m->node[n].wall[a] = s->to[a] - left * s->moved[a];
         }

@@ -76,11 +76,10 @@ static void put_numbers(FILE *f, int n, const double x[])
         fprintf(f, ",%.15g", x[k]);
 }
 
-/* A row for each element, or for each node and block that has it: what it is, where it began, the
- * fields of the file. */
-static void put_results(FILE *f, const model *p, int files)
+/* A row for each element, or for each node and part that has it: what it is, where it began, the
+ * fields of the file. A part is what elements of `m` have for their block. */
+static void put_results(FILE *f, const model *p, const bbm_model *m, int files)
 {
-    const bbm_model *m = p->m;
     const int nodes = files & FIELD_NODES;
 
     fprintf(f, "%s,block,x,y", nodes ? "node" : "element");
@@ -90,17 +89,17 @@ static void put_results(FILE *f, const model *p, int files)
     fputc('\n', f);
     for (int k = 0; k < (nodes ? m->vertices : m->elements); k++) {
         const int v = nodes ? m->adjacent[k] : m->element[k].first, n = m->vertex[v].node;
-        const int block = m->element[m->vertex[v].element].block;
+        const int e = m->vertex[v].element, part = m->element[e].block;
         int again = field_is_gone(m, v);
         for (int a = m->adjacent_first[n]; nodes && a < k; a++)
-            again |= m->element[m->vertex[m->adjacent[a]].element].block == block;
+            again |= m->element[m->vertex[m->adjacent[a]].element].block == part;
         if (again)
             continue;
-        fprintf(f, "%s,%s", nodes ? p->node[n] : p->element[k], p->block[block]);
+        fprintf(f, "%s,%s", nodes ? p->node[n] : p->element[k], p->block[p->m->element[e].block]);
         put_numbers(f, 2, nodes ? (double[]){ m->node[n].x, m->node[n].y } : p->centre[k]);
         double all[FIELD_ROWS];
         if (nodes)
-            field_all_of_node(m, n, block, all);
+            field_all_of_node(m, n, part, all);
         for (const field *q = field_table; q->name; q++)
             if (q->files & files)
                 put_numbers(f, 1, nodes ? &all[q - field_table]
@@ -109,11 +108,26 @@ static void put_results(FILE *f, const model *p, int files)
     }
 }
 
-static void put_nodes(FILE *f, const write_results *w) { put_results(f, w->p, FIELD_NODES); }
+/* Where bonds have broken, each piece of a block has its own rows. */
+static void put_nodes(FILE *f, const write_results *w)
+{
+    const bbm_beyond *b = w->p->m->beyond;
+    bbm_model m = *w->p->m;
+
+    if (b->broken > 0) {
+        m.element = b->end_element;                     /* scratch between the steps */
+        bbm_find_pieces(w->p->m, b->body);
+        for (int i = 0; i < m.elements; i++) {
+            m.element[i] = w->p->m->element[i];
+            m.element[i].block = b->body[i];
+        }
+    }
+    put_results(f, w->p, &m, FIELD_NODES);
+}
 
 static void put_elements(FILE *f, const write_results *w)
 {
-    put_results(f, w->p, w->p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS);
+    put_results(f, w->p, w->p->m, w->p->dynamic ? FIELD_ELEMENTS | FIELD_MOVING : FIELD_ELEMENTS);
 }
 
 /* The closed ones: where the corner is, what presses and shears, how far it is outside. */

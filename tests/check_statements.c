@@ -778,6 +778,18 @@ START_TEST(a_block_with_cracks_can_be_removed)
 }
 END_TEST
 
+/* A bar of two squares is pulled apart by 1 mm: both nodes of its middle have two rows. */
+START_TEST(each_side_of_a_crack_has_its_own_nodes)
+{
+    ck_assert_int_eq(run_printed("sides", "material rock E 1e10 nu 0 density 2500\n"
+        "bond tension 1e6 cohesion 3e6\ngrid bar rock 0 0 2 1 2 1\nfix set bar.left x y\n"
+        "fix set bar.right y\nfix set bar.right x by 1e-3\nstatic\n"), 0);
+    ck_assert_int_eq(shell("test \"$(awk -F, '$3 == 1 { printf \"%%.6f \", sqrt($5^2) }' "
+                           "out/model/sides/nodes.csv)\" = '0.000000 0.001000 0.000000 0.001000 '"),
+                     0);
+}
+END_TEST
+
 START_TEST(a_column_springs_back_when_its_top_is_removed)
 {
     const double w = 20000, E = 1e12, kn = 1e14;
@@ -934,6 +946,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_add_test(t, a_block_with_cracks_can_be_removed);
+    tcase_add_test(t, each_side_of_a_crack_has_its_own_nodes);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
