@@ -250,20 +250,16 @@ static bbm_status list_adjacent_vertices(bbm_model *m)
     return BBM_OK;
 }
 
-/* Counts the sides of a block from node p to node q, without the one that starts at v, and finds
- * the vertex where the first of them starts. */
-static int find_partners(const bbm_model *m, int block, int p, int q, int v, int *start)
+/* The vertex where a side of a block from node p to node q starts, but for the vertex v; or -1. */
+static int find_side(const bbm_model *m, int block, int p, int q, int v)
 {
-    int sides = 0;
-
     for (int a = m->adjacent_first[p]; a < m->adjacent_first[p + 1]; a++) {
         const int w = m->adjacent[a];
         const bbm_element *e = &m->element[m->vertex[w].element];
-        if (w == v || e->block != block || m->vertex[bbm_next_vertex(e, w)].node != q)
-            continue;
-        *start = sides++ == 0 ? w : *start;
+        if (w != v && e->block == block && m->vertex[bbm_next_vertex(e, w)].node == q)
+            return w;
     }
-    return sides;
+    return -1;
 }
 
 /* Section 2.2: a side that two elements of a block share is an internal edge and gets a bond; a
@@ -278,19 +274,16 @@ static bbm_status connect_elements(bbm_model *m)
     for (int v = 0; v < m->vertices; v++) {
         const int i = m->vertex[v].element, next = bbm_next_vertex(&m->element[i], v);
         const int p = m->vertex[v].node, q = m->vertex[next].node, block = m->element[i].block;
-        int w = -1;
-        const int same = find_partners(m, block, p, q, v, &w);
-        const int partners = same ? 0 : find_partners(m, block, q, p, -1, &w);
-        if (same || partners > 1) {
-            m->blamed[0] = i > m->vertex[w].element ? i : m->vertex[w].element;
-            m->blamed[1] = i + m->vertex[w].element - m->blamed[0];
+        const int same = find_side(m, block, p, q, v), w = find_side(m, block, q, p, -1);
+        if (same >= 0) {
+            m->blamed[0] = m->vertex[same].element;
+            m->blamed[1] = i;
             return bbm_fail(m, BBM_OVERLAP, "element %d and element %d on the same side, from "
-                            "node %d to node %d", m->blamed[1], m->blamed[0], p, q);
+                            "node %d to node %d", i, m->blamed[0], p, q);
         }
-        const int across = partners == 0 ? 0
-                         : bbm_next_vertex(&m->element[m->vertex[w].element], w);
-        m->vertex[v].edge = partners == 0 ? m->edges : -1 - across;
-        if (partners == 0)
+        const int across = w < 0 ? 0 : bbm_next_vertex(&m->element[m->vertex[w].element], w);
+        m->vertex[v].edge = w < 0 ? m->edges : -1 - across;
+        if (w < 0)
             m->edge[m->edges++] = (bbm_edge){ .element = i, .a = v, .b = next, .block = block };
         else if (v < w)
             m->bond[m->bonds++] = (bbm_bond){ i, m->vertex[w].element, { v, next },

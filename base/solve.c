@@ -72,22 +72,6 @@ static double largest(const bbm_matrix *K, const double *F, int entries)
     return most;
 }
 
-/* The largest force on each body of the component in hand that is not held all round; returns the
- * largest of all. on: of a body, by its number. */
-static double measure_bodies(const bbm_matrix *K, const double *F, double *on)
-{
-    double most = 0;
-
-    for (int i = 6 * K->from; i < 6 * K->to; i++) {
-        const int row = K->caller[i / 6], body = K->body[row];
-        if (body < 0 || i % 6 > 1)
-            continue;
-        on[body] = fmax(on[body], fabs(F[6 * row + i % 6]));
-        most = fmax(most, on[body]);
-    }
-    return most;
-}
-
 /* Notes in each component the largest force on the body that has the least of it. The tolerance is
  * a share of it where the F of bbm_solve is larger, so that a light body is solved beside a heavy
  * one. Held bodies do not count, unless all are held, nor those that have next to no force. A
@@ -95,20 +79,23 @@ static double measure_bodies(const bbm_matrix *K, const double *F, double *on)
  */
 void bbm_matrix_measure(bbm_matrix *K, const double *F)
 {
-    double *on = K->y;
+    double *on = K->y;                              /* [bodies] the largest force on each */
 
     memset(on, 0, (size_t)K->n * sizeof *on);
+    for (int k = 0; k < 6 * K->n; k++)
+        if (k % 6 < 2 && K->body[k / 6] >= 0)
+            on[K->body[k / 6]] = fmax(on[K->body[k / 6]], fabs(F[k]));
     for (int c = 0; c < K->components; c++) {
+        double most = 0, least = INFINITY;
         K->from = K->start[c];
         K->to = K->start[c + 1];
-        const double most = measure_bodies(K, F, on);
-        double least = most > 0 ? most : largest(K, F, 2);
-        for (int i = K->from; i < K->to && most > 0; i++) {
-            const int body = K->body[K->caller[i]];
-            if (body >= 0 && on[body] >= NEXT_TO_NONE * most)
-                least = fmin(least, on[body]);
-        }
-        K->forces[c] = least;
+        for (const int *row = K->caller + K->from; row < K->caller + K->to; row++)
+            if (K->body[*row] >= 0)
+                most = fmax(most, on[K->body[*row]]);
+        for (const int *row = K->caller + K->from; row < K->caller + K->to; row++)
+            if (K->body[*row] >= 0 && on[K->body[*row]] >= NEXT_TO_NONE * most)
+                least = fmin(least, on[K->body[*row]]);
+        K->forces[c] = most > 0 ? least : largest(K, F, 2);
     }
 }
 

@@ -118,7 +118,8 @@ double *bbm_entry(const bbm_factor *f, int i, int j)
 /* ----------------------------------------------------------------------------------- the factor */
 
 /* s += the products of two rows at a with two at b over n columns, an even number; the second row
- * lies m or l behind the first. Each has two partial sums: one would wait for each addition. */
+ * lies m or l behind the first, or is the same. Each has two partial sums: one would wait for each
+ * addition. */
 static void add_products(size_t n, const double *a, size_t m, const double *b, size_t l,
                          double s[4])
 {
@@ -205,20 +206,6 @@ void bbm_factor_make(const bbm_factor *f)
     }
 }
 
-/* x -= the products of two rows, m apart, with y over n columns, an even number. */
-static void subtract_products(size_t n, const double *row, size_t m, const double *y, double x[2])
-{
-    double sum[4] = { 0 };
-
-    for (size_t k = 0; k < n; k += 2)
-        for (size_t e = 0; e < 2; e++) {
-            sum[e] += row[k + e] * y[k + e];
-            sum[2 + e] += row[m + k + e] * y[k + e];
-        }
-    x[0] -= sum[0] + sum[1];
-    x[1] -= sum[2] + sum[3];
-}
-
 /* x = K^-1 x for the pairs of rows from .. to-1, which no entry of K joins with others. The second
  * sweep goes through memory backwards only, which is faster where the factor is large. */
 void bbm_substitute(const bbm_factor *f, int from, int to, double *restrict x)
@@ -226,9 +213,13 @@ void bbm_substitute(const bbm_factor *f, int from, int to, double *restrict x)
     for (int i = from; i < to; i++) {
         const bbm_part *last = f->part + f->first[i + 1] - 1;
         const double *d = f->A + place_in(last, i), *e = d + width(last);
-        for (const bbm_part *p = f->part + f->first[i]; p <= last; p++)
-            subtract_products(width(p) - (p == last ? 2 : 0), f->A + p->at, width(p),
-                              x + 2 * p->from, x + 2 * i);
+        for (const bbm_part *p = f->part + f->first[i]; p <= last; p++) {
+            double s[4] = { 0 };
+            add_products(width(p) - (p == last ? 2 : 0), f->A + p->at, width(p), x + 2 * p->from,
+                         0, s);
+            x[2 * i] -= s[0];
+            x[2 * i + 1] -= s[2];
+        }
         x[2 * i] *= d[0];
         x[2 * i + 1] = (x[2 * i + 1] - e[0] * x[2 * i]) * e[1];
     }

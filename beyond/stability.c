@@ -35,8 +35,7 @@ static bbm_status assemble(bbm_model *m)
         if (m->scratch->contact[k].state == BBM_SLIDE)
             m->scratch->contact[k].state = BBM_LOCK;
     bbm_assemble(m);
-    if (m->hook->before_solution)
-        m->hook->before_solution(m);
+    m->hook->before_solution(m);
     return BBM_OK;
 }
 
@@ -63,8 +62,7 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
     pcg.tolerance = NUDGED;
     if (!status)
         status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
-    if (m->K)
-        m->K->ready = 0;
+    m->K->ready = 0;
     *stable = status != BBM_NOT_POSITIVE_DEFINITE;
     return *stable ? status : BBM_OK;
 }
