@@ -162,12 +162,6 @@ bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double toleranc
 
 /* ----------------------------------------------------------------- what contacts add to K and F */
 
-/* Whether a contact is of an unbroken joint with cohesion or tensile strength. */
-int bbm_is_strong(const bbm_contact *c)
-{
-    return c->strength.shear > 0 || c->strength.tension > 0;
-}
-
 /* Whether tension N has taken all shear strength from a strong joint. */
 int bbm_is_strengthless(const bbm_contact *c, double N)
 {

@@ -300,6 +300,12 @@ static inline double bbm_rest_of(const bbm_model *m, double d_n, double N)
     return bbm_motion_of(m) ? fmin(0, d_n + N / m->par.p_n) : 0;
 }
 
+/* Whether a contact is of an unbroken joint with cohesion or tensile strength. */
+static inline int bbm_is_strong(const bbm_contact *c)
+{
+    return c->strength.shear > 0 || c->strength.tension > 0;
+}
+
 /* A contact that opens carries nothing and remembers nothing. */
 static inline void bbm_forget(bbm_contact *c)
 {
@@ -422,7 +428,6 @@ double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
 double     bbm_shear_force(const bbm_contact *c);                               /* T or (65)    */
 bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double tolerance);  /* table  */
-int        bbm_is_strong(const bbm_contact *c);
 int        bbm_is_strengthless(const bbm_contact *c, double N);
 void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2]);
 void       bbm_assemble_contacts(bbm_model *m);
