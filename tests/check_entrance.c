@@ -644,7 +644,43 @@ START_TEST(a_corner_that_passed_into_a_block_is_refused)
 }
 END_TEST
 
-/* The same while a third block presses on one of the two, with corners of its own or on theirs:
+/* The corner of a fragment lies 1 cm deep in the block of the first four edges. That is right if a
+ * contact of this corner with this block is closed, also if it is not the first one of the corner. */
+START_TEST(each_contact_of_a_corner_may_account_for_its_depth)
+{
+    bbm_model *m = weightless_blocks();
+    int corner = 0, behind = 0;
+
+    add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = 1.5, .y = 0.5, .w = 1, .h = 1 });
+    const int third = add_rectangle(m, 2, ROCK, (rectangle){ .x = 9, .w = 1, .h = 1 });
+    run_steps(m, 1);
+    shift_element(m, e, -0.51, 0);
+    m->beyond->broken = 1;
+    while (&m->vertex[m->edge[corner].a] != vertex_of(m, e, 0))
+        corner++;
+    bbm_contact list[2] = { { .corner = corner, .edge = vertex_of(m, third, 0)->edge },
+                            { .corner = corner, .edge = 0, .d_n = -0.01 } };
+    bbm_contact *const own = m->contact;
+    for (int k = 0; k < m->edges; k++)
+        m->edge[k].contact = k == corner ? 0 : 2;
+    m->contact = list;
+    m->contacts = 2;
+    for (int f = 0; f < 4; f++) {
+        list[1].state = BBM_OPEN;
+        const double depth = bbm_depth_passed(m, corner, f);
+        ck_assert(depth == 0 || fabs(depth - 0.01) < ROUNDING);
+        behind += depth > 0;
+        list[1].state = BBM_LOCK;
+        ck_assert(bbm_depth_passed(m, corner, f) == 0);
+    }
+    ck_assert_int_gt(behind, 0);
+    m->contact = own;
+    m->contacts = 0;
+}
+END_TEST
+
+/* A corner passes while a third block presses on one of the two, with corners of its own or on theirs:
  * what it touches does not hold the corner. */
 START_TEST(a_contact_with_a_third_block_accounts_for_no_corner_that_passed)
 {
@@ -752,6 +788,7 @@ Suite *entrance_suite(void)
         { a_corner_that_left_after_it_opened_inside_comes_in_anew, 2 });
     add_case(s, "passed",
         { a_corner_that_passed_into_a_block_is_refused, 9 },
+        { each_contact_of_a_corner_may_account_for_its_depth, 1 },
         { a_contact_with_a_third_block_accounts_for_no_corner_that_passed, 4 },
         { a_solution_that_lets_a_corner_pass_is_cut, 1 },
         { a_stone_in_a_hole_is_not_in_the_ring, 1 });
