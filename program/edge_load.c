@@ -1,5 +1,5 @@
-/* edge_load.c - the loads of edges that pictures show, and whether there are cracks. `make paper` has
- * paper.c in its place. */
+/* edge_load.c - the loads of edges that pictures show, and whether there are cracks. `make paper`
+ * has paper.c in its place. */
 #include "../beyond/beyond.h"
 #include "scene.h"
 
