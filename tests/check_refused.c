@@ -337,6 +337,25 @@ START_TEST(a_block_that_lifts_off_in_statics_is_named)
 }
 END_TEST
 
+/* A slab slides over the corners of a narrow base. */
+START_TEST(the_block_that_moves_is_named_first_wherever_the_corner_is)
+{
+    bbm_model *m = new_rock();
+    const int base = add_rows(m, 0, -1, -1, 2, 1, 1, 1, 30);
+
+    add_rows(m, 1, -3, 0, 6, 1, 1, 1, 30);
+    for (int n = base; n < base + 4; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    m->par.gravity[1] = -9.81;
+    m->par.friction = 10;
+    set_springs(m, 1e12, 4e11);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_int_eq(bbm_run(m), BBM_NO_EQUILIBRIUM);
+    ck_assert_int_eq(m->element[m->blamed[0]].block, 1);
+    ck_assert_int_eq(m->element[m->blamed[1]].block, 0);
+}
+END_TEST
+
 /* A tub with a stone in it, which goes where the tub goes: both slide down a slope, or tip over. */
 START_TEST(of_blocks_that_go_together_the_one_that_parts_is_named)
 {
@@ -590,6 +609,7 @@ Suite *refused_suite(void)
     TCase *failing = new_case(s, "failing");
     tcase_set_timeout(failing, 10);         /* s: the disc takes half a second, 5 with sanitizers */
     tcase_add_loop_test(failing, of_blocks_that_go_together_the_one_that_parts_is_named, 0, 4);
+    tcase_add_test(failing, the_block_that_moves_is_named_first_wherever_the_corner_is);
     tcase_add_test(failing, a_block_that_lifts_off_in_statics_is_named);
     tcase_add_test(failing, statics_goes_on_where_all_contacts_of_a_block_slide);
     tcase_add_test(failing, contacts_of_statics_are_found_again_in_the_next_step);
