@@ -50,7 +50,7 @@ typedef struct {                /* joints.c: a joint of its own strength        
 typedef struct {                /* surroundings.c: on the edge that starts at the vertex a      */
     int    a;
     double f[2], pressure;      /* N/m      pressure: against the outward normal, turns with it */
-    double level, weight;       /* m, N/m^2 of water, which presses besides; 0: there is none   */
+    double level, density;      /* m, kg/m^2 of water, which presses besides; 0: there is none  */
     double q[BBM_GAUSS][2];     /* N/m      all of it at the Gauss points, of the step          */
 } bbm_edge_load;
 
@@ -213,7 +213,7 @@ void       bbm_joint_strength(const bbm_model *m, bbm_contact *c);
 
 /* surroundings.c; of a prepared model, the loads on a boundary edge in N/m */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
-bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight);
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density);
 void       bbm_gather_edge_loads(bbm_model *m);
 void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
 void       bbm_place_supports(bbm_model *m);

@@ -5,7 +5,7 @@
  * load belongs to one of the edges between them. The block lies on the left of an edge from a to b,
  * and a pressure p pushes that way, p (-(b - a)_y, (b - a)_x)/|b - a|, with the edge in the middle
  * of the step: its work is then p times the area that the edge sweeps. Still water up to the level
- * y = Y presses with its weight times Y - y, above the level with nothing.
+ * y = Y presses with density times gravity's size times Y - y, above the level with nothing.
  *
  * A fixed point is held to a wall point by a stiff spring and its multiplier: what these carry at
  * the end of the step is the force of the support, the reaction. In equilibrium the reactions
@@ -53,6 +53,7 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
     const bbm_element *e = &m->element[a->element];
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
     const bbm_edge_load *now = load;
+    const double weight = load->density * hypot(m->par.gravity[0], m->par.gravity[1]);
     double T[2][6], am[2], bm[2], c[2];
 
     bbm_step_point(e, a->x, a->y, T, am);
@@ -61,7 +62,7 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
     for (int g = 0; g < BBM_GAUSS; g++) {
         double s, share;
         bbm_gauss_point(g, &s, &share);
-        const double p = (load->pressure + load->weight * (c[0] + c[1] * s))
+        const double p = (load->pressure + weight * (c[0] + c[1] * s))
                          / hypot(b->x - a->x, b->y - a->y);
         load->q[g][0] = load->f[0] - p * (bm[1] - am[1]);
         load->q[g][1] = load->f[1] + p * (bm[0] - am[0]);
@@ -79,7 +80,7 @@ static bbm_status add(bbm_model *m, int edge, bbm_edge_load load)
         return m->status;
     if (!m->K || edge < 0 || edge >= m->edges)
         return m->status = bbm_fail(m, BBM_BAD_INDEX, "loaded edge %d of %d", edge, m->edges);
-    if (!isfinite(load.f[0] + load.f[1] + load.pressure + load.level * load.weight))
+    if (!isfinite(load.f[0] + load.f[1] + load.pressure + load.level * load.density))
         return m->status = bbm_fail(m, BBM_NOT_FINITE, "the load of edge %d", edge);
     load.a = m->edge[edge].a;
     add_load(m, &load, F);
@@ -93,10 +94,10 @@ bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pr
     return add(m, edge, (bbm_edge_load){ .f = { fx, fy }, .pressure = pressure });
 }
 
-/* Water up to the level; its weight is that of a m^3 times the thickness. */
-bbm_status bbm_add_water(bbm_model *m, int edge, double level, double weight)
+/* Water up to the level; its density is that of a m^3 times the thickness, kg/m^2. */
+bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
 {
-    return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .weight = weight });
+    return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .density = density });
 }
 
 /* Adds them to the loads of the step. */

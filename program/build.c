@@ -458,8 +458,8 @@ int model_load_nodes(model_reader *r)
     return m->status ? model_blame(r, "loads too large to add up, expected finite ones") : 1;
 }
 
-/* Pa; of water: weight in N/m^3, level in m. */
-typedef struct { double t[2], pressure, weight, level; } edge_load;
+/* Pa; of water: density in kg/m^3, level in m. */
+typedef struct { double t[2], pressure, density, level; } edge_load;
 
 /* Loads the boundary edges with both ends in WHERE. */
 static int load_edges(model_reader *r, const edge_load *l)
@@ -474,15 +474,15 @@ static int load_edges(model_reader *r, const edge_load *l)
             continue;
         found = 1;
         wet |= fmin(a->y, b->y) + m->origin[1] < l->level;
-        if (l->weight > 0)
-            bbm_add_water(m, e, l->level, l->weight * t);
+        if (l->density > 0)
+            bbm_add_water(m, e, l->level, l->density * t);
         else
             bbm_load_edge(m, e, l->t[0] * t, l->t[1] * t, l->pressure * t);
     }
     if (!found)
         return model_blame(r, "no boundary edge has both ends there, expected a set or a box with "
                            "both");
-    if (l->weight > 0 && !wet)
+    if (l->density > 0 && !wet)
         return model_blame(r, "no edge there lies below y = %g, expected one under water",
                            l->level);
     if (m->status == BBM_NO_MEMORY)
@@ -493,7 +493,7 @@ static int load_edges(model_reader *r, const edge_load *l)
 /* Of traction and pressure. */
 int model_edge_load(model_reader *r)
 {
-    edge_load l = { .weight = 0 };
+    edge_load l = { .density = 0 };
 
     return where(r, 0) && (strcmp(r->s->name, "pressure") == 0 ? model_number(r, &l.pressure)
                                                                : model_numbers(r, 2, l.t))
@@ -503,14 +503,12 @@ int model_edge_load(model_reader *r)
 int model_water(model_reader *r)
 {
     const double *g = r->p->m->par.gravity;
-    double density = 1000;
-    edge_load l = { .weight = 0 };
-    model_option o[] = { ABOVE_ZERO("density", &density) };
+    edge_load l = { .density = 1000 };
+    model_option o[] = { ABOVE_ZERO("density", &l.density) };
 
     if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, 0, LENGTH(o), o))
         return 0;
-    l.weight = density * hypot(g[0], g[1]);
-    if (!(l.weight > 0))
+    if (!(hypot(g[0], g[1]) > 0))
         return model_blame(r, "water without weight, expected gravity");
     return load_edges(r, &l);
 }
