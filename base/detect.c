@@ -436,9 +436,9 @@ static int face_each_other(const bbm_model *m, int c, int e)
 }
 
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
- * the shorter side do, and of equal sides those of the upper one: then no point comes or goes while
- * the shorter side slides on the longer one. In statics, where nothing slides far, those of the
- * finer side do: a coarse one would not feel it between its points. Deviation: with `faces` = 0
+ * the shorter side do: then no point comes or goes while it slides on the longer one. Of equal
+ * sides, and in statics, where nothing slides far, those of the finer side do: a coarse one would
+ * not feel it between its points. At a tie those of the upper one do. Deviation: with `faces` = 0
  * corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
@@ -448,10 +448,10 @@ int bbm_carries(const bbm_model *m, int c, int e)
     if (!m->par.faces || !face_each_other(m, c, e))
         return 0;
     const double ratio = mine->spacing / other->spacing;
-    if (bbm_is_static(m) && fabs(ratio - 1) > STRAIGHT)
+    const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
+    if ((alike || bbm_is_static(m)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
-    return fabs(mine->span - other->span) > STRAIGHT * other->span ? mine->span < other->span
-                                                                   : faces_up(q, p);
+    return alike ? faces_up(q, p) : mine->span < other->span;
 }
 
 /* Whether edge f of another block goes on in the line of edge e, where the corner is. */

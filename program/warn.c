@@ -15,6 +15,8 @@ enum { NAMED = 10 };            /* pieces of a block that a warning names       
 #define TAPER 0.5
 /* Of its size: an element that moves by less in a step is at rest but for rounding. */
 #define STILL 1e-10
+/* Grid points of the one side for one of the other. */
+#define COARSE 2.5
 
 #define warn(path, ...) \
     (fprintf(stderr, "%s: warning: ", path), fprintf(stderr, __VA_ARGS__), fputc('\n', stderr))
@@ -356,6 +358,26 @@ static void warn_of_shaking(const model *p, const char *path)
                    "not feel all of it", p->shakings, from, to, p->shake, dt, end);
 }
 
+/* A side of few grid points that touches a longer one of many: in dynamics the longer one has no
+ * contacts of its own. */
+static void warn_of_coarse_sides(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    const bbm_contact *c = m->contact, *end = c + m->contacts;
+
+    for (int coarse = 0; p->dynamic && c < end && !coarse; c++)
+        for (int k = 0; k < 2 && c->state != BBM_OPEN && !coarse; k++) {
+            const int e = k ? m->edge[c->corner].before : c->corner;
+            const double apart = m->edge[m->edge[e].side].spacing;
+            coarse = bbm_carries(m, e, c->edge)
+                  && apart > COARSE * m->edge[m->edge[c->edge].side].spacing;
+            if (coarse)
+                warn(path, "the finer block '%.60s' touches block '%.60s' at points %.3g m apart "
+                           "alone, and sags between them; a mesh as fine on both sides helps",
+                     p->block[m->edge[c->edge].block], p->block[m->edge[e].block], apart);
+        }
+}
+
 /* ------------------------------------------------------------------- before, in and after a run */
 
 void warn_before(const model *p, const char *path)
@@ -414,6 +436,7 @@ void warn_after(const model *p, const char *path)
     if (p->m->beyond->breach > BBM_BALANCED)
         warn(path, "contacts held up to %.1g of the forces on a block against their law: positions "
                    "have no more digits; a smaller kn helps", p->m->beyond->breach);
+    warn_of_coarse_sides(p, path);
     if (!p->dynamic && bbm_find_stability(p->m, &stable) == BBM_OK && !stable)
         warn(path, "in equilibrium, but not stable: a push, however small, moves it on and on");
     if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)

@@ -428,6 +428,8 @@ END_TEST
 #define PEBBLE ROCK "block base rock 0 -1 30 -1 30 0 0 0\nfixblock base\nblock b rock 20 0 20.01 0 20.01 0.01 20 0.01\n" \
     "gravity $(9.81*tan(30)) -9.81\ndynamic dt 0.01 steps 20\n"
 static const char slips[] = "warning: no friction between blocks: `contact friction DEGREES` gives it";
+#define PIER(n) ROCK "block pier rock 0 -1 1 -1 1 0 0 0\nfixblock pier\ngrid slab rock -1 0 2 1 $(3*" #n ") 1\n" \
+    "gravity 0 -9.81\ncontact friction 30\ndynamic dt 0.01 steps 1 settle 20\n"
 static const struct { const char *text, *said; } doubtful[] = {
     { FALLS, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds them" }, { FALLS "fix at 0 0\n", NULL },
     { FALLS "fixblock b\n", NULL }, { PAIR, slips }, { PAIR "contact kn 1e9\n", slips }, { PAIR "contact friction 0\n", NULL },
@@ -438,6 +440,9 @@ static const struct { const char *text, *said; } doubtful[] = {
     /* turns by P L^2/(2 E I): 0.05, 0.19 */
     { ROD "load set rod.right 0 1e6\n", NULL }, { ROD "load set rod.right 0 4e6\n", "elements turn by more than 0.1 rad, "
       "which statics takes as small: lengths are wrong; dynamic with velocity_factor 0 has them right" },
+    /* a pier of one side under four cells and under two */
+    { PIER(4), "the finer block 'slab' touches block 'pier' at points 1 m apart alone, and sags between them" },
+    { PIER(2), NULL },
     /* The step is short beside the swing of the beam, 0.1 s; and long. */
     { ROCK "grid a rock 0 0 10 1 10 1\nfix set a.left\ngravity 0 -9.81\ndynamic dt 0.001 steps 9 velocity_factor 0\n",
       "warning: the run is not at rest: element 5 of block 'a' moves by " },
