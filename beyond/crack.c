@@ -251,6 +251,38 @@ static int renew_pushes(bbm_model *m)
     return changes;
 }
 
+/* The first element of a part of a block that no support holds in statics; -1: there is none. body[]
+ * numbers the parts. */
+static int find_loose(const bbm_model *m, const int body[])
+{
+    for (int i = 0; i < m->elements && bbm_is_static(m); i++) {
+        int others = 0;
+        for (int j = 0; j < m->elements && body[i] == i; j++)
+            others |= m->element[j].block == m->element[i].block && body[j] != i;
+        if (others && !bbm_is_held(m, body, i))
+            return i;
+    }
+    return -1;
+}
+
+/* Whether a static step leaves pieces that supports do not hold, by themselves or through contacts.
+ * What a crack presses on is not held: it slides there without friction. */
+static int falls_apart(bbm_model *m)
+{
+    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
+    int *body = m->beyond->body;
+
+    bbm_find_pieces(m, body);
+    for (; c < end; c++)
+        if (c->state != BBM_OPEN)
+            body[bbm_root_of(body, c->element[0])] = bbm_root_of(body, c->element[1]);
+    for (int i = 0; i < m->elements; i++)
+        body[i] = bbm_root_of(body, i);
+    const int loose = find_loose(m, body);
+    bbm_find_pieces(m, body);
+    return loose >= 0;
+}
+
 /* All has settled: do all bonds hold, and push where they are closed? If not, once more. Steps from
  * rest, with which statics looks for an equilibrium, break nothing. */
 bbm_pass bbm_break_bonds(bbm_model *m)
@@ -267,7 +299,8 @@ bbm_pass bbm_break_bonds(bbm_model *m)
         for (int b = 0; b < m->bonds; b++)
             most = fmax(most, find_load(m, b));
         if (most == 1 || (isinf(m->par.dt) && !bbm_is_static(m)))
-            return BBM_PASS_DONE;
+            return y->breaks > 0 && bbm_is_static(m) && falls_apart(m) ? BBM_PASS_GIVE_UP
+                                                                       : BBM_PASS_DONE;
         for (int b = 0; b < m->bonds; b++)
             if (find_load(m, b) >= most * (1 - SAME))
                 damage(m, b);
@@ -409,21 +442,6 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
     return status;
 }
 
-/* The first element of a piece of a block that no support holds in statics; -1: there is none. */
-static int find_loose(const bbm_model *m)
-{
-    const int *body = m->beyond->body;
-
-    for (int i = 0; i < m->elements && bbm_is_static(m); i++) {
-        int others = 0;
-        for (int j = 0; j < m->elements && body[i] == i; j++)
-            others |= m->element[j].block == m->element[i].block && body[j] != i;
-        if (others && !bbm_is_held(m, body, i))
-            return i;
-    }
-    return -1;
-}
-
 /* A static step has found no equilibrium, and no support holds this piece. */
 static bbm_status say_loose(bbm_model *m, bbm_status s, int piece)
 {
@@ -447,13 +465,11 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
     if (!m->is_prepared || s == BBM_NO_MEMORY || s == BBM_STOPPED)
         return s;
     const int tried = bbm_find_pieces(m, y->body);
-    const int loose = breaks + y->broken > 0 ? find_loose(m) : -1;
+    const int loose = breaks > 0 ? find_loose(m, y->body) : -1;
     memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
-    const int parts = tried - bbm_find_pieces(m, y->body);
-    if (breaks <= BREAKS && (loose < 0 || parts == 0))
-        s = bbm_try_otherwise(m, s);
-    if (loose >= 0)
+    if (tried > bbm_find_pieces(m, y->body) && loose >= 0)
         return say_loose(m, s, loose);
+    s = breaks <= BREAKS ? bbm_try_otherwise(m, s) : s;
     const int told = bbm_is_static(m) && m->scratch->contacts > 0;      /* by statics.c */
     return s != BBM_OPEN_CLOSE || breaks == 0 || told ? s
          : bbm_fail(m, s, "step %d at t = %g, %d passes, %d contacts, and bonds broke in %d "
