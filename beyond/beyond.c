@@ -39,7 +39,7 @@ static bbm_status check(bbm_model *m)
     b->end_vertex = calloc((size_t)m->vertices, sizeof *b->end_vertex);
     b->support = calloc((size_t)m->nodes, sizeof *b->support);
     b->account = calloc(n, sizeof *b->account);
-    b->body = calloc(n, sizeof *b->body);
+    b->body = calloc(2 * n, sizeof *b->body);
     b->balance = calloc(n, sizeof *b->balance);
     const bbm_status cracks = bbm_lay_out_cracks(m);
     for (int i = 0; i < m->elements; i++)

@@ -97,8 +97,9 @@ struct bbm_beyond {
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     bbm_crack *crack, *kept;    /* [bonds]  crack.c: of the step in hand; of the last one       */
     double *best;               /* [nodes]  scratch; in a list 1: cracks end there              */
-    int breaks, parts, last;    /* passes of the step in hand in which bonds broke; they did in */
-                                /*          the last step; the last bond to do so               */
+    int breaks, parts, loose;   /* passes of the step in hand in which bonds broke; they did in */
+                                /*          the last step; an element of a piece that came off  */
+                                /*          in statics and no support holds, or -1              */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
     /* --- results, energy.c --- */
@@ -106,7 +107,8 @@ struct bbm_beyond {
     bbm_break *broke;           /* [broken] in the order of steps                               */
     double crack_energy;        /* J        that softening has taken                            */
     double work;                /* J        of loads and gravity, in all steps                  */
-    int *body;                  /* [elements] the first element of its body: what bonds join    */
+    int *body;                  /* [2 elements] the first element of its body, what bonds join; */
+                                /*          the second half is scratch                          */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
     double lack;                /* -        the most that a body has left, without inertia      */
     double breach;              /* -        the most against a law in all dynamic steps         */

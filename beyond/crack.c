@@ -225,7 +225,6 @@ static void damage(bbm_model *m, int b)
     do
         c->tooth = m->beyond->bond_energy > 0 ? c->tooth + 1 : BROKEN;
     while (softness(m, of, c->tooth) >= 2 * stiffness(m, of));
-    m->beyond->last = b;
 }
 
 /* Lets those ends of cracks push that are closed, and no others; whether there were others. One
@@ -251,6 +250,29 @@ static int renew_pushes(bbm_model *m)
     return changes;
 }
 
+/* The first element of a piece of a block that supports do not hold, by themselves or through
+ * contacts; -1: there is none. What a crack presses on is not held: it may slide. */
+static int find_loose(const bbm_model *m)
+{
+    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
+    int *body = m->beyond->body + m->elements;
+
+    bbm_find_pieces(m, body);
+    for (; c < end; c++)
+        if (c->state != BBM_OPEN)
+            body[bbm_root_of(body, c->element[0])] = bbm_root_of(body, c->element[1]);
+    for (int i = 0; i < m->elements; i++)
+        body[i] = bbm_root_of(body, i);
+    for (int i = 0; i < m->elements; i++) {
+        int others = 0;
+        for (int j = 0; j < m->elements && body[i] == i; j++)
+            others |= m->element[j].block == m->element[i].block && body[j] != i;
+        if (others && !bbm_is_held(m, body, i))
+            return i;
+    }
+    return -1;
+}
+
 /* All has settled: do all bonds hold, and push where they are closed? If not, once more. Steps from
  * rest, with which statics looks for an equilibrium, break nothing. */
 bbm_pass bbm_break_bonds(bbm_model *m)
@@ -273,6 +295,9 @@ bbm_pass bbm_break_bonds(bbm_model *m)
                 damage(m, b);
         m->scratch->passes = m->scratch->one_until = y->round = 0;
         y->breaks++;
+        y->loose = bbm_is_static(m) ? find_loose(m) : -1;
+        if (y->loose >= 0)
+            return BBM_PASS_GIVE_UP;
     }
     bbm_list_gaps(m);
     return y->breaks > BREAKS ? BBM_PASS_GIVE_UP : BBM_PASS_AGAIN;
@@ -358,6 +383,7 @@ bbm_status bbm_start_cracks(bbm_model *m)
 
     memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
     y->breaks = 0;
+    y->loose = -1;
     bbm_find_pieces(m, y->body);
     return y->parts ? part_bodies(m) : BBM_OK;
 }
@@ -409,56 +435,27 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
     return status;
 }
 
-/* The first element of a piece of a block that no support holds in statics; -1: there is none. */
-static int find_loose(const bbm_model *m)
-{
-    const int *body = m->beyond->body;
-
-    for (int i = 0; i < m->elements && bbm_is_static(m); i++) {
-        int others = 0;
-        for (int j = 0; j < m->elements && body[i] == i; j++)
-            others |= m->element[j].block == m->element[i].block && body[j] != i;
-        if (others && !bbm_is_held(m, body, i))
-            return i;
-    }
-    return -1;
-}
-
-/* A static step has found no equilibrium, and no support holds this piece. */
-static bbm_status say_loose(bbm_model *m, bbm_status s, int piece)
-{
-    const bbm_element *e = &m->element[piece];
-
-    if (s == BBM_NO_EQUILIBRIUM || (s != BBM_FREE_TO_MOVE && (s < BBM_NOT_POSITIVE_DEFINITE
-                                                              || s > BBM_OPEN_CLOSE)))
-        return s;
-    m->blamed[0] = piece;
-    return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, and no support holds "
-                    "its piece at (%g, %g); dynamics shows how its pieces fall", m->info.step + 1,
-                    e->block, e->x + m->origin[0], e->y + m->origin[1]);
-}
-
-/* A step has failed, because of bonds that broke in it or before, or for another reason. */
+/* A step has failed, because of bonds that broke in it, or for another reason. */
 bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
 {
     const bbm_beyond *y = m->beyond;
-    const int breaks = y->breaks;
+    const int breaks = y->breaks, loose = y->loose;
 
     if (!m->is_prepared || s == BBM_NO_MEMORY || s == BBM_STOPPED)
         return s;
-    const int tried = bbm_find_pieces(m, y->body);
-    const int loose = breaks + y->broken > 0 ? find_loose(m) : -1;
     memcpy(y->crack, y->kept, (size_t)m->bonds * sizeof *y->crack);
-    const int parts = tried - bbm_find_pieces(m, y->body);
-    if (breaks <= BREAKS && (loose < 0 || parts == 0))
-        s = bbm_try_otherwise(m, s);
-    if (loose >= 0)
-        return say_loose(m, s, loose);
+    if (loose >= 0) {
+        const bbm_element *e = &m->element[m->blamed[0] = loose];
+        return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, and no support "
+                        "holds its piece at (%g, %g); dynamics shows how its pieces fall",
+                        m->info.step + 1, e->block, e->x + m->origin[0], e->y + m->origin[1]);
+    }
+    s = breaks <= BREAKS ? bbm_try_otherwise(m, s) : s;
     const int told = bbm_is_static(m) && m->scratch->contacts > 0;      /* by statics.c */
     return s != BBM_OPEN_CLOSE || breaks == 0 || told ? s
          : bbm_fail(m, s, "step %d at t = %g, %d passes, %d contacts, and bonds broke in %d "
-                    "passes; a smaller dt or load helps", m->info.step + 1, m->info.t,
-                    m->info.passes, m->scratch->contacts, breaks);
+                    "passes; a smaller %s helps", m->info.step + 1, m->info.t, m->info.passes,
+                    m->scratch->contacts, breaks, bbm_is_static(m) ? "load" : "dt or load");
 }
 
 /* What breaking bonds are not for: hits that have no stress; corners that come off inside another
@@ -499,5 +496,6 @@ bbm_status bbm_lay_out_cracks(bbm_model *m)
     for (int b = 0; b < m->bonds && y->kept; b++)
         y->kept[b].bond = b;
     y->crack_energy = y->broken = y->caught = y->parts = 0;
+    y->loose = -1;
     return y->crack && y->best && y->broke ? status : BBM_NO_MEMORY;
 }

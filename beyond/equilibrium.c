@@ -24,15 +24,19 @@
 /* IN_MOTION [-]  what may be left in dynamics: a step makes no more of its energy, see energy.c
  * NO_FORCE [N]   in any unit: the solver has such a force in place of 0
  * ROUNDING [-]   of a displacement: some dozens of its last digit. What a spring makes of it may be
- *                left, too */
+ *                left, too
+ * UNLOADED [-]   of what its bonds can carry: in statics a piece that has broken off and bears less
+ *                bears nothing. The solver knows the forces from before the break to 1e-10 */
 #define IN_MOTION 1e-5
 #define NO_FORCE 1e-60
 #define ROUNDING (64 * DBL_EPSILON)
+#define UNLOADED 1e-9
 
 /* Centre and size of each body, the side of a square of its area. No forces. */
 static void begin_bodies(bbm_model *m)
 {
     bbm_balance *body = m->beyond->balance;
+    const double unloaded = bbm_is_static(m) ? UNLOADED * m->beyond->bond_tension : 0;
 
     for (int i = 0; i < m->elements; i++)
         body[i] = (bbm_balance){ 0 };
@@ -43,6 +47,7 @@ static void begin_bodies(bbm_model *m)
         b->x += (e->x - b->x) * e->A / b->area;
         b->y += (e->y - b->y) * e->A / b->area;
         b->size = sqrt(b->area);
+        b->rounding = unloaded * b->size * e->material.thickness;
     }
 }
 

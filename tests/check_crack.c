@@ -235,6 +235,43 @@ START_TEST(a_piece_that_no_support_holds_is_named)
 }
 END_TEST
 
+/* A square of 2 x 2 cells is held at the left and drawn apart by some of the elongation at which it
+ * breaks. Both halves stand where supports hold them, also by no force at all; a half that is held
+ * along x alone could go along y, whatever rounding makes of that. In m and Pa, and in mm and MPa.
+ */
+START_TEST(halves_stand_if_supports_hold_them)
+{
+    const struct { int triangles, slides; double energy, pull; } bar[] = {
+        { 0, 0, 100, 3 }, { 1, 0, 0, 1.05 }, { 0, 1, 0, 1.05 }, { 1, 1, 100, 20 },
+    };
+
+    for (int k = 0; k < 2 * COUNT(bar); k++) {
+        const double a = k % 2 ? 1000 : 1, T = 1e6 / (a * a), E = 1e4 * T;
+        grid g = { .lx = a, .ly = a, .nx = 2, .ny = 2, .triangles = bar[k / 2].triangles };
+        bbm_model *m = beyond_model();
+        bbm_add_material(m, &(bbm_material){ E, 0.2, 1, a }, NULL);
+        add_grid(m, &g, 0);
+        m->beyond->bonding = BBM_MOMENT;
+        m->beyond->multiplier_rounds = 2;
+        m->par.alpha = 100;
+        m->beyond->bond_tension = T;
+        m->beyond->bond_cohesion = 3 * T;
+        m->beyond->bond_friction = 35;
+        m->beyond->bond_energy = bar[k / 2].energy / a;
+        const int held = bar[k / 2].slides ? BBM_X : BBM_XY;
+        for (int j = 0; j <= g.ny; j++) {
+            bbm_fix_node(m, node_at(&g, 0, j), j > 0 ? held : BBM_XY, 0, 0);
+            bbm_fix_node(m, node_at(&g, 2, j), held, bar[k / 2].pull * a * T / E, 0);
+        }
+        ck_ok(bbm_prepare(m), m);
+        const bbm_status status = bbm_step(m);
+        ck_assert_msg(status == (bar[k / 2].slides ? BBM_NO_EQUILIBRIUM : BBM_OK), "%d: %s", k,
+                      bbm_message(m));
+        release(m);
+    }
+}
+END_TEST
+
 /* A bar lies on the middle of its top, and both ends are pressed down: it breaks from above. Held
  * corners stay: what is left of them is the spring of alpha, and nothing opens. */
 START_TEST(a_support_holds_both_sides_of_a_crack)
@@ -499,6 +536,7 @@ Suite *crack_suite(void)
              { a_bar_that_breaks_through_in_statics_says_so, 1 },
              { a_bar_that_broke_is_pressed_shut_and_pulled_again, 2 },
              { a_piece_that_no_support_holds_is_named, 1 },
+             { halves_stand_if_supports_hold_them, 1 },
              { a_support_holds_both_sides_of_a_crack, 2 },
              { more_passes_with_breaks_than_the_bound_are_said, 1 },
              { a_corner_that_softening_has_put_inside_is_no_fault_of_the_contacts, 1 });
