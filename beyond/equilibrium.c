@@ -25,8 +25,8 @@
  * NO_FORCE [N]   in any unit: the solver has such a force in place of 0
  * ROUNDING [-]   of a displacement: some dozens of its last digit. What a spring makes of it may be
  *                left, too
- * UNLOADED [-]   of what its bonds can carry: in statics a piece that has broken off and bears less
- *                bears nothing. The solver knows the forces from before the break to 1e-10 */
+ * UNLOADED [-]   of what its bonds can carry: a piece that has broken off and bears less bears
+ *                nothing. The solver knows the forces from before the break to 1e-10 */
 #define IN_MOTION 1e-5
 #define NO_FORCE 1e-60
 #define ROUNDING (64 * DBL_EPSILON)
@@ -36,7 +36,7 @@
 static void begin_bodies(bbm_model *m)
 {
     bbm_balance *body = m->beyond->balance;
-    const double unloaded = bbm_is_static(m) ? UNLOADED * m->beyond->bond_tension : 0;
+    const double unloaded = UNLOADED * m->beyond->bond_tension;
 
     for (int i = 0; i < m->elements; i++)
         body[i] = (bbm_balance){ 0 };
