@@ -2,7 +2,6 @@
  * reads cases/fem.csv and writes below out/. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -179,8 +178,7 @@ void case_row(case_results *r, const char *quantity, const double xy[2], double 
 {
     const double error = reference != 0 ? (computed - reference) / reference : computed;
 
-    fprintf(r->csv, strchr(quantity, ',') ? "\"%s\"," : "%s,", quantity);
-    fprintf(r->csv, isnan(xy[0]) ? ",," : "%.9g,%.9g,", xy[0], xy[1]);
+    fprintf(r->csv, isnan(xy[0]) ? "%s,,," : "%s,%.9g,%.9g,", quantity, xy[0], xy[1]);
     fprintf(r->csv, "%.15g,%.15g,%s,%.3e\n", computed, reference, kind, error);
 }
 

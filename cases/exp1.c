@@ -12,7 +12,6 @@
  * values of alpha, solved on two levels where there is beyond/. All else is the paper's way, by the
  * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/.
  * More of that is in exp1_beyond.c. */
-#include <math.h>
 
 #include "exp.h"
 #include "theory.h"

@@ -27,7 +27,6 @@
  * The block is first brought into equilibrium under its weight and the traction, in quasi-static
  * steps: displacements count from there, without the elastic shortening of about F L/(2 E A) =
  * 2e-6 m. Then it is let go from rest and moves 2 m in 2 s, with P over four edges of the plate. */
-#include <math.h>
 
 #include "case.h"
 

@@ -1,9 +1,5 @@
 /* build.c - the library's model of what the statements say, and the statements that need it:
  * where it is held and loaded, WHERE by its nodes. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -95,7 +91,7 @@ static void join_copies(const model_reader *r, int up[], bbm_box box[])
         bbm_sort_boxes(n, box);
     for (int i = 0, j = 0; bbm_next_meeting(n, box, &i, &j);) {
         const int p = r->copy[box[i].of].block, q = r->copy[box[j].of].block;
-        if (p != q && r->block[p].body == r->block[q].body)
+        if (p != q && r->p->body[p] == r->p->body[q])
             up[bbm_root_of(up, box[i].of)] = bbm_root_of(up, box[j].of);
     }
 }
@@ -144,7 +140,8 @@ static int add_element(model_reader *r, const model_element *e)
                           "%.60s", of->name, of->name);
     for (int k = 0; k < e->n; k++)
         corner[k] = r->copy[find_copy(r, e->block, corner[k])].node;
-    const bbm_status status = bbm_add_element(r->p->m, of->body, material, e->n, corner, &index);
+    const bbm_status status = bbm_add_element(r->p->m, r->p->body[e->block], material,
+                                              e->n, corner, &index);
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     for (int k = 0; status && k < e->n; k++) {
@@ -199,19 +196,31 @@ static int name_blocks(model_reader *r)
     return 1;
 }
 
+/* The first one of the blocks that bonds join is the root of their forest. */
+static int find_bodies(model_reader *r)
+{
+    int *body = r->p->body = model_keep(r, r->blocks, sizeof *body);
+
+    for (int b = 0; b < r->blocks && body; b++)
+        body[b] = b;
+    for (const model_bond *b = r->bond; b < r->bond + r->bonds && body; b++) {
+        const int i = bbm_root_of(body, b->block[0]), j = bbm_root_of(body, b->block[1]);
+        body[i > j ? i : j] = i > j ? j : i;
+    }
+    for (int b = 0; b < r->blocks && body; b++)
+        body[b] = bbm_root_of(body, b);
+    return body != NULL;
+}
+
 int model_build(model_reader *r)
 {
     model *p = r->p;
 
     if (r->elements == 0)
-        return model_fail(r, (model_place){ .file = r->path },
-                          "the model has no element, expected: block ..., grid ..., mesh FILE or "
-                          "element ...");
+        return model_fail(r, r->whole, "the model has no element, expected: block ..., grid ..., "
+                          "mesh FILE or element ...");
     p->gone = model_keep(r, r->blocks, sizeof *p->gone);
-    p->body = model_keep(r, r->blocks, sizeof *p->body);
-    for (int b = 0; b < r->blocks && p->body; b++)
-        p->body[b] = r->block[b].body = r->block[r->block[b].body].body;
-    if (!p->gone || !p->body || !copy_nodes(r) || !add_nodes(r))
+    if (!p->gone || !find_bodies(r) || !copy_nodes(r) || !add_nodes(r))
         return 0;
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
@@ -765,7 +774,7 @@ static int blame_free(model_reader *r)
         }
     if (model_touches_itself(r->p, touch))
         snprintf(near, sizeof near, "; %.290s", touch);
-    return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, "
+    return model_fail(r, r->whole, "block '%.60s' is free to move, "
                       "expected fix, fixblock or a contact that holds it in statics%s",
                       r->p->block[m->element[loose].block], near);
 }

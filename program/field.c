@@ -1,5 +1,4 @@
 /* field.c - the quantities that tables and pictures show. */
-#include <math.h>
 #include <string.h>
 
 #include "field.h"
@@ -106,8 +105,8 @@ static void fit_stress(const bbm_model *m, int node, int block, double s[3])
         s[k] = G[0][3 + k] / G[0][0];
 }
 
-/* All that field_of_node knows; with `fits` the plane fit, else the stress in its place. */
-static void list_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS])
+/* Of all blocks there is no plane fit; the stress stands in its place. */
+void field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS])
 {
     const int first = m->adjacent_first[node], end = m->adjacent_first[node + 1];
     double motion[4] = { 0 };
@@ -121,21 +120,16 @@ static void list_node(const bbm_model *m, int node, int block, int fits, double 
             motion[1 + k] += e->V[k] / (end - first);
     }
     double fit[3] = { r.stress[0], r.stress[1], r.stress[2] };
-    if (fits && block >= 0)
+    if (block >= 0)
         fit_stress(m, node, block, fit);
     list_values(&r, motion, fit, all);
-}
-
-void field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS])
-{
-    list_node(m, node, block, 1, all);
 }
 
 double field_of_node(const field *f, const bbm_model *m, int node, int block)
 {
     double all[FIELD_ROWS];
 
-    list_node(m, node, block, f->files == FIELD_NODES, all);
+    field_all_of_node(m, node, block, all);
     return all[f - field_table];
 }
 

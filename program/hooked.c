@@ -1,9 +1,6 @@
 /* hooked.c - statements that take part in the library's step by its hooks. The library knows its
  * own part of bbm_beyond; what is behind it belongs to the hooks, which find it there.
  */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 

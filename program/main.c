@@ -7,15 +7,10 @@
  * files. Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
 #define _POSIX_C_SOURCE 200809L
 #define _DEFAULT_SOURCE                 /* else glibc takes a handler away when it is called */
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "run.h"
-#include "warn.h"
 #include "write.h"
 
 /* The signal that came. Signals have no other way to say something: this variable, and it alone,
@@ -176,7 +171,6 @@ static void describe_stage(const model *p, int k, int from)
 static void summarise(const model *p, const char *folder)
 {
     const bbm_model *m = p->m;
-    const field *mises = field_find("mises");
     double far = 0, most = 0;
     int v_far = 0, e_most = 0;
     bbm_energy e;
@@ -185,8 +179,8 @@ static void summarise(const model *p, const char *folder)
         if (hypot(m->vertex[v].u, m->vertex[v].v) > far && !field_is_gone(m, v))
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int k = 0; k < m->elements; k++)
-        if (field_of_element(mises, m, k) > most)
-            most = field_of_element(mises, m, k), e_most = k;
+        if (bbm_mises(m->element[k].stress, m->element[k].szz) > most)
+            most = bbm_mises(m->element[k].stress, m->element[k].szz), e_most = k;
     printf("%d step%s, ", m->info.step, plural(m->info.step));
     if (p->dynamic)
         printf("t = %g s, ", m->info.t);

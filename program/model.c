@@ -1,8 +1,4 @@
 /* model.c - what a run asks of a model that was read from a file. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "model.h"
 
@@ -64,7 +60,7 @@ const model_followed
                       { "fx expected", "fy expected" }, 2 },
     model_pull = { "force", "N", "force", { "force" }, { "expected" }, 1 };
 
-int model_fits(const int block[2], int i, int j)
+static int fits(const int block[2], int i, int j)
 {
     return (block[0] < 0 || block[0] == i) && (block[1] < 0 || block[1] == j);
 }
@@ -89,7 +85,7 @@ void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED])
     for (int k = 0; k < b->contacts && m->of == &model_force; k++) {
         const bbm_contact *c = &b->contact[k];
         const int i = b->edge[c->corner].block, j = b->edge[c->edge].block,
-                  sign = model_fits(m->block, i, j) - model_fits(m->block, j, i);
+                  sign = fits(m->block, i, j) - fits(m->block, j, i);
         int here = m->nodes == 0;
         for (int n = 0; n < m->nodes; n++)
             here |= m->node[n] == bbm_start_of(b, c->corner)->node;

@@ -15,9 +15,6 @@
  * with memory. */
 #include <ctype.h>
 #include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -34,7 +31,7 @@ typedef struct {
     model_place at;                     /* the last word */
     int line;                           /* of what is left of the file */
     char *text, *end;
-    char section[40];
+    const char *section;
     int version;                        /* 2 or 41; 0: not known yet */
     int by_surface;                     /* whether each surface is a block */
     const char *in_group, *in_none;     /* an element in a physical surface, and in none */
@@ -390,8 +387,7 @@ static void read_format(mesh *m)
 
 static int is_end(const mesh *m, const char *word)
 {
-    return strncmp(word, "$End", 4) == 0
-           && strncmp(word + 4, m->section, sizeof m->section - 1) == 0;
+    return strncmp(word, "$End", 4) == 0 && strcmp(word + 4, m->section) == 0;
 }
 
 /* One that is not known is passed over. */
@@ -438,8 +434,7 @@ int model_read_mesh(model_reader *r, const char *path, int by_surface)
         return 0;
     m.end = m.text + size;
     for (const char *word; !r->p->status && *(word = look_word(&m)); ) {
-        m.section[0] = '\0';
-        strncat(m.section, word + 1, sizeof m.section - 1);
+        m.section = word + 1;
         if (word[0] != '$')
             model_fail(r, m.at, "'%.60s', expected a section like $Nodes; of another format "
                        "makes one: meshio convert -a -o gmsh22 %.200s NEW.msh", word, file_of(&m));

@@ -20,10 +20,6 @@
  * The `let`s outside of `repeat` are read first, so that statements above them may use them. */
 #include <ctype.h>
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -36,6 +32,15 @@ enum {
 
 /* ---------------------------------------------------------------------------------------- names */
 
+/* A number of the round; or NULL. */
+static model_local *find_local(const model_reader *r, const char *name)
+{
+    for (int k = 0; k < r->locals; k++)
+        if (strcmp(r->local[k].name, name) == 0)
+            return &r->local[k];
+    return NULL;
+}
+
 /* The value, of the round or of the file, of the longest name that the text begins with and that
  * ends where its letters end, and its length; NULL: there is none. */
 static const char *find_value(const model_reader *r, const char *text, size_t *n)
@@ -47,12 +52,10 @@ static const char *find_value(const model_reader *r, const char *text, size_t *n
         if (isalnum((unsigned char)text[*n]) || text[*n] == '_')
             continue;
         snprintf(name, sizeof name, "%.*s", (int)*n, text);
-        for (int k = r->locals; k-- > 0; )
-            if (strcmp(r->local[k].name, name) == 0)
-                return r->local[k].value;
+        const model_local *own = find_local(r, name);
         const int at = model_find(&r->let_of, name);
-        if (at >= 0)
-            return r->word[at].text;
+        if (own || at >= 0)
+            return own ? own->value : r->word[at].text;
     }
     const char *number = text[letters] == '$' ? find_value(r, text + letters + 1, n) : NULL;
     if (!number || letters == 0)
@@ -299,15 +302,9 @@ static int add_statement(model_reader *r, const model_statement *source)
 static int is(const model_statement *s, const char *word) { return strcmp(s->name, word) == 0; }
 static int opens(const model_statement *s) { return is(s, "repeat") || is(s, "stage"); }
 
-static const char *new_number(model_reader *r)
+static int blame_twice(model_reader *r, const char *word)
 {
-    const char *word = model_new_name(r, &r->let_of);
-
-    for (int k = 0; k < r->locals && word; k++)
-        if (strcmp(r->local[k].name, word) == 0)
-            return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
-                               word), NULL;
-    return word;
+    return model_blame(r, "'%.60s' for the second time in one round, expected a new name", word);
 }
 
 /* In a round: changes the number of that name outside, or keeps one with a number in its name, or
@@ -316,13 +313,12 @@ static int set_number(model_reader *r, const char *word, int at)
 {
     const int old = model_find(&r->let_of, word);
     const model_local l = { word, r->word[at].text, 0 };
+    model_local *own = find_local(r, word);
 
-    for (int k = 0; k < r->locals; k++)
-        if (strcmp(r->local[k].name, word) == 0 && (r->local[k].counts || k >= r->own))
-            return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
-                               word);
-        else if (strcmp(r->local[k].name, word) == 0)
-            return r->local[k].value = l.value, 1;
+    if (own && (own->counts || own - r->local >= r->own))
+        return blame_twice(r, word);
+    if (own)
+        return own->value = l.value, 1;
     if (old >= 0)
         return r->word[old].text = r->word[at].text, 1;
     return strchr(r->word[at - 1].source, '$') ? model_enter(r, &r->let_of, word, at)
@@ -332,7 +328,7 @@ static int set_number(model_reader *r, const char *word, int at)
 /* The number is the word behind the name, or that of the command line in its place. */
 static int read_let(model_reader *r)
 {
-    const char *word = r->round ? model_name(r) : new_number(r);
+    const char *word = r->round ? model_name(r) : model_new_name(r, &r->let_of);
     const size_t n = word ? strlen(word) : 0;
     const int at = r->s->first + r->next;
     double x;
@@ -373,7 +369,9 @@ static int repeat(model_reader *r, int from, int end)
 
     if (!add_statement(r, &r->cut[from]))
         return 0;
-    const char *word = new_number(r);
+    const char *word = model_new_name(r, &r->let_of);
+    if (word && find_local(r, word))
+        return blame_twice(r, word);
     if (!word || !model_whole(r, "FROM", -INT_MAX / 2, &low)
         || !model_whole(r, "TO", -INT_MAX / 2, &high) || !model_at_end(r))
         return 0;
@@ -442,9 +440,8 @@ static int check_given(model_reader *r)
         char word[NAME_ROOM];
         snprintf(word, sizeof word, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
         if (!strchr(r->let[k], '=') || model_find(&r->let_of, word) < 0)
-            return model_fail(r, (model_place){ .file = r->path },
-                              "'%.60s' of -d or --find, expected NAME=VALUE with a name of a "
-                              "`let`%s%s", r->let[k],
+            return model_fail(r, r->whole, "'%.60s' of -d or --find, expected NAME=VALUE with a "
+                              "name of a `let`%s%s", r->let[k],
                               r->let_of.count ? ", such as " : "; the model has none",
                               model_nearest_of(r, &r->let_of, word));
     }

@@ -28,10 +28,8 @@ int output_open(output *o, const char *path)
     struct stat old;
 
     *o = (output){ 0 };
-    if ((size_t)snprintf(o->path, sizeof o->path, "%s", path) >= sizeof o->path) {
-        errno = ENAMETOOLONG;
-        return 0;
-    }
+    if ((size_t)snprintf(o->path, sizeof o->path, "%s", path) >= sizeof o->path)
+        return errno = ENAMETOOLONG, 0;
     o->direct = stat(path, &old) == 0 && !S_ISREG(old.st_mode);
     if (o->direct && S_ISFIFO(old.st_mode))
         return errno = ENOTSUP, 0;                          /* nobody may ever read it */
@@ -130,9 +128,7 @@ FILE *output_lock(const char *path)
 
 void output_unlock(FILE *f, const char *path)
 {
-#ifndef _WIN32
-    remove(path);               /* while it is ours */
-#endif
+    remove(path);               /* while it is ours; on Windows it is open and stays */
     fclose(f);
 #ifdef _WIN32
     remove(path);

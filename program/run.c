@@ -1,7 +1,4 @@
 /* run.c - a run of a model file, step by step, and what came out of it. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "run.h"
 

@@ -24,7 +24,6 @@
 #include "scene.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

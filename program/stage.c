@@ -9,8 +9,6 @@
  * 0. The energy that it had, and that of its contacts, leaves the balance.
  */
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 #include "reader.h"
 

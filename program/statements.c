@@ -14,10 +14,6 @@
  *     EXPECTED         expect                     needs monitors
  *
  * The statements of a stage follow, stage by stage, on the finished model: stage.c. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "cell.h"
 #include "reader.h"
@@ -49,12 +45,12 @@ static int read_node(model_reader *r)
 /* The path of a file that the next word names, beside the model file; or NULL. */
 static const char *next_path(model_reader *r)
 {
-    const char *word = model_word(r), *slash = strrchr(r->path, '/');
+    const char *word = model_word(r), *slash = strrchr(r->whole.file, '/');
 
     if (!word)
         return NULL;
-    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->path) : 0;
-    return model_print(r, "%.*s%s", folder, r->path, word);
+    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->whole.file) : 0;
+    return model_print(r, "%.*s%s", folder, r->whole.file, word);
 }
 
 static int read_mesh(model_reader *r)
@@ -119,10 +115,9 @@ static int read_contact(model_reader *r)
 
     if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, p->friction))
         return 0;
-    if (r->s->stage && (o[0].seen || o[1].seen || o[2].seen || o[3].seen))
-        return model_blame(r, "kn, ks, restitution or round in a stage, expected friction, "
-                              "cohesion or tension");
-    return 1;
+    return !r->s->stage || !(o[0].seen || o[1].seen || o[2].seen || o[3].seen)
+           || model_blame(r, "kn, ks, restitution or round in a stage, expected friction, cohesion "
+                          "or tension");
 }
 
 static int read_static(model_reader *r)
@@ -148,12 +143,11 @@ static int read_dynamic(model_reader *r)
 
     p->velocity_factor = 1;
     r->p->dynamic = 1;
-    if (!model_options(r, 2, LENGTH(o), o))
-        return 0;
-    if (o[2].seen && o[3].seen)
-        return model_blame(r, "velocity_factor and damping, which are the same, expected one");
+    const int good = model_options(r, 2, LENGTH(o), o);
     r->p->ramp = o[5].seen ? r->p->ramp : p->dt * p->steps;
-    return 1;
+    return good && (!o[2].seen || !o[3].seen
+                    || model_blame(r, "velocity_factor and damping, which are the same, expected "
+                                   "one"));
 }
 
 /* Two blocks become one body; or the options of all bonds. */
@@ -176,12 +170,6 @@ static int read_bond(model_reader *r)
                 return 0;
         if (two.block[0] == two.block[1])
             return model_blame(r, "bond of a block with itself, expected two blocks");
-        int body[2] = { two.block[0], two.block[1] };   /* a forest: the first block is the root */
-        for (int k = 0; k < 2; k++)
-            while (r->block[body[k]].body != body[k])
-                body[k] = r->block[body[k]].body = r->block[r->block[body[k]].body].body;
-        const int last = body[1] > body[0];
-        r->block[body[last]].body = body[!last];
         return model_add(r, &r->bond, &r->bonds, sizeof two, &two);
     }
     if (r->bonding++)
@@ -413,12 +401,9 @@ static int read_fixblock(model_reader *r)
 {
     const int block = model_known(r, &r->block_of);
 
-    if (block < 0)
-        return 0;
-    if (r->block[block].fixed)
-        return model_blame(r, "block '%.60s' is fixed for the second time, expected once",
-                           r->block[block].name);
-    return r->block[block].fixed = 1;
+    return block >= 0 && (r->block[block].fixed++ == 0
+                          || model_blame(r, "block '%.60s' is fixed for the second time, expected "
+                                         "once", r->block[block].name));
 }
 
 /* ------------------------------------------------------------------------- what should come out */
@@ -466,8 +451,7 @@ static const struct kind {
     { "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material, ALONE, 0 },
     { "plane stress|strain", read_plane, ALONE, ONCE },
     { "gravity GX GY", read_gravity, ALONE, ONCE | STAGED },
-    { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NODES,
-      ONCE | DYNAMIC },
+    { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NODES, ONCE | DYNAMIC },
     { "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
       "[restitution E] [round LENGTH]", read_contact, ALONE, ONCE | STAGED },
     { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
@@ -478,8 +462,7 @@ static const struct kind {
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
     { "output [every N] [vtk] [balance] [svg] [film] [field NAME] [scale N] [low VALUE] "
-      "[high VALUE]",
-      read_output, NODES, ONCE },
+      "[high VALUE]", read_output, NODES, ONCE },
     { "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
     { "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE, 0 },
@@ -557,23 +540,6 @@ static int begin_statement(model_reader *r, const char *word, const char *next, 
     return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
 }
 
-/* Where each kind stands for the last time; some stand once. */
-static int note_places(model_reader *r)
-{
-    for (int i = 0; i < r->statements; i++) {
-        const model_statement *s = &r->statement[i];
-        if (s->stage && !(kinds[s->kind].may & STAGED))
-            return model_fail(r, s->at, "%s in a stage, expected load, traction, pressure, fix, "
-                              "contact or gravity", s->name);
-        if (!s->stage && kinds[s->kind].may & ONCE && r->seen[s->kind].line > 0)
-            return model_fail(r, s->at, "%s for the second time, after line %d, expected it once",
-                              s->name, r->seen[s->kind].line);
-        if (!s->stage)
-            r->seen[s->kind] = s->at;
-    }
-    return 1;
-}
-
 /* The end of a word: a blank that is not between the parentheses of $(...). */
 static char *find_word_end(char *word, const char *blanks)
 {
@@ -612,7 +578,7 @@ static int cut_line(model_reader *r, char *line, model_place at)
 static int cut_file(model_reader *r, char *text, size_t size)
 {
     char *end = text + size;
-    model_place at = { r->path, 1, NULL };
+    model_place at = { r->whole.file, 1, NULL };
 
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)     /* UTF-8's mark of some editors */
         text += 3;
@@ -647,20 +613,31 @@ static int read_phase(model_reader *r, int phase, int stage, int from)
     return !r->p->status;
 }
 
-/* One of static and dynamic; line 0: it stands nowhere. */
-static int check_kind(model_reader *r)
+/* Some kinds stand in a stage, some once, and one of static and dynamic. */
+static int check_places(model_reader *r)
 {
-    const model_place *s = &r->seen[find_kind("static")], *d = &r->seen[find_kind("dynamic")];
+    model_place seen[LENGTH(kinds)] = { { 0 } };        /* the last of a kind; line 0: nowhere */
+    const model_place *s = &seen[find_kind("static")], *d = &seen[find_kind("dynamic")];
 
+    for (const model_statement *i = r->statement; i < r->statement + r->statements; i++) {
+        const int may = kinds[i->kind].may;
+        if (i->stage && !(may & STAGED))
+            return model_fail(r, i->at, "%s in a stage, expected load, traction, pressure, fix, "
+                              "contact or gravity", i->name);
+        if (i->stage)
+            continue;
+        if (may & ONCE && seen[i->kind].line > 0)
+            return model_fail(r, i->at, "%s for the second time, after line %d, expected it once",
+                              i->name, seen[i->kind].line);
+        seen[i->kind] = i->at;
+    }
     if (s->line && d->line)
         return model_fail(r, s->line > d->line ? *s : *d,
                           "static and dynamic, expected one of them");
-    if (!s->line && !d->line)
-        return model_fail(r, (model_place){ .file = r->path },
-                          "%sneither static nor dynamic, expected one of them, such as: static, "
-                          "or: dynamic dt 1e-3 steps 1000",
-                          r->statements ? "" : "the file has no statement, ");
-    return 1;
+    return s->line || d->line
+           || model_fail(r, r->whole, "%sneither static nor dynamic, expected one of them, such "
+                         "as: static, or: dynamic dt 1e-3 steps 1000",
+                         r->statements ? "" : "the file has no statement, ");
 }
 
 /* Each stage begins with what the one before it has, and is kept until the run comes to it. */
@@ -668,9 +645,9 @@ static int read_all(model_reader *r)
 {
     model *p = r->p;
     size_t size;
-    char *text = model_load(r, r->path, &size);
+    char *text = model_load(r, r->whole.file, &size);
 
-    if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
+    if (!text || !cut_file(r, text, size) || !model_expand(r) || !check_places(r))
         return 0;
     p->stage = model_keep(r, p->stages, sizeof *p->stage);
     for (int stage = 0, from = 0; stage <= p->stages && !p->status; stage++) {
@@ -693,9 +670,8 @@ static int read_all(model_reader *r)
 
 int model_read(const char *path, int lets, char *const let[], model *p)
 {
-    model_place seen[LENGTH(kinds)] = { { 0 } };
     model_reader r = {
-        .p = p, .path = path, .lets = lets, .let = let, .seen = seen,
+        .p = p, .whole = { path, 0, NULL }, .lets = lets, .let = let,
         .any = { .name = "*", .material = -1, .meshed = 1 }, .node_of.what = "node",
         .element_of.what = "element", .block_of.what = "block", .material_of.what = "material",
         .set_of.what = "set", .monitor_of.what = "monitor", .let_of.what = "let",

@@ -1,9 +1,6 @@
 /* warn.c - what is allowed and hardly meant: each is a line on stderr, and the run goes on. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "warn.h"
+#include "run.h"
 
 enum { NAMED = 10 };            /* pieces of a block that a warning names                       */
 

@@ -4,9 +4,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "plot.h"
@@ -516,10 +513,12 @@ void write_matrix(write_results *w)
 
 /* -------------------------------------------------------------------------------------- the run */
 
-static int has_form(const char *name, const char *form)
+static int has_form(const char *name, const char *stem, const char *ending)
 {
+    char form[100];
     int n = 0;
 
+    snprintf(form, sizeof form, "%s%s%%n", stem, ending);
     sscanf(name, form, &n);
     return n > 0 && (!name[n] || output_is_temporary(name + n));
 }
@@ -528,20 +527,17 @@ static int has_form(const char *name, const char *form)
 static int is_ours(const char *name)
 {
     static const char *const form[] = {
-        "nodes.csv%n", "elements.csv%n", "history.csv%n", "summary.csv%n", "timing.csv%n",
-        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "cracks.csv%n", "balance.csv%n",
-        "contacts.svg%n", "movie.svg%n", "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n",
-        "contacts_%*[0-9].vtk%n", "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
+        "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
+        "reactions.csv", "bolts.csv", "cracks.csv", "balance.csv", "contacts.svg", "movie.svg",
+        "model.svg", "history.svg", "step_%*[0-9].vtk", "contacts_%*[0-9].vtk",
+        "nodes_%*[0-9].csv", "reactions_%*[0-9].csv",
     };
-    char picture[LONGEST];
     int ours = 0;
 
     for (int k = 0; k < LENGTH(form); k++)
-        ours |= has_form(name, form[k]);
-    for (const field *q = field_table; q->name; q++) {
-        snprintf(picture, sizeof picture, "%s.svg%%n", q->name);
-        ours |= has_form(name, picture);
-    }
+        ours |= has_form(name, form[k], "");
+    for (const field *q = field_table; q->name; q++)
+        ours |= has_form(name, q->name, ".svg");
     return ours;
 }
 
