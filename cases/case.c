@@ -207,7 +207,7 @@ static void compare_all(case_results *r, const case_experiment *p, const bbm_mod
 static bbm_model *solve_run(case_results *r, const case_experiment *p, const case_run *run,
                             case_reference *ref)
 {
-    bbm_model *m = run->beyond ? case_beyond_model(2) : case_paper_model();
+    bbm_model *m = run->beyond ? case_beyond_model(2, 1) : case_paper_model();
 
     case_read(p->name, run->variant, ref);
     if (!m)
@@ -271,7 +271,7 @@ static void print_convergence(const case_experiment *e)
            "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
            "|---|---|---|---|---|", e->errors);
     for (int k = 0; k < 3 * 4; k++) {                /* three meshes, each with four alphas */
-        bbm_model *m = case_beyond_model(0);
+        bbm_model *m = case_beyond_model(0, 1);
         if (!m)
             m = case_paper_model();
         e->solve(m, e->run[1].variant, CELL_CROSSED, k / 4 + 1, alpha[k % 4]);

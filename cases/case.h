@@ -37,9 +37,9 @@ void   case_must(const bbm_model *m, bbm_status s);
 /* A new model of the core alone: the paper's way. What the experiments print or draw is computed by
  * it, but for what has `beyond/` in its row or heading. */
 bbm_model *case_paper_model(void);
-/* beyond.c: a new model with all of beyond/, and so many rounds of multipliers. NULL from paper.c,
- * which `make paper` has in its place. */
-bbm_model *case_beyond_model(int rounds);
+/* beyond.c: a new model with all of beyond/, so many rounds of multipliers, and bonds with moments
+ * or at vertices. NULL from paper.c, which `make paper` has in its place. */
+bbm_model *case_beyond_model(int rounds, int moments);
 
 /* Returns its first element; of quadrilaterals, (i, j) is j nx + i further. What is added is there,
  * or the program has ended. */

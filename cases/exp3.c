@@ -105,7 +105,7 @@ static int run(slide *s, const variant *v)
 {
     double start[4], now[4];
 
-    s->m = v->beyond ? case_beyond_model(0) : case_paper_model();
+    s->m = v->beyond ? case_beyond_model(0, 1) : case_paper_model();
     if (!s->m)
         return 0;
     build(s->m, v, &s->first);
