@@ -133,14 +133,12 @@ void case_read(const char *problem, const char *variant, case_reference *r)
     fclose(f);
 }
 
-const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
-                                   double y)
+const struct case_value *case_find(const case_reference *r, const char *name, double x, double y)
 {
-    for (int i = 0; i < r->values; i++)
-        if (strcmp(r->value[i].quantity, quantity) == 0
-            && hypot(r->value[i].x - x, r->value[i].y - y) < 1e-6)
-            return &r->value[i];
-    stop(quantity, "no such reference value in cases/fem.csv");
+    for (const struct case_value *v = r->value; v < r->value + r->values; v++)
+        if (strcmp(v->quantity, name) == 0 && hypot(v->x - x, v->y - y) < 1e-6)
+            return v;
+    stop(name, "no such reference value in cases/fem.csv");
     return NULL;
 }
 

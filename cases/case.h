@@ -52,8 +52,7 @@ double case_percent(double computed, double reference);
 
 /* The values of a variant, in the order of the file. */
 void   case_read(const char *problem, const char *variant, case_reference *r);
-const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
-                                   double y);
+const struct case_value *case_find(const case_reference *r, const char *name, double x, double y);
 typedef struct {                    /* a solution of an experiment, alpha = 1000                */
     const char *variant;
     int beyond;                     /* with beyond/: quadrilaterals, as many as the triangles   */

@@ -89,9 +89,8 @@ static void solve(bbm_model *m, const char *variant, int cut, int k, double alph
 /* Plain DDA: the beam is one block of six unknowns. */
 static bbm_model *solve_dda(double alpha)
 {
-    static const double corner[6][2] = {
-        { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 }, { 0, 0 },
-    };
+    static const double corner[6][2] = { { 0, -6 }, { 48, -6 }, { 48, 0 }, { 48, 6 }, { 0, 6 },
+                                         { 0, 0 } };
     bbm_model *m = case_paper_model();
 
     bbm_add_material(m, &(bbm_material){ E, nu, 1, 1 }, NULL);
@@ -159,9 +158,8 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
 }
 
 /* For each way to load and to hold the beam. */
-static const case_place moved[] = {
-    { "u", 24, 6 }, { "v", 24, 6 }, { "v", 36, 0 }, { "u", 48, 6 }, { "v", 48, 6 },
-};
+static const case_place moved[] = { { "u", 24, 6 }, { "v", 24, 6 }, { "v", 36, 0 },
+                                    { "u", 48, 6 }, { "v", 48, 6 } };
 static const case_place bent[] = { { "mises", 12, 6 }, { "mises", 24, 6 } };
 static const case_table table[] = {
     { "Table 3", "displacements [mm]", 1e3, LENGTH(moved), moved },
@@ -180,14 +178,13 @@ static const case_map map[] = {
     { "fig12.svg", { .title = "Fig. 12: displacement v, load a", .field = "v", .scale = -1 } },
     { "fig13.svg", { .title = "Fig. 13: von Mises stress, load a",
                      .field = "mises", .scale = -1 } },
-    { "deformed.svg", { .title = "Deformed beam, von Mises stress",
-                        .field = "mises", .scale = 0 } },
+    { "deformed.svg", { .title = "Deformed beam, von Mises stress", .field = "mises" } },
 };
 
 /* ---------------------------------------------------------------------------- beyond the paper */
 
-/* Bonds that multipliers hold, and quadrilaterals that bend; errors are against the converged finite
- * element: here of the deflection of the axis in x, in percent. */
+/* Bonds that multipliers hold, and quadrilaterals that bend. The error of the deflection of the axis
+ * in x, in percent, against the converged finite element. */
 static double deflection_error(const bbm_model *m, const case_reference *b, double x)
 {
     return case_percent(case_at(m, "v", x, 0), case_find(b, "v", x, 0)->converged);

@@ -19,9 +19,8 @@
 
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
 
-static const case_run run[] = {
-    { "b5", 0, ", plate b5" }, { "k5", 0, "" }, { "k5", 1, ", with beyond/" },
-};
+static const case_run run[] = { { "b5", 0, ", plate b5" }, { "k5", 0, "" },
+                                { "k5", 1, ", with beyond/" } };
 
 /* Stress along the circle around the hole through (x, y). */
 static double hoop(const double stress[3], double x, double y)
@@ -104,12 +103,10 @@ static double computed(const bbm_model *m, const char *quantity, double x, doubl
 
 /* --------------------------------------------------------------------------------------- tables */
 
-static const case_place stress[] = {
-    { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
-};
-static const case_place moved[] = {
-    { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
-};
+static const case_place stress[] = { { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 },
+                                     { "sxx", 0, 5 }, { "sxx", 5, 0 } };
+static const case_place moved[] = { { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 },
+                                    { "v", 5, 5 }, { "v", 0, 5 } };
 static const case_table table[] = {
     { "Table 4", "stress sxx [MPa]", 1e-6, LENGTH(stress), stress },
     { "Table 5", "displacements [1e-6 m]", 1e6, LENGTH(moved), moved },

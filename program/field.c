@@ -87,8 +87,8 @@ static void fit_stress(const bbm_model *m, int node, int block, double s[3])
         for (int v = e->first; v < e->first + e->n; v++)
             for (int b = first[m->vertex[v].node]; b < first[m->vertex[v].node + 1]; b++) {
                 const bbm_element *i = &m->element[m->vertex[at[b]].element];
-                const double p[6] = { 1, i->x - P->x, i->y - P->y, i->stress[0], i->stress[1],
-                                      i->stress[2] };
+                const double *t = i->stress;
+                const double p[6] = { 1, i->x - P->x, i->y - P->y, t[0], t[1], t[2] };
                 for (int k = 0; k < 18 && i->block == block; k++)
                     G[k / 6][k % 6] += p[k / 6] * p[k % 6];
             }

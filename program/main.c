@@ -421,9 +421,8 @@ int main(int argc, char *argv[])
     read_arguments(&a, argc, argv);
     a.stop = before_solution;
     const int status = a.exit >= 0 ? a.exit : read_and_run(&a, start);
-    if (fflush(stdout) || ferror(stdout)) {
+    const int lost = fflush(stdout) || ferror(stdout);
+    if (lost)
         fprintf(stderr, "bbm: stdout cannot be written\n");
-        return status ? status : 1;
-    }
-    return status;
+    return status ? status : lost;
 }

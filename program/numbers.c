@@ -88,8 +88,9 @@ static double sum(formula *f);
 
 static double blame_formula(formula *f, const char *what)
 {
-    model_blame(f->r, *f->at ? "%s at '%.30s' in '%.80s'" : "%s at the end%s of '%.80s'", what,
-                f->at, f->text);
+    const char *form = *f->at ? "%s at '%.30s' in '%.80s'" : "%s at the end%s of '%.80s'";
+
+    model_blame(f->r, form, what, f->at, f->text);
     return 0;
 }
 

@@ -56,7 +56,6 @@ static const char *next_path(model_reader *r)
 static int read_mesh(model_reader *r)
 {
     const char *path = next_path(r);
-
     const int by_surface = path && model_skip(r, "by");
 
     return path && (!by_surface || model_keyword(r, "surface")) && model_at_end(r)
