@@ -183,8 +183,8 @@ static const case_map map[] = {
 
 /* ---------------------------------------------------------------------------- beyond the paper */
 
-/* Bonds that multipliers hold, and quadrilaterals that bend. The error of the deflection of the axis
- * in x, in percent, against the converged finite element. */
+/* Bonds that multipliers hold, and quadrilaterals that bend. The error of the deflection of the
+ * axis in x, in percent, against the converged finite element. */
 static double deflection_error(const bbm_model *m, const case_reference *b, double x)
 {
     return case_percent(case_at(m, "v", x, 0), case_find(b, "v", x, 0)->converged);

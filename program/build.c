@@ -413,9 +413,7 @@ int model_fix(model_reader *r)
     int x = 0, y = 0, held = 0;
     model *p = r->p;
 
-    if (!where(r, 0))
-        return 0;
-    const int ends = r->s->stage && model_skip(r, "free");
+    const int ends = where(r, 0) && r->s->stage && model_skip(r, "free");
     model_option o[] = { { .name = "x", .flag = &x, .x = ends ? NULL : &by[0] },
                          { .name = "y", .flag = &y, .x = ends ? NULL : &by[1] } };
     if (!model_options(r, 0, LENGTH(o), o))

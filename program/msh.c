@@ -265,18 +265,15 @@ static const char *name_of(const mesh *m, int dimension, const char *tag)
 }
 
 /* Adds the nodes of an element, the last corners, to a set. */
-static int add_to_set(mesh *m, const model_element *e, const char *name, int dimensions)
+static void add_to_set(mesh *m, const model_element *e, const char *name, int dimensions)
 {
     model_reader *r = m->r;
-    const int set = model_find_set(r, name);
+    const int set = name ? model_find_set(r, name) : -1;
 
-    if (set < 0)
-        return 0;
-    r->set[set].dimensions |= dimensions;
-    for (int k = r->corners - e->n; k < r->corners; k++)
-        if (!model_add_to_set(r, set, r->corner[k]))
-            return 0;
-    return 1;
+    if (set >= 0)
+        r->set[set].dimensions |= dimensions;
+    for (int k = r->corners - e->n; k < r->corners && set >= 0; k++)
+        model_add_to_set(r, set, r->corner[k]);
 }
 
 /* The block of an element, of its first group or else of the file; or NULL. */
@@ -300,12 +297,11 @@ static int add_element(mesh *m, model_element *e, const entry *in)
     model_reader *r = m->r;
 
     for (int t = 0; t < in->n; t++)
-        if (!add_to_set(m, e, name_of(m, dimension, m->tag[in->first + t]), 1 << dimension))
-            return 0;
+        add_to_set(m, e, name_of(m, dimension, m->tag[in->first + t]), 1 << dimension);
     if (dimension == 1 && in->n == 0 && in->own > 0)
-        return add_to_set(m, e, model_print(r, "%d", in->own), 1 << 3);
-    if (dimension < 2)
-        return 1;
+        add_to_set(m, e, model_print(r, "%d", in->own), 1 << 3);
+    if (dimension < 2 || r->p->status)
+        return 0;
     const int *corner = &r->corner[r->corners - e->n];
     const model_node *a = &r->node[corner[0]], *b = &r->node[corner[1]];
     m->z = r->elements == m->first ? a->z : m->z;

@@ -135,12 +135,10 @@ static double call(formula *f, const function *of)
         const double y = sum(f);
         x = of->two ? of->two(x, y) : x;
     }
-    if (!take(f, ")"))
-        return blame_formula(f, "an operator or ) is missing");
-    if (of->one ? numbers > 1 : numbers < 2)
-        return blame_formula(f, of->one ? "one number too many"
-                                        : "a second number is missing");
-    return of->one ? of->one(x) : x;
+    const char *why = !take(f, ")") ? "an operator or ) is missing"
+                    : of->one && numbers > 1 ? "one number too many"
+                    : of->two && numbers < 2 ? "a second number is missing" : NULL;
+    return why ? blame_formula(f, why) : of->one ? of->one(x) : x;
 }
 
 static double name(formula *f)
@@ -292,10 +290,9 @@ static int add_statement(model_reader *r, const model_statement *source)
     for (int k = 0; k < s.n; k++) {
         model_given w = { .source = r->cut_word[source->first + k] };
         w.text = expand(r, w.source, &w.glued);
-        if (!w.text || !model_add(r, &r->word, &r->words, sizeof w, &w))
-            return 0;
+        model_add(r, &r->word, &r->words, sizeof w, &w);
     }
-    return 1;
+    return !r->p->status;
 }
 
 /* ----------------------------------------------------------------------------- let, repeat, end */
@@ -339,8 +336,7 @@ static int read_let(model_reader *r)
             if (strcmp(r->word[at].source, "-d or --find") == 0)
                 return model_fail(r, r->s->at, "-d or --find give '%.60s' twice", word);
             r->word[at].source = "-d or --find";
-            if (!(r->word[at].text = expand(r, r->let[k] + n + 1, &r->word[at].glued)))
-                return 0;
+            r->word[at].text = expand(r, r->let[k] + n + 1, &r->word[at].glued);
         }
     if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
@@ -368,8 +364,7 @@ static int repeat(model_reader *r, int from, int end)
     const int locals = r->locals, own = r->own;
     int low, high;
 
-    if (!add_statement(r, &r->cut[from]))
-        return 0;
+    add_statement(r, &r->cut[from]);
     const char *word = model_new_name(r, &r->let_of);
     if (word && find_local(r, word))
         return blame_twice(r, word);

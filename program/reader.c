@@ -289,21 +289,21 @@ static int wrong(model_reader *r, const char *what, const char *word)
                                                          : model_hint(word));
 }
 
-/* The word that comes next stays; NULL at the end. */
+/* The word that comes next stays; NULL at the end. After an error there are no more words. */
 char *model_look(const model_reader *r)
 {
-    return r->next < r->s->n ? r->word[r->s->first + r->next].text : NULL;
+    return !r->p->status && r->next < r->s->n ? r->word[r->s->first + r->next].text : NULL;
 }
 
 /* Where there is none, the word of the form that comes next is missing; of what is optional in it,
  * none is named. */
 char *model_word(model_reader *r)
 {
-    const char *name = r->s->form;
     int optional = 0, n, k = r->next + 1 - r->ahead;
 
-    if (model_look(r))
-        return r->word[r->s->first + r->next++].text;
+    if (r->p->status || model_look(r))
+        return r->p->status ? NULL : r->word[r->s->first + r->next++].text;
+    const char *name = r->s->form;
     for (; (n = (int)strcspn(name, " ,")) > 0; name += n + (name[n] == ' ')) {
         optional |= *name == '[';
         if (!optional && k-- == 0)
@@ -335,7 +335,7 @@ int model_keyword(model_reader *r, const char *word)
 
 int model_at_end(model_reader *r)
 {
-    return model_look(r) ? wrong(r, "surplus word", model_look(r)) : 1;
+    return model_look(r) ? wrong(r, "surplus word", model_look(r)) : !r->p->status;
 }
 
 /* None that is put together, as 2$p. */
@@ -350,21 +350,18 @@ int model_number(model_reader *r, double *x)
         return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or "
                            "$(2*p)", given->source, word);
     *x = strtod(word, &end);
-    if (*word == '\0' || *end != '\0' || strpbrk(word, "xXpP"))
-        return wrong(r, "not a number:", word);
-    if (!isfinite(*x))
-        return wrong(r, "not a finite number:", word);
-    if (fabs(*x) < DBL_MIN && strcspn(word, "123456789") < strcspn(word, "eE"))
-        return wrong(r, "too small, and not 0:", word);
-    return 1;
+    const int tiny = fabs(*x) < DBL_MIN && strcspn(word, "123456789") < strcspn(word, "eE");
+    const char *why = *word == '\0' || *end || strpbrk(word, "xXpP") ? "not a number:"
+                    : !isfinite(*x) ? "not a finite number:"
+                    : tiny ? "too small, and not 0:" : NULL;
+    return !why || wrong(r, why, word);
 }
 
 int model_numbers(model_reader *r, int n, double x[])
 {
     for (int k = 0; k < n; k++)
-        if (!model_number(r, &x[k]))
-            return 0;
-    return 1;
+        model_number(r, &x[k]);
+    return !r->p->status;
 }
 
 int model_whole(model_reader *r, const char *what, int least, int *n)
@@ -481,13 +478,12 @@ int model_options(model_reader *r, int needed, int n, model_option o[])
             k++;
         if (k == n)
             return wrong(r, "unknown option", model_look(r));
-        if (!option_value(r, &o[k]))
-            return 0;
+        option_value(r, &o[k]);
     }
     for (int k = 0; k < needed; k++)
         if (!o[k].seen)
             return model_blame(r, "%s is missing, expected: %s", o[k].name, r->s->form);
-    return 1;
+    return !r->p->status;
 }
 
 /* ------------------------------------------------------------- nodes, elements, blocks and sets */

@@ -245,9 +245,8 @@ static int read_element(model_reader *r)
         return model_fail(r, e.at, "element %.60s has %d nodes, expected 3 or more", e.id, e.n);
     e.block = model_find_block(r, block);
     for (int k = 0; k < e.n; k++)
-        if (!model_add_corner(r, model_known(r, &r->node_of)))
-            return 0;
-    return e.block >= 0 && model_add_element(r, &e);
+        model_add_corner(r, model_known(r, &r->node_of));
+    return !r->p->status && model_add_element(r, &e);
 }
 
 /* ----------------------------------------------------- blocks and grids with nodes of their own */
@@ -281,9 +280,8 @@ static int add_own_element(model_reader *r, int block, int material, int n)
 static int new_block(model_reader *r, const char **word, int *material)
 {
     *word = model_new_name(r, &r->block_of);
-    if (!*word || (*material = model_known(r, &r->material_of)) < 0)
-        return -1;
-    return model_find_block(r, *word);
+    *material = model_known(r, &r->material_of);
+    return *material < 0 ? -1 : model_find_block(r, *word);
 }
 
 static int read_block(model_reader *r)
@@ -296,13 +294,12 @@ static int read_block(model_reader *r)
     if (block < 0)
         return 0;
     for (int k = 0; k < words; k++)
-        if (!model_number(r, &xy[k % 2])
-            || (k % 2 && !(add_own_node(r, xy[0], xy[1]) && model_add_corner(r, r->nodes - 1))))
-            return 0;
+        if (model_number(r, &xy[k % 2]) && k % 2 && add_own_node(r, xy[0], xy[1]))
+            model_add_corner(r, r->nodes - 1);
     if (words < 6 || words % 2)
         return model_blame(r, "block '%.60s' has %d coordinates, expected X Y of 3 corners or "
                            "more", word, words);
-    return add_own_element(r, block, material, words / 2);
+    return !r->p->status && add_own_element(r, block, material, words / 2);
 }
 
 /* The nodes from `first` on, `step` apart, as the set NAME.side. */
@@ -381,8 +378,7 @@ static int read_use(model_reader *r)
 {
     const int material = model_known(r, &r->material_of);
 
-    if (material < 0 || !model_keyword(r, "on"))
-        return 0;
+    model_keyword(r, "on");
     const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
     if (block < 0)
         return 0;
