@@ -525,13 +525,11 @@ int model_water(model_reader *r)
 /* BLOCK BLOCK, `*`: -1, any. */
 static int read_blocks(model_reader *r, int block[2])
 {
-    for (int k = 0; k < 2; k++) {
-        block[k] = -1;
-        if (!model_skip(r, "*") && (block[k] = model_known(r, &r->block_of)) < 0)
-            return 0;
-    }
-    return block[0] < 0 || block[0] != block[1]
-           || model_blame(r, "a joint or pin of a block with itself, expected two blocks");
+    for (int k = 0; k < 2; k++)
+        block[k] = model_block_or_all(r);
+    if (block[0] >= 0 && block[0] == block[1])
+        model_blame(r, "a joint or pin of a block with itself, expected two blocks");
+    return !r->p->status;
 }
 
 /* What is left out is as in `contact`. A joint that can never count is hardly meant. */
@@ -581,13 +579,13 @@ int model_velocities(model_reader *r)
 /* N/m^3, besides the weight; `*`: of every block. They add up. */
 int model_bodyforce(model_reader *r)
 {
-    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
+    const int block = model_block_or_all(r);
     double f[2];
 
-    if (block < 0 || !model_numbers(r, 2, f))
+    if (!model_numbers(r, 2, f))
         return 0;
     for (bbm_element *e = r->p->m->element; e < r->p->m->element + r->elements; e++)
-        for (int k = 0; k < 2 && (star || e->block == block); k++)
+        for (int k = 0; k < 2 && (block < 0 || e->block == block); k++)
             e->f[k] += e->material.thickness * f[k];
     return 1;
 }
@@ -595,12 +593,10 @@ int model_bodyforce(model_reader *r)
 /* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
 int model_stress(model_reader *r)
 {
-    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
+    const int block = model_block_or_all(r);
+    model_block *b = block < 0 ? &r->any : &r->block[block];
     double s[6] = { 0 };
 
-    if (block < 0)
-        return 0;
-    model_block *b = star ? &r->any : &r->block[block];
     if (b->stressed)
         return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
     if (!model_numbers(r, 3, s)
@@ -609,7 +605,7 @@ int model_stress(model_reader *r)
     b->stressed = 1;
     for (int e = 0; e < r->elements; e++) {
         bbm_element *i = &r->p->m->element[e];
-        if (star ? r->block[i->block].stressed : i->block != block)
+        if (block < 0 ? r->block[i->block].stressed : i->block != block)
             continue;
         for (int k = 0; k < 3; k++)
             i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];

@@ -412,6 +412,11 @@ int model_known(model_reader *r, const model_table *t)
     return found;
 }
 
+int model_block_or_all(model_reader *r)
+{
+    return model_skip(r, "*") ? -1 : model_known(r, &r->block_of);
+}
+
 int model_is_new(model_reader *r, model_place at, const model_table *t, const char *word)
 {
     return model_find(t, word) < 0

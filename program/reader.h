@@ -132,6 +132,7 @@ int   model_whole(model_reader *r, const char *what, int least, int *n);
 const char *model_name(model_reader *r);
 const char *model_id(model_reader *r);
 int   model_known(model_reader *r, const model_table *t);   /* the next word's number, or -1 */
+int   model_block_or_all(model_reader *r);                  /* the same of a block; `*`: -1 */
 int   model_is_new(model_reader *r, model_place at, const model_table *t, const char *word);
 const char *model_new_name(model_reader *r, const model_table *t);
 int   model_note_friction(model_reader *r, double friction);    /* of less than a degree */

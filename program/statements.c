@@ -165,8 +165,7 @@ static int read_bond(model_reader *r)
 
     if (model_look(r) && model_find(&r->block_of, model_look(r)) >= 0) {
         for (int k = 0; k < 2; k++)
-            if ((two.block[k] = model_known(r, &r->block_of)) < 0)
-                return 0;
+            two.block[k] = model_known(r, &r->block_of);
         if (two.block[0] == two.block[1])
             return model_blame(r, "bond of a block with itself, expected two blocks");
         return model_add(r, &r->bond, &r->bonds, sizeof two, &two);
@@ -379,10 +378,8 @@ static int read_use(model_reader *r)
     const int material = model_known(r, &r->material_of);
 
     model_keyword(r, "on");
-    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
-    if (block < 0)
-        return 0;
-    model_block *b = star ? &r->any : &r->block[block];
+    const int block = model_block_or_all(r);
+    model_block *b = block < 0 ? &r->any : &r->block[block];
     if (!b->meshed)
         return model_blame(r, "block '%.60s' has its material in its own statement, expected a "
                            "block of a mesh", b->name);
