@@ -146,11 +146,10 @@ static void show_deflection(case_results *r, const bbm_model *dda, const bbm_mod
         printf("%.4f | %+.2f %% |\n", 1e3 * v[3][i], case_percent(v[1][i], f->six_node));
     }
     const plot_series s[] = {
-        { .name = "theory, Eq. (70)", .n = N, .x = x, .y = v[3], .look = 1 },
-        { .name = "FEM, six-node triangles", .n = N, .x = x, .y = v[2], .style = PLOT_MARKS,
-          .look = 3 },
-        { .name = "BBM", .n = N, .x = x, .y = v[1], .style = PLOT_MARKS, .look = 2 },
-        { .name = "DDA, one block", .n = N, .x = x, .y = v[0], .style = PLOT_BOTH, .look = 4 },
+        { "theory, Eq. (70)", N, x, v[3], PLOT_LINE, 1 },
+        { "FEM, six-node triangles", N, x, v[2], PLOT_MARKS, 3 },
+        { "BBM", N, x, v[1], PLOT_MARKS, 2 },
+        { "DDA, one block", N, x, v[0], PLOT_BOTH, 4 },
     };
     case_draw(r, plot_write_chart(case_path(r, "fig10.svg"), &(plot_chart){
         .title = "Fig. 10: deflection of the axis", .x = { "x", "m" },

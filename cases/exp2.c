@@ -156,12 +156,10 @@ static void draw_line(case_results *r, const bbm_model *const m[], const line_of
         }
     }
     const plot_series s[] = {
-        { .name = "theory (72), infinite plate", .n = l->count, .x = at, .y = exact, .look = 1 },
-        { .name = "BBM, its tractions (k5)", .n = l->count, .x = at, .y = value[1],
-          .style = PLOT_MARKS, .look = 4 },
-        { .name = "BBM, uniform stress (b5)", .n = l->count, .x = at, .y = value[0],
-          .style = PLOT_MARKS, .look = 2 },
-        { .name = "FEM, six-node triangles (b5)", .n = l->count, .x = at, .y = fem, .look = 3 },
+        { "theory (72), infinite plate", l->count, at, exact, PLOT_LINE, 1 },
+        { "BBM, its tractions (k5)", l->count, at, value[1], PLOT_MARKS, 4 },
+        { "BBM, uniform stress (b5)", l->count, at, value[0], PLOT_MARKS, 2 },
+        { "FEM, six-node triangles (b5)", l->count, at, fem, PLOT_LINE, 3 },
     };
     case_draw(r, plot_write_chart(case_path(r, l->file), &(plot_chart){
         .title = l->title, .count = LENGTH(s), .series = s,

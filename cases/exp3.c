@@ -175,14 +175,12 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
         some[1][i / EACH] = s[0].at[2][i / EACH * EACH];
     }
     const plot_series way[] = {
-        { .name = "u = F t²/(2 m)", .n = N, .x = t, .y = exact, .look = 1 },
-        { .name = "u, BBM", .n = MARKS, .x = some[0], .y = some[1], .style = PLOT_MARKS,
-          .look = 2 },
+        { "u = F t²/(2 m)", N, t, exact, PLOT_LINE, 1 },
+        { "u, BBM", MARKS, some[0], some[1], PLOT_MARKS, 2 },
     };
     plot_series lift[3];
     for (int k = 0; k < 3; k++)
-        lift[k] = (plot_series){ .name = v[k].label, .n = N, .x = t, .y = s[k].at[3],
-                                 .look = k + 2 };
+        lift[k] = (plot_series){ v[k].label, N, t, s[k].at[3], PLOT_LINE, k + 2 };
     if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
         plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
             .title = "Fig. 25: u of P", .x = { "t", "s" }, .y = { "u", "m" },

@@ -152,10 +152,8 @@ int model_start(model *p)
     for (int e = 0; e < m->elements && sum; e++) {
         bbm_element *i = &m->element[e];
         const double *v = p->velocity[i->block].V, *s = sum[i->block];
-        const double V[6] = {
-            v[0] - v[2] * (i->y - s[1] / s[2]), v[1] + v[2] * (i->x - s[0] / s[2]), v[2], 0, 0, 0
-        };
-        memcpy(i->V, V, sizeof V);
+        const double x = i->x - s[0] / s[2], y = i->y - s[1] / s[2];
+        memcpy(i->V, (double[6]){ v[0] - v[2] * y, v[1] + v[2] * x, v[2] }, sizeof i->V);
     }
     free(sum);
     return sum != NULL;

@@ -66,11 +66,9 @@ static int read_material(model_reader *r)
 {
     const char *word = model_new_name(r, &r->material_of);
     bbm_material m = { .thickness = 1 };
-    model_option o[] = {
-        NORMAL("E", &m.E), NORMAL("density", &m.density),
-        RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
-        NORMAL("thickness", &m.thickness),
-    };
+    model_option o[] = { NORMAL("E", &m.E), NORMAL("density", &m.density),
+                         RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
+                         NORMAL("thickness", &m.thickness) };
 
     if (!word || !model_options(r, 3, LENGTH(o), o))
         return 0;
@@ -104,13 +102,10 @@ static int read_contact(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
     bbm_beyond *b = r->p->m->beyond;
-    model_option o[] = {
-        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s),
-        RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
-        FROM_ZERO("round", &p->round),
-        FROM_ZERO("cohesion", &b->cohesion), FROM_ZERO("tension", &b->tension),
-        ANGLE("friction", &p->friction),
-    };
+    model_option o[] = { FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s),
+                         RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
+                         FROM_ZERO("round", &p->round), FROM_ZERO("cohesion", &b->cohesion),
+                         FROM_ZERO("tension", &b->tension), ANGLE("friction", &p->friction) };
 
     if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, p->friction))
         return 0;
@@ -133,14 +128,13 @@ static int read_static(model_reader *r)
 static int read_dynamic(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
-    model_option o[] = {
-        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
-        RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
-        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),        /* the same */
-        COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
-    };
+    double *factor = &p->velocity_factor;
+    model_option o[] = { ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
+                         RANGE("velocity_factor", factor, 0, 1, "[]", "0 to 1"),
+                         RANGE("damping", factor, 0, 1, "[]", "0 to 1"),     /* the same */
+                         COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp) };
 
-    p->velocity_factor = 1;
+    *factor = 1;
     r->p->dynamic = 1;
     const int good = model_options(r, 2, LENGTH(o), o);
     r->p->ramp = o[5].seen ? r->p->ramp : p->dt * p->steps;
@@ -186,12 +180,11 @@ static int read_pcg(model_reader *r)
 {
     bbm_pcg *p = &r->p->m->par.pcg;
     int coarse = 0;
-    model_option o[] = {
-        RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
-        RANGE("tolerance", &p->tolerance, 0, 1e-6, "(]", "more than 0, at most 1e-6"),
-        COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
-    };
-
+    model_option o[] = { RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
+                         RANGE("tolerance", &p->tolerance, 0, 1e-6, "(]",
+                               "more than 0, at most 1e-6"),
+                         COUNT("iterations", &p->iterations, 1),
+                         CHOICE("coarse", &coarse, "on|off") };
     const int good = model_options(r, 0, LENGTH(o), o);
     p->method = coarse == 0 ? &bbm_two_level : NULL;
     return good;
@@ -261,9 +254,8 @@ static const char *next_id(model_reader *r, long long *last)
 
 static int add_own_node(model_reader *r, double x, double y)
 {
-    const model_node n = {
-        .id = next_id(r, &r->last_node), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
-    };
+    const model_node n = { .id = next_id(r, &r->last_node), .x = x, .y = y, .at = r->s->at,
+                           .by_hand = 1, .first = -1 };
 
     return n.id && model_add_node(r, &n);
 }

@@ -377,8 +377,8 @@ static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_serie
     const int place = first < MONITORS ? w->p->monitors : (first - MONITORS) / MODEL_FOLLOWED;
 
     for (int k = 0; name[k]; k++, c.count++)
-        s[k] = (plot_series){ .name = name[k], .n = w->row + 1, .x = column(w, T),
-                              .y = column(w, first + k), .look = k + 2 };
+        s[k] = (plot_series){ name[k], w->row + 1, column(w, T), column(w, first + k), PLOT_LINE,
+                              k + 2 };
     c.x = w->p->dynamic ? (plot_quantity){ "t", "s" } : (plot_quantity){ "step", NULL };
     c.series = s;
     plot_draw_chart(p, (plot_box){ 0, 40 + PANEL * place, p->width, PANEL }, &c);
@@ -402,9 +402,8 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
             y[c.count][i] = e->value + (i < 2 ? -e->within : e->within);
         snprintf(name[c.count], sizeof *name, "%s, %.4g to %.4g %s", of->expected[e->kind],
                  y[c.count][0], y[c.count][2], of->unit);
-        s[of->values + c.count] = (plot_series){ .name = name[c.count], .n = 4, .x = x,
-                                                 .y = y[c.count], .style = PLOT_BAND,
-                                                 .look = 2 + e->kind };
+        s[of->values + c.count] = (plot_series){ name[c.count], 4, x, y[c.count], PLOT_BAND,
+                                                 2 + e->kind };
         c.count++;
     }
     draw_panel(w, p, c, s, MONITORS + MODEL_FOLLOWED * monitor, of->name);
