@@ -181,15 +181,14 @@ static void draw_figure(case_results *r, const slide s[], const variant v[])
     plot_series lift[3];
     for (int k = 0; k < 3; k++)
         lift[k] = (plot_series){ v[k].label, N, t, s[k].at[3], PLOT_LINE, k + 2 };
-    if (case_draw(r, plot_open(&p, case_path(r, "fig25.svg"), 1240, 480))) {
-        plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
-            .title = "Fig. 25: u of P", .x = { "t", "s" }, .y = { "u", "m" },
-            .count = LENGTH(way), .series = way });
-        plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
-            .title = "Fig. 25: v of P, which is 0 in theory", .x = { "t", "s" },
-            .y = { "v", "m" }, .count = LENGTH(lift), .series = lift });
-        case_draw(r, plot_close(&p));
-    }
+    plot_open(&p, case_path(r, "fig25.svg"), 1240, 480);
+    plot_draw_chart(&p, (plot_box){ 0, 0, 620, 480 }, &(plot_chart){
+        .title = "Fig. 25: u of P", .x = { "t", "s" }, .y = { "u", "m" },
+        .count = LENGTH(way), .series = way });
+    plot_draw_chart(&p, (plot_box){ 620, 0, 620, 480 }, &(plot_chart){
+        .title = "Fig. 25: v of P, which is 0 in theory", .x = { "t", "s" },
+        .y = { "v", "m" }, .count = LENGTH(lift), .series = lift });
+    case_draw(r, plot_close(&p));
 }
 
 int main(void)

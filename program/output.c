@@ -29,13 +29,13 @@ int output_open(output *o, const char *path)
 
     *o = (output){ 0 };
     if ((size_t)snprintf(o->path, sizeof o->path, "%s", path) >= sizeof o->path)
-        return errno = ENAMETOOLONG, 0;
+        return o->why = errno = ENAMETOOLONG, 0;
     o->direct = stat(path, &old) == 0 && !S_ISREG(old.st_mode);
     if (o->direct && S_ISFIFO(old.st_mode))
-        return errno = ENOTSUP, 0;                          /* nobody may ever read it */
+        return o->why = errno = ENOTSUP, 0;                 /* nobody may ever read it */
     snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
     o->file = fopen(o->direct ? path : o->temporary, "wb");
-    errno = o->file ? 0 : errno;
+    o->why = errno = o->file ? 0 : errno;
     return o->file != NULL;
 }
 
@@ -60,7 +60,7 @@ int output_close(output *o)
 
     o->file = NULL;
     if (!file)
-        return 0;
+        return errno = o->why, 0;
     output_note(o, !fflush(file) && !ferror(file));
     output_note(o, !fclose(file));
     const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));

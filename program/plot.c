@@ -115,14 +115,13 @@ void plot_title(plot *p, double x, double y, const char *text)
 int plot_open(plot *p, const char *path, double width, double height)
 {
     *p = (plot){ .width = width };
-    if (!output_open(&p->out, path))
-        return 0;
+    output_open(&p->out, path);
     plot_put(p, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
              "viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"%d\">\n"
              "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
              width, height, width, height, TEXT);
-    return 1;
+    return p->out.file != NULL;
 }
 
 int plot_close(plot *p)
@@ -428,8 +427,7 @@ int plot_write_chart(const char *path, const plot_chart *c)
 {
     plot p;
 
-    if (!plot_open(&p, path, 860, 540))
-        return 0;
+    plot_open(&p, path, 860, 540);
     plot_draw_chart(&p, (plot_box){ 0, 0, 860, 540 }, c);
     return plot_close(&p);
 }
@@ -440,7 +438,6 @@ plot_axis plot_bar_axis(const plot_quantity *q, const double range[2])
 {
     plot_axis bar = make_axis(q, range, LEVELS);
 
-    bar.step = plot_nice((bar.hi - bar.lo) / LEVELS);
     round_axis(&bar);
     bar.lo -= 1e-6 * bar.step;          /* a field of one level, but for rounding: one colour */
     return bar;

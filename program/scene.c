@@ -918,8 +918,7 @@ static int open_page(film *f, const char *path)
     const double bottom = f->top + f->h + below;
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
     f->left = (width - f->w) / 2;
-    if (!plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8))
-        return 0;
+    plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8);
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
              "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
              "<rect width=\"7\" height=\"7\" fill=\"#e4e4e4\"/>"

@@ -201,18 +201,18 @@ static int read_rotation(model_reader *r)
 
 static int read_output(model_reader *r)
 {
-    char names[400] = "";
+    const char *names = "";
     int chosen = (int)(field_find(r->p->field) - field_table);
     double *c = r->p->colours;
+
+    for (const field *f = field_table; f->name && names; f++)
+        names = model_print(r, "%s%s%s", names, *names ? "|" : "", f->name);
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "balance", .flag = &r->p->balance },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
                    { .name = "film", .flag = &r->p->film },
                    CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
 
-    for (const field *f = field_table; f->name; f++)
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
-                 f->name);
     if (!model_options(r, 0, LENGTH(o), o))
         return 0;
     r->p->svg |= r->p->film;
