@@ -130,11 +130,6 @@ typedef struct {
     int first, step, count;
 } line_of;
 
-static double abscissa_of(const line_of *l, double x, double y)
-{
-    return l->abscissa[0] == 'x' ? x : l->abscissa[0] == 'y' ? y : atan2(y, x) * 180 / PI;
-}
-
 /* A chart, and rows of results.csv. */
 static void draw_line(case_results *r, const bbm_model *const m[], const line_of *l)
 {
@@ -146,7 +141,8 @@ static void draw_line(case_results *r, const bbm_model *const m[], const line_of
     case_read("exp2", variant, &ref);
     for (int i = 0; i < l->count; i++) {
         const bbm_node *n = &m[0]->node[l->first + i * l->step];
-        at[i] = abscissa_of(l, n->x, n->y);
+        at[i] = l->abscissa[0] == 'x' ? n->x : l->abscissa[0] == 'y' ? n->y
+              : atan2(n->y, n->x) * 180 / PI;
         exact[i] = theory(l->quantity, n->x, n->y);
         fem[i] = case_find(&ref, l->quantity, n->x, n->y)->six_node;
         for (int k = 0; k < 2; k++) {

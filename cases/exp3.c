@@ -152,15 +152,6 @@ static void print_run(case_results *r, const slide *s, const variant *v)
     }
 }
 
-/* What the experiment comes to. */
-static void print_table(case_results *r, const slide s[], const variant v[], int runs)
-{
-    printf("\n| Experiment III, displacement [m] at t = %g s | computed | exact | error |\n"
-           "|---|---|---|---|\n", STEPS * DT);
-    for (int k = 0; k < runs; k++)
-        print_run(r, &s[k], &v[k]);
-}
-
 /* Fig. 25: u of P, and v in a scale in which it can be seen. */
 static void draw_figure(case_results *r, const slide s[], const variant v[])
 {
@@ -209,7 +200,10 @@ int main(void)
     while (runs < RUNS && run(&s[runs], &v[runs]))
         runs++;
     case_print_parameters(s[1].m);
-    print_table(&r, s, v, runs);
+    printf("\n| Experiment III, displacement [m] at t = %g s | computed | exact | error |\n"
+           "|---|---|---|---|\n", STEPS * DT);
+    for (int k = 0; k < runs; k++)
+        print_run(&r, &s[k], &v[k]);
     draw_figure(&r, s, v);
     printf("\nNumbers and pictures: %s\n", r.folder);
     for (int k = 0; k < runs; k++)
