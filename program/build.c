@@ -203,8 +203,8 @@ static int find_bodies(model_reader *r)
 
     for (int b = 0; b < r->blocks && body; b++)
         body[b] = b;
-    for (const model_bond *b = r->bond; b < r->bond + r->bonds && body; b++) {
-        const int i = bbm_root_of(body, b->block[0]), j = bbm_root_of(body, b->block[1]);
+    for (int k = 0; k < r->bonds && body; k++) {
+        const int *b = r->bond[k].block, i = bbm_root_of(body, b[0]), j = bbm_root_of(body, b[1]);
         body[i > j ? i : j] = i > j ? j : i;
     }
     for (int b = 0; b < r->blocks && body; b++)

@@ -49,22 +49,16 @@ bbm_status run_step(run *r)
     return status;
 }
 
-/* Whether a joint has a strength that it can lose. */
-static int is_joined(const bbm_beyond *b)
-{
-    int joined = b->cohesion > 0 || b->tension > 0;
-
-    for (int k = 0; k < b->joints; k++)
-        joined |= b->joint[k].cohesion > 0 || b->joint[k].tension > 0;
-    return joined;
-}
-
-/* The library's own message may name the step. */
+/* The library's own message may name the step. Joints may have a strength that they can lose. */
 void run_says(const run *r, bbm_status status, char out[500])
 {
     const bbm_model *m = r->p->m;
+    const bbm_beyond *b = m->beyond;
+    int strong = b->cohesion > 0 || b->tension > 0;
     char text[400], step[30];
 
+    for (int k = 0; k < b->joints; k++)
+        strong |= b->joint[k].cohesion > 0 || b->joint[k].tension > 0;
     snprintf(step, sizeof step, "step %d: ", m->info.step + 1);
     if (status == BBM_STEPS_EXHAUSTED)
         snprintf(out, 500, m->par.tolerance > 0
@@ -74,7 +68,7 @@ void run_says(const run *r, bbm_status status, char out[500])
     else
         snprintf(out, 500, "%s%s%.380s%s", r->has_begun ? "" : "settling, ",
                  strstr(model_says(r->p, status, text), "step ") ? "" : step, text,
-                 status == BBM_NO_EQUILIBRIUM && is_joined(m->beyond)
+                 status == BBM_NO_EQUILIBRIUM && strong
                  ? "; a joint breaks point by point, the sooner the finer its mesh" : "");
 }
 

@@ -603,7 +603,8 @@ static int check_places(model_reader *r)
     model_place seen[LENGTH(kinds)] = { { 0 } };        /* the last of a kind; line 0: nowhere */
     const model_place *s = &seen[find_kind("static")], *d = &seen[find_kind("dynamic")];
 
-    for (const model_statement *i = r->statement; i < r->statement + r->statements; i++) {
+    for (int k = 0; k < r->statements; k++) {
+        const model_statement *i = &r->statement[k];
         const int may = kinds[i->kind].may;
         if (i->stage && !(may & STAGED))
             return model_fail(r, i->at, "%s in a stage, expected load, traction, pressure, fix, "
