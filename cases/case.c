@@ -202,13 +202,11 @@ static void compare_all(case_results *r, const case_experiment *p, const bbm_mod
     }
 }
 
-int case_draw(case_results *r, int done)
+void case_draw(case_results *r, int done)
 {
-    if (!done) {
+    r->failed |= !done;
+    if (!done)
         fprintf(stderr, "%s could not be written: %s\n", r->path, strerror(errno));
-        r->failed = 1;
-    }
-    return done;
 }
 
 /* ---------------------------------------------------------------------------- Experiments I, II */

@@ -105,8 +105,8 @@ void   case_row(case_results *r, const char *quantity, const double xy[2], doubl
                 double reference, const char *kind);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
- * and case_close tells. Returns done. */
-int    case_draw(case_results *r, int done);
+ * and case_close tells. */
+void   case_draw(case_results *r, int done);
 void   case_print_parameters(const bbm_model *m);       /* Table 1                              */
 
 #endif

@@ -164,9 +164,9 @@ static void number_text(char *text, size_t size, double value, double step)
 
 /* ---------------------------------------------------------------------------------------- axes */
 
-/* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
- * into the label: a prefix for m, N, s, J, Pa, alone or before a slash. */
-static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
+/* Values in a range, and up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of
+ * 1000, which goes into the label: a prefix for m, N, s, J, Pa, alone or before a slash. */
+static void scale_axis(plot_axis *a, const plot_quantity *q, const double range[2], double largest)
 {
     static const char *const prefix[] = { "p", "n", "µ", "m", "", "k", "M", "G", "T" };
     const char *unit = q->unit ? q->unit : "", *name = q->name ? q->name : "";
@@ -175,7 +175,8 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 
     if (largest > 1e-300 && (largest < 0.1 || largest >= 1e4))
         e = 3 * (int)floor(log10(largest) / 3);
-    a->scale = pow(10, -e);
+    const double scale = pow(10, -e);
+    *a = (plot_axis){ .lo = range[0] * scale, .hi = range[1] * scale, .scale = scale };
     const int takes = (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
     if (e && (!takes || e < -12 || e > 12))
         snprintf(a->label, sizeof a->label, "%s [1e%d%s%s]", name, e, *unit ? " " : "", unit);
@@ -190,11 +191,9 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 static plot_axis make_axis(const plot_quantity *q, const double range[2], double count)
 {
     const double none[2] = { 0, 1 }, *end = range[0] > range[1] ? none : range;
-    plot_axis a = { 0 };
+    plot_axis a;
 
-    scale_axis(&a, q, fmax(fabs(end[0]), fabs(end[1])));
-    a.lo = end[0] * a.scale;
-    a.hi = end[1] * a.scale;
+    scale_axis(&a, q, end, fmax(fabs(end[0]), fabs(end[1])));
     const double largest = fmax(fabs(a.lo), fabs(a.hi));
     if (a.hi - a.lo <= 1e-9 * largest || largest < 1e-300) {
         const double margin = largest < 1e-300 ? 0.5 : 0.05 * largest;
@@ -296,14 +295,10 @@ static void place_axes(plot *p, plot_box b)
 void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 {
     static const plot_quantity q[2] = { { "x", "m" }, { "y", "m" } };
-    const double *const end[2] = { x, y };
 
     for (int k = 0; k < 2; k++) {
         plot_axis *a = k ? &p->y : &p->x;
-        *a = (plot_axis){ 0 };
-        scale_axis(a, &q[k], fmax(x[1] - x[0], y[1] - y[0]));
-        a->lo = end[k][0] * a->scale;
-        a->hi = end[k][1] * a->scale;
+        scale_axis(a, &q[k], k ? y : x, fmax(x[1] - x[0], y[1] - y[0]));
         a->step = plot_nice((x[1] - x[0]) * a->scale * 60 / b.w);
     }
     place_axes(p, b);
