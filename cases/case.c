@@ -124,7 +124,7 @@ void case_read(const char *problem, const char *variant, case_reference *r)
     while (fgets(line, sizeof line, f)) {
         if (sscanf(line, "%31[^,],%31[^,],%31[^,],%lf,%lf,%lf,%lf", of[0], of[1], v.quantity, &v.x,
                    &v.y, &v.converged, &v.six_node) < 7
-            || strcmp(of[0], problem) != 0 || strcmp(of[1], variant) != 0)
+            || strcmp(of[0], problem) != 0 || strcmp(of[1], variant) != 0 || isnan(v.x))
             continue;
         if (r->values == LENGTH(r->value))
             stop("cases/fem.csv", "has more values than there is room for");
@@ -188,8 +188,6 @@ static void compare_all(case_results *r, const case_experiment *p, const bbm_mod
         const struct case_value *f = &ref->value[i];
         const double xy[2] = { f->x, f->y };
         char name[40];
-        if (isnan(f->x))
-            continue;
         const double value = p->computed(m, f->quantity, f->x, f->y);
         const double exact = p->theory(f->quantity, f->x, f->y);
         snprintf(name, sizeof name, "%s%s.%s", run->beyond ? "beyond." : "", run->variant,

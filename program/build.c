@@ -580,14 +580,13 @@ int model_velocities(model_reader *r)
 int model_bodyforce(model_reader *r)
 {
     const int block = model_block_or_all(r);
-    double f[2];
+    double f[2] = { 0, 0 };
+    const int good = model_numbers(r, 2, f);
 
-    if (!model_numbers(r, 2, f))
-        return 0;
     for (bbm_element *e = r->p->m->element; e < r->p->m->element + r->elements; e++)
         for (int k = 0; k < 2 && (block < 0 || e->block == block); k++)
             e->f[k] += e->material.thickness * f[k];
-    return 1;
+    return good;
 }
 
 /* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
@@ -602,7 +601,6 @@ int model_stress(model_reader *r)
     if (!model_numbers(r, 3, s)
         || (model_look(r) && !(model_keyword(r, "gradient") && model_numbers(r, 3, s + 3))))
         return 0;
-    b->stressed = 1;
     for (int e = 0; e < r->elements; e++) {
         bbm_element *i = &r->p->m->element[e];
         if (block < 0 ? r->block[i->block].stressed : i->block != block)
@@ -611,7 +609,7 @@ int model_stress(model_reader *r)
             i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
         i->szz = i->out_of_plane * (i->stress[0] + i->stress[1]);
     }
-    return 1;
+    return b->stressed = 1;
 }
 
 int model_monitors(model_reader *r)

@@ -59,11 +59,11 @@ int model_read_record(model_reader *r, const char *path)
     int columns = 0;
     size_t size;
 
-    for (char *line = model_load(r, path, &size), *next; line; line = next, at.line++) {
+    for (char *line = model_load(r, path, &size), *next; line && !r->p->status;
+         line = next, at.line++) {
         if ((next = strchr(line, '\n')) != NULL)
             *next++ = '\0';
-        if (!read_row(r, line, at, &columns))
-            return 0;
+        read_row(r, line, at, &columns);
     }
     return r->p->shakings > 1
            || model_blame(r, "%.200s has fewer than two rows, expected TIME AX [AY]", path);

@@ -213,13 +213,12 @@ static int read_output(model_reader *r)
                    { .name = "film", .flag = &r->p->film },
                    CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
 
-    if (!model_options(r, 0, LENGTH(o), o))
-        return 0;
+    const int good = model_options(r, 0, LENGTH(o), o);
     r->p->svg |= r->p->film;
     r->p->field = field_table[chosen].name;
     if (r->p->film && !r->p->dynamic)
         model_note(r, "warning: statics has no film");
-    return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
+    return (good && (c[0] < c[1] || (c[0] == 0 && c[1] == 0)))
            || model_blame(r, "colours from %g to %g, expected low below high", c[0], c[1]);
 }
 
@@ -566,16 +565,15 @@ static int cut_file(model_reader *r, char *text, size_t size)
 
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)     /* UTF-8's mark of some editors */
         text += 3;
-    for (char *next; text < end; text = next, at.line++) {
+    for (char *next; text < end && !r->p->status; text = next, at.line++) {
         char *stop = text + strcspn(text, "\n");
         if (*stop == '\0' && stop < end)
             return model_fail(r, at, "a zero byte: the file is binary, expected text");
         *stop = '\0';
         next = stop + 1;
-        if (!cut_line(r, text, at))
-            return 0;
+        cut_line(r, text, at);
     }
-    return 1;
+    return !r->p->status;
 }
 
 /* The statements of a stage stand together, from its head on. */
