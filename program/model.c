@@ -34,23 +34,6 @@ const char *model_says(const model *p, bbm_status status, char out[400])
     return out;
 }
 
-/* The rest of the way of a displaced support is even over the time that is left of the ramp, which
- * ends with the stage. */
-void model_move_supports(model *p)
-{
-    const bbm_model *m = p->m;
-    const double dt = m->par.dt, whole = p->now ? dt * (m->par.steps - p->begun) : INFINITY,
-                 left = fmin(p->ramp, whole) - dt * (m->info.step - p->begun),
-                 share = p->dynamic && left > dt ? dt / left : 1;
-
-    for (int n = 0; n < m->nodes && p->moving; n++) {
-        const double *at = m->node[n].wall, *to = p->stage[p->now].node[n].wall;
-        if (m->node[n].held)
-            bbm_move_support(p->m, n, at[0] + share * (to[0] - at[0]),
-                             at[1] + share * (to[1] - at[1]));
-    }
-}
-
 const model_followed
     model_displacement = { "displacement", "m", "u|v|moves|stays", { "u", "v" },
                            { "u expected", "v expected", "to leave", "to stay" }, 2 },

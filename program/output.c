@@ -84,12 +84,15 @@ int output_make_folder(const char *path)
     return made || (errno == EEXIST && stat(path, &there) == 0 && S_ISDIR(there.st_mode));
 }
 
-int output_is_temporary(const char *ending)
+int output_has_form(const char *name, const char *stem, const char *ending)
 {
-    int n = 0;
+    char form[100];
+    int n = 0, temporary = 0;
 
-    sscanf(ending, ".%*[0-9]" ENDING "%n", &n);
-    return n > 0 && !ending[n];
+    snprintf(form, sizeof form, "%s%s%%n", stem, ending);
+    sscanf(name, form, &n);
+    sscanf(name + n, ".%*[0-9]" ENDING "%n", &temporary);
+    return n > 0 && !name[n + temporary];
 }
 
 /* On Windows all files have the number 0, and none is removed that is open. */

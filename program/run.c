@@ -19,6 +19,23 @@ static bbm_status settle(run *r)
     return status;
 }
 
+/* The rest of the way of a displaced support is even over the time that is left of the ramp, which
+ * ends with the stage. */
+static void move_supports(const model *p)
+{
+    const bbm_model *m = p->m;
+    const double dt = m->par.dt, whole = p->now ? dt * (m->par.steps - p->begun) : INFINITY,
+                 left = fmin(p->ramp, whole) - dt * (m->info.step - p->begun),
+                 share = p->dynamic && left > dt ? dt / left : 1;
+
+    for (int n = 0; n < m->nodes && p->moving; n++) {
+        const double *at = m->node[n].wall, *to = p->stage[p->now].node[n].wall;
+        if (m->node[n].held)
+            bbm_move_support(p->m, n, at[0] + share * (to[0] - at[0]),
+                             at[1] + share * (to[1] - at[1]));
+    }
+}
+
 bbm_status run_step(run *r)
 {
     bbm_model *m = r->p->m;
@@ -36,7 +53,7 @@ bbm_status run_step(run *r)
     r->stage_is_over = 0;
     if (m->info.step == par->steps)
         return BBM_STEPS_EXHAUSTED;
-    model_move_supports(r->p);
+    move_supports(r->p);
     const bbm_status status = bbm_step(m);
     if (!status && bbm_start_cracks(m))                         /* what has come off is a body  */
         return bbm_out_of_memory(m);

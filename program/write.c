@@ -512,16 +512,6 @@ void write_matrix(write_results *w)
 
 /* -------------------------------------------------------------------------------------- the run */
 
-static int has_form(const char *name, const char *stem, const char *ending)
-{
-    char form[100];
-    int n = 0;
-
-    snprintf(form, sizeof form, "%s%s%%n", stem, ending);
-    sscanf(name, form, &n);
-    return n > 0 && (!name[n] || output_is_temporary(name + n));
-}
-
 /* Whether a run writes a file of that name, or begins it. */
 static int is_ours(const char *name)
 {
@@ -534,9 +524,9 @@ static int is_ours(const char *name)
     int ours = 0;
 
     for (int k = 0; k < LENGTH(form); k++)
-        ours |= has_form(name, form[k], "");
+        ours |= output_has_form(name, form[k], "");
     for (const field *q = field_table; q->name; q++)
-        ours |= has_form(name, q->name, ".svg");
+        ours |= output_has_form(name, q->name, ".svg");
     return ours;
 }
 
