@@ -3,9 +3,6 @@
 #ifndef CASE_H
 #define CASE_H
 
-#include <stdio.h>
-
-#include "../bbm.h"
 #include "../program/cell.h"
 #include "../program/plot.h"
 #include "../program/scene.h"

@@ -87,8 +87,8 @@ static void fit_stress(const bbm_model *m, int node, int block, double s[3])
         for (int v = e->first; v < e->first + e->n; v++)
             for (int b = first[m->vertex[v].node]; b < first[m->vertex[v].node + 1]; b++) {
                 const bbm_element *i = &m->element[m->vertex[at[b]].element];
-                const double *t = i->stress;
-                const double p[6] = { 1, i->x - P->x, i->y - P->y, t[0], t[1], t[2] };
+                const double p[6] = { 1, i->x - P->x, i->y - P->y, i->stress[0], i->stress[1],
+                                      i->stress[2] };
                 for (int k = 0; k < 18 && i->block == block; k++)
                     G[k / 6][k % 6] += p[k / 6] * p[k % 6];
             }
@@ -105,8 +105,8 @@ static void fit_stress(const bbm_model *m, int node, int block, double s[3])
         s[k] = G[0][3 + k] / G[0][0];
 }
 
-/* Of all blocks there is no plane fit; the stress stands in its place. */
-void field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS])
+/* All that field_of_node knows; with `fits` the plane fit, else the stress in its place. */
+static void list_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS])
 {
     const int first = m->adjacent_first[node], end = m->adjacent_first[node + 1];
     double motion[4] = { 0 };
@@ -120,16 +120,21 @@ void field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD
             motion[1 + k] += e->V[k] / (end - first);
     }
     double fit[3] = { r.stress[0], r.stress[1], r.stress[2] };
-    if (block >= 0)
+    if (fits && block >= 0)
         fit_stress(m, node, block, fit);
     list_values(&r, motion, fit, all);
+}
+
+void field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS])
+{
+    list_node(m, node, block, 1, all);
 }
 
 double field_of_node(const field *f, const bbm_model *m, int node, int block)
 {
     double all[FIELD_ROWS];
 
-    field_all_of_node(m, node, block, all);
+    list_node(m, node, block, f->files == FIELD_NODES, all);
     return all[f - field_table];
 }
 
