@@ -170,7 +170,7 @@ static int add_element(model_reader *r, const model_element *e)
 static int name_blocks(model_reader *r)
 {
     bbm_model *m = r->p->m;
-    int (*side)[2] = model_keep(r, m->bonds + 1, sizeof *side);      /* blocks that bonds join */
+    int (*side)[2] = model_keep(r, 2 * m->bonds, sizeof *side);  /* blocks that bonds join */
 
     if (!side)
         return 0;
@@ -180,15 +180,13 @@ static int name_blocks(model_reader *r)
         m->edge[e].block = m->element[bbm_element_of(m, e)].block;
     for (int k = 0; k < m->bonds; k++) {
         const int i = m->element[m->bond[k].i].block, j = m->element[m->bond[k].j].block;
-        side[k][0] = i < j ? i : j;
-        side[k][1] = i + j - side[k][0];
+        side[2 * k][0] = side[2 * k + 1][1] = i;
+        side[2 * k][1] = side[2 * k + 1][0] = j;
     }
-    qsort(side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs);
+    qsort(side, 2 * (size_t)m->bonds, sizeof *side, bbm_compare_pairs);
     for (int k = 0; k < r->bonds; k++) {
         const model_bond *b = &r->bond[k];
-        const int first = b->block[0] > b->block[1];
-        const int pair[2] = { b->block[first], b->block[!first] };
-        if (!bsearch(pair, side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs))
+        if (!bsearch(b->block, side, 2 * (size_t)m->bonds, sizeof *side, bbm_compare_pairs))
             return model_fail(r, b->at, "no side of block '%.60s' has the ends of one of block "
                               "'%.60s', expected sides that meet from node to node",
                               r->block[b->block[0]].name, r->block[b->block[1]].name);

@@ -178,6 +178,15 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return next;
 }
 
+/* No load on what is gone. */
+static void gather_loads(bbm_model *m)
+{
+    bbm_gather_edge_loads(m);
+    for (int i = 0; i < m->elements; i++)
+        if (field_is_gone(m, m->element[i].first))
+            memset(&m->load[6 * i], 0, 6 * sizeof *m->load);
+}
+
 int model_hook(model_reader *r)
 {
     model *p = r->p;
@@ -185,7 +194,7 @@ int model_hook(model_reader *r)
     const size_t gaps = bbm_most_gaps(m), bolts = (size_t)p->bolts;
 
     if (p->stages)
-        m->hook->load = model_gather_loads;
+        m->hook->load = gather_loads;
     if (!p->shakings && !p->bolts)
         return 1;
     hooked *b = realloc(m->beyond, sizeof *b);

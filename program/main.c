@@ -171,6 +171,7 @@ static void describe_stage(const model *p, int k, int from)
 static void summarise(const model *p, const char *folder)
 {
     const bbm_model *m = p->m;
+    const bbm_beyond *b = m->beyond;
     double far = 0, most = 0;
     int v_far = 0, e_most = 0;
     bbm_energy e;
@@ -186,20 +187,18 @@ static void summarise(const model *p, const char *folder)
         printf("t = %g s, ", m->info.t);
     printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
            m->info.pcg.residual);
-    if (m->beyond->broken > 0 || m->beyond->crack_energy > 0)
+    if (b->broken > 0 || b->crack_energy > 0)
         printf("%d bond%s broke, %d bodies; softening took %.6g J; %d corner%s caught inside\n",
-               m->beyond->broken, plural(m->beyond->broken), bbm_find_pieces(m, m->beyond->body),
-               m->beyond->crack_energy, m->beyond->caught, plural(m->beyond->caught));
+               b->broken, plural(b->broken), bbm_find_pieces(m, b->body),
+               b->crack_energy, b->caught, plural(b->caught));
     if (p->dynamic)                                         /* below 1e-12 it is rounding */
-        printf(m->beyond->gain > 1e-12
+        printf(b->gain > 1e-12
                ? "no step made more than %.1e of its energy beyond the work of loads\n"
-               : "no step made energy beyond the work of loads\n", m->beyond->gain);
+               : "no step made energy beyond the work of loads\n", b->gain);
     bbm_energies(m, &e);
-    if (m->beyond->restitution >= 0
-        && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
+    if (b->restitution >= 0 && b->hit[0] > 1e-12 * (fabs(b->work) + e.kinetic + e.elastic))
         printf("of what hits came with in their normal velocities %.0f %% was given back, %.0f %% "
-               "asked for\n", 100 * m->beyond->hit[1] / m->beyond->hit[0],
-               100 * m->beyond->restitution * m->beyond->restitution);
+               "asked for\n", 100 * b->hit[1] / b->hit[0], 100 * b->restitution * b->restitution);
     printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);

@@ -188,7 +188,6 @@ int   model_hook(model_reader *r);
 
 /* --- stage.c --- */
 void  model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
-void  model_gather_loads(bbm_model *m);                 /* the library's hook */
 
 /* --- build.c: the library's model --- */
 int   model_build(model_reader *r);

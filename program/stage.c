@@ -73,15 +73,6 @@ void model_keep_stage(model_reader *r, int k)
     }
 }
 
-/* No load on what is gone. */
-void model_gather_loads(bbm_model *m)
-{
-    bbm_gather_edge_loads(m);
-    for (int i = 0; i < m->elements; i++)
-        if (field_is_gone(m, m->element[i].first))
-            memset(&m->load[6 * i], 0, 6 * sizeof *m->load);
-}
-
 /* Element i, so many m to the right of where it was at the start. */
 static void carry_away(bbm_model *m, int i, double far)
 {
