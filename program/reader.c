@@ -163,7 +163,8 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
 char *model_load(model_reader *r, const char *path, size_t *size)
 {
     const model_place at = r->s ? r->s->at : (model_place){ .file = path };
-    FILE *f = path == r->whole.file && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    const int is_model = path == r->whole.file;
+    FILE *f = is_model && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     char *text = NULL;
     size_t n = 0;
 
@@ -176,8 +177,7 @@ char *model_load(model_reader *r, const char *path, size_t *size)
     const int why = errno;
     if (!f || ferror(f))
         model_fail(r, at, "%.200s cannot be read: %s%s", path, strerror(why),
-                   strchr(path, '.') || path != r->whole.file ? ""
-                                                              : "; does its name lack .model?");
+                   is_model && !strchr(path, '.') ? "; does its name lack .model?" : "");
     else if (n == LARGEST)
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
     if (f && f != stdin)
