@@ -204,21 +204,6 @@ static void summarise(const model *p, const char *folder)
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
 }
 
-/* What came out beside what was expected of it; the number of those not met. */
-static int report_expectations(const model *p, int quiet)
-{
-    char text[300];
-    int missed = 0;
-
-    for (int k = 0; k < p->expectations; k++) {
-        const int met = run_is_met(p, k, text);
-        missed += !met;
-        if (!met || !quiet)
-            printf("expected: %s\n", text);
-    }
-    return missed;
-}
-
 /* Elements, fixed nodes and mass of each block, and what is between them. */
 static void describe_blocks(const model *p, int touching)
 {
@@ -348,6 +333,8 @@ static int run_model(write_results *w, int quiet)
     progress s = { .shown = !quiet, .line = time(NULL) };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
+    char text[300];
+    int all_met = 1;
 
     catch_signals();
     p->m->monitor = before_solution;
@@ -366,7 +353,13 @@ static int run_model(write_results *w, int quiet)
     if (!quiet)
         summarise(p, w->folder);
     warn_after(p, w->source);
-    return report_expectations(p, quiet) > 0 ? 3 : 0;
+    for (int k = 0; k < p->expectations; k++) {
+        const int met = run_is_met(p, k, text);
+        all_met &= met;
+        if (!met || !quiet)
+            printf("expected: %s\n", text);
+    }
+    return all_met ? 0 : 3;
 }
 
 static int read_and_run(const arguments *a, clock_t start)

@@ -444,7 +444,4 @@ static int check_given(model_reader *r)
     return 1;
 }
 
-int model_expand(model_reader *r)
-{
-    return read_lets(r) && check_given(r) && walk(r, 0, r->cuts);
-}
+int model_expand(model_reader *r) { return read_lets(r) && check_given(r) && walk(r, 0, r->cuts); }

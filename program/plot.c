@@ -215,10 +215,7 @@ static double shown_pixel(const plot_axis *a, double shown)
     return a->from + (shown - a->lo) / (a->hi - a->lo) * (a->to - a->from);
 }
 
-double plot_pixel(const plot_axis *a, double value)
-{
-    return shown_pixel(a, value * a->scale);
-}
+double plot_pixel(const plot_axis *a, double value) { return shown_pixel(a, value * a->scale); }
 
 /* The next tick from *i on: pixel and text. Returns 0 past the last. */
 static int next_tick(const plot_axis *a, int *i, double *pixel, char text[TICK_TEXT])
@@ -307,10 +304,7 @@ void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 
 /* -------------------------------------------------------------------------------------- charts */
 
-static int is_shown(const plot_series *s, int i)
-{
-    return isfinite(s->x[i]) && isfinite(s->y[i]);
-}
+static int is_shown(const plot_series *s, int i) { return isfinite(s->x[i]) && isfinite(s->y[i]); }
 
 /* Whether a series, of a range of y, leaves the axes as those before it made them. */
 static int is_left_out(const plot_series *s, const double own[2], const double before[2])
