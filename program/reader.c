@@ -174,9 +174,8 @@ char *model_load(model_reader *r, const char *path, size_t *size)
         n += text ? fread(text + n, 1, room - n, f) : 0;
         more = n == room && n < LARGEST;
     }
-    const int why = errno;
     if (!f || ferror(f))
-        model_fail(r, at, "%.200s cannot be read: %s%s", path, strerror(why),
+        model_fail(r, at, "%.200s cannot be read: %s%s", path, strerror(errno),
                    is_model && !strchr(path, '.') ? "; does its name lack .model?" : "");
     else if (n == LARGEST)
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);

@@ -897,15 +897,13 @@ static int find_colours(film *f)
 /* Opens a page for a panel and, below it, the colours of a field; draws title and legend. */
 static int open_page(film *f, const char *path)
 {
-    const double below = has_colours(f->s->field) ? BAR : 0;
-
     if (f->s->field && !find_colours(f))
         return 0;
     f->top = f->s->title ? 36 : 0;
     f->over = is_timed(f) ? OVER : 14;
     measure(f);
     const double width = fmax(f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
-    const double bottom = f->top + f->h + below;
+    const double bottom = f->top + f->h + (has_colours(f->s->field) ? BAR : 0);
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
     f->left = (width - f->w) / 2;
     plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8);

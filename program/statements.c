@@ -543,8 +543,7 @@ static int cut_line(model_reader *r, char *line, model_place at)
     line[strcspn(line, "#")] = '\0';
     for (int k = 0; *(line += strspn(line, blanks)) != '\0'; k++) {
         char *end = find_word_end(line, blanks);
-        const int title = k == 1 && kinds[r->cut[r->cuts - 1].kind].read == read_title;
-        if (title)
+        if (k == 1 && kinds[r->cut[r->cuts - 1].kind].read == read_title)
             for (end = line + strlen(line); strchr(blanks, end[-1]); )
                 end--;
         const int more = *end != '\0';

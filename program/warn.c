@@ -200,10 +200,9 @@ static void warn_of_gaps(const bodies *s, const char *path, int fall)
     int falls = 0, gaps = 0, who = 0, at = 0;
 
     for (int b = 0; b < s->p->blocks; b++) {
-        const int near = s->body[b].near;
         if (fall && !group_of(s, b)->held && !group_of(s, b)->thrown && falls++ == 0)
             who = b;
-        if (isfinite(s->body[b].gap) && !v[b].given && !v[near].given && gaps++ == 0)
+        if (isfinite(s->body[b].gap) && !v[b].given && !v[s->body[b].near].given && gaps++ == 0)
             at = b;
     }
     if (falls > 0)
