@@ -74,14 +74,12 @@ static void build(bbm_model *m, const variant *v, int *first)
     m->par.dt = DT;
     m->par.gravity[1] = -v->gravity;
     m->par.alpha = v->beyond ? 1e4 : 1000;
-    m->par.faces = 1;
     m->par.p_n = 5e11;
     m->par.p_s = 2e11;
     m->par.pcg.tolerance = 1e-13;
     m->par.steps = STEPS;
     case_must(m, bbm_prepare(m));
-    m->par.velocity_factor = 0;
-    for (int i = 0; i < SETTLE; i++)
+    for (int i = 0; i < SETTLE; i++)            /* each begins at rest */
         case_must(m, bbm_step(m));
     m->par.velocity_factor = 1;
 }

@@ -121,7 +121,6 @@ static int read_static(model_reader *r)
                          RANGE("tolerance", &p->tolerance, 0, 1, "()",
                                "more than 0 and less than 1") };
 
-    p->steps = 1;
     return model_options(r, 0, LENGTH(o), o);
 }
 
@@ -661,16 +660,11 @@ int model_read(const char *path, int lets, char *const let[], model *p)
     };
 
     *p = (model){ .field = "mises", .now = -1 };
-    if (bbm_beyond_new(&p->m)) {
-        model_out_of_memory(&r);
-    } else {
-        p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
-        p->m->par.alpha = p->m->beyond->multiplier_rounds = -1;
-        p->m->beyond->bonding = BBM_MOMENT;
-        p->m->par.faces = 1;
-        p->m->par.pcg.method = &bbm_two_level;
-        read_all(&r);
-    }
+    if (bbm_beyond_new(&p->m))
+        return model_out_of_memory(&r), p->status;
+    p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
+    p->m->par.alpha = p->m->beyond->multiplier_rounds = -1;
+    read_all(&r);
     return p->status;
 }
 
