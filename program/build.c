@@ -661,7 +661,7 @@ static int find_end(const bbm_model *m, int block, const double at[2], scene_end
         scene_end here = { 0 };
         int inside = 0;
         for (int k = e->first + 1; k < e->first + e->n - 1; k++) {
-            scene_end next = { e->block, { e->first, k, k + 1 }, { 0 } };
+            scene_end next = { e->block, (int)(e - m->element), { e->first, k, k + 1 }, { 0 } };
             const int in = find_shares(m, at, &next);
             here = in > 0 ? next : here;
             inside += in;
@@ -687,8 +687,8 @@ static int read_end(model_reader *r, scene_end *end)
         return model_blame(r, "a bolt ends at one of several nodes or blocks there, expected: "
                               "at X Y of BLOCK");
     if (r->chosen) {
-        const int v = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
-        *end = (scene_end){ m->element[m->vertex[v].element].block, { v, v, v }, { 1, 0, 0 } };
+        const int v = m->adjacent[m->adjacent_first[r->chosen_node[0]]], e = m->vertex[v].element;
+        *end = (scene_end){ m->element[e].block, e, { v, v, v }, { 1, 0, 0 } };
     }
     if (found == 0 && w.kind == BY_AT)
         return find_end(m, -1, w.x, end)
@@ -715,8 +715,7 @@ int model_bolts(model_reader *r)
         return model_blame(r, "a pretension of %g N breaks the bolt, expected at most its "
                            "strength, %g N", pretension, b.strength);
     model_bolt_force(m, &b, &along);
-    if (!(along.length > r->margin)
-        || m->vertex[b.end[0].vertex[0]].element == m->vertex[b.end[1].vertex[0]].element)
+    if (!(along.length > r->margin) || b.end[0].element == b.end[1].element)
         return model_blame(r, "a bolt without length or within an element, expected two places; "
                               "`pin` joins two blocks at a point");
     b.rest = along.length - pretension / b.k;
@@ -739,8 +738,7 @@ int model_pins(model_reader *r)
         if (block[k] < 0 || find_end(m, block[k], at, &b.end[k]) != 1)
             return model_blame(r, "%g %g lies in no element of '%.60s', expected a point of both",
                                at[0], at[1], block[k] < 0 ? "*" : r->block[block[k]].name);
-    b.k = bbm_bonding_stiffness(PIN, &m->element[m->vertex[b.end[0].vertex[0]].element],
-                                &m->element[m->vertex[b.end[1].vertex[0]].element]);
+    b.k = bbm_bonding_stiffness(PIN, &m->element[b.end[0].element], &m->element[b.end[1].element]);
     return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }
 

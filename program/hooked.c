@@ -73,7 +73,7 @@ int model_read_record(model_reader *r, const char *path)
 
 static bbm_vertex point_of(const bbm_model *m, const scene_end *e)
 {
-    bbm_vertex P = { .element = m->vertex[e->vertex[0]].element };
+    bbm_vertex P = { .element = e->element };
 
     for (int k = 0; k < 3; k++) {
         P.x += e->share[k] * m->vertex[e->vertex[k]].x;
@@ -130,8 +130,8 @@ static void list_gaps(bbm_model *m)
 
     bbm_list_edge_gaps(m);
     for (int k = 0; k < p->bolts; k++)
-        find_gap(m, &p->bolt[k], bbm_add_gap(m, point_of(m, &p->bolt[k].end[0]).element,
-                                             point_of(m, &p->bolt[k].end[1]).element));
+        find_gap(m, &p->bolt[k], bbm_add_gap(m, p->bolt[k].end[0].element,
+                                             p->bolt[k].end[1].element));
 }
 
 /* ------------------------------------------------------------------------------------ the hooks */
