@@ -545,5 +545,5 @@ int model_find_set(model_reader *r, const char *word)
 
 int model_add_to_set(model_reader *r, int set, int node)
 {
-    return model_add(r, &r->set[set].node, &r->set[set].n, sizeof node, &node);
+    return node >= 0 && model_add(r, &r->set[set].node, &r->set[set].n, sizeof node, &node);
 }

@@ -354,12 +354,10 @@ static int read_set(model_reader *r)
                                              && model_keyword(r, "nodes"))))
         return 0;
     const int set = model_find_set(r, word);
-    do {
-        const int node = set < 0 ? -1 : model_known(r, &r->node_of);
-        if (node < 0 || !model_add_to_set(r, set, node))
-            return 0;
-    } while (model_look(r));
-    return 1;
+    do
+        model_add_to_set(r, set, model_known(r, &r->node_of));
+    while (model_look(r));
+    return !r->p->status;
 }
 
 /* A block of the mesh gets the material; `*`: every one that has none of its own. */
