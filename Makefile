@@ -70,9 +70,6 @@ $O/%.o: %.c $(HEADERS) Makefile
 $(CASES:%=$O/%): $O/%: $O/cases/%.o $(SHARED:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
-# What Experiment I shows beyond the paper.
-$O/exp1 $O/failing/exp1: $O/%exp1: $O/%cases/exp1_beyond.o
-
 $O/bbm: $(PROGRAM:%=$O/%.o) $(LIBRARY:%=$O/%.o)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 

@@ -2,7 +2,6 @@
  * reads cases/fem.csv and writes below out/. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -125,7 +124,7 @@ void case_read(const char *problem, const char *variant, case_reference *r)
     while (fgets(line, sizeof line, f)) {
         if (sscanf(line, "%31[^,],%31[^,],%31[^,],%lf,%lf,%lf,%lf", of[0], of[1], v.quantity, &v.x,
                    &v.y, &v.converged, &v.six_node) < 7
-            || strcmp(of[0], problem) != 0 || strcmp(of[1], variant) != 0)
+            || strcmp(of[0], problem) != 0 || strcmp(of[1], variant) != 0 || isnan(v.x))
             continue;
         if (r->values == LENGTH(r->value))
             stop("cases/fem.csv", "has more values than there is room for");
@@ -134,14 +133,12 @@ void case_read(const char *problem, const char *variant, case_reference *r)
     fclose(f);
 }
 
-const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
-                                   double y)
+const struct case_value *case_find(const case_reference *r, const char *name, double x, double y)
 {
-    for (int i = 0; i < r->values; i++)
-        if (strcmp(r->value[i].quantity, quantity) == 0
-            && hypot(r->value[i].x - x, r->value[i].y - y) < 1e-6)
-            return &r->value[i];
-    stop(quantity, "no such reference value in cases/fem.csv");
+    for (const struct case_value *v = r->value; v < r->value + r->values; v++)
+        if (strcmp(v->quantity, name) == 0 && hypot(v->x - x, v->y - y) < 1e-6)
+            return v;
+    stop(name, "no such reference value in cases/fem.csv");
     return NULL;
 }
 
@@ -179,11 +176,11 @@ void case_row(case_results *r, const char *quantity, const double xy[2], double 
 {
     const double error = reference != 0 ? (computed - reference) / reference : computed;
 
-    fprintf(r->csv, strchr(quantity, ',') ? "\"%s\"," : "%s,", quantity);
-    fprintf(r->csv, isnan(xy[0]) ? ",," : "%.9g,%.9g,", xy[0], xy[1]);
+    fprintf(r->csv, isnan(xy[0]) ? "%s,,," : "%s,%.9g,%.9g,", quantity, xy[0], xy[1]);
     fprintf(r->csv, "%.15g,%.15g,%s,%.3e\n", computed, reference, kind, error);
 }
 
+/* Each reference value against the computed one is a row of results.csv. */
 static void compare_all(case_results *r, const case_experiment *p, const bbm_model *m,
                         const case_run *run, const case_reference *ref)
 {
@@ -191,8 +188,6 @@ static void compare_all(case_results *r, const case_experiment *p, const bbm_mod
         const struct case_value *f = &ref->value[i];
         const double xy[2] = { f->x, f->y };
         char name[40];
-        if (isnan(f->x))
-            continue;
         const double value = p->computed(m, f->quantity, f->x, f->y);
         const double exact = p->theory(f->quantity, f->x, f->y);
         snprintf(name, sizeof name, "%s%s.%s", run->beyond ? "beyond." : "", run->variant,
@@ -205,27 +200,11 @@ static void compare_all(case_results *r, const case_experiment *p, const bbm_mod
     }
 }
 
-/* Each reference value against the computed one is a row of results.csv. */
-static bbm_model *solve_run(case_results *r, const case_experiment *p, const case_run *run,
-                            case_reference *ref)
+void case_draw(case_results *r, int done)
 {
-    bbm_model *m = run->beyond ? case_beyond_model(2) : case_paper_model();
-
-    case_read(p->name, run->variant, ref);
-    if (!m)
-        return NULL;
-    p->solve(m, run->variant, run->beyond ? CELL_QUADS : CELL_CROSSED, run->beyond ? 4 : 2, 1000);
-    compare_all(r, p, m, run, ref);
-    return m;
-}
-
-int case_draw(case_results *r, int done)
-{
-    if (!done) {
+    r->failed |= !done;
+    if (!done)
         fprintf(stderr, "%s could not be written: %s\n", r->path, strerror(errno));
-        r->failed = 1;
-    }
-    return done;
 }
 
 /* ---------------------------------------------------------------------------- Experiments I, II */
@@ -273,7 +252,7 @@ static void print_convergence(const case_experiment *e)
            "| triangles | alpha = 10 | alpha = 100 | alpha = 1000 | alpha = 100000 |\n"
            "|---|---|---|---|---|", e->errors);
     for (int k = 0; k < 3 * 4; k++) {                /* three meshes, each with four alphas */
-        bbm_model *m = case_beyond_model(0);
+        bbm_model *m = case_beyond_model(0, 1);
         if (!m)
             m = case_paper_model();
         e->solve(m, e->run[1].variant, CELL_CROSSED, k / 4 + 1, alpha[k % 4]);
@@ -301,8 +280,16 @@ int case_main(const case_experiment *e, int argc, char **argv)
     }
     printf("\n# %s, the paper's way\n\n", e->title);
     case_open(&r, e->name);
-    for (int k = 0; k < e->runs; k++)
-        m[k] = solve_run(&r, e, &e->run[k], &ref[k]);
+    for (int k = 0; k < e->runs; k++) {
+        const case_run *run = &e->run[k];
+        m[k] = run->beyond ? case_beyond_model(2, 1) : case_paper_model();
+        case_read(e->name, run->variant, &ref[k]);
+        if (m[k]) {
+            e->solve(m[k], run->variant, run->beyond ? CELL_QUADS : CELL_CROSSED,
+                     run->beyond ? 4 : 2, 1000);
+            compare_all(&r, e, m[k], run, &ref[k]);
+        }
+    }
     case_print_parameters(m[0]);
     print_summary(e, m, ref);
     for (int k = 0; k < e->runs; k++)

@@ -3,9 +3,6 @@
 #ifndef CASE_H
 #define CASE_H
 
-#include <stdio.h>
-
-#include "../bbm.h"
 #include "../program/cell.h"
 #include "../program/plot.h"
 #include "../program/scene.h"
@@ -37,9 +34,9 @@ void   case_must(const bbm_model *m, bbm_status s);
 /* A new model of the core alone: the paper's way. What the experiments print or draw is computed by
  * it, but for what has `beyond/` in its row or heading. */
 bbm_model *case_paper_model(void);
-/* beyond.c: a new model with all of beyond/, and so many rounds of multipliers. NULL from paper.c,
- * which `make paper` has in its place. */
-bbm_model *case_beyond_model(int rounds);
+/* beyond.c: a new model with all of beyond/, so many rounds of multipliers, and bonds with moments
+ * or at vertices. NULL from paper.c, which `make paper` has in its place. */
+bbm_model *case_beyond_model(int rounds, int moments);
 
 /* Returns its first element; of quadrilaterals, (i, j) is j nx + i further. What is added is there,
  * or the program has ended. */
@@ -52,8 +49,7 @@ double case_percent(double computed, double reference);
 
 /* The values of a variant, in the order of the file. */
 void   case_read(const char *problem, const char *variant, case_reference *r);
-const struct case_value *case_find(const case_reference *r, const char *quantity, double x,
-                                   double y);
+const struct case_value *case_find(const case_reference *r, const char *name, double x, double y);
 typedef struct {                    /* a solution of an experiment, alpha = 1000                */
     const char *variant;
     int beyond;                     /* with beyond/: quadrilaterals, as many as the triangles   */
@@ -106,8 +102,8 @@ void   case_row(case_results *r, const char *quantity, const double xy[2], doubl
                 double reference, const char *kind);
 const char *case_path(case_results *r, const char *file);       /* in the folder, until the next */
 /* done: of a picture at case_path, by plot.h or scene.h. One that cannot be made is said on stderr,
- * and case_close tells. Returns done. */
-int    case_draw(case_results *r, int done);
+ * and case_close tells. */
+void   case_draw(case_results *r, int done);
 void   case_print_parameters(const bbm_model *m);       /* Table 1                              */
 
 #endif

@@ -12,7 +12,6 @@
  * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for four
  * values of alpha, solved on two levels where there is beyond/. All else is the paper's way, by the
  * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/. */
-#include <math.h>
 #include <string.h>
 
 #include "case.h"
@@ -20,9 +19,8 @@
 
 static const double S = 1e6, E = 2900e9, nu = 0.3, t = 0.2, PI = 3.14159265358979323846;
 
-static const case_run run[] = {
-    { "b5", 0, ", plate b5" }, { "k5", 0, "" }, { "k5", 1, ", with beyond/" },
-};
+static const case_run run[] = { { "b5", 0, ", plate b5" }, { "k5", 0, "" },
+                                { "k5", 1, ", with beyond/" } };
 
 /* Stress along the circle around the hole through (x, y). */
 static double hoop(const double stress[3], double x, double y)
@@ -105,12 +103,10 @@ static double computed(const bbm_model *m, const char *quantity, double x, doubl
 
 /* --------------------------------------------------------------------------------------- tables */
 
-static const case_place stress[] = {
-    { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 }, { "sxx", 0, 5 }, { "sxx", 5, 0 },
-};
-static const case_place moved[] = {
-    { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 }, { "v", 5, 5 }, { "v", 0, 5 },
-};
+static const case_place stress[] = { { "sxx", 0, 1 }, { "sxx", 0, 1.5 }, { "sxx", 0, 2 },
+                                     { "sxx", 0, 5 }, { "sxx", 5, 0 } };
+static const case_place moved[] = { { "v", 0, 1 }, { "u", 1, 0 }, { "u", 5, 0 }, { "u", 5, 5 },
+                                    { "v", 5, 5 }, { "v", 0, 5 } };
 static const case_table table[] = {
     { "Table 4", "stress sxx [MPa]", 1e-6, LENGTH(stress), stress },
     { "Table 5", "displacements [1e-6 m]", 1e6, LENGTH(moved), moved },
@@ -134,11 +130,6 @@ typedef struct {
     int first, step, count;
 } line_of;
 
-static double abscissa_of(const line_of *l, double x, double y)
-{
-    return l->abscissa[0] == 'x' ? x : l->abscissa[0] == 'y' ? y : atan2(y, x) * 180 / PI;
-}
-
 /* A chart, and rows of results.csv. */
 static void draw_line(case_results *r, const bbm_model *const m[], const line_of *l)
 {
@@ -150,7 +141,8 @@ static void draw_line(case_results *r, const bbm_model *const m[], const line_of
     case_read("exp2", variant, &ref);
     for (int i = 0; i < l->count; i++) {
         const bbm_node *n = &m[0]->node[l->first + i * l->step];
-        at[i] = abscissa_of(l, n->x, n->y);
+        at[i] = l->abscissa[0] == 'x' ? n->x : l->abscissa[0] == 'y' ? n->y
+              : atan2(n->y, n->x) * 180 / PI;
         exact[i] = theory(l->quantity, n->x, n->y);
         fem[i] = case_find(&ref, l->quantity, n->x, n->y)->six_node;
         for (int k = 0; k < 2; k++) {
@@ -160,12 +152,10 @@ static void draw_line(case_results *r, const bbm_model *const m[], const line_of
         }
     }
     const plot_series s[] = {
-        { .name = "theory (72), infinite plate", .n = l->count, .x = at, .y = exact, .look = 1 },
-        { .name = "BBM, its tractions (k5)", .n = l->count, .x = at, .y = value[1],
-          .style = PLOT_MARKS, .look = 4 },
-        { .name = "BBM, uniform stress (b5)", .n = l->count, .x = at, .y = value[0],
-          .style = PLOT_MARKS, .look = 2 },
-        { .name = "FEM, six-node triangles (b5)", .n = l->count, .x = at, .y = fem, .look = 3 },
+        { "theory (72), infinite plate", l->count, at, exact, PLOT_LINE, 1 },
+        { "BBM, its tractions (k5)", l->count, at, value[1], PLOT_MARKS, 4 },
+        { "BBM, uniform stress (b5)", l->count, at, value[0], PLOT_MARKS, 2 },
+        { "FEM, six-node triangles (b5)", l->count, at, fem, PLOT_LINE, 3 },
     };
     case_draw(r, plot_write_chart(case_path(r, l->file), &(plot_chart){
         .title = l->title, .count = LENGTH(s), .series = s,

@@ -29,9 +29,8 @@ void theory_plate_displacement(const theory_plate *p, double x, double y, double
 {
     const double r = hypot(x, y), th = atan2(y, x), r3 = r * r * r;
     const double c = p->S / (8 * p->E / (2 * (1 + p->nu))), k = (3 - p->nu) / (1 + p->nu);
+    const double c1 = cos(th), c3 = cos(3 * th), s1 = sin(th), s3 = sin(3 * th);
 
-    u[0] = c * (r * (k + 1) * cos(th) + 2 / r * ((1 + k) * cos(th) + cos(3 * th))
-                - 2 / r3 * cos(3 * th));
-    u[1] = c * (r * (k - 3) * sin(th) + 2 / r * ((1 - k) * sin(th) + sin(3 * th))
-                - 2 / r3 * sin(3 * th));
+    u[0] = c * (r * (k + 1) * c1 + 2 / r * ((1 + k) * c1 + c3) - 2 / r3 * c3);
+    u[1] = c * (r * (k - 3) * s1 + 2 / r * ((1 - k) * s1 + s3) - 2 / r3 * s3);
 }

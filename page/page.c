@@ -6,7 +6,6 @@
 
 #include "../program/run.h"
 #include "../program/scene.h"
-#include "../program/warn.h"
 #include "page.h"
 
 /* LIMIT    s that a step may take

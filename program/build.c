@@ -1,9 +1,5 @@
 /* build.c - the library's model of what the statements say, and the statements that need it:
  * where it is held and loaded, WHERE by its nodes. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -95,7 +91,7 @@ static void join_copies(const model_reader *r, int up[], bbm_box box[])
         bbm_sort_boxes(n, box);
     for (int i = 0, j = 0; bbm_next_meeting(n, box, &i, &j);) {
         const int p = r->copy[box[i].of].block, q = r->copy[box[j].of].block;
-        if (p != q && r->block[p].body == r->block[q].body)
+        if (p != q && r->p->body[p] == r->p->body[q])
             up[bbm_root_of(up, box[i].of)] = bbm_root_of(up, box[j].of);
     }
 }
@@ -144,7 +140,8 @@ static int add_element(model_reader *r, const model_element *e)
                           "%.60s", of->name, of->name);
     for (int k = 0; k < e->n; k++)
         corner[k] = r->copy[find_copy(r, e->block, corner[k])].node;
-    const bbm_status status = bbm_add_element(r->p->m, of->body, material, e->n, corner, &index);
+    const bbm_status status = bbm_add_element(r->p->m, r->p->body[e->block], material,
+                                              e->n, corner, &index);
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     for (int k = 0; status && k < e->n; k++) {
@@ -173,7 +170,7 @@ static int add_element(model_reader *r, const model_element *e)
 static int name_blocks(model_reader *r)
 {
     bbm_model *m = r->p->m;
-    int (*side)[2] = model_keep(r, m->bonds + 1, sizeof *side);      /* blocks that bonds join */
+    int (*side)[2] = model_keep(r, 2 * m->bonds, sizeof *side);  /* blocks that bonds join */
 
     if (!side)
         return 0;
@@ -183,15 +180,13 @@ static int name_blocks(model_reader *r)
         m->edge[e].block = m->element[bbm_element_of(m, e)].block;
     for (int k = 0; k < m->bonds; k++) {
         const int i = m->element[m->bond[k].i].block, j = m->element[m->bond[k].j].block;
-        side[k][0] = i < j ? i : j;
-        side[k][1] = i + j - side[k][0];
+        side[2 * k][0] = side[2 * k + 1][1] = i;
+        side[2 * k][1] = side[2 * k + 1][0] = j;
     }
-    qsort(side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs);
+    qsort(side, 2 * (size_t)m->bonds, sizeof *side, bbm_compare_pairs);
     for (int k = 0; k < r->bonds; k++) {
         const model_bond *b = &r->bond[k];
-        const int first = b->block[0] > b->block[1];
-        const int pair[2] = { b->block[first], b->block[!first] };
-        if (!bsearch(pair, side, (size_t)m->bonds, sizeof *side, bbm_compare_pairs))
+        if (!bsearch(b->block, side, 2 * (size_t)m->bonds, sizeof *side, bbm_compare_pairs))
             return model_fail(r, b->at, "no side of block '%.60s' has the ends of one of block "
                               "'%.60s', expected sides that meet from node to node",
                               r->block[b->block[0]].name, r->block[b->block[1]].name);
@@ -199,19 +194,31 @@ static int name_blocks(model_reader *r)
     return 1;
 }
 
+/* The first one of the blocks that bonds join is the root of their forest. */
+static int find_bodies(model_reader *r)
+{
+    int *body = r->p->body = model_keep(r, r->blocks, sizeof *body);
+
+    for (int b = 0; b < r->blocks && body; b++)
+        body[b] = b;
+    for (int k = 0; k < r->bonds && body; k++) {
+        const int *b = r->bond[k].block, i = bbm_root_of(body, b[0]), j = bbm_root_of(body, b[1]);
+        body[i > j ? i : j] = i > j ? j : i;
+    }
+    for (int b = 0; b < r->blocks && body; b++)
+        body[b] = bbm_root_of(body, b);
+    return body != NULL;
+}
+
 int model_build(model_reader *r)
 {
     model *p = r->p;
 
     if (r->elements == 0)
-        return model_fail(r, (model_place){ .file = r->path },
-                          "the model has no element, expected: block ..., grid ..., mesh FILE or "
-                          "element ...");
+        return model_fail(r, r->whole, "the model has no element, expected: block ..., grid ..., "
+                          "mesh FILE or element ...");
     p->gone = model_keep(r, r->blocks, sizeof *p->gone);
-    p->body = model_keep(r, r->blocks, sizeof *p->body);
-    for (int b = 0; b < r->blocks && p->body; b++)
-        p->body[b] = r->block[b].body = r->block[r->block[b].body].body;
-    if (!p->gone || !p->body || !copy_nodes(r) || !add_nodes(r))
+    if (!p->gone || !find_bodies(r) || !copy_nodes(r) || !add_nodes(r))
         return 0;
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
@@ -404,9 +411,7 @@ int model_fix(model_reader *r)
     int x = 0, y = 0, held = 0;
     model *p = r->p;
 
-    if (!where(r, 0))
-        return 0;
-    const int ends = r->s->stage && model_skip(r, "free");
+    const int ends = where(r, 0) && r->s->stage && model_skip(r, "free");
     model_option o[] = { { .name = "x", .flag = &x, .x = ends ? NULL : &by[0] },
                          { .name = "y", .flag = &y, .x = ends ? NULL : &by[1] } };
     if (!model_options(r, 0, LENGTH(o), o))
@@ -516,13 +521,11 @@ int model_water(model_reader *r)
 /* BLOCK BLOCK, `*`: -1, any. */
 static int read_blocks(model_reader *r, int block[2])
 {
-    for (int k = 0; k < 2; k++) {
-        block[k] = -1;
-        if (!model_skip(r, "*") && (block[k] = model_known(r, &r->block_of)) < 0)
-            return 0;
-    }
-    return block[0] < 0 || block[0] != block[1]
-           || model_blame(r, "a joint or pin of a block with itself, expected two blocks");
+    for (int k = 0; k < 2; k++)
+        block[k] = model_block_or_all(r);
+    if (block[0] >= 0 && block[0] == block[1])
+        model_blame(r, "a joint or pin of a block with itself, expected two blocks");
+    return !r->p->status;
 }
 
 /* What is left out is as in `contact`. A joint that can never count is hardly meant. */
@@ -572,41 +575,37 @@ int model_velocities(model_reader *r)
 /* N/m^3, besides the weight; `*`: of every block. They add up. */
 int model_bodyforce(model_reader *r)
 {
-    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
-    double f[2];
+    const int block = model_block_or_all(r);
+    double f[2] = { 0, 0 };
+    const int good = model_numbers(r, 2, f);
 
-    if (block < 0 || !model_numbers(r, 2, f))
-        return 0;
     for (bbm_element *e = r->p->m->element; e < r->p->m->element + r->elements; e++)
-        for (int k = 0; k < 2 && (star || e->block == block); k++)
+        for (int k = 0; k < 2 && (block < 0 || e->block == block); k++)
             e->f[k] += e->material.thickness * f[k];
-    return 1;
+    return good;
 }
 
 /* At y = 0, and along y for each metre; `*`: of every block that has none of its own. */
 int model_stress(model_reader *r)
 {
-    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
+    const int block = model_block_or_all(r);
+    model_block *b = block < 0 ? &r->any : &r->block[block];
     double s[6] = { 0 };
 
-    if (block < 0)
-        return 0;
-    model_block *b = star ? &r->any : &r->block[block];
     if (b->stressed)
         return model_blame(r, "a stress of '%.60s' for the second time, expected one", b->name);
     if (!model_numbers(r, 3, s)
         || (model_look(r) && !(model_keyword(r, "gradient") && model_numbers(r, 3, s + 3))))
         return 0;
-    b->stressed = 1;
     for (int e = 0; e < r->elements; e++) {
         bbm_element *i = &r->p->m->element[e];
-        if (star ? r->block[i->block].stressed : i->block != block)
+        if (block < 0 ? r->block[i->block].stressed : i->block != block)
             continue;
         for (int k = 0; k < 3; k++)
             i->stress[k] = s[k] + s[3 + k] * r->p->centre[e][1];
         i->szz = i->out_of_plane * (i->stress[0] + i->stress[1]);
     }
-    return 1;
+    return b->stressed = 1;
 }
 
 int model_monitors(model_reader *r)
@@ -660,7 +659,7 @@ static int find_end(const bbm_model *m, int block, const double at[2], scene_end
         scene_end here = { 0 };
         int inside = 0;
         for (int k = e->first + 1; k < e->first + e->n - 1; k++) {
-            scene_end next = { e->block, { e->first, k, k + 1 }, { 0 } };
+            scene_end next = { e->block, (int)(e - m->element), { e->first, k, k + 1 }, { 0 } };
             const int in = find_shares(m, at, &next);
             here = in > 0 ? next : here;
             inside += in;
@@ -686,8 +685,8 @@ static int read_end(model_reader *r, scene_end *end)
         return model_blame(r, "a bolt ends at one of several nodes or blocks there, expected: "
                               "at X Y of BLOCK");
     if (r->chosen) {
-        const int v = m->adjacent[m->adjacent_first[r->chosen_node[0]]];
-        *end = (scene_end){ m->element[m->vertex[v].element].block, { v, v, v }, { 1, 0, 0 } };
+        const int v = m->adjacent[m->adjacent_first[r->chosen_node[0]]], e = m->vertex[v].element;
+        *end = (scene_end){ m->element[e].block, e, { v, v, v }, { 1, 0, 0 } };
     }
     if (found == 0 && w.kind == BY_AT)
         return find_end(m, -1, w.x, end)
@@ -714,8 +713,7 @@ int model_bolts(model_reader *r)
         return model_blame(r, "a pretension of %g N breaks the bolt, expected at most its "
                            "strength, %g N", pretension, b.strength);
     model_bolt_force(m, &b, &along);
-    if (!(along.length > r->margin)
-        || m->vertex[b.end[0].vertex[0]].element == m->vertex[b.end[1].vertex[0]].element)
+    if (!(along.length > r->margin) || b.end[0].element == b.end[1].element)
         return model_blame(r, "a bolt without length or within an element, expected two places; "
                               "`pin` joins two blocks at a point");
     b.rest = along.length - pretension / b.k;
@@ -738,8 +736,7 @@ int model_pins(model_reader *r)
         if (block[k] < 0 || find_end(m, block[k], at, &b.end[k]) != 1)
             return model_blame(r, "%g %g lies in no element of '%.60s', expected a point of both",
                                at[0], at[1], block[k] < 0 ? "*" : r->block[block[k]].name);
-    b.k = bbm_bonding_stiffness(PIN, &m->element[m->vertex[b.end[0].vertex[0]].element],
-                                &m->element[m->vertex[b.end[1].vertex[0]].element]);
+    b.k = bbm_bonding_stiffness(PIN, &m->element[b.end[0].element], &m->element[b.end[1].element]);
     return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }
 
@@ -763,7 +760,7 @@ static int blame_free(model_reader *r)
         }
     if (model_touches_itself(r->p, touch))
         snprintf(near, sizeof near, "; %.290s", touch);
-    return model_fail(r, (model_place){ .file = r->path }, "block '%.60s' is free to move, "
+    return model_fail(r, r->whole, "block '%.60s' is free to move, "
                       "expected fix, fixblock or a contact that holds it in statics%s",
                       r->p->block[m->element[loose].block], near);
 }

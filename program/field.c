@@ -1,5 +1,4 @@
 /* field.c - the quantities that tables and pictures show. */
-#include <math.h>
 #include <string.h>
 
 #include "field.h"

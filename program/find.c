@@ -2,9 +2,6 @@
  * the expectations are met at one end and not at the other, the middle takes the place of the end
  * that it is like, until the ends are within a thousandth of where they began. A run that fails has
  * not met them. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "run.h"
 

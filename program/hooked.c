@@ -1,9 +1,6 @@
 /* hooked.c - statements that take part in the library's step by its hooks. The library knows its
  * own part of bbm_beyond; what is behind it belongs to the hooks, which find it there.
  */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -62,11 +59,11 @@ int model_read_record(model_reader *r, const char *path)
     int columns = 0;
     size_t size;
 
-    for (char *line = model_load(r, path, &size), *next; line; line = next, at.line++) {
+    for (char *line = model_load(r, path, &size), *next; line && !r->p->status;
+         line = next, at.line++) {
         if ((next = strchr(line, '\n')) != NULL)
             *next++ = '\0';
-        if (!read_row(r, line, at, &columns))
-            return 0;
+        read_row(r, line, at, &columns);
     }
     return r->p->shakings > 1
            || model_blame(r, "%.200s has fewer than two rows, expected TIME AX [AY]", path);
@@ -76,7 +73,7 @@ int model_read_record(model_reader *r, const char *path)
 
 static bbm_vertex point_of(const bbm_model *m, const scene_end *e)
 {
-    bbm_vertex P = { .element = m->vertex[e->vertex[0]].element };
+    bbm_vertex P = { .element = e->element };
 
     for (int k = 0; k < 3; k++) {
         P.x += e->share[k] * m->vertex[e->vertex[k]].x;
@@ -133,8 +130,8 @@ static void list_gaps(bbm_model *m)
 
     bbm_list_edge_gaps(m);
     for (int k = 0; k < p->bolts; k++)
-        find_gap(m, &p->bolt[k], bbm_add_gap(m, point_of(m, &p->bolt[k].end[0]).element,
-                                             point_of(m, &p->bolt[k].end[1]).element));
+        find_gap(m, &p->bolt[k], bbm_add_gap(m, p->bolt[k].end[0].element,
+                                             p->bolt[k].end[1].element));
 }
 
 /* ------------------------------------------------------------------------------------ the hooks */
@@ -181,6 +178,15 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return next;
 }
 
+/* No load on what is gone. */
+static void gather_loads(bbm_model *m)
+{
+    bbm_gather_edge_loads(m);
+    for (int i = 0; i < m->elements; i++)
+        if (field_is_gone(m, m->element[i].first))
+            memset(&m->load[6 * i], 0, 6 * sizeof *m->load);
+}
+
 int model_hook(model_reader *r)
 {
     model *p = r->p;
@@ -188,7 +194,7 @@ int model_hook(model_reader *r)
     const size_t gaps = bbm_most_gaps(m), bolts = (size_t)p->bolts;
 
     if (p->stages)
-        m->hook->load = model_gather_loads;
+        m->hook->load = gather_loads;
     if (!p->shakings && !p->bolts)
         return 1;
     hooked *b = realloc(m->beyond, sizeof *b);

@@ -7,15 +7,10 @@
  * files. Errors, warnings and progress go to stderr, what was run and what came out to stdout. */
 #define _POSIX_C_SOURCE 200809L
 #define _DEFAULT_SOURCE                 /* else glibc takes a handler away when it is called */
-#include <math.h>
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "run.h"
-#include "warn.h"
 #include "write.h"
 
 /* The signal that came. Signals have no other way to say something: this variable, and it alone,
@@ -176,7 +171,7 @@ static void describe_stage(const model *p, int k, int from)
 static void summarise(const model *p, const char *folder)
 {
     const bbm_model *m = p->m;
-    const field *mises = field_find("mises");
+    const bbm_beyond *b = m->beyond;
     double far = 0, most = 0;
     int v_far = 0, e_most = 0;
     bbm_energy e;
@@ -185,45 +180,28 @@ static void summarise(const model *p, const char *folder)
         if (hypot(m->vertex[v].u, m->vertex[v].v) > far && !field_is_gone(m, v))
             far = hypot(m->vertex[v].u, m->vertex[v].v), v_far = v;
     for (int k = 0; k < m->elements; k++)
-        if (field_of_element(mises, m, k) > most)
-            most = field_of_element(mises, m, k), e_most = k;
+        if (bbm_mises(m->element[k].stress, m->element[k].szz) > most)
+            most = bbm_mises(m->element[k].stress, m->element[k].szz), e_most = k;
     printf("%d step%s, ", m->info.step, plural(m->info.step));
     if (p->dynamic)
         printf("t = %g s, ", m->info.t);
     printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
            m->info.pcg.residual);
-    if (m->beyond->broken > 0 || m->beyond->crack_energy > 0)
+    if (b->broken > 0 || b->crack_energy > 0)
         printf("%d bond%s broke, %d bodies; softening took %.6g J; %d corner%s caught inside\n",
-               m->beyond->broken, plural(m->beyond->broken), bbm_find_pieces(m, m->beyond->body),
-               m->beyond->crack_energy, m->beyond->caught, plural(m->beyond->caught));
+               b->broken, plural(b->broken), bbm_find_pieces(m, b->body),
+               b->crack_energy, b->caught, plural(b->caught));
     if (p->dynamic)                                         /* below 1e-12 it is rounding */
-        printf(m->beyond->gain > 1e-12
+        printf(b->gain > 1e-12
                ? "no step made more than %.1e of its energy beyond the work of loads\n"
-               : "no step made energy beyond the work of loads\n", m->beyond->gain);
+               : "no step made energy beyond the work of loads\n", b->gain);
     bbm_energies(m, &e);
-    if (m->beyond->restitution >= 0
-        && m->beyond->hit[0] > 1e-12 * (fabs(m->beyond->work) + e.kinetic + e.elastic))
+    if (b->restitution >= 0 && b->hit[0] > 1e-12 * (fabs(b->work) + e.kinetic + e.elastic))
         printf("of what hits came with in their normal velocities %.0f %% was given back, %.0f %% "
-               "asked for\n", 100 * m->beyond->hit[1] / m->beyond->hit[0],
-               100 * m->beyond->restitution * m->beyond->restitution);
+               "asked for\n", 100 * b->hit[1] / b->hit[0], 100 * b->restitution * b->restitution);
     printf("largest displacement %.6g m, node %.60s; largest von Mises stress %.6g Pa, element "
            "%s\nresults in %s\n",
            far, p->node[m->vertex[v_far].node], most, p->element[e_most], folder);
-}
-
-/* What came out beside what was expected of it; the number of those not met. */
-static int report_expectations(const model *p, int quiet)
-{
-    char text[300];
-    int missed = 0;
-
-    for (int k = 0; k < p->expectations; k++) {
-        const int met = run_is_met(p, k, text);
-        missed += !met;
-        if (!met || !quiet)
-            printf("expected: %s\n", text);
-    }
-    return missed;
 }
 
 /* Elements, fixed nodes and mass of each block, and what is between them. */
@@ -355,6 +333,8 @@ static int run_model(write_results *w, int quiet)
     progress s = { .shown = !quiet, .line = time(NULL) };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
+    char text[300];
+    int all_met = 1;
 
     catch_signals();
     p->m->monitor = before_solution;
@@ -373,7 +353,13 @@ static int run_model(write_results *w, int quiet)
     if (!quiet)
         summarise(p, w->folder);
     warn_after(p, w->source);
-    return report_expectations(p, quiet) > 0 ? 3 : 0;
+    for (int k = 0; k < p->expectations; k++) {
+        const int met = run_is_met(p, k, text);
+        all_met &= met;
+        if (!met || !quiet)
+            printf("expected: %s\n", text);
+    }
+    return all_met ? 0 : 3;
 }
 
 static int read_and_run(const arguments *a, clock_t start)
@@ -427,9 +413,8 @@ int main(int argc, char *argv[])
     read_arguments(&a, argc, argv);
     a.stop = before_solution;
     const int status = a.exit >= 0 ? a.exit : read_and_run(&a, start);
-    if (fflush(stdout) || ferror(stdout)) {
+    const int lost = fflush(stdout) || ferror(stdout);
+    if (lost)
         fprintf(stderr, "bbm: stdout cannot be written\n");
-        return status ? status : 1;
-    }
-    return status;
+    return status ? status : lost;
 }

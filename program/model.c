@@ -1,8 +1,4 @@
 /* model.c - what a run asks of a model that was read from a file. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "model.h"
 
@@ -38,23 +34,6 @@ const char *model_says(const model *p, bbm_status status, char out[400])
     return out;
 }
 
-/* The rest of the way of a displaced support is even over the time that is left of the ramp, which
- * ends with the stage. */
-void model_move_supports(model *p)
-{
-    const bbm_model *m = p->m;
-    const double dt = m->par.dt, whole = p->now ? dt * (m->par.steps - p->begun) : INFINITY,
-                 left = fmin(p->ramp, whole) - dt * (m->info.step - p->begun),
-                 share = p->dynamic && left > dt ? dt / left : 1;
-
-    for (int n = 0; n < m->nodes && p->moving; n++) {
-        const double *at = m->node[n].wall, *to = p->stage[p->now].node[n].wall;
-        if (m->node[n].held)
-            bbm_move_support(p->m, n, at[0] + share * (to[0] - at[0]),
-                             at[1] + share * (to[1] - at[1]));
-    }
-}
-
 const model_followed
     model_displacement = { "displacement", "m", "u|v|moves|stays", { "u", "v" },
                            { "u expected", "v expected", "to leave", "to stay" }, 2 },
@@ -64,7 +43,7 @@ const model_followed
                       { "fx expected", "fy expected" }, 2 },
     model_pull = { "force", "N", "force", { "force" }, { "expected" }, 1 };
 
-int model_fits(const int block[2], int i, int j)
+static int fits(const int block[2], int i, int j)
 {
     return (block[0] < 0 || block[0] == i) && (block[1] < 0 || block[1] == j);
 }
@@ -89,7 +68,7 @@ void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED])
     for (int k = 0; k < b->contacts && m->of == &model_force; k++) {
         const bbm_contact *c = &b->contact[k];
         const int i = b->edge[c->corner].block, j = b->edge[c->edge].block,
-                  sign = model_fits(m->block, i, j) - model_fits(m->block, j, i);
+                  sign = fits(m->block, i, j) - fits(m->block, j, i);
         int here = m->nodes == 0;
         for (int n = 0; n < m->nodes; n++)
             here |= m->node[n] == bbm_start_of(b, c->corner)->node;
@@ -156,10 +135,8 @@ int model_start(model *p)
     for (int e = 0; e < m->elements && sum; e++) {
         bbm_element *i = &m->element[e];
         const double *v = p->velocity[i->block].V, *s = sum[i->block];
-        const double V[6] = {
-            v[0] - v[2] * (i->y - s[1] / s[2]), v[1] + v[2] * (i->x - s[0] / s[2]), v[2], 0, 0, 0
-        };
-        memcpy(i->V, V, sizeof V);
+        const double x = i->x - s[0] / s[2], y = i->y - s[1] / s[2];
+        memcpy(i->V, (double[6]){ v[0] - v[2] * y, v[1] + v[2] * x, v[2] }, sizeof i->V);
     }
     free(sum);
     return sum != NULL;

@@ -9,6 +9,10 @@
 #ifndef MODEL_H
 #define MODEL_H
 
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "../beyond/beyond.h"
 #include "field.h"
 #include "scene.h"
@@ -100,9 +104,7 @@ double model_distance(const bbm_model *m, int corner, int edge);
 /* Whether a corner of a block lies on a side of it without being its end, so that neither a bond
  * nor a contact is there; the first one as text. */
 int  model_touches_itself(const model *p, char out[300]);
-int  model_fits(const int block[2], int i, int j);      /* -1: any */
 int  model_start(model *p);     /* sets the initial velocities; 0: no memory */
-void model_move_supports(model *p);     /* to where they are after the next step */
 void model_next_stage(model *p);        /* stage.c: begins it, from where the run is */
 extern const model_followed model_displacement, model_force, model_support, model_pull;
 /* u, v of nodes; of a joint normal, shear, and fx, fy of its second block on the first; fx, fy of

@@ -15,9 +15,6 @@
  * with memory. */
 #include <ctype.h>
 #include <limits.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -34,7 +31,7 @@ typedef struct {
     model_place at;                     /* the last word */
     int line;                           /* of what is left of the file */
     char *text, *end;
-    char section[40];
+    const char *section;
     int version;                        /* 2 or 41; 0: not known yet */
     int by_surface;                     /* whether each surface is a block */
     const char *in_group, *in_none;     /* an element in a physical surface, and in none */
@@ -268,18 +265,15 @@ static const char *name_of(const mesh *m, int dimension, const char *tag)
 }
 
 /* Adds the nodes of an element, the last corners, to a set. */
-static int add_to_set(mesh *m, const model_element *e, const char *name, int dimensions)
+static void add_to_set(mesh *m, const model_element *e, const char *name, int dimensions)
 {
     model_reader *r = m->r;
-    const int set = model_find_set(r, name);
+    const int set = name ? model_find_set(r, name) : -1;
 
-    if (set < 0)
-        return 0;
-    r->set[set].dimensions |= dimensions;
-    for (int k = r->corners - e->n; k < r->corners; k++)
-        if (!model_add_to_set(r, set, r->corner[k]))
-            return 0;
-    return 1;
+    if (set >= 0)
+        r->set[set].dimensions |= dimensions;
+    for (int k = r->corners - e->n; k < r->corners && set >= 0; k++)
+        model_add_to_set(r, set, r->corner[k]);
 }
 
 /* The block of an element, of its first group or else of the file; or NULL. */
@@ -303,12 +297,11 @@ static int add_element(mesh *m, model_element *e, const entry *in)
     model_reader *r = m->r;
 
     for (int t = 0; t < in->n; t++)
-        if (!add_to_set(m, e, name_of(m, dimension, m->tag[in->first + t]), 1 << dimension))
-            return 0;
+        add_to_set(m, e, name_of(m, dimension, m->tag[in->first + t]), 1 << dimension);
     if (dimension == 1 && in->n == 0 && in->own > 0)
-        return add_to_set(m, e, model_print(r, "%d", in->own), 1 << 3);
-    if (dimension < 2)
-        return 1;
+        add_to_set(m, e, model_print(r, "%d", in->own), 1 << 3);
+    if (dimension < 2 || r->p->status)
+        return 0;
     const int *corner = &r->corner[r->corners - e->n];
     const model_node *a = &r->node[corner[0]], *b = &r->node[corner[1]];
     m->z = r->elements == m->first ? a->z : m->z;
@@ -390,8 +383,7 @@ static void read_format(mesh *m)
 
 static int is_end(const mesh *m, const char *word)
 {
-    return strncmp(word, "$End", 4) == 0
-           && strncmp(word + 4, m->section, sizeof m->section - 1) == 0;
+    return strncmp(word, "$End", 4) == 0 && strcmp(word + 4, m->section) == 0;
 }
 
 /* One that is not known is passed over. */
@@ -438,8 +430,7 @@ int model_read_mesh(model_reader *r, const char *path, int by_surface)
         return 0;
     m.end = m.text + size;
     for (const char *word; !r->p->status && *(word = look_word(&m)); ) {
-        m.section[0] = '\0';
-        strncat(m.section, word + 1, sizeof m.section - 1);
+        m.section = word + 1;
         if (word[0] != '$')
             model_fail(r, m.at, "'%.60s', expected a section like $Nodes; of another format "
                        "makes one: meshio convert -a -o gmsh22 %.200s NEW.msh", word, file_of(&m));

@@ -20,10 +20,6 @@
  * The `let`s outside of `repeat` are read first, so that statements above them may use them. */
 #include <ctype.h>
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -36,6 +32,15 @@ enum {
 
 /* ---------------------------------------------------------------------------------------- names */
 
+/* A number of the round; or NULL. */
+static model_local *find_local(const model_reader *r, const char *name)
+{
+    for (int k = 0; k < r->locals; k++)
+        if (strcmp(r->local[k].name, name) == 0)
+            return &r->local[k];
+    return NULL;
+}
+
 /* The value, of the round or of the file, of the longest name that the text begins with and that
  * ends where its letters end, and its length; NULL: there is none. */
 static const char *find_value(const model_reader *r, const char *text, size_t *n)
@@ -47,12 +52,10 @@ static const char *find_value(const model_reader *r, const char *text, size_t *n
         if (isalnum((unsigned char)text[*n]) || text[*n] == '_')
             continue;
         snprintf(name, sizeof name, "%.*s", (int)*n, text);
-        for (int k = r->locals; k-- > 0; )
-            if (strcmp(r->local[k].name, name) == 0)
-                return r->local[k].value;
+        const model_local *own = find_local(r, name);
         const int at = model_find(&r->let_of, name);
-        if (at >= 0)
-            return r->word[at].text;
+        if (own || at >= 0)
+            return own ? own->value : r->word[at].text;
     }
     const char *number = text[letters] == '$' ? find_value(r, text + letters + 1, n) : NULL;
     if (!number || letters == 0)
@@ -85,8 +88,9 @@ static double sum(formula *f);
 
 static double blame_formula(formula *f, const char *what)
 {
-    model_blame(f->r, *f->at ? "%s at '%.30s' in '%.80s'" : "%s at the end%s of '%.80s'", what,
-                f->at, f->text);
+    const char *form = *f->at ? "%s at '%.30s' in '%.80s'" : "%s at the end%s of '%.80s'";
+
+    model_blame(f->r, form, what, f->at, f->text);
     return 0;
 }
 
@@ -131,12 +135,10 @@ static double call(formula *f, const function *of)
         const double y = sum(f);
         x = of->two ? of->two(x, y) : x;
     }
-    if (!take(f, ")"))
-        return blame_formula(f, "an operator or ) is missing");
-    if (of->one ? numbers > 1 : numbers < 2)
-        return blame_formula(f, of->one ? "one number too many"
-                                        : "a second number is missing");
-    return of->one ? of->one(x) : x;
+    const char *why = !take(f, ")") ? "an operator or ) is missing"
+                    : of->one && numbers > 1 ? "one number too many"
+                    : of->two && numbers < 2 ? "a second number is missing" : NULL;
+    return why ? blame_formula(f, why) : of->one ? of->one(x) : x;
 }
 
 static double name(formula *f)
@@ -288,10 +290,9 @@ static int add_statement(model_reader *r, const model_statement *source)
     for (int k = 0; k < s.n; k++) {
         model_given w = { .source = r->cut_word[source->first + k] };
         w.text = expand(r, w.source, &w.glued);
-        if (!w.text || !model_add(r, &r->word, &r->words, sizeof w, &w))
-            return 0;
+        model_add(r, &r->word, &r->words, sizeof w, &w);
     }
-    return 1;
+    return !r->p->status;
 }
 
 /* ----------------------------------------------------------------------------- let, repeat, end */
@@ -299,15 +300,9 @@ static int add_statement(model_reader *r, const model_statement *source)
 static int is(const model_statement *s, const char *word) { return strcmp(s->name, word) == 0; }
 static int opens(const model_statement *s) { return is(s, "repeat") || is(s, "stage"); }
 
-static const char *new_number(model_reader *r)
+static int blame_twice(model_reader *r, const char *word)
 {
-    const char *word = model_new_name(r, &r->let_of);
-
-    for (int k = 0; k < r->locals && word; k++)
-        if (strcmp(r->local[k].name, word) == 0)
-            return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
-                               word), NULL;
-    return word;
+    return model_blame(r, "'%.60s' for the second time in one round, expected a new name", word);
 }
 
 /* In a round: changes the number of that name outside, or keeps one with a number in its name, or
@@ -316,13 +311,12 @@ static int set_number(model_reader *r, const char *word, int at)
 {
     const int old = model_find(&r->let_of, word);
     const model_local l = { word, r->word[at].text, 0 };
+    model_local *own = find_local(r, word);
 
-    for (int k = 0; k < r->locals; k++)
-        if (strcmp(r->local[k].name, word) == 0 && (r->local[k].counts || k >= r->own))
-            return model_blame(r, "'%.60s' for the second time in one round, expected a new name",
-                               word);
-        else if (strcmp(r->local[k].name, word) == 0)
-            return r->local[k].value = l.value, 1;
+    if (own && (own->counts || own - r->local >= r->own))
+        return blame_twice(r, word);
+    if (own)
+        return own->value = l.value, 1;
     if (old >= 0)
         return r->word[old].text = r->word[at].text, 1;
     return strchr(r->word[at - 1].source, '$') ? model_enter(r, &r->let_of, word, at)
@@ -332,7 +326,7 @@ static int set_number(model_reader *r, const char *word, int at)
 /* The number is the word behind the name, or that of the command line in its place. */
 static int read_let(model_reader *r)
 {
-    const char *word = r->round ? model_name(r) : new_number(r);
+    const char *word = r->round ? model_name(r) : model_new_name(r, &r->let_of);
     const size_t n = word ? strlen(word) : 0;
     const int at = r->s->first + r->next;
     double x;
@@ -342,8 +336,7 @@ static int read_let(model_reader *r)
             if (strcmp(r->word[at].source, "-d or --find") == 0)
                 return model_fail(r, r->s->at, "-d or --find give '%.60s' twice", word);
             r->word[at].source = "-d or --find";
-            if (!(r->word[at].text = expand(r, r->let[k] + n + 1, &r->word[at].glued)))
-                return 0;
+            r->word[at].text = expand(r, r->let[k] + n + 1, &r->word[at].glued);
         }
     if (!word || !model_number(r, &x) || !model_at_end(r))
         return 0;
@@ -371,9 +364,10 @@ static int repeat(model_reader *r, int from, int end)
     const int locals = r->locals, own = r->own;
     int low, high;
 
-    if (!add_statement(r, &r->cut[from]))
-        return 0;
-    const char *word = new_number(r);
+    add_statement(r, &r->cut[from]);
+    const char *word = model_new_name(r, &r->let_of);
+    if (word && find_local(r, word))
+        return blame_twice(r, word);
     if (!word || !model_whole(r, "FROM", -INT_MAX / 2, &low)
         || !model_whole(r, "TO", -INT_MAX / 2, &high) || !model_at_end(r))
         return 0;
@@ -442,16 +436,12 @@ static int check_given(model_reader *r)
         char word[NAME_ROOM];
         snprintf(word, sizeof word, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
         if (!strchr(r->let[k], '=') || model_find(&r->let_of, word) < 0)
-            return model_fail(r, (model_place){ .file = r->path },
-                              "'%.60s' of -d or --find, expected NAME=VALUE with a name of a "
-                              "`let`%s%s", r->let[k],
+            return model_fail(r, r->whole, "'%.60s' of -d or --find, expected NAME=VALUE with a "
+                              "name of a `let`%s%s", r->let[k],
                               r->let_of.count ? ", such as " : "; the model has none",
                               model_nearest_of(r, &r->let_of, word));
     }
     return 1;
 }
 
-int model_expand(model_reader *r)
-{
-    return read_lets(r) && check_given(r) && walk(r, 0, r->cuts);
-}
+int model_expand(model_reader *r) { return read_lets(r) && check_given(r) && walk(r, 0, r->cuts); }

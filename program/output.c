@@ -28,16 +28,14 @@ int output_open(output *o, const char *path)
     struct stat old;
 
     *o = (output){ 0 };
-    if ((size_t)snprintf(o->path, sizeof o->path, "%s", path) >= sizeof o->path) {
-        errno = ENAMETOOLONG;
-        return 0;
-    }
+    if ((size_t)snprintf(o->path, sizeof o->path, "%s", path) >= sizeof o->path)
+        return o->why = errno = ENAMETOOLONG, 0;
     o->direct = stat(path, &old) == 0 && !S_ISREG(old.st_mode);
     if (o->direct && S_ISFIFO(old.st_mode))
-        return errno = ENOTSUP, 0;                          /* nobody may ever read it */
+        return o->why = errno = ENOTSUP, 0;                 /* nobody may ever read it */
     snprintf(o->temporary, sizeof o->temporary, "%s.%ld" ENDING, path, (long)getpid());
     o->file = fopen(o->direct ? path : o->temporary, "wb");
-    errno = o->file ? 0 : errno;
+    o->why = errno = o->file ? 0 : errno;
     return o->file != NULL;
 }
 
@@ -62,7 +60,7 @@ int output_close(output *o)
 
     o->file = NULL;
     if (!file)
-        return 0;
+        return errno = o->why, 0;
     output_note(o, !fflush(file) && !ferror(file));
     output_note(o, !fclose(file));
     const int keep = !o->why || (o->kept > 0 && !o->direct && !truncate(o->temporary, o->kept));
@@ -86,12 +84,15 @@ int output_make_folder(const char *path)
     return made || (errno == EEXIST && stat(path, &there) == 0 && S_ISDIR(there.st_mode));
 }
 
-int output_is_temporary(const char *ending)
+int output_has_form(const char *name, const char *stem, const char *ending)
 {
-    int n = 0;
+    char form[100];
+    int n = 0, temporary = 0;
 
-    sscanf(ending, ".%*[0-9]" ENDING "%n", &n);
-    return n > 0 && !ending[n];
+    snprintf(form, sizeof form, "%s%s%%n", stem, ending);
+    sscanf(name, form, &n);
+    sscanf(name + n, ".%*[0-9]" ENDING "%n", &temporary);
+    return n > 0 && !name[n + temporary];
 }
 
 /* On Windows all files have the number 0, and none is removed that is open. */
@@ -130,9 +131,7 @@ FILE *output_lock(const char *path)
 
 void output_unlock(FILE *f, const char *path)
 {
-#ifndef _WIN32
-    remove(path);               /* while it is ours */
-#endif
+    remove(path);               /* while it is ours; on Windows it is open and stays */
     fclose(f);
 #ifdef _WIN32
     remove(path);

@@ -26,9 +26,11 @@ typedef struct {
 int    output_open(output *o, const char *path);    /* 1, or 0 */
 int    output_note(output *o, int good);    /* whether all was good so far; the first error stays */
 int    output_keep(output *o);                      /* 1, or 0 */
-int    output_close(output *o);             /* 1: the complete file stands under its name; 0 */
+int    output_close(output *o);             /* 1: the complete file stands under its name; 0, as */
+                                            /* of one that could not be opened */
 int    output_make_folder(const char *path);        /* 1: it is there; 0 (EEXIST: as no folder) */
-int    output_is_temporary(const char *ending); /* behind the name to be: whether it is .N.tmp */
+/* Whether a name, or what it is to be, is stem and ending, a form of scanf. */
+int    output_has_form(const char *name, const char *stem, const char *ending);
 FILE  *output_lock(const char *path);           /* NULL (EBUSY: another process has it) */
 int    output_holds(FILE *f, const char *path);     /* whether the file there is still that one */
 void   output_unlock(FILE *f, const char *path);    /* and removes it */

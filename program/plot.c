@@ -10,9 +10,7 @@
  */
 #include "plot.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { TEXT = 14, TICK_TEXT = 48, LEVELS = 11 };    /* pixels; the last: wanted bands */
@@ -117,14 +115,13 @@ void plot_title(plot *p, double x, double y, const char *text)
 int plot_open(plot *p, const char *path, double width, double height)
 {
     *p = (plot){ .width = width };
-    if (!output_open(&p->out, path))
-        return 0;
+    output_open(&p->out, path);
     plot_put(p, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
              "viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"%d\">\n"
              "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
              width, height, width, height, TEXT);
-    return 1;
+    return p->out.file != NULL;
 }
 
 int plot_close(plot *p)
@@ -167,9 +164,9 @@ static void number_text(char *text, size_t size, double value, double step)
 
 /* ---------------------------------------------------------------------------------------- axes */
 
-/* Values up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of 1000, which goes
- * into the label: a prefix for m, N, s, J, Pa, alone or before a slash. */
-static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
+/* Values in a range, and up to `largest`: as they are from 0.1 to 10^4, else scaled by a power of
+ * 1000, which goes into the label: a prefix for m, N, s, J, Pa, alone or before a slash. */
+static void scale_axis(plot_axis *a, const plot_quantity *q, const double range[2], double largest)
 {
     static const char *const prefix[] = { "p", "n", "µ", "m", "", "k", "M", "G", "T" };
     const char *unit = q->unit ? q->unit : "", *name = q->name ? q->name : "";
@@ -178,7 +175,8 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 
     if (largest > 1e-300 && (largest < 0.1 || largest >= 1e4))
         e = 3 * (int)floor(log10(largest) / 3);
-    a->scale = pow(10, -e);
+    const double scale = pow(10, -e);
+    *a = (plot_axis){ .lo = range[0] * scale, .hi = range[1] * scale, .scale = scale };
     const int takes = (n == 1 && strchr("mNsJ", *unit)) || (n == 2 && strncmp(unit, "Pa", n) == 0);
     if (e && (!takes || e < -12 || e > 12))
         snprintf(a->label, sizeof a->label, "%s [1e%d%s%s]", name, e, *unit ? " " : "", unit);
@@ -193,11 +191,9 @@ static void scale_axis(plot_axis *a, const plot_quantity *q, double largest)
 static plot_axis make_axis(const plot_quantity *q, const double range[2], double count)
 {
     const double none[2] = { 0, 1 }, *end = range[0] > range[1] ? none : range;
-    plot_axis a = { 0 };
+    plot_axis a;
 
-    scale_axis(&a, q, fmax(fabs(end[0]), fabs(end[1])));
-    a.lo = end[0] * a.scale;
-    a.hi = end[1] * a.scale;
+    scale_axis(&a, q, end, fmax(fabs(end[0]), fabs(end[1])));
     const double largest = fmax(fabs(a.lo), fabs(a.hi));
     if (a.hi - a.lo <= 1e-9 * largest || largest < 1e-300) {
         const double margin = largest < 1e-300 ? 0.5 : 0.05 * largest;
@@ -219,10 +215,7 @@ static double shown_pixel(const plot_axis *a, double shown)
     return a->from + (shown - a->lo) / (a->hi - a->lo) * (a->to - a->from);
 }
 
-double plot_pixel(const plot_axis *a, double value)
-{
-    return shown_pixel(a, value * a->scale);
-}
+double plot_pixel(const plot_axis *a, double value) { return shown_pixel(a, value * a->scale); }
 
 /* The next tick from *i on: pixel and text. Returns 0 past the last. */
 static int next_tick(const plot_axis *a, int *i, double *pixel, char text[TICK_TEXT])
@@ -299,14 +292,10 @@ static void place_axes(plot *p, plot_box b)
 void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 {
     static const plot_quantity q[2] = { { "x", "m" }, { "y", "m" } };
-    const double *const end[2] = { x, y };
 
     for (int k = 0; k < 2; k++) {
         plot_axis *a = k ? &p->y : &p->x;
-        *a = (plot_axis){ 0 };
-        scale_axis(a, &q[k], fmax(x[1] - x[0], y[1] - y[0]));
-        a->lo = end[k][0] * a->scale;
-        a->hi = end[k][1] * a->scale;
+        scale_axis(a, &q[k], k ? y : x, fmax(x[1] - x[0], y[1] - y[0]));
         a->step = plot_nice((x[1] - x[0]) * a->scale * 60 / b.w);
     }
     place_axes(p, b);
@@ -315,10 +304,7 @@ void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 
 /* -------------------------------------------------------------------------------------- charts */
 
-static int is_shown(const plot_series *s, int i)
-{
-    return isfinite(s->x[i]) && isfinite(s->y[i]);
-}
+static int is_shown(const plot_series *s, int i) { return isfinite(s->x[i]) && isfinite(s->y[i]); }
 
 /* Whether a series, of a range of y, leaves the axes as those before it made them. */
 static int is_left_out(const plot_series *s, const double own[2], const double before[2])
@@ -430,8 +416,7 @@ int plot_write_chart(const char *path, const plot_chart *c)
 {
     plot p;
 
-    if (!plot_open(&p, path, 860, 540))
-        return 0;
+    plot_open(&p, path, 860, 540);
     plot_draw_chart(&p, (plot_box){ 0, 0, 860, 540 }, c);
     return plot_close(&p);
 }
@@ -442,7 +427,6 @@ plot_axis plot_bar_axis(const plot_quantity *q, const double range[2])
 {
     plot_axis bar = make_axis(q, range, LEVELS);
 
-    bar.step = plot_nice((bar.hi - bar.lo) / LEVELS);
     round_axis(&bar);
     bar.lo -= 1e-6 * bar.step;          /* a field of one level, but for rounding: one colour */
     return bar;

@@ -4,11 +4,7 @@
 #include <errno.h>
 #include <float.h>
 #include <limits.h>
-#include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -24,46 +20,37 @@ void model_clean(char *text)
 }
 
 /* FILE:LINE: i = 7: what is said. */
-static void put_message(char *text, size_t room, model_place at, const char *format, va_list args)
-{
-    int used = snprintf(text, room, at.line > 0 ? "%.200s:%d: " : "%.200s: ", at.file, at.line);
-
-    if (at.round)
-        used += snprintf(text + used, room - (size_t)used, "%.100s: ", at.round);
-    vsnprintf(text + used, room - (size_t)used, format, args);
-    model_clean(text);
-}
-
 int model_fail(model_reader *r, model_place at, const char *format, ...)
 {
+    const size_t room = sizeof r->p->message;
+    char *text = r->p->message;
     va_list args;
 
     if (r->p->status)
         return 0;
     r->p->status = 2;
+    snprintf(text, room, at.line > 0 ? "%.200s:%d: " : "%.200s: ", at.file, at.line);
+    if (at.round)
+        snprintf(text + strlen(text), room - strlen(text), "%.100s: ", at.round);
     va_start(args, format);
-    put_message(r->p->message, sizeof r->p->message, at, format, args);
+    vsnprintf(text + strlen(text), room - strlen(text), format, args);
     va_end(args);
+    model_clean(text);
     return 0;
 }
 
-int model_note(model_reader *r, const char *format, ...)
+int model_add_note(model_reader *r, const char *what)
 {
-    const model_place at = { r->s->at.file, r->s->at.line, NULL };
-    char *note = model_keep(r, sizeof r->p->message, 1);
-    va_list args;
+    char *note = model_print(r, "%.200s:%d: %s", r->s->at.file, r->s->at.line, what ? what : "");
 
-    if (!note)
-        return 0;
-    va_start(args, format);
-    put_message(note, sizeof r->p->message, at, format, args);
-    va_end(args);
-    return model_add(r, &r->p->note, &r->p->notes, sizeof note, &note);
+    if (note)
+        model_clean(note);
+    return note && model_add(r, &r->p->note, &r->p->notes, sizeof note, &note);
 }
 
 int model_out_of_memory(model_reader *r)
 {
-    model_fail(r, (model_place){ .file = r->path }, "out of memory");
+    model_fail(r, r->whole, "out of memory");
     r->p->status = 1;
     return 0;
 }
@@ -72,12 +59,11 @@ int model_out_of_memory(model_reader *r)
 int model_refused(model_reader *r, bbm_status status)
 {
     const int overlap = status == BBM_OVERLAP || status == BBM_BLOCKS_OVERLAP;
-    const model_place none = { .file = r->path };
     char text[400];
 
     if (status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
-    return model_fail(r, overlap ? r->element[r->p->m->blamed[0]].at : none, "%s",
+    return model_fail(r, overlap ? r->element[r->p->m->blamed[0]].at : r->whole, "%s",
                       model_says(r->p, status, text));
 }
 
@@ -177,7 +163,8 @@ int model_enter(model_reader *r, model_table *t, const char *key, int value)
 char *model_load(model_reader *r, const char *path, size_t *size)
 {
     const model_place at = r->s ? r->s->at : (model_place){ .file = path };
-    FILE *f = path == r->path && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    const int is_model = path == r->whole.file;
+    FILE *f = is_model && strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     char *text = NULL;
     size_t n = 0;
 
@@ -187,10 +174,9 @@ char *model_load(model_reader *r, const char *path, size_t *size)
         n += text ? fread(text + n, 1, room - n, f) : 0;
         more = n == room && n < LARGEST;
     }
-    const int why = errno;
     if (!f || ferror(f))
-        model_fail(r, at, "%.200s cannot be read: %s%s", path, strerror(why),
-                   path == r->path && !strchr(path, '.') ? "; does its name lack .model?" : "");
+        model_fail(r, at, "%.200s cannot be read: %s%s", path, strerror(errno),
+                   is_model && !strchr(path, '.') ? "; does its name lack .model?" : "");
     else if (n == LARGEST)
         model_fail(r, at, "%.200s is longer than %d bytes, expected a text", path, LARGEST);
     if (f && f != stdin)
@@ -302,21 +288,21 @@ static int wrong(model_reader *r, const char *what, const char *word)
                                                          : model_hint(word));
 }
 
-/* The word that comes next stays; NULL at the end. */
+/* The word that comes next stays; NULL at the end. After an error there are no more words. */
 char *model_look(const model_reader *r)
 {
-    return r->next < r->s->n ? r->word[r->s->first + r->next].text : NULL;
+    return !r->p->status && r->next < r->s->n ? r->word[r->s->first + r->next].text : NULL;
 }
 
 /* Where there is none, the word of the form that comes next is missing; of what is optional in it,
  * none is named. */
 char *model_word(model_reader *r)
 {
-    const char *name = r->s->form;
     int optional = 0, n, k = r->next + 1 - r->ahead;
 
-    if (model_look(r))
-        return r->word[r->s->first + r->next++].text;
+    if (r->p->status || model_look(r))
+        return r->p->status ? NULL : r->word[r->s->first + r->next++].text;
+    const char *name = r->s->form;
     for (; (n = (int)strcspn(name, " ,")) > 0; name += n + (name[n] == ' ')) {
         optional |= *name == '[';
         if (!optional && k-- == 0)
@@ -348,7 +334,7 @@ int model_keyword(model_reader *r, const char *word)
 
 int model_at_end(model_reader *r)
 {
-    return model_look(r) ? wrong(r, "surplus word", model_look(r)) : 1;
+    return model_look(r) ? wrong(r, "surplus word", model_look(r)) : !r->p->status;
 }
 
 /* None that is put together, as 2$p. */
@@ -363,21 +349,18 @@ int model_number(model_reader *r, double *x)
         return model_blame(r, "'%.60s' would be '%.60s'; a number is one piece, as 5, $p, -$p or "
                            "$(2*p)", given->source, word);
     *x = strtod(word, &end);
-    if (*word == '\0' || *end != '\0' || strpbrk(word, "xXpP"))
-        return wrong(r, "not a number:", word);
-    if (!isfinite(*x))
-        return wrong(r, "not a finite number:", word);
-    if (fabs(*x) < DBL_MIN && strcspn(word, "123456789") < strcspn(word, "eE"))
-        return wrong(r, "too small, and not 0:", word);
-    return 1;
+    const int tiny = fabs(*x) < DBL_MIN && strcspn(word, "123456789") < strcspn(word, "eE");
+    const char *why = *word == '\0' || *end || strpbrk(word, "xXpP") ? "not a number:"
+                    : !isfinite(*x) ? "not a finite number:"
+                    : tiny ? "too small, and not 0:" : NULL;
+    return !why || wrong(r, why, word);
 }
 
 int model_numbers(model_reader *r, int n, double x[])
 {
     for (int k = 0; k < n; k++)
-        if (!model_number(r, &x[k]))
-            return 0;
-    return 1;
+        model_number(r, &x[k]);
+    return !r->p->status;
 }
 
 int model_whole(model_reader *r, const char *what, int least, int *n)
@@ -428,6 +411,11 @@ int model_known(model_reader *r, const model_table *t)
     return found;
 }
 
+int model_block_or_all(model_reader *r)
+{
+    return model_skip(r, "*") ? -1 : model_known(r, &r->block_of);
+}
+
 int model_is_new(model_reader *r, model_place at, const model_table *t, const char *word)
 {
     return model_find(t, word) < 0
@@ -463,23 +451,14 @@ int model_choice(model_reader *r, const char *choices, int *n)
                                       model_hint(word)));
 }
 
-static int in_range(model_reader *r, const model_option *o)
-{
-    const double x = *o->x;
-    const int good = (o->rim[0] == '[' ? x >= o->low : x > o->low)
-                     && (o->rim[1] == ']' ? x <= o->high : x < o->high);
-
-    return good || model_blame(r, "%s is %g%s, expected %s", o->name, x,
-                               source_of(r, r->word[r->s->first + r->next - 1].text),
-                               o->expected);
-}
-
 static int option_value(model_reader *r, model_option *o)
 {
+    const char *word = model_look(r);
+
     if (o->seen)
         return model_blame(r, "%s for the second time, expected: %s", o->name, r->s->form);
     o->seen = 1;
-    if (!o->flag && !model_look(r))
+    if (!o->flag && !word)
         return model_blame(r, "the value of %s is missing, expected: %s", o->name, r->s->form);
     if (o->flag)
         return (*o->flag = 1) && (!o->x || !model_skip(r, "by") || model_number(r, o->x));
@@ -487,7 +466,12 @@ static int option_value(model_reader *r, model_option *o)
         return model_choice(r, o->choices, o->n);
     if (o->n)
         return model_whole(r, o->name, o->least, o->n);
-    return model_number(r, o->x) && in_range(r, o);
+    if (!model_number(r, o->x))
+        return 0;
+    const int good = (o->rim[0] == '[' ? *o->x >= o->low : *o->x > o->low)
+                     && (o->rim[1] == ']' ? *o->x <= o->high : *o->x < o->high);
+    return good || model_blame(r, "%s is %g%s, expected %s", o->name, *o->x, source_of(r, word),
+                               o->expected);
 }
 
 int model_options(model_reader *r, int needed, int n, model_option o[])
@@ -498,13 +482,12 @@ int model_options(model_reader *r, int needed, int n, model_option o[])
             k++;
         if (k == n)
             return wrong(r, "unknown option", model_look(r));
-        if (!option_value(r, &o[k]))
-            return 0;
+        option_value(r, &o[k]);
     }
     for (int k = 0; k < needed; k++)
         if (!o[k].seen)
             return model_blame(r, "%s is missing, expected: %s", o[k].name, r->s->form);
-    return 1;
+    return !r->p->status;
 }
 
 /* ------------------------------------------------------------- nodes, elements, blocks and sets */
@@ -527,8 +510,7 @@ int model_add_node(model_reader *r, const model_node *n)
 
 int model_find_block(model_reader *r, const char *word)
 {
-    const model_block block = { .name = word, .at = r->s->at, .material = -1,
-                                .body = r->blocks };
+    const model_block block = { .name = word, .at = r->s->at, .material = -1 };
 
     if (model_find(&r->block_of, word) < 0 && model_enter(r, &r->block_of, word, r->blocks)
         && model_add(r, &r->p->block, &r->p->blocks, sizeof word, &word))
@@ -563,5 +545,5 @@ int model_find_set(model_reader *r, const char *word)
 
 int model_add_to_set(model_reader *r, int set, int node)
 {
-    return model_add(r, &r->set[set].node, &r->set[set].n, sizeof node, &node);
+    return node >= 0 && model_add(r, &r->set[set].node, &r->set[set].n, sizeof node, &node);
 }

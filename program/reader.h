@@ -11,8 +11,6 @@
 #ifndef READER_H
 #define READER_H
 
-#include <stddef.h>
-
 #include "model.h"
 
 /* line 0: none is to blame; round: "i = 7", of what is repeated, or NULL. */
@@ -50,7 +48,6 @@ typedef struct {
     const char *name;
     model_place at;
     int material, meshed, fixed, stressed;      /* material: by `use`, or -1 */
-    int body;                                   /* the first block that it is bonded to, or it */
 } model_block;
 
 typedef struct { model_place at; int block[2]; } model_bond;    /* of two blocks */
@@ -62,7 +59,7 @@ typedef struct { int node, block, next; } model_copy;
 
 typedef struct {
     model *p;
-    const char *path;                       /* of the model file */
+    model_place whole;                      /* the model file, none of its lines */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
     int cuts, cut_words, depth, repeated, removed, stage;
@@ -95,14 +92,14 @@ typedef struct {
     const model_statement *light;           /* of a material that weighs next to nothing */
     const model_statement *s;               /* in hand, and its next word; how many of those */
     int next, ahead;                        /* before it are not in its form */
-    model_place *seen;                      /* [kinds]      where the last of a kind stands */
 } model_reader;
 
 /* --- errors, memory, tables --- */
 /* They return 0; the first message stays. model_blame: at the statement in hand. */
 int   model_fail(model_reader *r, model_place at, const char *format, ...);
 #define model_blame(r, ...) model_fail(r, (r)->s->at, __VA_ARGS__)
-int   model_note(model_reader *r, const char *format, ...);     /* what is no error, of it */
+int   model_add_note(model_reader *r, const char *what);        /* what is no error, of it */
+#define model_note(r, ...) model_add_note(r, model_print(r, __VA_ARGS__))
 int   model_out_of_memory(model_reader *r);
 int   model_refused(model_reader *r, bbm_status status);        /* what the library says */
 void  model_clean(char *text);                          /* of what a terminal would obey */
@@ -135,6 +132,7 @@ int   model_whole(model_reader *r, const char *what, int least, int *n);
 const char *model_name(model_reader *r);
 const char *model_id(model_reader *r);
 int   model_known(model_reader *r, const model_table *t);   /* the next word's number, or -1 */
+int   model_block_or_all(model_reader *r);                  /* the same of a block; `*`: -1 */
 int   model_is_new(model_reader *r, model_place at, const model_table *t, const char *word);
 const char *model_new_name(model_reader *r, const model_table *t);
 int   model_note_friction(model_reader *r, double friction);    /* of less than a degree */
@@ -190,7 +188,6 @@ int   model_hook(model_reader *r);
 
 /* --- stage.c --- */
 void  model_keep_stage(model_reader *r, int k);         /* stage k begins with what holds now */
-void  model_gather_loads(bbm_model *m);                 /* the library's hook */
 
 /* --- build.c: the library's model --- */
 int   model_build(model_reader *r);

@@ -1,7 +1,4 @@
 /* run.c - a run of a model file, step by step, and what came out of it. */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "run.h"
 
@@ -22,6 +19,23 @@ static bbm_status settle(run *r)
     return status;
 }
 
+/* The rest of the way of a displaced support is even over the time that is left of the ramp, which
+ * ends with the stage. */
+static void move_supports(const model *p)
+{
+    const bbm_model *m = p->m;
+    const double dt = m->par.dt, whole = p->now ? dt * (m->par.steps - p->begun) : INFINITY,
+                 left = fmin(p->ramp, whole) - dt * (m->info.step - p->begun),
+                 share = p->dynamic && left > dt ? dt / left : 1;
+
+    for (int n = 0; n < m->nodes && p->moving; n++) {
+        const double *at = m->node[n].wall, *to = p->stage[p->now].node[n].wall;
+        if (m->node[n].held)
+            bbm_move_support(p->m, n, at[0] + share * (to[0] - at[0]),
+                             at[1] + share * (to[1] - at[1]));
+    }
+}
+
 bbm_status run_step(run *r)
 {
     bbm_model *m = r->p->m;
@@ -39,7 +53,7 @@ bbm_status run_step(run *r)
     r->stage_is_over = 0;
     if (m->info.step == par->steps)
         return BBM_STEPS_EXHAUSTED;
-    model_move_supports(r->p);
+    move_supports(r->p);
     const bbm_status status = bbm_step(m);
     if (!status && bbm_start_cracks(m))                         /* what has come off is a body  */
         return bbm_out_of_memory(m);
@@ -52,22 +66,16 @@ bbm_status run_step(run *r)
     return status;
 }
 
-/* Whether a joint has a strength that it can lose. */
-static int is_joined(const bbm_beyond *b)
-{
-    int joined = b->cohesion > 0 || b->tension > 0;
-
-    for (int k = 0; k < b->joints; k++)
-        joined |= b->joint[k].cohesion > 0 || b->joint[k].tension > 0;
-    return joined;
-}
-
-/* The library's own message may name the step. */
+/* The library's own message may name the step. Joints may have a strength that they can lose. */
 void run_says(const run *r, bbm_status status, char out[500])
 {
     const bbm_model *m = r->p->m;
+    const bbm_beyond *b = m->beyond;
+    int strong = b->cohesion > 0 || b->tension > 0;
     char text[400], step[30];
 
+    for (int k = 0; k < b->joints; k++)
+        strong |= b->joint[k].cohesion > 0 || b->joint[k].tension > 0;
     snprintf(step, sizeof step, "step %d: ", m->info.step + 1);
     if (status == BBM_STEPS_EXHAUSTED)
         snprintf(out, 500, m->par.tolerance > 0
@@ -77,7 +85,7 @@ void run_says(const run *r, bbm_status status, char out[500])
     else
         snprintf(out, 500, "%s%s%.380s%s", r->has_begun ? "" : "settling, ",
                  strstr(model_says(r->p, status, text), "step ") ? "" : step, text,
-                 status == BBM_NO_EQUILIBRIUM && is_joined(m->beyond)
+                 status == BBM_NO_EQUILIBRIUM && strong
                  ? "; a joint breaks point by point, the sooner the finer its mesh" : "");
 }
 

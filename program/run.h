@@ -34,4 +34,10 @@ typedef struct {                /* what the command line asks for */
 
 int find_limit(const arguments *a);     /* find.c: says what it finds; the exit status */
 
+/* warn.c: what is allowed and hardly meant, a line each on stderr: of the model; of a way that is
+ * long, once a run; of the run. */
+void warn_before(const model *p, const char *path);
+void warn_in_step(const run *r, const char *path, int *said);
+void warn_after(const model *p, const char *path);
+
 #endif

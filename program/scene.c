@@ -24,7 +24,6 @@
 #include "scene.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,7 +69,7 @@ static int has_colours(const char *name) { return name && strcmp(name, FIELD_PRI
 typedef scene_point point;
 
 typedef struct {                        /* a block                                                */
-    int first, n;                       /* its vertices are film.vertex[first .. first+n-1]       */
+    int first, n;                       /* its vertices: first, film.next[first], ..              */
     int held, fixed, tint;              /* fixed: at a point or more                              */
     double box[2][2];                   /* m        x from, to; y from, to, in the first frame    */
 } body;
@@ -83,7 +82,7 @@ typedef struct {                        /* what the functions below draw with   
     const bbm_model *m;
     int          bodies, held, whole;   /* whether any is held; is free, of one element           */
     body        *body;
-    int         *vertex;                /*          [vertices], block by block                    */
+    int         *next;                  /*          [vertices] the next one of the block          */
     point       *normal;                /*          [nodes] outward, of the boundary there        */
     int         *hidden;                /*          [elements] whether its cross is               */
     double       window[2][2];          /* m                                                      */
@@ -282,31 +281,25 @@ static body *body_of(const film *f, int v)
 static void find_bodies(film *f)
 {
     const bbm_model *m = f->m;
-
     const scene_frame *first = f->s->frame, *end = first + f->s->frames;
 
-    for (int v = 0; v < m->vertices; v++) {
+    for (int v = m->vertices - 1; v >= 0; v--) {
         body *b = body_of(f, v);
         for (; f->bodies <= b - f->body; f->bodies++)
-            f->body[f->bodies] = (body){ 0, 0, 1, 0, 0, { { INFINITY, -INFINITY },
-                                                          { INFINITY, -INFINITY } } };
+            f->body[f->bodies] = (body){ -1, 0, 1, 0, 0, { { INFINITY, -INFINITY },
+                                                           { INFINITY, -INFINITY } } };
+        f->next[v] = b->first;
+        b->first = v;
         b->n++;
-    }
-    for (body *b = f->body + 1; b < f->body + f->bodies; b++)
-        b->first = b[-1].first + b[-1].n, b[-1].n = 0;
-    f->body[f->bodies - 1].n = 0;
-    for (int v = 0; v < m->vertices; v++) {
-        body *b = body_of(f, v);
-        f->vertex[b->first + b->n++] = v;
         for (const scene_frame *g = first; g < end; g++)
             b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
-        b->fixed |= f->s->frame[f->s->frames - 1].held[v] & BBM_XY;
+        b->fixed |= end[-1].held[v] & BBM_XY;
         plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
     }
     for (body *b = f->body; b < f->body + f->bodies; b++) {
-        b->n *= first->held[f->vertex[b->first]] != SCENE_GONE;
+        b->n *= b->first >= 0 && first->held[b->first] != SCENE_GONE;
         f->held |= b->held && b->n > 0;
-        f->whole |= !b->held && b->n == m->element[m->vertex[f->vertex[b->first]].element].n;
+        f->whole |= !b->held && b->n > 0 && b->n == m->element[m->vertex[b->first].element].n;
         b->tint = choose_tint(f, b);
     }
 }
@@ -332,7 +325,7 @@ typedef void writer(film *f, int frame, const body *b);
 static void end_film(film *f)
 {
     free(f->body);
-    free(f->vertex);
+    free(f->next);
     free(f->normal);
     free(f->hidden);
 }
@@ -343,12 +336,11 @@ static int begin_film(film *f)
     const bbm_model *m = f->m;
 
     f->body = malloc((size_t)m->elements * sizeof *f->body);
-    f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
+    f->next = malloc((size_t)m->vertices * sizeof *f->next);
     f->normal = calloc((size_t)m->nodes, sizeof *f->normal);
     f->hidden = calloc((size_t)m->elements, sizeof *f->hidden);
     errno = f->s->frames || f->s->failed ? ENOMEM : EINVAL;
-    if (f->s->failed || !f->s->frames || !f->body || !f->vertex || !f->normal
-        || !f->hidden)
+    if (f->s->failed || !f->s->frames || !f->body || !f->next || !f->normal || !f->hidden)
         return 0;
     find_bodies(f);
     find_normals(f);
@@ -358,8 +350,7 @@ static int begin_film(film *f)
 /* The polygons of a block's elements. */
 static void put_elements(film *f, int frame, const body *b)
 {
-    for (int k = b->first; k < b->first + b->n; k++) {
-        const int v = f->vertex[k];
+    for (int k = 0, v = b->first; k < b->n; k++, v = f->next[v]) {
         const bbm_element *e = &f->m->element[f->m->vertex[v].element];
         const point a = at(f, frame, v);
         plot_point(&f->p, v == e->first ? "M" : " ", a.x, a.y);
@@ -373,8 +364,8 @@ static void put_outline(film *f, int frame, const body *b)
 {
     const bbm_edge *edge = f->m->edge;
 
-    for (int k = b->first; k < b->first + b->n; k++) {
-        const int first = f->m->vertex[f->vertex[k]].edge;
+    for (int k = 0, v = b->first; k < b->n; k++, v = f->next[v]) {
+        const int first = f->m->vertex[v].edge;
         int e = first, back = first;
         while (e >= 0 && edge[e].after > first && edge[back].before > first)
             e = edge[e].after, back = edge[back].before;
@@ -393,8 +384,8 @@ static void put_outline(film *f, int frame, const body *b)
  */
 static void put_edges(film *f, int frame, const body *b)
 {
-    for (int k = b->first; k < b->first + b->n; k++) {
-        const int v = f->vertex[k], e = f->m->vertex[v].edge;
+    for (int k = 0, v = b->first; k < b->n; k++, v = f->next[v]) {
+        const int e = f->m->vertex[v].edge;
         if (e < 0)
             continue;
         const point p = at(f, frame, v);
@@ -410,8 +401,8 @@ static int value_count(const film *f) { return f->s->frames + HOLD; }
 static int is_moving(const film *f, const body *b)
 {
     for (int i = 1; i < f->s->frames && f->seconds > 0; i++)
-        for (int k = b->first; k < b->first + b->n; k++)
-            if (gap(at(f, 0, f->vertex[k]), at(f, i, f->vertex[k])) > VISIBLE)
+        for (int k = 0, v = b->first; k < b->n; k++, v = f->next[v])
+            if (gap(at(f, 0, v), at(f, i, v)) > VISIBLE)
                 return 1;
     return 0;
 }
@@ -433,8 +424,7 @@ static void animate(film *f, const char *attribute, const body *b, writer *put)
 /* The colour of the block's first element. */
 static void put_colour(film *f, int frame, const body *b)
 {
-    plot_put(&f->p, "%s",
-             plot_value_colour(&f->bar, f->s->frame[frame].value[f->vertex[b->first]]).text);
+    plot_put(&f->p, "%s", plot_value_colour(&f->bar, f->s->frame[frame].value[b->first]).text);
 }
 
 /* What `put` draws of a block; fill: NULL, the colour of its first element. */
@@ -462,8 +452,8 @@ static void draw_block(film *f, int frame, const body *b)
                                              "#eba98f" };
     const int coloured = has_colours(f->s->field) && !b->held;
 
-    for (body e = { .first = b->first }; coloured && e.first < b->first + b->n; e.first += e.n) {
-        e.n = f->m->element[f->m->vertex[f->vertex[e.first]].element].n;
+    for (body e = *b; coloured && e.first >= 0; e.first = f->next[e.first + e.n - 1]) {
+        e.n = f->m->element[f->m->vertex[e.first].element].n;
         put_shape(f, frame, &e, NULL, 0.3, put_elements);
     }
     const int cracks = f->m->edges > f->s->frame[0].edges;
@@ -569,12 +559,11 @@ static void visit_supports(film *f, int frame, visitor *visit)
 {
     point last[4] = { { 0, 0 }, { INFINITY, 0 }, { INFINITY, 0 }, { INFINITY, 0 } };
 
-    for (int b = 0; b < f->bodies; b++)
-        for (int k = 0; k < f->body[b].n && !f->body[b].held; k++) {
-            const int v = f->vertex[f->body[b].first + k], n = f->m->vertex[v].node;
+    for (const body *b = f->body; b < f->body + f->bodies; b++)
+        for (int k = 0, v = b->first; k < b->n && !b->held; k++, v = f->next[v]) {
             const int held = f->s->frame[frame].held[v] & BBM_XY;
             const point x = position(f, frame, v);
-            point d = f->normal[n];
+            point d = f->normal[f->m->vertex[v].node];
             if (held == 0 || gap(x, last[held]) * f->scale < 8)
                 continue;
             last[held] = x;
@@ -908,19 +897,16 @@ static int find_colours(film *f)
 /* Opens a page for a panel and, below it, the colours of a field; draws title and legend. */
 static int open_page(film *f, const char *path)
 {
-    const double below = has_colours(f->s->field) ? BAR : 0;
-
     if (f->s->field && !find_colours(f))
         return 0;
     f->top = f->s->title ? 36 : 0;
     f->over = is_timed(f) ? OVER : 14;
     measure(f);
     const double width = fmax(f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
-    const double bottom = f->top + f->h + below;
+    const double bottom = f->top + f->h + (has_colours(f->s->field) ? BAR : 0);
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
     f->left = (width - f->w) / 2;
-    if (!plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8))
-        return 0;
+    plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8);
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
              "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
              "<rect width=\"7\" height=\"7\" fill=\"#e4e4e4\"/>"

@@ -45,7 +45,7 @@ typedef struct {                /* what was recorded at one time                
 } scene_frame;
 
 typedef struct {                /* a point of an element: the sum of share times vertex           */
-    int    block, vertex[3];
+    int    block, element, vertex[3];
     double share[3];
 } scene_end;
 

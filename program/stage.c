@@ -9,8 +9,6 @@
  * 0. The energy that it had, and that of its contacts, leaves the balance.
  */
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 #include "reader.h"
 
@@ -73,15 +71,6 @@ void model_keep_stage(model_reader *r, int k)
         node[n] = m->node[n];
         m->node[n].wall[0] = m->node[n].wall[1] = 0;
     }
-}
-
-/* No load on what is gone. */
-void model_gather_loads(bbm_model *m)
-{
-    bbm_gather_edge_loads(m);
-    for (int i = 0; i < m->elements; i++)
-        if (field_is_gone(m, m->element[i].first))
-            memset(&m->load[6 * i], 0, 6 * sizeof *m->load);
 }
 
 /* Element i, so many m to the right of where it was at the start. */

@@ -14,10 +14,6 @@
  *     EXPECTED         expect                     needs monitors
  *
  * The statements of a stage follow, stage by stage, on the finished model: stage.c. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "cell.h"
 #include "reader.h"
@@ -49,18 +45,17 @@ static int read_node(model_reader *r)
 /* The path of a file that the next word names, beside the model file; or NULL. */
 static const char *next_path(model_reader *r)
 {
-    const char *word = model_word(r), *slash = strrchr(r->path, '/');
+    const char *word = model_word(r), *slash = strrchr(r->whole.file, '/');
 
     if (!word)
         return NULL;
-    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->path) : 0;
-    return model_print(r, "%.*s%s", folder, r->path, word);
+    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->whole.file) : 0;
+    return model_print(r, "%.*s%s", folder, r->whole.file, word);
 }
 
 static int read_mesh(model_reader *r)
 {
     const char *path = next_path(r);
-
     const int by_surface = path && model_skip(r, "by");
 
     return path && (!by_surface || model_keyword(r, "surface")) && model_at_end(r)
@@ -71,11 +66,9 @@ static int read_material(model_reader *r)
 {
     const char *word = model_new_name(r, &r->material_of);
     bbm_material m = { .thickness = 1 };
-    model_option o[] = {
-        NORMAL("E", &m.E), NORMAL("density", &m.density),
-        RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
-        NORMAL("thickness", &m.thickness),
-    };
+    model_option o[] = { NORMAL("E", &m.E), NORMAL("density", &m.density),
+                         RANGE("nu", &m.nu, -1, 0.5, "()", "more than -1 and less than 0.5"),
+                         NORMAL("thickness", &m.thickness) };
 
     if (!word || !model_options(r, 3, LENGTH(o), o))
         return 0;
@@ -109,20 +102,16 @@ static int read_contact(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
     bbm_beyond *b = r->p->m->beyond;
-    model_option o[] = {
-        FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s),
-        RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
-        FROM_ZERO("round", &p->round),
-        FROM_ZERO("cohesion", &b->cohesion), FROM_ZERO("tension", &b->tension),
-        ANGLE("friction", &p->friction),
-    };
+    model_option o[] = { FROM_ZERO("kn", &p->p_n), FROM_ZERO("ks", &p->p_s),
+                         RANGE("restitution", &b->restitution, 0, 1, "[]", "0 to 1"),
+                         FROM_ZERO("round", &p->round), FROM_ZERO("cohesion", &b->cohesion),
+                         FROM_ZERO("tension", &b->tension), ANGLE("friction", &p->friction) };
 
     if (!model_options(r, 0, LENGTH(o), o) || !model_note_friction(r, p->friction))
         return 0;
-    if (r->s->stage && (o[0].seen || o[1].seen || o[2].seen || o[3].seen))
-        return model_blame(r, "kn, ks, restitution or round in a stage, expected friction, "
-                              "cohesion or tension");
-    return 1;
+    return !r->s->stage || !(o[0].seen || o[1].seen || o[2].seen || o[3].seen)
+           || model_blame(r, "kn, ks, restitution or round in a stage, expected friction, cohesion "
+                          "or tension");
 }
 
 static int read_static(model_reader *r)
@@ -132,28 +121,25 @@ static int read_static(model_reader *r)
                          RANGE("tolerance", &p->tolerance, 0, 1, "()",
                                "more than 0 and less than 1") };
 
-    p->steps = 1;
     return model_options(r, 0, LENGTH(o), o);
 }
 
 static int read_dynamic(model_reader *r)
 {
     bbm_parameters *p = &r->p->m->par;
-    model_option o[] = {
-        ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
-        RANGE("velocity_factor", &p->velocity_factor, 0, 1, "[]", "0 to 1"),
-        RANGE("damping", &p->velocity_factor, 0, 1, "[]", "0 to 1"),        /* the same */
-        COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp),
-    };
+    double *factor = &p->velocity_factor;
+    model_option o[] = { ABOVE_ZERO("dt", &p->dt), COUNT("steps", &p->steps, 1),
+                         RANGE("velocity_factor", factor, 0, 1, "[]", "0 to 1"),
+                         RANGE("damping", factor, 0, 1, "[]", "0 to 1"),     /* the same */
+                         COUNT("settle", &r->p->settle, 0), FROM_ZERO("ramp", &r->p->ramp) };
 
-    p->velocity_factor = 1;
+    *factor = 1;
     r->p->dynamic = 1;
-    if (!model_options(r, 2, LENGTH(o), o))
-        return 0;
-    if (o[2].seen && o[3].seen)
-        return model_blame(r, "velocity_factor and damping, which are the same, expected one");
+    const int good = model_options(r, 2, LENGTH(o), o);
     r->p->ramp = o[5].seen ? r->p->ramp : p->dt * p->steps;
-    return 1;
+    return good && (!o[2].seen || !o[3].seen
+                    || model_blame(r, "velocity_factor and damping, which are the same, expected "
+                                   "one"));
 }
 
 /* Two blocks become one body; or the options of all bonds. */
@@ -172,16 +158,9 @@ static int read_bond(model_reader *r)
 
     if (model_look(r) && model_find(&r->block_of, model_look(r)) >= 0) {
         for (int k = 0; k < 2; k++)
-            if ((two.block[k] = model_known(r, &r->block_of)) < 0)
-                return 0;
+            two.block[k] = model_known(r, &r->block_of);
         if (two.block[0] == two.block[1])
             return model_blame(r, "bond of a block with itself, expected two blocks");
-        int body[2] = { two.block[0], two.block[1] };   /* a forest: the first block is the root */
-        for (int k = 0; k < 2; k++)
-            while (r->block[body[k]].body != body[k])
-                body[k] = r->block[body[k]].body = r->block[r->block[body[k]].body].body;
-        const int last = body[1] > body[0];
-        r->block[body[last]].body = body[!last];
         return model_add(r, &r->bond, &r->bonds, sizeof two, &two);
     }
     if (r->bonding++)
@@ -200,12 +179,11 @@ static int read_pcg(model_reader *r)
 {
     bbm_pcg *p = &r->p->m->par.pcg;
     int coarse = 0;
-    model_option o[] = {
-        RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
-        RANGE("tolerance", &p->tolerance, 0, 1e-6, "(]", "more than 0, at most 1e-6"),
-        COUNT("iterations", &p->iterations, 1), CHOICE("coarse", &coarse, "on|off"),
-    };
-
+    model_option o[] = { RANGE("omega", &p->omega, 0, 2, "()", "more than 0 and less than 2"),
+                         RANGE("tolerance", &p->tolerance, 0, 1e-6, "(]",
+                               "more than 0, at most 1e-6"),
+                         COUNT("iterations", &p->iterations, 1),
+                         CHOICE("coarse", &coarse, "on|off") };
     const int good = model_options(r, 0, LENGTH(o), o);
     p->method = coarse == 0 ? &bbm_two_level : NULL;
     return good;
@@ -222,25 +200,24 @@ static int read_rotation(model_reader *r)
 
 static int read_output(model_reader *r)
 {
-    char names[400] = "";
+    const char *names = "";
     int chosen = (int)(field_find(r->p->field) - field_table);
     double *c = r->p->colours;
+
+    for (const field *f = field_table; f->name && names; f++)
+        names = model_print(r, "%s%s%s", names, *names ? "|" : "", f->name);
     model_option o[] = { COUNT("every", &r->p->every, 1), { .name = "vtk", .flag = &r->p->vtk },
                    { .name = "balance", .flag = &r->p->balance },
                    { .name = "svg", .flag = &r->p->svg }, ABOVE_ZERO("scale", &r->p->scale),
                    { .name = "film", .flag = &r->p->film },
                    CHOICE("field", &chosen, names), NUMBER("low", &c[0]), NUMBER("high", &c[1]) };
 
-    for (const field *f = field_table; f->name; f++)
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? "|" : "",
-                 f->name);
-    if (!model_options(r, 0, LENGTH(o), o))
-        return 0;
+    const int good = model_options(r, 0, LENGTH(o), o);
     r->p->svg |= r->p->film;
     r->p->field = field_table[chosen].name;
     if (r->p->film && !r->p->dynamic)
         model_note(r, "warning: statics has no film");
-    return c[0] < c[1] || (c[0] == 0 && c[1] == 0)
+    return (good && (c[0] < c[1] || (c[0] == 0 && c[1] == 0)))
            || model_blame(r, "colours from %g to %g, expected low below high", c[0], c[1]);
 }
 
@@ -258,9 +235,8 @@ static int read_element(model_reader *r)
         return model_fail(r, e.at, "element %.60s has %d nodes, expected 3 or more", e.id, e.n);
     e.block = model_find_block(r, block);
     for (int k = 0; k < e.n; k++)
-        if (!model_add_corner(r, model_known(r, &r->node_of)))
-            return 0;
-    return e.block >= 0 && model_add_element(r, &e);
+        model_add_corner(r, model_known(r, &r->node_of));
+    return !r->p->status && model_add_element(r, &e);
 }
 
 /* ----------------------------------------------------- blocks and grids with nodes of their own */
@@ -276,9 +252,8 @@ static const char *next_id(model_reader *r, long long *last)
 
 static int add_own_node(model_reader *r, double x, double y)
 {
-    const model_node n = {
-        .id = next_id(r, &r->last_node), .x = x, .y = y, .at = r->s->at, .by_hand = 1, .first = -1
-    };
+    const model_node n = { .id = next_id(r, &r->last_node), .x = x, .y = y, .at = r->s->at,
+                           .by_hand = 1, .first = -1 };
 
     return n.id && model_add_node(r, &n);
 }
@@ -294,9 +269,8 @@ static int add_own_element(model_reader *r, int block, int material, int n)
 static int new_block(model_reader *r, const char **word, int *material)
 {
     *word = model_new_name(r, &r->block_of);
-    if (!*word || (*material = model_known(r, &r->material_of)) < 0)
-        return -1;
-    return model_find_block(r, *word);
+    *material = model_known(r, &r->material_of);
+    return *material < 0 ? -1 : model_find_block(r, *word);
 }
 
 static int read_block(model_reader *r)
@@ -309,13 +283,12 @@ static int read_block(model_reader *r)
     if (block < 0)
         return 0;
     for (int k = 0; k < words; k++)
-        if (!model_number(r, &xy[k % 2])
-            || (k % 2 && !(add_own_node(r, xy[0], xy[1]) && model_add_corner(r, r->nodes - 1))))
-            return 0;
+        if (model_number(r, &xy[k % 2]) && k % 2 && add_own_node(r, xy[0], xy[1]))
+            model_add_corner(r, r->nodes - 1);
     if (words < 6 || words % 2)
         return model_blame(r, "block '%.60s' has %d coordinates, expected X Y of 3 corners or "
                            "more", word, words);
-    return add_own_element(r, block, material, words / 2);
+    return !r->p->status && add_own_element(r, block, material, words / 2);
 }
 
 /* The nodes from `first` on, `step` apart, as the set NAME.side. */
@@ -381,12 +354,10 @@ static int read_set(model_reader *r)
                                              && model_keyword(r, "nodes"))))
         return 0;
     const int set = model_find_set(r, word);
-    do {
-        const int node = set < 0 ? -1 : model_known(r, &r->node_of);
-        if (node < 0 || !model_add_to_set(r, set, node))
-            return 0;
-    } while (model_look(r));
-    return 1;
+    do
+        model_add_to_set(r, set, model_known(r, &r->node_of));
+    while (model_look(r));
+    return !r->p->status;
 }
 
 /* A block of the mesh gets the material; `*`: every one that has none of its own. */
@@ -394,12 +365,9 @@ static int read_use(model_reader *r)
 {
     const int material = model_known(r, &r->material_of);
 
-    if (material < 0 || !model_keyword(r, "on"))
-        return 0;
-    const int star = model_skip(r, "*"), block = star ? 0 : model_known(r, &r->block_of);
-    if (block < 0)
-        return 0;
-    model_block *b = star ? &r->any : &r->block[block];
+    model_keyword(r, "on");
+    const int block = model_block_or_all(r);
+    model_block *b = block < 0 ? &r->any : &r->block[block];
     if (!b->meshed)
         return model_blame(r, "block '%.60s' has its material in its own statement, expected a "
                            "block of a mesh", b->name);
@@ -413,12 +381,9 @@ static int read_fixblock(model_reader *r)
 {
     const int block = model_known(r, &r->block_of);
 
-    if (block < 0)
-        return 0;
-    if (r->block[block].fixed)
-        return model_blame(r, "block '%.60s' is fixed for the second time, expected once",
-                           r->block[block].name);
-    return r->block[block].fixed = 1;
+    return block >= 0 && (r->block[block].fixed++ == 0
+                          || model_blame(r, "block '%.60s' is fixed for the second time, expected "
+                                         "once", r->block[block].name));
 }
 
 /* ------------------------------------------------------------------------- what should come out */
@@ -466,8 +431,7 @@ static const struct kind {
     { "material NAME E VALUE nu VALUE density VALUE [thickness VALUE]", read_material, ALONE, 0 },
     { "plane stress|strain", read_plane, ALONE, ONCE },
     { "gravity GX GY", read_gravity, ALONE, ONCE | STAGED },
-    { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NODES,
-      ONCE | DYNAMIC },
+    { "shake AX AY OMEGA, or shake FILE [scale S]", read_shake, NODES, ONCE | DYNAMIC },
     { "contact [kn VALUE] [ks VALUE] [friction DEGREES] [cohesion PASCAL] [tension PASCAL] "
       "[restitution E] [round LENGTH]", read_contact, ALONE, ONCE | STAGED },
     { "static [steps N] [tolerance VALUE]", read_static, ALONE, ONCE },
@@ -478,8 +442,7 @@ static const struct kind {
     { "pcg [omega VALUE] [tolerance VALUE] [iterations N] [coarse on|off]", read_pcg, ALONE, ONCE },
     { "rotation exact|linear", read_rotation, ALONE, ONCE },
     { "output [every N] [vtk] [balance] [svg] [film] [field NAME] [scale N] [low VALUE] "
-      "[high VALUE]",
-      read_output, NODES, ONCE },
+      "[high VALUE]", read_output, NODES, ONCE },
     { "element ID BLOCK MATERIAL N1 N2 N3 [N4 ...]", read_element, NODES, 0 },
     { "block NAME MATERIAL X1 Y1 X2 Y2 X3 Y3 [X4 Y4 ...]", read_block, MADE, 0 },
     { "grid NAME MATERIAL X0 Y0 X1 Y1 NX NY [quads|triangles|crossed]", read_grid, MADE, 0 },
@@ -557,23 +520,6 @@ static int begin_statement(model_reader *r, const char *word, const char *next, 
     return model_add(r, &r->cut, &r->cuts, sizeof s, &s);
 }
 
-/* Where each kind stands for the last time; some stand once. */
-static int note_places(model_reader *r)
-{
-    for (int i = 0; i < r->statements; i++) {
-        const model_statement *s = &r->statement[i];
-        if (s->stage && !(kinds[s->kind].may & STAGED))
-            return model_fail(r, s->at, "%s in a stage, expected load, traction, pressure, fix, "
-                              "contact or gravity", s->name);
-        if (!s->stage && kinds[s->kind].may & ONCE && r->seen[s->kind].line > 0)
-            return model_fail(r, s->at, "%s for the second time, after line %d, expected it once",
-                              s->name, r->seen[s->kind].line);
-        if (!s->stage)
-            r->seen[s->kind] = s->at;
-    }
-    return 1;
-}
-
 /* The end of a word: a blank that is not between the parentheses of $(...). */
 static char *find_word_end(char *word, const char *blanks)
 {
@@ -594,8 +540,7 @@ static int cut_line(model_reader *r, char *line, model_place at)
     line[strcspn(line, "#")] = '\0';
     for (int k = 0; *(line += strspn(line, blanks)) != '\0'; k++) {
         char *end = find_word_end(line, blanks);
-        const int title = k == 1 && kinds[r->cut[r->cuts - 1].kind].read == read_title;
-        if (title)
+        if (k == 1 && kinds[r->cut[r->cuts - 1].kind].read == read_title)
             for (end = line + strlen(line); strchr(blanks, end[-1]); )
                 end--;
         const int more = *end != '\0';
@@ -612,20 +557,19 @@ static int cut_line(model_reader *r, char *line, model_place at)
 static int cut_file(model_reader *r, char *text, size_t size)
 {
     char *end = text + size;
-    model_place at = { r->path, 1, NULL };
+    model_place at = { r->whole.file, 1, NULL };
 
     if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)     /* UTF-8's mark of some editors */
         text += 3;
-    for (char *next; text < end; text = next, at.line++) {
+    for (char *next; text < end && !r->p->status; text = next, at.line++) {
         char *stop = text + strcspn(text, "\n");
         if (*stop == '\0' && stop < end)
             return model_fail(r, at, "a zero byte: the file is binary, expected text");
         *stop = '\0';
         next = stop + 1;
-        if (!cut_line(r, text, at))
-            return 0;
+        cut_line(r, text, at);
     }
-    return 1;
+    return !r->p->status;
 }
 
 /* The statements of a stage stand together, from its head on. */
@@ -647,20 +591,32 @@ static int read_phase(model_reader *r, int phase, int stage, int from)
     return !r->p->status;
 }
 
-/* One of static and dynamic; line 0: it stands nowhere. */
-static int check_kind(model_reader *r)
+/* Some kinds stand in a stage, some once, and one of static and dynamic. */
+static int check_places(model_reader *r)
 {
-    const model_place *s = &r->seen[find_kind("static")], *d = &r->seen[find_kind("dynamic")];
+    model_place seen[LENGTH(kinds)] = { { 0 } };        /* the last of a kind; line 0: nowhere */
+    const model_place *s = &seen[find_kind("static")], *d = &seen[find_kind("dynamic")];
 
+    for (int k = 0; k < r->statements; k++) {
+        const model_statement *i = &r->statement[k];
+        const int may = kinds[i->kind].may;
+        if (i->stage && !(may & STAGED))
+            return model_fail(r, i->at, "%s in a stage, expected load, traction, pressure, fix, "
+                              "contact or gravity", i->name);
+        if (i->stage)
+            continue;
+        if (may & ONCE && seen[i->kind].line > 0)
+            return model_fail(r, i->at, "%s for the second time, after line %d, expected it once",
+                              i->name, seen[i->kind].line);
+        seen[i->kind] = i->at;
+    }
     if (s->line && d->line)
         return model_fail(r, s->line > d->line ? *s : *d,
                           "static and dynamic, expected one of them");
-    if (!s->line && !d->line)
-        return model_fail(r, (model_place){ .file = r->path },
-                          "%sneither static nor dynamic, expected one of them, such as: static, "
-                          "or: dynamic dt 1e-3 steps 1000",
-                          r->statements ? "" : "the file has no statement, ");
-    return 1;
+    return s->line || d->line
+           || model_fail(r, r->whole, "%sneither static nor dynamic, expected one of them, such "
+                         "as: static, or: dynamic dt 1e-3 steps 1000",
+                         r->statements ? "" : "the file has no statement, ");
 }
 
 /* Each stage begins with what the one before it has, and is kept until the run comes to it. */
@@ -668,9 +624,9 @@ static int read_all(model_reader *r)
 {
     model *p = r->p;
     size_t size;
-    char *text = model_load(r, r->path, &size);
+    char *text = model_load(r, r->whole.file, &size);
 
-    if (!text || !cut_file(r, text, size) || !model_expand(r) || !note_places(r) || !check_kind(r))
+    if (!text || !cut_file(r, text, size) || !model_expand(r) || !check_places(r))
         return 0;
     p->stage = model_keep(r, p->stages, sizeof *p->stage);
     for (int stage = 0, from = 0; stage <= p->stages && !p->status; stage++) {
@@ -693,9 +649,8 @@ static int read_all(model_reader *r)
 
 int model_read(const char *path, int lets, char *const let[], model *p)
 {
-    model_place seen[LENGTH(kinds)] = { { 0 } };
     model_reader r = {
-        .p = p, .path = path, .lets = lets, .let = let, .seen = seen,
+        .p = p, .whole = { path, 0, NULL }, .lets = lets, .let = let,
         .any = { .name = "*", .material = -1, .meshed = 1 }, .node_of.what = "node",
         .element_of.what = "element", .block_of.what = "block", .material_of.what = "material",
         .set_of.what = "set", .monitor_of.what = "monitor", .let_of.what = "let",
@@ -703,16 +658,11 @@ int model_read(const char *path, int lets, char *const let[], model *p)
     };
 
     *p = (model){ .field = "mises", .now = -1 };
-    if (bbm_beyond_new(&p->m)) {
-        model_out_of_memory(&r);
-    } else {
-        p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
-        p->m->par.alpha = p->m->beyond->multiplier_rounds = -1;
-        p->m->beyond->bonding = BBM_MOMENT;
-        p->m->par.faces = 1;
-        p->m->par.pcg.method = &bbm_two_level;
-        read_all(&r);
-    }
+    if (bbm_beyond_new(&p->m))
+        return model_out_of_memory(&r), p->status;
+    p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
+    p->m->par.alpha = p->m->beyond->multiplier_rounds = -1;
+    read_all(&r);
     return p->status;
 }
 

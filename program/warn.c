@@ -1,9 +1,6 @@
 /* warn.c - what is allowed and hardly meant: each is a line on stderr, and the run goes on. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "warn.h"
+#include "run.h"
 
 enum { NAMED = 10 };            /* pieces of a block that a warning names                       */
 
@@ -205,10 +202,9 @@ static void warn_of_gaps(const bodies *s, const char *path, int fall)
     int falls = 0, gaps = 0, who = 0, at = 0;
 
     for (int b = 0; b < s->p->blocks; b++) {
-        const int near = s->body[b].near;
         if (fall && !group_of(s, b)->held && !group_of(s, b)->thrown && falls++ == 0)
             who = b;
-        if (isfinite(s->body[b].gap) && !v[b].given && !v[near].given && gaps++ == 0)
+        if (isfinite(s->body[b].gap) && !v[b].given && !v[s->body[b].near].given && gaps++ == 0)
             at = b;
     }
     if (falls > 0)

@@ -4,9 +4,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include <dirent.h>
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "plot.h"
@@ -380,8 +377,8 @@ static void draw_panel(const write_results *w, plot *p, plot_chart c, plot_serie
     const int place = first < MONITORS ? w->p->monitors : (first - MONITORS) / MODEL_FOLLOWED;
 
     for (int k = 0; name[k]; k++, c.count++)
-        s[k] = (plot_series){ .name = name[k], .n = w->row + 1, .x = column(w, T),
-                              .y = column(w, first + k), .look = k + 2 };
+        s[k] = (plot_series){ name[k], w->row + 1, column(w, T), column(w, first + k), PLOT_LINE,
+                              k + 2 };
     c.x = w->p->dynamic ? (plot_quantity){ "t", "s" } : (plot_quantity){ "step", NULL };
     c.series = s;
     plot_draw_chart(p, (plot_box){ 0, 40 + PANEL * place, p->width, PANEL }, &c);
@@ -405,9 +402,8 @@ static void draw_monitor(const write_results *w, plot *p, int monitor)
             y[c.count][i] = e->value + (i < 2 ? -e->within : e->within);
         snprintf(name[c.count], sizeof *name, "%s, %.4g to %.4g %s", of->expected[e->kind],
                  y[c.count][0], y[c.count][2], of->unit);
-        s[of->values + c.count] = (plot_series){ .name = name[c.count], .n = 4, .x = x,
-                                                 .y = y[c.count], .style = PLOT_BAND,
-                                                 .look = 2 + e->kind };
+        s[of->values + c.count] = (plot_series){ name[c.count], 4, x, y[c.count], PLOT_BAND,
+                                                 2 + e->kind };
         c.count++;
     }
     draw_panel(w, p, c, s, MONITORS + MODEL_FOLLOWED * monitor, of->name);
@@ -516,32 +512,21 @@ void write_matrix(write_results *w)
 
 /* -------------------------------------------------------------------------------------- the run */
 
-static int has_form(const char *name, const char *form)
-{
-    int n = 0;
-
-    sscanf(name, form, &n);
-    return n > 0 && (!name[n] || output_is_temporary(name + n));
-}
-
 /* Whether a run writes a file of that name, or begins it. */
 static int is_ours(const char *name)
 {
     static const char *const form[] = {
-        "nodes.csv%n", "elements.csv%n", "history.csv%n", "summary.csv%n", "timing.csv%n",
-        "contacts.csv%n", "reactions.csv%n", "bolts.csv%n", "cracks.csv%n", "balance.csv%n",
-        "contacts.svg%n", "movie.svg%n", "model.svg%n", "history.svg%n", "step_%*[0-9].vtk%n",
-        "contacts_%*[0-9].vtk%n", "nodes_%*[0-9].csv%n", "reactions_%*[0-9].csv%n",
+        "nodes.csv", "elements.csv", "history.csv", "summary.csv", "timing.csv", "contacts.csv",
+        "reactions.csv", "bolts.csv", "cracks.csv", "balance.csv", "contacts.svg", "movie.svg",
+        "model.svg", "history.svg", "step_%*[0-9].vtk", "contacts_%*[0-9].vtk",
+        "nodes_%*[0-9].csv", "reactions_%*[0-9].csv",
     };
-    char picture[LONGEST];
     int ours = 0;
 
     for (int k = 0; k < LENGTH(form); k++)
-        ours |= has_form(name, form[k]);
-    for (const field *q = field_table; q->name; q++) {
-        snprintf(picture, sizeof picture, "%s.svg%%n", q->name);
-        ours |= has_form(name, picture);
-    }
+        ours |= output_has_form(name, form[k], "");
+    for (const field *q = field_table; q->name; q++)
+        ours |= output_has_form(name, q->name, ".svg");
     return ours;
 }
 

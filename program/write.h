@@ -14,11 +14,8 @@
 #ifndef WRITE_H
 #define WRITE_H
 
-#include <time.h>
-
 #include "model.h"
 #include "output.h"
-#include "scene.h"
 
 typedef struct {
     model *p;

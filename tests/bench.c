@@ -33,7 +33,7 @@ static void place(double i, double j, const void *unused, double xy[2])
 /* A cantilever of nx x ny cells with its K and F assembled. */
 static bbm_model *beam(int nx, int ny, int cut, double alpha)
 {
-    bbm_model *m = case_beyond_model(0);
+    bbm_model *m = case_beyond_model(0, 1);
     case_grid g = { .nx = nx, .ny = ny, .cut = cut, .map = place };
 
     bbm_add_material(m, &(bbm_material){ 30e6, 0.3, 1, 1 }, NULL);
@@ -92,7 +92,7 @@ static void add_long_sides(bbm_model *m, int n)
  * a cohesion, so that the length of each joint is looked up, too. */
 static bbm_model *model_in_contact(void add(bbm_model *, int), int n)
 {
-    bbm_model *m = case_beyond_model(0);
+    bbm_model *m = case_beyond_model(0, 1);
 
     bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
     add(m, n);
@@ -418,7 +418,7 @@ static void print_steps(void)
     printf("\nSteps, medians of %d; of a solution the iterations in the mean; growth: the power of the number of elements\n\n"
            "| model | elements | solutions | iterations | ms | growth |\n|---|---|---|---|---|---|\n", TURNS);
     for (size_t k = 0; k < sizeof run / sizeof *run; k++) {
-        bbm_model *m = case_beyond_model(0);
+        bbm_model *m = case_beyond_model(0, 1);
         double t[TURNS], solutions = 0, iterations = 0;
         bbm_add_material(m, &(bbm_material){ 1e10, 0.25, 2500, 1 }, NULL);
         m->par.gravity[1] = -9.81;
