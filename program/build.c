@@ -765,11 +765,27 @@ static int blame_free(model_reader *r)
                       r->p->block[m->element[loose].block], near);
 }
 
+/* The supports of a block that is held at all its nodes hold what is bonded to it as well. */
+static int check_cracks(model_reader *r)
+{
+    const bbm_model *m = r->p->m;
+
+    for (const bbm_bond *b = m->bond; b < m->bond + m->bonds && m->beyond->bond_tension > 0; b++) {
+        const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+        if (i->block != j->block && (bbm_is_held_all_round(m, i) || bbm_is_held_all_round(m, j)))
+            return model_fail(r, r->whole, "bonds that break between blocks '%.60s' and '%.60s', "
+                              "one of which is held at the nodes of both, expected supports at "
+                              "other nodes", r->p->block[i->block], r->p->block[j->block]);
+    }
+    return 1;
+}
+
 /* What takes part in the steps is hooked in; statics must be held. */
 int model_finish(model_reader *r)
 {
     model *p = r->p;
-    const bbm_status status = !model_hook(r) || p->dynamic ? BBM_OK : bbm_check_held(p->m);
+    const int fits = check_cracks(r) && model_hook(r);
+    const bbm_status status = !fits || p->dynamic ? BBM_OK : bbm_check_held(p->m);
 
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);

@@ -188,8 +188,8 @@ static void summarise(const model *p, const char *folder)
     printf("%d contact%s closed, residual %.1e\n", m->info.contacts, plural(m->info.contacts),
            m->info.pcg.residual);
     if (b->broken > 0 || b->crack_energy > 0)
-        printf("%d bond%s broke, %d bodies; softening took %.6g J; %d corner%s caught inside\n",
-               b->broken, plural(b->broken), bbm_find_pieces(m, b->body),
+        printf("%d bond%s broke, %d bodies; softening took at most %.6g J; %d corner%s caught "
+               "inside\n", b->broken, plural(b->broken), bbm_find_pieces(m, b->body),
                b->crack_energy, b->caught, plural(b->caught));
     if (p->dynamic)                                         /* below 1e-12 it is rounding */
         printf(b->gain > 1e-12
