@@ -254,7 +254,7 @@ static int renew_pushes(bbm_model *m)
     return changes;
 }
 
-/* The first element of a piece of a block that supports do not hold, by themselves or through
+/* The first element of a piece that has come off and that supports do not hold, by themselves or by
  * contacts; -1: there is none. What a crack presses on is not held: it may slide. */
 static int find_loose(const bbm_model *m)
 {
@@ -267,12 +267,11 @@ static int find_loose(const bbm_model *m)
             body[bbm_root_of(body, c->element[0])] = bbm_root_of(body, c->element[1]);
     for (int i = 0; i < m->elements; i++)
         body[i] = bbm_root_of(body, i);
-    for (int i = 0; i < m->elements; i++) {
-        int others = 0;
-        for (int j = 0; j < m->elements && body[i] == i; j++)
-            others |= m->element[j].block == m->element[i].block && body[j] != i;
-        if (others && !bbm_is_held(m, body, i))
-            return i;
+    for (int b = 0; b < m->bonds; b++) {
+        const int of[2] = { body[m->bond[b].i], body[m->bond[b].j] };
+        for (int k = 0; k < 2 && of[0] != of[1]; k++)
+            if (!bbm_is_held(m, body, of[k]))
+                return of[k];
     }
     return -1;
 }

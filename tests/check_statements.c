@@ -784,6 +784,21 @@ END_TEST
 
 static const char *const solved[] = { "static\n", "dynamic dt 0.01 steps 60 velocity_factor 0\n" };
 
+#define GLUED(pull) ROCK "grid base rock 0 -1 2 0 2 1\ngrid bar rock 0 0 2 3 2 1\nbond base bar\n" \
+    "bond tension 1e6 cohesion 1e7\nfix set base.bottom\ntraction set bar.top 0 " pull "\nstatic\n"
+
+/* A bar is bonded to a base whose bottom is fixed, and pulled by a hundredth less and more than the bonds hold. */
+START_TEST(a_block_that_breaks_off_another_one_is_named)
+{
+    const int falls = run_text("glued", _i == 0 ? GLUED("0.99e6") : GLUED("1.01e6"));
+
+    ck_assert_int_eq(falls, _i);
+    if (falls)
+        ck_assert_msg(strstr(slurp("out/model/glued.err"), "block 'bar' breaks through, and no support holds its piece"),
+                      "%s", slurp("out/model/glued.err"));
+}
+END_TEST
+
 /* It leaves no spring of a crack behind: what stays is at rest, and would be given energy. */
 START_TEST(a_block_with_cracks_can_be_removed)
 {
@@ -961,6 +976,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_add_test(t, a_block_with_cracks_can_be_removed);
+    tcase_add_loop_test(t, a_block_that_breaks_off_another_one_is_named, 0, 2);
     tcase_add_test(t, each_side_of_a_crack_has_its_own_nodes);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
