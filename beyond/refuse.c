@@ -69,10 +69,11 @@ static double curve_of(const bbm_model *m, const bbm_contact *c)
     const bbm_element *i = &m->element[c->element[0]], *j = &m->element[c->element[1]];
     const bbm_vertex *P1 = bbm_start_of(m, c->corner);
     const double *Di = &m->D[6 * c->element[0]], *Dj = &m->D[6 * c->element[1]];
-    const double half[6] = { Di[0] / 2, Di[1] / 2, Di[2] / 2, Di[3] / 2, Di[4] / 2, Di[5] / 2 };
     const double cosine = cos(Dj[2] / 2), sine = sin(Dj[2] / 2);
-    double whole[2], u[2];
+    double half[6], whole[2], u[2];
 
+    for (int a = 0; a < 6; a++)
+        half[a] = Di[a] / 2;
     bbm_move(m, i, Di, P1->x, P1->y, whole);
     bbm_move(m, i, half, P1->x, P1->y, u);
     const double x = (whole[0] - Dj[0]) / 2, y = (whole[1] - Dj[1]) / 2;

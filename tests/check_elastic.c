@@ -508,10 +508,11 @@ END_TEST
 
 /* Heat strains alpha dT = 1e-3 in all directions, as an initial strain: the stress that would hold
  * all three, -E alpha dT/(1 - 2 nu). Free in the plane, held out of it, there is szz = -E alpha dT
- * alone; ex = ey = (1 + nu) alpha dT. Plane strain that is set twice is the same. */
+ * alone; ex = ey = (1 + nu) alpha dT. A stress q along x that goes leaves szz = -nu q, and ex = -
+ * q (1 - nu^2)/E. Plane strain that is set twice is the same. */
 START_TEST(heat_in_plane_strain_leaves_its_stress_out_of_the_plane)
 {
-    const double E = 1e9, nu = 0.3, heat = 1e-3, all = -E * heat / (1 - 2 * nu);
+    const double E = 1e9, nu = 0.3, heat = 1e-3, all = -E * heat / (1 - 2 * nu), q = -E * heat / 2;
     bbm_model *m = new_model(&(bbm_material){ E, nu, 1, 1 });
     bbm_result r;
 
@@ -522,13 +523,14 @@ START_TEST(heat_in_plane_strain_leaves_its_stress_out_of_the_plane)
     for (int times = 0; times <= _i; times++)
         bbm_set_plane_strain(m);
     for (bbm_element *e = m->element; e < m->element + m->elements; e++)
-        e->stress[0] = e->stress[1] = e->szz = all;
+        e->stress[0] = (e->stress[1] = e->szz = all) + q;
     ck_ok(bbm_run(m), m);
     ck_ok(bbm_nodal_result(m, 1, -1, &r), m);
     ck_near(r.stress[0], 0, E * heat, SOLVED);
-    ck_relative(r.szz, -E * heat, SOLVED);
-    ck_relative(r.mises, E * heat, SOLVED);
-    ck_relative(m->element[0].D[3], (1 + nu) * heat, SOLVED);
+    ck_relative(r.szz, -E * heat - nu * q, SOLVED);
+    ck_relative(r.mises, E * heat + nu * q, SOLVED);
+    ck_relative(m->element[0].D[3], (1 + nu) * heat - q * (1 - nu * nu) / E, SOLVED);
+    ck_relative(m->element[0].D[4], (1 + nu) * heat + q * nu * (1 + nu) / E, SOLVED);
 }
 END_TEST
 
