@@ -784,6 +784,23 @@ END_TEST
 
 static const char *const solved[] = { "static\n", "dynamic dt 0.01 steps 60 velocity_factor 0\n" };
 
+/* Two squares are torn apart without velocities, at odd angles: then each step takes 2 M/dt^2 times the
+ * way of the one that is pulled, half of it at each node. The other one bears nothing, and no step is cut. */
+START_TEST(what_is_torn_off_costs_its_drag_alone)
+{
+    ck_assert_int_eq(run_text("torn", "material rock E 1e9 nu 0 density 2500\nlet c $(cos(20))\nlet s $(sin(20))\n"
+        "block l rock 0 0 $c $s $(c-s) $(s+c) $(-s) $c\n"
+        "block b rock $c $s $(2*c) $(2*s) $(2*c-s) $(2*s+c) $(c-s) $(s+c)\nbond l b\n"
+        "bond tension 1e6 cohesion 1e8 energy 1000\nfix at 0 0\nfix at $(-s) $c\n"
+        "fix at $(2*c) $(2*s) x by $(0.012*c) y by $(0.012*s)\n"
+        "fix at $(2*c-s) $(2*s+c) x by $(0.012*c) y by $(0.012*s)\n"
+        "dynamic dt 0.02 steps 100 velocity_factor 0\nmonitor e support at $(2*c) $(2*s)\n"), 0);
+    ck_relative(hypot(cell("torn", "history.csv", "", "e_fx"), cell("torn", "history.csv", "", "e_fy")),
+                2500 * 0.012 / 100 / (0.02 * 0.02), 1e-6);
+    ck_assert_double_lt(sum("torn", "summary.csv", "open_close", ""), 150);
+}
+END_TEST
+
 #define GLUED(pull) ROCK "grid base rock 0 -1 2 0 2 1\ngrid bar rock 0 0 2 3 2 1\nbond base bar\n" \
     "bond tension 1e6 cohesion 1e7\nfix set base.bottom\ntraction set bar.top 0 " pull "\nstatic\n"
 
@@ -977,6 +994,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_add_test(t, a_block_with_cracks_can_be_removed);
     tcase_add_loop_test(t, a_block_that_breaks_off_another_one_is_named, 0, 2);
+    tcase_add_test(t, what_is_torn_off_costs_its_drag_alone);
     tcase_add_test(t, each_side_of_a_crack_has_its_own_nodes);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
