@@ -209,7 +209,6 @@ struct bbm_matrix {
 
 /* A method other than the paper's. */
 struct bbm_method {
-    void (*choose)(const bbm_matrix *K, bbm_pcg *pcg);  /* changes method or omega              */
     void (*make_ready)(bbm_matrix *K);                  /* for a new K                          */
     void (*correct)(const bbm_matrix *K, const double *y, double *f);   /* f, (D/w) y between   */
 };

@@ -55,7 +55,7 @@ static bbm_status make_ready(bbm_matrix *K, const double *F, const bbm_pcg *pcg,
             info->element = K->caller[i];
             return BBM_NOT_POSITIVE_DEFINITE;
         }
-    if (K->method && K->method->make_ready)
+    if (K->method)
         K->method->make_ready(K);
     K->ready = 1;
     return BBM_OK;
@@ -131,7 +131,8 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, dou
 }
 
 /* K D = F, component by component. A component that fails does not stop the others. If no iteration
- * could begin, D is 0, and info has 0 iterations and residual 1. */
+ * could begin, D is 0, and info has 0 iterations and residual 1. A method has w = 1. Where it keeps
+ * nothing with K, the paper's takes its place. */
 bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *wanted,
                      bbm_pcg_info *info)
 {
@@ -140,8 +141,8 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
 
     *info = (bbm_pcg_info){ .residual = 1, .element = -1 };
     memset(D, 0, 6 * (size_t)K->n * sizeof *D);
-    if (pcg.method && pcg.method->choose)
-        pcg.method->choose(K, &pcg);
+    pcg.method = K->extra ? pcg.method : NULL;
+    pcg.omega = pcg.method ? 1 : pcg.omega;
     bbm_status status = make_ready(K, F, &pcg, info);
     const clock_t ready = clock();
     info->seconds[0] = (double)(ready - start) / CLOCKS_PER_SEC;

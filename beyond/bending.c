@@ -294,25 +294,16 @@ static int previous_vertex(const bbm_model *m, int v)
     return v > e->first ? v - 1 : e->first + e->n - 1;
 }
 
-/* The next after v of the corners that bonds join around a node, from `first` on; -1: it was the
- * last. */
-static int next_corner(const bbm_model *m, int first, int v)
+/* The next after v of the corners that bonds join around a node, and after the last the first. */
+static int next_corner(const bbm_model *m, int v)
 {
-    const int next = -1 - m->vertex[v].edge;
+    int edge = m->vertex[v].edge;
 
-    return next == first ? -1 : next;
-}
-
-static int first_corner(const bbm_model *m, int v)
-{
-    int first = v, edge;
-
-    while ((edge = m->vertex[previous_vertex(m, first)].edge) < 0) {
-        first = previous_vertex(m, -1 - edge);
-        if (first == v)
-            break;
-    }
-    return first;
+    if (edge < 0)
+        return -1 - edge;
+    while ((edge = m->vertex[previous_vertex(m, v)].edge) < 0)
+        v = previous_vertex(m, -1 - edge);
+    return v;
 }
 
 /* Lists the part of vertex v in what holds its node, in the directions in which no edge is held
@@ -329,16 +320,17 @@ static void list_held_node(bbm_model *m, int v)
 {
     const int i = m->vertex[v].element;
     bbm_node alone = m->node[m->vertex[v].node];
-    const int first = alone.held ? first_corner(m, v) : -1;
-    int corners = 0, quadrilaterals = 0;
+    int corners = 0, quadrilaterals = 0, w = v;
     double K = 0;
 
-    for (int w = first; w >= 0; w = next_corner(m, first, w), corners++) {
+    do {
         const bbm_element *e = &m->element[m->vertex[w].element];
         alone.held &= ~(held_edge(m, e, w) | held_edge(m, e, previous_vertex(m, w)));
         quadrilaterals += e->n == 4;
         K += bbm_fixed_stiffness(m->par.alpha, e);
-    }
+        corners++;
+        w = next_corner(m, w);
+    } while (w != v);
     if (!alone.held || quadrilaterals < 2 || m->beyond->bonding == BBM_VERTICES
         || (m->beyond->bond_tension > 0 && !bbm_is_static(m))
         || (m->is_prepared && m->beyond->best[m->vertex[v].node] > 0)) {
@@ -347,9 +339,9 @@ static void list_held_node(bbm_model *m, int v)
     }
     const double k = K / corners;
     bbm_fixed_gap(&m->element[i], &m->vertex[v], &alone, k, bbm_add_gap(m, i, -1));
-    for (int w = first; w >= 0; w = next_corner(m, first, w)) {
+    while ((w = next_corner(m, w)) != v) {
         const int j = m->vertex[w].element;
-        if (w <= v)
+        if (w < v)
             continue;
         bbm_gap *g = bbm_add_gap(m, i, j);
         bbm_bonding_gap(&m->element[i], &m->vertex[v], &m->element[j], &m->vertex[w], 0, g);
@@ -358,7 +350,7 @@ static void list_held_node(bbm_model *m, int v)
     }
 }
 
-/* Lists what holds vertex v, and the edge from v on, where it is held, as a bond with the wall: its
+/* Lists what holds vertex v, which is held, and the edge from v on, where it is held, as a bond with the wall: its
  * moment is twice the element's own. */
 static void list_fixed(bbm_model *m, int v)
 {
@@ -390,5 +382,6 @@ void bbm_list_edge_gaps(bbm_model *m)
         if (!bbm_list_crack(m, b))
             list_bond(m, &m->bond[b]);
     for (int v = 0; v < m->vertices; v++)
-        list_fixed(m, v);
+        if (m->node[m->vertex[v].node].held)
+            list_fixed(m, v);
 }

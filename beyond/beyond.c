@@ -7,16 +7,11 @@
 /* What belongs to the elements and nodes of a prepared model. */
 static void free_prepared(bbm_beyond *b)
 {
-    free(b->middle);
-    free(b->end_element);
-    free(b->end_vertex);
-    free(b->support);
-    free(b->account);
-    free(b->body);
-    free(b->balance);
-    free(b->crack);
-    free(b->best);
-    free(b->broke);
+    void *const array[] = { b->middle, b->end_element, b->end_vertex, b->support, b->account,
+                            b->body, b->balance, b->crack, b->best, b->broke };
+
+    for (int k = 0; k < LENGTH(array); k++)
+        free(array[k]);
 }
 
 static void release(bbm_model *m)

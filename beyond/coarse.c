@@ -505,11 +505,4 @@ static void correct(const bbm_matrix *K, const double *y, double *f)
     bbm_add_lower(K, c->z, f);
 }
 
-/* Without a coarse space, or where it does not pay, the paper's method. */
-static void choose(const bbm_matrix *K, bbm_pcg *pcg)
-{
-    pcg->omega = K->extra ? 1 : pcg->omega;
-    pcg->method = K->extra ? pcg->method : NULL;
-}
-
-const bbm_method bbm_two_level = { choose, make_coarse, correct };
+const bbm_method bbm_two_level = { make_coarse, correct };

@@ -17,9 +17,6 @@
 /* Of a pivot, against what it is measured by: rounding of what cancelled. */
 #define VANISHING 1e-12
 
-/* Pairs of rows that are factored together, and how many of their columns at a time; no fewer. */
-enum { GROUP = 16, BLOCK = 32 };
-
 /* ----------------------------------------------------------------------------------- the layout */
 
 typedef struct {
@@ -179,31 +176,13 @@ static void make_entry(const bbm_factor *f, int i, int j, const bbm_part *p)
     }
 }
 
-/* C in place of K. Pivots are measured by `size`. What stands above the diagonal is never used. Of
- * GROUP pairs of rows the columns are made BLOCK by BLOCK, so that the rows j of a block come from
- * memory once for all of them. */
+/* C in place of K. Pivots are measured by `size`. What stands above the diagonal is never used. */
 void bbm_factor_make(const bbm_factor *f)
 {
-    for (int first = 0; first < f->n; first += GROUP) {
-        const int rows = f->n - first < GROUP ? f->n - first : GROUP;
-        const bbm_part *p[GROUP];
-        int next[GROUP], j;
-        for (int r = 0; r < rows; r++) {
-            p[r] = f->part + f->first[first + r];
-            next[r] = p[r]->from;
-        }
-        do {
-            j = next[0];
-            for (int r = 1; r < rows; r++)
-                j = next[r] < j ? next[r] : j;
-            for (int r = 0; r < rows; r++)
-                while (next[r] <= first + r && next[r] < j + BLOCK) {
-                    make_entry(f, first + r, next[r], p[r]);
-                    if (++next[r] == p[r]->to && next[r] <= first + r)
-                        next[r] = (++p[r])->from;
-                }
-        } while (j + BLOCK < first + rows);
-    }
+    for (int i = 0; i < f->n; i++)
+        for (const bbm_part *p = f->part + f->first[i]; p < f->part + f->first[i + 1]; p++)
+            for (int j = p->from; j < p->to; j++)
+                make_entry(f, i, j, p);
 }
 
 /* x = K^-1 x for the pairs of rows from .. to-1, which no entry of K joins with others. The second

@@ -212,7 +212,6 @@ static void start_gaps(bbm_model *m)
 static void start_contacts(bbm_model *m, const bbm_model *step)
 {
     const double E = m->beyond->restitution;
-    const double slow = hypot(m->acceleration[0], m->acceleration[1]) * m->h * m->h / 2;
 
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
@@ -224,7 +223,7 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         c->anchor = -v[1].d / hypot(P3->x - P2->x, P3->y - P2->y);
         const double asked = !has_closed(c) ? 0 : E < 0 ? m->h * normal_velocity(m, c, m->element)
-                           : came < -slow ? -E * sqrt(of->asked) * came : 0;
+                           : E * sqrt(of->asked) * fmax(0, -came);
         c->rest = v[0].d + (of->jumps > 0) * asked;
         if (c->state == BBM_OPEN || of->jumps == 0) {
             c->state = BBM_OPEN;

@@ -24,8 +24,7 @@
  * d is a M^-1 K p. In each iteration z is computed from r once, for if it were only updated, by
  * z -= d, rounding would part the two, and what r has and z has not would stay in r for ever. Where
  * z and q are nearly orthogonal c would be nothing, and the iteration would stop for ever: c is at
- * least LEAST sqrt(r.z/v.q). In the end r is computed afresh, and what is left of it is solved for:
- * between stiffnesses far apart rounding leaves more than the tolerance.
+ * least LEAST sqrt(r.z/v.q).
  *
  * Terms are few, so that K without them is nearly K. In small components, where that is faster, M
  * is this whole matrix, factored by factor.c.
@@ -114,10 +113,9 @@ static void precondition(const bbm_matrix *K, const bbm_factor *f, const double 
 
 /* ------------------------------------------------------------------------------- the iteration */
 
-/* The iteration of the head, from x and r = F - K x; d: room for three vectors; a length is the
- * square root of rz, and `last` is z0.r. stop: 0, or the length that was small enough before. */
-static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, double *stop,
-                          const bbm_pcg *pcg, bbm_pcg_info *info)
+/* The iteration of the head. On entry x = 0, r = F. d: room for three vectors; `last` is z0.r. */
+static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, const bbm_pcg *pcg,
+                          bbm_pcg_info *info)
 {
     double *r = K->r, *z = K->u, *p = K->p, *q = K->q, *z0 = d + 6 * K->n, *v = z0 + 6 * K->n;
     bbm_status status = BBM_OK;
@@ -126,8 +124,8 @@ static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, double 
     bbm_combine(K, z, 0, z, z0);
     bbm_combine(K, z, 0, z, p);
     double rz = bbm_dot_rows(K, r, z), last = rz;
-    *stop = *stop > 0 ? *stop : pcg->tolerance * sqrt(rz);
-    while (!(rz <= *stop * *stop) && !(status = bbm_count_iteration(rz, pcg, info))) {
+    const double stop = pcg->tolerance * sqrt(rz);
+    while (!(rz <= stop * stop) && !(status = bbm_count_iteration(rz, pcg, info))) {
         bbm_multiply(K, p, q);
         const double a = last / bbm_dot_rows(K, z0, q);
         bbm_combine(K, K->x, a, p, K->x);
@@ -158,18 +156,14 @@ static bbm_status solve(bbm_matrix *K, const bbm_pcg *wanted, bbm_pcg_info *info
     const int rows = K->to - K->from, few = 6 * rows + 100;
     bbm_pcg pcg = *wanted;
     bbm_factor f = { 0 };
-    double *d = malloc(24 * (size_t)K->n * sizeof *d), stop = 0;
+    double *d = malloc(18 * (size_t)K->n * sizeof *d);
 
     if (!d)
         return BBM_NO_MEMORY;
-    bbm_combine(K, K->r, 0, K->r, d + 18 * K->n);
     bbm_status status = rows <= (K->extra ? SMALL / 2 : SMALL) ? factor(K, &f) : BBM_OK;
     pcg.iterations = f.A && few < pcg.iterations ? few : pcg.iterations;
-    for (int turn = 0; turn < 2 && !status; turn++) {
-        bbm_multiply(K, K->x, K->q);
-        bbm_combine(K, d + 18 * K->n, -1, K->q, K->r);
-        status = iterate(K, &f, d, &stop, &pcg, info);
-    }
+    if (!status)
+        status = iterate(K, &f, d, &pcg, info);
     bbm_factor_free(&f);
     free(d);
     return status;
