@@ -498,11 +498,9 @@ static int is_near(const bbm_model *m, int corner, int e)
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (find_closed(m, corner, e, ITSELF) && find_closed(m, corner, e, ITSELF)->hit > 1)
-        return 1;
-    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e) || -f.d > approach + deep)
+    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
-    return f.beyond > touch_between(m, corner, e) || f.d >= -deep
+    return f.d >= -deep || (f.beyond > touch_between(m, corner, e) && f.d >= -approach - deep)
         || find_closed(m, corner, e, LINE);
 }
 
