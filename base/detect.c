@@ -488,7 +488,8 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
     return found;
 }
 
-/* Whether the corner may come to the edge in this step, and not from behind it. */
+/* Whether the corner may come to the edge in this step, and not from behind it. One that was inside
+ * by less than the rounding stays near, also far from the end that it came past. */
 static int is_near(const bbm_model *m, int corner, int e)
 {
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
@@ -498,9 +499,12 @@ static int is_near(const bbm_model *m, int corner, int e)
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
+    if (find_closed(m, corner, e, ITSELF) && find_closed(m, corner, e, ITSELF)->hit > 1)
+        return 1;
+    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e)
+        || -f.d > approach + fmax(deep, rounding_between(m, corner, e)))
         return 0;
-    return f.d >= -deep || (f.beyond > touch_between(m, corner, e) && f.d >= -approach - deep)
+    return f.beyond > touch_between(m, corner, e) || f.d >= -deep
         || find_closed(m, corner, e, LINE);
 }
 
