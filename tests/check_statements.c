@@ -784,6 +784,22 @@ END_TEST
 
 static const char *const solved[] = { "static\n", "dynamic dt 0.01 steps 60 velocity_factor 0\n" };
 
+/* Two layers, turned, are pulled along their only joint by three times its strength: nothing is across it. */
+START_TEST(a_bond_along_the_tension_holds)
+{
+    char text[1000];
+
+    snprintf(text, sizeof text, "let a %d\nlet c $(cos(a))\nlet s $(sin(a))\nmaterial rock E 1e10 nu 0 density 2500\n"
+        "node 1 0 0\nnode 2 $(4*c) $(4*s)\nnode 3 $(-s/2) $(c/2)\nnode 4 $(4*c-s/2) $(4*s+c/2)\nnode 5 $(-s) $c\n"
+        "node 6 $(4*c-s) $(4*s+c)\nelement 1 bar rock 1 2 4 3\nelement 2 bar rock 3 4 6 5\nset l nodes 1 3 5\n"
+        "set r nodes 2 4 6\ntraction set r $(3e6*c) $(3e6*s)\ntraction set l $(-3e6*c) $(-3e6*s)\nfix at 0 0\n"
+        "fix at $(-s) $c\nbond tension 1e6 cohesion 1e7\nstatic\n", 10 * _i);
+    ck_assert_int_eq(run_text("along", text), 0);
+    check_text("out/model/along/cracks.csv", "step,bond,x,y,mode\n");
+    ck_assert_ptr_null(strstr(slurp("out/model/along/cracks.csv"), "TENSION"));
+}
+END_TEST
+
 /* Two squares are torn apart without velocities, at odd angles: then each step takes 2 M/dt^2 times the
  * way of the one that is pulled, half of it at each node. The other one bears nothing, and no step is cut. */
 START_TEST(what_is_torn_off_costs_its_drag_alone)
@@ -994,6 +1010,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
     tcase_add_test(t, a_block_with_cracks_can_be_removed);
     tcase_add_loop_test(t, a_block_that_breaks_off_another_one_is_named, 0, 2);
+    tcase_add_loop_test(t, a_bond_along_the_tension_holds, 0, 9);
     tcase_add_test(t, what_is_torn_off_costs_its_drag_alone);
     tcase_add_test(t, each_side_of_a_crack_has_its_own_nodes);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
