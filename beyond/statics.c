@@ -75,16 +75,28 @@ int bbm_is_held(const bbm_model *m, const int body[], int i)
 bbm_status bbm_check_supports(bbm_model *m)
 {
     const int *body = m->K->component;
+    const bbm_element *e = m->element;
+    struct { int first; double G[3][3]; } *of = calloc((size_t)m->elements, sizeof *of);
+    int loose = -1;
 
-    for (int i = 0; i < m->elements && bbm_is_static(m); i++) {
-        const bbm_element *e = &m->element[i];
-        if ((i > 0 && body[i] == body[i - 1]) || bbm_is_held(m, body, i))
-            continue;
-        m->blamed[0] = i;
-        return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
-                        e->block, i, e->x + m->origin[0], e->y + m->origin[1]);
+    if (!of)
+        return BBM_NO_MEMORY;
+    for (int i = m->elements - 1; i >= 0; i--)
+        of[body[i]].first = i;
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
+        const int o = of[body[g->i]].first;
+        if (g->j < 0)
+            add_hold(*g, e[g->i].x - e[o].x, e[g->i].y - e[o].y, of[body[g->i]].G);
     }
-    return BBM_OK;
+    for (int i = m->elements - 1; i >= 0 && bbm_is_static(m); i--)
+        if (of[body[i]].first == i && !is_regular(of[body[i]].G))
+            loose = i;
+    free(of);
+    if (loose < 0)
+        return BBM_OK;
+    m->blamed[0] = loose;
+    return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
+                    e[loose].block, loose, e[loose].x + m->origin[0], e[loose].y + m->origin[1]);
 }
 
 /* Whether every body of a prepared model is held, by itself or through contacts. */
