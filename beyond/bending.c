@@ -350,8 +350,8 @@ static void list_held_node(bbm_model *m, int v)
     }
 }
 
-/* Lists what holds vertex v, which is held, and the edge from v on, where it is held, as a bond with
- * the wall: its moment is twice the element's own. */
+/* Lists what holds vertex v, which is held, and the edge from v on, where it is held, as a bond
+ * with the wall: its moment is twice the element's own. */
 static void list_fixed(bbm_model *m, int v)
 {
     const int i = m->vertex[v].element;
