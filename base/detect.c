@@ -684,15 +684,15 @@ static int goes_straight_on(const bbm_model *m, int e, int f)
     return hypot(p.x - q.x, p.y - q.y) <= PARALLEL;
 }
 
-/* Whether P hangs on a ledge: on a covered face of a corner Q, by less than the rounding behind the
- * other face, which is free. There P is at the surface, and the covered face is not in the way. A
- * joint with strength holds it all the same. */
+/* Whether P hangs on a ledge: on a covered face of a convex corner Q, by less than the rounding
+ * behind the other face, over which it can enter. There P is at the surface, and the covered face
+ * is not in the way. A joint with strength holds it all the same. */
 static int is_on_ledge(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
     const int other = end ? Q : m->edge[Q].before, *meets = m->edge[Q].meets;
 
-    return c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && !meets[end]
+    return c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
         && project(m, c->corner, other).d > -rounding_between(m, c->corner, c->edge)
         && can_enter(m, c->corner, other, 0, PARALLEL);
 }
