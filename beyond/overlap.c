@@ -177,8 +177,7 @@ bbm_status bbm_check_overlap(bbm_model *m)
     m->blamed[0] = o.j;
     m->blamed[1] = o.i;
     return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d "
-                    "with element %d, block %d with element %d", o.depth,
-                    o.x + m->origin[0], o.y + m->origin[1], p, o.i, q, o.j);
+                    "with element %d, block %d with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
 }
 
 /* ------------------------------------------------------------------------------------ in a step */

@@ -6,6 +6,7 @@
 /* Of the smallest element's size: nodes closer to a given place, or to the rim of a box, are
  * there. */
 #define NEAR 1e-6
+#define SLANT 0.618
 
 /* ----------------------------------------------------------------- building the library's model */
 
@@ -210,6 +211,25 @@ static int find_bodies(model_reader *r)
     return body != NULL;
 }
 
+static int compare_along(const void *a, const void *b)
+{
+    const model_order *p = a, *q = b;
+
+    return p->along != q->along ? (p->along > q->along) - (p->along < q->along)
+                                : p->node - q->node;
+}
+
+/* The nodes in their order along a line on which few of a stack or of a grid come together. */
+static int sort_nodes(model_reader *r)
+{
+    r->order = model_keep(r, r->nodes, sizeof *r->order);
+    for (int n = 0; n < r->nodes && r->order; n++)
+        r->order[n] = (model_order){ r->node[n].x + SLANT * r->node[n].y, n };
+    if (r->order)
+        qsort(r->order, (size_t)r->nodes, sizeof *r->order, compare_along);
+    return r->order != NULL;
+}
+
 int model_build(model_reader *r)
 {
     model *p = r->p;
@@ -218,7 +238,7 @@ int model_build(model_reader *r)
         return model_fail(r, r->whole, "the model has no element, expected: block ..., grid ..., "
                           "mesh FILE or element ...");
     p->gone = model_keep(r, r->blocks, sizeof *p->gone);
-    if (!p->gone || !find_bodies(r) || !copy_nodes(r) || !add_nodes(r))
+    if (!p->gone || !find_bodies(r) || !sort_nodes(r) || !copy_nodes(r) || !add_nodes(r))
         return 0;
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
@@ -308,11 +328,23 @@ static void choose_nearest(model_reader *r, const selection *w)
                    "takes another", there, at->id, r->block[r->copy[at->first].block].name);
 }
 
-static int is_there(const model_reader *r, const selection *w, const model_node *n)
+/* Takes the nodes at a place or in a box. */
+static void choose_there(model_reader *r, const selection *w)
 {
     const double *a = w->x, *b = w->kind == BY_AT ? a : a + 2, d = r->margin;
+    const double from = a[0] + SLANT * a[1] - 2 * d, to = b[0] + SLANT * b[1] + 2 * d;
+    int k = 0;
 
-    return n->x >= a[0] - d && n->x <= b[0] + d && n->y >= a[1] - d && n->y <= b[1] + d;
+    for (int end = r->nodes; k < end;)
+        if (r->order[(k + end) / 2].along < from)
+            k = (k + end) / 2 + 1;
+        else
+            end = (k + end) / 2;
+    for (; k < r->nodes && r->order[k].along <= to; k++) {
+        const model_node *n = &r->node[r->order[k].node];
+        if (n->x >= a[0] - d && n->x <= b[0] + d && n->y >= a[1] - d && n->y <= b[1] + d)
+            choose(r, w, r->order[k].node);
+    }
 }
 
 /* The words of WHERE; a set may be all nodes of a block. */
@@ -385,10 +417,11 @@ static int read_where(model_reader *r, int nearest, selection *w)
             choose(r, w, r->set[w->found].node[k]);
     else if (w->kind == BY_AT && nearest)
         choose_nearest(r, w);
+    else if (w->kind != BY_SET)
+        choose_there(r, w);
     else
         for (int n = 0; n < r->nodes; n++)
-            if (w->kind == BY_SET ? find_copy(r, w->found - r->sets, n) >= 0
-                                  : is_there(r, w, &r->node[n]))
+            if (find_copy(r, w->found - r->sets, n) >= 0)
                 choose(r, w, n);
     return 1;
 }

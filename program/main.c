@@ -208,20 +208,23 @@ static void summarise(const model *p, const char *folder)
 static void describe_blocks(const model *p, int touching)
 {
     const bbm_model *m = p->m;
+    struct { int elements, fixed; double mass; } *of = calloc((size_t)p->blocks, sizeof *of);
 
-    printf("%-20s %9s %12s %14s\n", "block", "elements", "fixed nodes", "mass [kg]");
-    for (int b = 0; b < p->blocks; b++) {
-        int elements = 0, fixed = 0;
-        double mass = 0;
-        for (int e = 0; e < m->elements; e++) {
-            const bbm_element *i = &m->element[e];
-            elements += i->block == b;
-            mass += i->block == b ? i->material.density * i->material.thickness * i->A0 : 0;
-        }
-        for (int n = 0; n < m->nodes; n++)
-            fixed += p->node_block[n] == b && m->node[n].held;
-        printf("%-20s %9d %12d %14.6g\n", p->block[b], elements, fixed, mass);
+    if (!of) {
+        puts("no memory to describe the blocks");
+        return;
     }
+    for (int e = 0; e < m->elements; e++) {
+        const bbm_element *i = &m->element[e];
+        of[i->block].elements++;
+        of[i->block].mass += i->material.density * i->material.thickness * i->A0;
+    }
+    for (int n = 0; n < m->nodes; n++)
+        of[p->node_block[n]].fixed += m->node[n].held != 0;
+    printf("%-20s %9s %12s %14s\n", "block", "elements", "fixed nodes", "mass [kg]");
+    for (int b = 0; b < p->blocks; b++)
+        printf("%-20s %9d %12d %14.6g\n", p->block[b], of[b].elements, of[b].fixed, of[b].mass);
+    free(of);
     printf("%d contact%s at the start; kn %g N/m, ks %g N/m, friction %g degrees, %d joint%s of "
            "other strength\n", touching, plural(touching), m->par.p_n, m->par.p_s,
            m->par.friction, m->beyond->joints, plural(m->beyond->joints));

@@ -56,6 +56,7 @@ typedef struct { model_place at; int block[2]; } model_bond;    /* of two blocks
  * is that of a node for a block: its library node, and the next copy, or -1. */
 typedef struct { int n, *node, dimensions; } model_set;
 typedef struct { int node, block, next; } model_copy;
+typedef struct { double along; int node; } model_order;
 
 typedef struct {
     model *p;
@@ -72,6 +73,7 @@ typedef struct {
     model_given *word;                      /* [words] */
     model_statement *statement;             /* [statements] */
     model_node *node;
+    model_order *order;                     /* [nodes] */
     model_element *element;
     int *corner;                            /* [corners]    nodes of the elements */
     model_block *block;

@@ -44,6 +44,7 @@ static const growing rows[] = {
     { RUN, "node 1@ @ 0\nnode 2@ @ 1\nelement ^ b m 1@ 1^ 2^ 2@\n", "node 1$ $ 0\nnode 2$ $ 1\n", 2000 },
     { "", "material m@ E 1e9 nu 0.2 density 2500\n", ONE, 10000 },
     { RUN, "block b@ m @ 0 ^ 0 ^ 1 @ 1\n", "", 1200 },
+    { RUN, "block b@ m @ 0 ^ 0 ^ 1 @ 1\nfix at @ 0\n", "", 4000 },
     { RUN, "block b@ m 0 @ 1 @ 1 ^ 0 ^\nfixblock b@\nvelocity b@ 1 0\nstress b@ 1 2 3\nbodyforce b@ 0 1\n", "", 1000 },
     { RUN "grid g m 0 0 1 1 $ 1\n", "", "", 2000 },
     { RUN "grid g m 0 0 1 1 1 $\n", "", "", 2000 },

@@ -259,6 +259,27 @@ START_TEST(a_support_that_swings_pulls_with_mass_times_acceleration)
 }
 END_TEST
 
+/* One of the two held nodes of a block goes up from rest: the work is that of turning it about the
+ * other one, I w^2/2 with I = 2/3 of its mass. To a tenth of w dt, and the square of the angle. */
+START_TEST(a_support_that_turns_a_block_does_the_work_of_turning_it)
+{
+    const double w = 5, dt = 1e-3;
+    bbm_model *m = hard_blocks(-1, 0);
+
+    m->par.gravity[1] = 0;
+    m->par.dt = dt;
+    const int e = add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
+    for (int k = 0; k < 2; k++)
+        ck_ok(bbm_fix_node(m, vertex_of(m, e, k)->node, BBM_XY, 0, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    for (int k = 1; k <= 200; k++) {
+        bbm_move_support(m, vertex_of(m, e, _i)->node, 0, 1e-3 * (1 - cos(w * k * dt)));
+        run_steps(m, 1);
+    }
+    ck_relative(m->beyond->work, DENSITY / 3 * pow(m->element[e].V[2], 2), 5e-4);
+}
+END_TEST
+
 /* A block of 1 m x 2 m comes down all but flat on a table: its lower corner hits a hundredth before
  * the step ends, at whose end the other one is a thousandth of its way above. Which of them is the
  * first is rounding: both hit, and it leaves as a flat block does, without a spin. By the one alone
@@ -298,6 +319,7 @@ Suite *impact_suite(void)
         { blocks_that_hit_keep_their_momentum, 6 },
         { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 4 },
         { what_a_support_moves_evenly_moves_evenly, 2 },
-        { a_support_that_swings_pulls_with_mass_times_acceleration, 2 });
+        { a_support_that_swings_pulls_with_mass_times_acceleration, 2 },
+        { a_support_that_turns_a_block_does_the_work_of_turning_it, 2 });
     return s;
 }
