@@ -621,7 +621,7 @@ static void join_flush_corners(bbm_model *m)
         const bbm_direction t = m->edge[p.edge].along;
         const projection f = project(m, P, p.edge);
         const double apart = hypot(f.d, f.s - end * t.length);
-        if (!lie_flush(m, p.edge, side) || !is_corner(m, P) || !is_corner(m, Q)
+        if (!lie_flush(m, p.edge, side)
             || apart > touch_between(m, P, Q) + rounding_between(m, P, p.edge))
             continue;
         m->edge[Q].meets[!end] = m->edge[P].meets[end] = 1;
