@@ -78,6 +78,8 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    before, after;       /* its neighbours along the boundary                            */
     int    meets[2];            /* of its start: another block covers the edge that ends or     */
                                 /*          starts there, its corner not farther than rounding  */
+    int    slides;              /* of its start: a block that lies flush slides along it in     */
+                                /*          the step by more than contacts are deep             */
     int    joined[2];           /* of its start: the edges that end and start there, but of a   */
                                 /*          block that lies flush where it covers one           */
     int    side;                /* the first edge of the straight side that it belongs to       */

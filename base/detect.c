@@ -43,7 +43,7 @@
  *                 sides that differ less in length, relatively, are as long: rounding of a file
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less
  *                 lies on it: penetration and elastic bending turn sides by this much
- * BENT     [rad]  the same at a grid point inside a straight side: soft blocks bend more
+ * BENT     [rad]  the same at a point inside a straight side, of one block or of two that slide
  * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
  *                 projection closer to the end of an edge is at the end: rounding of a model file,
  *                 elastic strain
@@ -405,7 +405,8 @@ static int is_covered(const bbm_model *m, int corner, int e)
 /* Whether a corner can enter over an edge. Neither of its two sides points into the edge by more
  * than an angle, after its block has turned by r against that of the edge, and the block is convex
  * there. Either end of a side may be as deep as closed contacts are. A grid point inside a straight
- * side may come to lie in a hollow, where that side bends. */
+ * side may come to lie in a hollow, where that side bends, and so may a corner in a side of two
+ * blocks that slide past each other. */
 static int can_enter(const bbm_model *m, int corner, int e, double r, double angle)
 {
     const int Q = end_near(m, corner, e);
@@ -414,7 +415,7 @@ static int can_enter(const bbm_model *m, int corner, int e, double r, double ang
     const bbm_direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
     const double dip = 2 * fmin(reach_of(m, corner)->depth_now, reach_of(m, e)->depth_now);
 
-    if (!is_corner(m, corner))
+    if (!is_corner(m, corner) || m->edge[corner].slides)
         return fmin(cross(q, s), cross(s, p)) >= -BENT;
     return cross(q, s) >= -angle - dip / fmin(q.length, t.length)
         && cross(s, p) >= -angle - dip / fmin(p.length, t.length) && cross(p, q) > -PARALLEL;
@@ -612,7 +613,7 @@ static void join_flush_corners(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         m->edge[e].joined[0] = m->edge[e].before;
         m->edge[e].joined[1] = e;
-        m->edge[e].meets[0] = m->edge[e].meets[1] = 0;
+        m->edge[e].meets[0] = m->edge[e].meets[1] = m->edge[e].slides = 0;
     }
     for (int k = 0; k < 2 * m->scratch->pairs && !bbm_is_static(m); k++) {
         const pair p = m->scratch->pair[k / 2];
@@ -627,6 +628,9 @@ static void join_flush_corners(bbm_model *m)
         m->edge[Q].meets[!end] = m->edge[P].meets[end] = 1;
         if (apart > contact_depth(m, P, Q))
             continue;
+        const int slides = slip_between(m, P, Q, t) > contact_depth(m, P, Q);
+        m->edge[P].slides |= slides;
+        m->edge[Q].slides |= slides;
         m->edge[Q].joined[!end] = end ? m->edge[P].before : P;
         m->edge[P].joined[end] = end ? Q : m->edge[Q].before;
     }
