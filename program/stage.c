@@ -73,13 +73,14 @@ void model_keep_stage(model_reader *r, int k)
     }
 }
 
-/* Element i, so many m to the right of where it was at the start. */
+/* Element i, so many m to the right of where it was at the start, without weight. */
 static void carry_away(bbm_model *m, int i, double far)
 {
     bbm_element *e = &m->element[i];
 
     *e = (bbm_element){ .block = e->block, .first = e->first, .n = e->n, .material = e->material,
                         .A0 = e->A0, .middle = e->middle, .out_of_plane = FIELD_GONE };
+    e->material.density = 0;
     for (bbm_vertex *v = &m->vertex[e->first]; v < &m->vertex[e->first + e->n]; v++) {
         v->u = far, v->v = 0;
         v->x = m->node[v->node].x - m->origin[0] + far;

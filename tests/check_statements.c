@@ -873,6 +873,21 @@ START_TEST(a_column_springs_back_when_its_top_is_removed)
 }
 END_TEST
 
+/* Sums of its weight's shares would be rounding, and forces that nothing balances. */
+START_TEST(what_is_removed_has_no_weight_whatever_its_size)
+{
+    for (int k = 0; k < 10; k++) {
+        char text[600];
+        const double high = 1.8 + 0.0371 * k;
+        snprintf(text, sizeof text, "material rock E 1e10 nu 0.2 density 2500\nblock floor rock -3 -1 6 -1 6 0 -3 0\n"
+                 "block a rock 0 0 0.7 0 0.7 1.3 0 1.3\nblock b rock 0.2 1.3 0.7 1.3 0.7 %g 0.2 %g\n"
+                 "fixblock floor\ngravity 0 -9.81\ncontact friction 45\nstatic\nstage s1 remove b\nend\n", high, high);
+        ck_assert_int_eq(run_text("gone", text), 0);
+        ck_relative(sum("gone", "reactions.csv", "fy", ""), (9 + 0.7 * 1.3) * 2500 * 9.81, 1e-9);
+    }
+}
+END_TEST
+
 /* Freed, a beam that a bolt carries too sinks as one that was never held inside. */
 START_TEST(a_support_that_is_gone_leaves_no_force_to_a_bolt)
 {
@@ -1014,6 +1029,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, what_is_torn_off_costs_its_drag_alone);
     tcase_add_test(t, each_side_of_a_crack_has_its_own_nodes);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
+    tcase_add_test(t, what_is_removed_has_no_weight_whatever_its_size);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
