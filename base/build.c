@@ -97,7 +97,7 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
 {
     if (!isfinite(x) || !isfinite(y))
-        return REFUSE(m, BBM_NOT_FINITE, "node %d at (%g, %g)", m->nodes, x, y);
+        return REFUSE(m, BBM_NOT_FINITE, "node %d at (%.9g, %.9g)", m->nodes, x, y);
     return APPEND(m, m->node, m->nodes, (&(bbm_node){ .x = x, .y = y }), index);
 }
 
@@ -241,7 +241,7 @@ static bbm_status list_adjacent_vertices(bbm_model *m)
         first[m->vertex[v].node]++;
     for (int n = 0; n <= m->nodes; n++) {
         if (n < m->nodes && first[n] == 0)
-            return bbm_fail(m, BBM_UNUSED_NODE, "node %d at (%g, %g)", n, m->node[n].x,
+            return bbm_fail(m, BBM_UNUSED_NODE, "node %d at (%.9g, %.9g)", n, m->node[n].x,
                             m->node[n].y);
         first[n] += n > 0 ? first[n - 1] : 0;
     }

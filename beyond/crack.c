@@ -450,7 +450,7 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
     if (loose >= 0) {
         const bbm_element *e = &m->element[m->blamed[0] = loose];
         return bbm_fail(m, BBM_NO_EQUILIBRIUM, "step %d: block %d breaks through, and no support "
-                        "holds its piece at (%g, %g); dynamics shows how its pieces fall",
+                        "holds its piece at (%.9g, %.9g); dynamics shows how its pieces fall",
                         m->info.step + 1, e->block, e->x + m->origin[0], e->y + m->origin[1]);
     }
     s = breaks <= BREAKS ? bbm_try_otherwise(m, s) : s;

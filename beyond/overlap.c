@@ -176,8 +176,9 @@ bbm_status bbm_check_overlap(bbm_model *m)
     const int p = m->element[o.i].block, q = m->element[o.j].block;
     m->blamed[0] = o.j;
     m->blamed[1] = o.i;
-    return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%g, %g): block %d "
-                    "with element %d, block %d with element %d", o.depth, o.x, o.y, p, o.i, q, o.j);
+    return bbm_fail(m, p == q ? BBM_OVERLAP : BBM_BLOCKS_OVERLAP, "%g m deep at (%.9g, %.9g): "
+                    "block %d with element %d, block %d with element %d", o.depth, o.x, o.y, p,
+                    o.i, q, o.j);
 }
 
 /* ------------------------------------------------------------------------------------ in a step */
@@ -283,7 +284,7 @@ static bbm_status refuse(bbm_model *m, const bbm_model *end, int corner, int edg
     const int before = end == m;
 
     return bbm_fail(m, before ? BBM_BLOCKS_OVERLAP : BBM_STEP_TOO_LONG, "step %d: a corner of "
-                    "block %d %s into block %d at (%g, %g), %.2g m deep; a smaller dt%s",
+                    "block %d %s into block %d at (%.9g, %.9g), %.2g m deep; a smaller dt%s",
                     m->info.step + 1, m->edge[corner].block, before ? "passed" : "passes",
                     m->edge[edge].block, P->x + m->origin[0], P->y + m->origin[1], depth,
                     before ? ", or stiffer contacts and materials help" : " helps");

@@ -95,7 +95,7 @@ bbm_status bbm_check_supports(bbm_model *m)
     if (loose < 0)
         return BBM_OK;
     m->blamed[0] = loose;
-    return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%g, %g)",
+    return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%.9g, %.9g)",
                     e[loose].block, loose, e[loose].x + m->origin[0], e[loose].y + m->origin[1]);
 }
 

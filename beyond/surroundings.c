@@ -5,7 +5,8 @@
  * load belongs to one of the edges between them. The block lies on the left of an edge from a to b,
  * and a pressure p pushes that way, p (-(b - a)_y, (b - a)_x)/|b - a|, with the edge in the middle
  * of the step: its work is then p times the area that the edge sweeps. Still water up to the level
- * y = Y presses with density times gravity's size times Y - y, above the level with nothing.
+ * y = Y presses with density times gravity's size times Y - y, above the level with nothing. This y
+ * is where the velocity would bring the edge by then: what is at rest feels the water of its depth.
  *
  * A fixed point is held to a wall point by a stiff spring and its multiplier: what these carry at
  * the end of the step is the force of the support, the reaction. In equilibrium the reactions
@@ -54,11 +55,14 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
     const bbm_edge_load *now = load;
     const double weight = load->density * hypot(m->par.gravity[0], m->par.gravity[1]);
-    double T[2][6], am[2], bm[2], c[2];
+    const double half = bbm_is_static(m) ? 0 : m->h / 2;
+    double T[2][6], am[2], bm[2], va[2], vb[2], c[2];
 
     bbm_step_point(e, a->x, a->y, T, am);
     bbm_step_point(e, b->x, b->y, T, bm);
-    press(load->level - am[1], load->level - bm[1], c);
+    bbm_displacement(e, e->V, a->x, a->y, va);
+    bbm_displacement(e, e->V, b->x, b->y, vb);
+    press(load->level - a->y - half * va[1], load->level - b->y - half * vb[1], c);
     for (int g = 0; g < BBM_GAUSS; g++) {
         double s, share;
         bbm_gauss_point(g, &s, &share);

@@ -78,12 +78,13 @@ int bbm_next_meeting(int n, const bbm_box *b, int *i, int *j)
     return 0;
 }
 
-/* The corner of one box and the edge of another, if it lies in it. */
+/* The corner of one box and the edge of another block's box, if it lies in it. */
 static bbm_status compare(bbm_model *m, int corner, const bbm_box *e)
 {
     const bbm_vertex *P = bbm_start_of(m, corner);
 
-    if (P->x < e->low[X] || P->x > e->high[X] || P->y < e->low[Y] || P->y > e->high[Y])
+    if (m->edge[e->of].first == m->edge[corner].first || P->x < e->low[X] || P->x > e->high[X]
+        || P->y < e->low[Y] || P->y > e->high[Y])
         return BBM_OK;
     if (bbm_depth_passed(m, corner, e->of) > 0) {
         m->beyond->passed[0] = corner;

@@ -149,7 +149,7 @@ static int add_element(model_reader *r, const model_element *e)
         const bbm_node *a = &r->p->m->node[corner[k]],
                        *b = &r->p->m->node[corner[(k + 1) % e->n]];
         if (a->x == b->x && a->y == b->y)
-            return model_fail(r, e->at, "element %.60s of block '%.60s' has the corner %g %g "
+            return model_fail(r, e->at, "element %.60s of block '%.60s' has the corner %.9g %.9g "
                               "twice, expected it once", e->id, of->name, a->x, a->y);
     }
     if (status == BBM_SELF_CROSSING)
@@ -321,8 +321,8 @@ static void choose_nearest(model_reader *r, const selection *w)
     }
     const double d = hypot(at->x - w->x[0], at->y - w->x[1]);
     if (d > far / 10)
-        model_note(r, "warning: the nearest node, %.60s at %g %g, is %.3g m away from %g %g",
-                   at->id, at->x, at->y, d, w->x[0], w->x[1]);
+        model_note(r, "warning: the nearest node, %.60s at %.9g %.9g, is %.3g m away from "
+                   "%.9g %.9g", at->id, at->x, at->y, d, w->x[0], w->x[1]);
     if (there > 1)
         model_note(r, "note: %d nodes lie there, node %.60s of block '%.60s' is taken; `of BLOCK` "
                    "takes another", there, at->id, r->block[r->copy[at->first].block].name);
@@ -521,7 +521,7 @@ static int load_edges(model_reader *r, const edge_load *l)
         return model_blame(r, "no boundary edge has both ends there, expected a set or a box with "
                            "both");
     if (l->density > 0 && !wet)
-        return model_blame(r, "no edge there lies below y = %g, expected one under water",
+        return model_blame(r, "no edge there lies below y = %.9g, expected one under water",
                            l->level);
     if (m->status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
@@ -723,9 +723,10 @@ static int read_end(model_reader *r, scene_end *end)
     }
     if (found == 0 && w.kind == BY_AT)
         return find_end(m, -1, w.x, end)
-               ? model_blame(r, "%g %g lies in block '%.60s', not in '%.60s'", w.x[0], w.x[1],
+               ? model_blame(r, "%.9g %.9g lies in block '%.60s', not in '%.60s'", w.x[0], w.x[1],
                              r->block[end->block].name, r->block[w.block].name)
-               : model_blame(r, "%g %g lies in no element, expected one or a node", w.x[0], w.x[1]);
+               : model_blame(r, "%.9g %.9g lies in no element, expected one or a node", w.x[0],
+                             w.x[1]);
     return found > 0 || blame_nowhere(r, &w);
 }
 
@@ -767,8 +768,8 @@ int model_pins(model_reader *r)
         return 0;
     for (int k = 0; k < 2; k++)
         if (block[k] < 0 || find_end(m, block[k], at, &b.end[k]) != 1)
-            return model_blame(r, "%g %g lies in no element of '%.60s', expected a point of both",
-                               at[0], at[1], block[k] < 0 ? "*" : r->block[block[k]].name);
+            return model_blame(r, "%.9g %.9g lies in no element of '%.60s', expected a point of "
+                               "both", at[0], at[1], block[k] < 0 ? "*" : r->block[block[k]].name);
     b.k = bbm_bonding_stiffness(PIN, &m->element[b.end[0].element], &m->element[b.end[1].element]);
     return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }

@@ -316,8 +316,8 @@ static int read_grid(model_reader *r)
         || (model_look(r) && !model_choice(r, "quads|triangles|crossed", &kind)))
         return 0;
     if (!(p[0] < p[2] && p[1] < p[3]))
-        return model_blame(r, "a grid from %g %g to %g %g, expected X0 < X1 and Y0 < Y1", p[0],
-                           p[1], p[2], p[3]);
+        return model_blame(r, "a grid from %.9g %.9g to %.9g %.9g, expected X0 < X1 and Y0 < Y1",
+                           p[0], p[1], p[2], p[3]);
     if ((double)n[0] * n[1] > MOST_CELLS)
         return model_blame(r, "a grid of %d x %d cells, expected at most %d", n[0], n[1],
                            MOST_CELLS);

@@ -640,7 +640,7 @@ START_TEST(a_corner_that_passed_into_a_block_is_refused)
     ck_near(deepest_passed(m), kind ? 0 : in, 1, ROUNDING);
     const bbm_status status = bbm_step(m);
     ck_assert_msg(status == (kind ? BBM_OK : BBM_BLOCKS_OVERLAP), "%s", bbm_message(m));
-    snprintf(where, sizeof where, "step 2: a corner of block 1 passed into block 0 at (%g, %g), "
+    snprintf(where, sizeof where, "step 2: a corner of block 1 passed into block 0 at (%.9g, %.9g), "
              "0.01 m deep", 0.99 * c - 0.5 * s, 0.99 * s + 0.5 * c);
     ck_assert_msg(kind || strstr(bbm_message(m), where), "%s", bbm_message(m));
 }
