@@ -386,13 +386,13 @@ const char *model_name(model_reader *r)
     return word;
 }
 
-/* An id is a whole number; zeros before it do not count. */
+/* An id: digits; zeros before the first other one do not count. */
 const char *model_id(model_reader *r)
 {
     const char *word = model_word(r);
 
     if (word && word[strspn(word, "0123456789")] != '\0')
-        return wrong(r, "an id is a whole number, not", word), NULL;
+        return wrong(r, "an id has digits alone, not", word), NULL;
     while (word && word[0] == '0' && word[1] != '\0')
         word++;
     return word;
