@@ -904,7 +904,8 @@ int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 /* ------------------------------------------------------------------------------ end of the step */
 
 /* How deep the blocks are in the solution in hand, and the sides that lie in the line of a contact:
- * the depth of a contact that is closed, or open inside after a hit, counts for both. */
+ * the depth of a contact that is closed, or open inside after a hit, counts for both. Its sides are
+ * as deep as its spring is short: what came in over a ledge goes no deeper over the next one. */
 void bbm_note_depths(bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
@@ -918,10 +919,11 @@ void bbm_note_depths(bbm_model *m)
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
         const double inside = c->hit && (c->trial.was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
         const double depth = c->state == BBM_OPEN ? inside : fabs(c->d_n);
+        const double spring = c->state == BBM_OPEN ? inside : fabs(c->d_n - c->rest);
         i->depth_now = fmax(i->depth_now, depth);
         j->depth_now = fmax(j->depth_now, depth);
         for (int k = 0; k < 3; k++)
-            m->edge[m->edge[of[k]].side].deep = fmax(m->edge[m->edge[of[k]].side].deep, depth);
+            m->edge[m->edge[of[k]].side].deep = fmax(m->edge[m->edge[of[k]].side].deep, spring);
     }
 }
 
