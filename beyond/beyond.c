@@ -49,13 +49,13 @@ static bbm_status check(bbm_model *m)
     return bbm_check_overlap(m);
 }
 
-/* The base accelerates, and the model is at rest in it: gravity less that, at the end of the step.
- */
+/* The base accelerates, and the model is at rest in it: gravity less that, in the middle of the
+ * step, whose acceleration is even. */
 static bbm_status begin(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;
     const int at_rest = isinf(m->par.dt) || bbm_is_static(m);
-    const double swing = at_rest ? 0 : sin(b->shake_omega * (m->info.t + m->h));
+    const double swing = at_rest ? 0 : sin(b->shake_omega * (m->info.t + m->h / 2));
 
     if (bbm_check_settings(m))
         return BBM_BAD_PARAMETER;

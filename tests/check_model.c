@@ -186,8 +186,8 @@ START_TEST(a_shaken_block_follows_the_closed_form)
         /* u'' = -A sin wt   ->   u = A (sin wt - wt)/w^2, -A/w at t = 1 */
         error[k] = cell("shake", "history.csv", "", "p_u") + 2 / acos(-1);
     }
-    ck_assert_double_lt(fabs(error[0]), 0.02);
-    ck_relative(error[1], error[0] / 2, 0.02);           /* the paper's Newmark is of first order for forces in time */
+    ck_assert_double_lt(fabs(error[0]), 1e-4);
+    ck_relative(error[1], error[0] / 4, 0.02);          /* an acceleration in the middle of a step: of second order */
 }
 END_TEST
 

@@ -52,7 +52,7 @@ START_TEST(a_thrown_body_follows_the_parabola)
 END_TEST
 
 /* In a frame that moves with its base a body feels the base's acceleration the other way round;
- * taken at the step's end, t = 0.01 and 0.02 s, where sin(omega t) is 1 and 0. */
+ * taken in the middle of the step, t = 0.005 and 0.015 s, where sin(omega t) is 1 and -1. */
 START_TEST(the_acceleration_of_the_base_acts_like_gravity_the_other_way)
 {
     bbm_model *m = flyer(_i);
@@ -60,12 +60,12 @@ START_TEST(the_acceleration_of_the_base_acts_like_gravity_the_other_way)
 
     memcpy(m->par.gravity, g, sizeof g);
     memcpy(m->beyond->shake, a, sizeof a);
-    m->beyond->shake_omega = acos(-1) / 2 / 0.01;
+    m->beyond->shake_omega = acos(-1) / 0.01;
     for (int step = 1; step <= 2; step++) {
         ck_ok(bbm_step(m), m);
         for (int e = 0; e < m->elements; e++)
             for (int r = 0; r < 2; r++)
-                ck_near(m->element[e].V[r], (step * g[r] - a[r]) * 0.01, 0.1, ROUNDING);
+                ck_near(m->element[e].V[r], (step * g[r] - (step == 1) * a[r]) * 0.01, 0.1, ROUNDING);
     }
 }
 END_TEST
