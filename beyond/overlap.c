@@ -183,12 +183,19 @@ bbm_status bbm_check_overlap(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ in a step */
 
-/* Takes a boundary edge. It ends where the next one starts, for bonds may have opened there. */
+/* Where edge e starts for its contacts: bonds may have opened there. */
+static point start_of(const bbm_model *m, int e)
+{
+    double P[2];
+
+    bbm_point_at(m, m->edge[e].a, P);
+    return (point){ P[0], P[1] };
+}
+
+/* Takes a boundary edge. */
 static void take_edge(const bbm_model *m, int e, point P, place *at)
 {
-    const bbm_vertex *a = bbm_start_of(m, e), *b = bbm_start_of(m, m->edge[e].after);
-
-    take_side((point){ a->x, a->y }, (point){ b->x, b->y }, e, P, at);
+    take_side(start_of(m, e), start_of(m, m->edge[e].after), e, P, at);
 }
 
 /* How deep P lies in the block of an edge, the distance from its boundary, and from which edge, if
@@ -246,17 +253,16 @@ static int moves_out(const bbm_model *m, int corner, int edge)
  * the edge that it is nearest to; else 0. */
 double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 {
-    const bbm_vertex *P = bbm_start_of(m, corner), *a = bbm_start_of(m, edge);
-    const bbm_vertex *b = bbm_end_of(m, edge);
-    const double x = P->x - a->x, y = P->y - a->y, u = b->x - a->x, v = b->y - a->y;
+    const point P = start_of(m, corner), a = start_of(m, edge);
+    const point b = start_of(m, m->edge[edge].after);
+    const double x = P.x - a.x, y = P.y - a.y, u = b.x - a.x, v = b.y - a.y;
     const double s = x * u + y * v;
 
     if (m->edge[corner].first == m->edge[edge].first || m->edge[corner].side != corner
         || m->edge[corner].joined[0] != m->edge[corner].before
         || m->edge[corner].joined[1] != corner || x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
         return 0;
-    const double depth = depth_in_block(m, (point){ P->x, P->y }, edge,
-                                        bbm_allowed_depth(m, corner, edge), nearest);
+    const double depth = depth_in_block(m, P, edge, bbm_allowed_depth(m, corner, edge), nearest);
     return depth > bbm_allowed_depth(m, corner, *nearest) ? depth : 0;
 }
 

@@ -882,6 +882,17 @@ START_TEST(a_column_springs_back_when_its_top_is_removed)
 }
 END_TEST
 
+/* The corner of a brick lies at the middle of the side of one above it, where a soft bond opens by more
+ * than contacts are deep: contacts are at the mean of both its ends, and so is the boundary. */
+START_TEST(a_corner_at_an_open_bond_has_not_passed_into_the_block)
+{
+    ck_assert_int_eq(run_text("staggered", "material rigid E 1e14 nu 0.25 density 2500\n"
+        "material rock E 1e9 nu 0.25 density 2500\nfixblock base\ngravity -6.3058 -7.5149\ncontact friction 32\n"
+        "dynamic dt 0.01 steps 10\nblock base rigid -10 -1 8 -1 8 0 -10 0\n"
+        "grid a rock 0 0 1 1 2 2\ngrid c rock 0.5 1 1.5 2 2 2\n"), 0);
+}
+END_TEST
+
 /* Sums of its weight's shares would be rounding, and forces that nothing balances. */
 START_TEST(what_is_removed_has_no_weight_whatever_its_size)
 {
@@ -1040,6 +1051,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, each_side_of_a_crack_has_its_own_nodes);
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, what_is_removed_has_no_weight_whatever_its_size);
+    tcase_add_test(t, a_corner_at_an_open_bond_has_not_passed_into_the_block);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
