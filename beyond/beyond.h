@@ -38,6 +38,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double x, y, area, size;    /* m, m, m^2, m     the centre, and how large it is             */
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
+    double inside;              /* N        those of bonds, stresses and supports that move     */
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 

@@ -25,11 +25,14 @@
  * NO_FORCE [N]   in any unit: the solver has such a force in place of 0
  * ROUNDING [-]   of a displacement: some dozens of its last digit. What a spring makes of it may be
  *                left, too
+ * INSIDE [-]     of the forces inside a body, and of what would bring a support to its place at
+ *                once: the solution is no more exact, and a body may bear nothing else
  * UNLOADED [-]   of what its bonds can carry: a piece that has broken off and bears less bears
  *                nothing. The solver knows the forces from before the break to 1e-10 */
 #define IN_MOTION 1e-5
 #define NO_FORCE 1e-60
 #define ROUNDING (64 * DBL_EPSILON)
+#define INSIDE 1e-10
 #define UNLOADED 1e-9
 
 /* Centre and size of each body, the side of a square of its area. No forces. */
@@ -47,6 +50,8 @@ static void begin_bodies(bbm_model *m)
         b->x += (e->x - b->x) * e->A / b->area;
         b->y += (e->y - b->y) * e->A / b->area;
         b->size = sqrt(b->area);
+        b->inside += sqrt(e->A) * e->material.thickness
+                   * (fabs(e->stress[0]) + fabs(e->stress[1]) + fabs(e->stress[2]));
         b->rounding = unloaded * b->size * e->material.thickness;
     }
 }
@@ -94,6 +99,11 @@ static void add_gap(bbm_model *m, const bbm_gap *g)
         Fi[a] = -f[0] * g->Ti[0][a] - f[1] * g->Ti[1][a];
         Fj[a] = f[0] * g->Tj[0][a] + f[1] * g->Tj[1][a];
     }
+    if (!counts)
+        m->beyond->balance[body[g->i]].inside += hypot(f[0], f[1]);
+    else if (g->j < 0)
+        m->beyond->balance[body[g->i]].inside += hypot(g->W[0][0] * g->d0[0],
+                                                       g->W[1][1] * g->d0[1]);
     double moment = add_force(m, g->i, Fi, counts, g->W[0][0] + g->W[1][1]);
     if (g->j < 0)
         return;
@@ -159,7 +169,7 @@ static double lack_of(const bbm_balance *b)
 {
     const double left = fmax(hypot(b->force[0], b->force[1]), fabs(b->moment) / b->size);
 
-    return left > b->rounding + NO_FORCE ? left / b->forces : 0;
+    return left > b->rounding + INSIDE * b->inside + NO_FORCE ? left / b->forces : 0;
 }
 
 static double breach_share(const bbm_balance *b)

@@ -51,6 +51,8 @@ static void warn_of_loads(const model *p, const char *path)
         load |= p->velocity[k].given;
     for (int k = 0; k < 3 * m->elements; k++)
         load |= m->element[k / 3].stress[k % 3] != 0 || m->element[k / 3].f[k % 2] != 0;
+    for (int k = 0; k < p->bolts; k++)
+        load |= model_bolt_force(m, &p->bolt[k], &(bbm_direction){ 0 }) != 0;
     if (!load)
         warn(path, "nothing loads the model; gravity, load, traction, pressure, bodyforce or "
                    "fix ... by does");

@@ -908,6 +908,25 @@ START_TEST(what_is_removed_has_no_weight_whatever_its_size)
 }
 END_TEST
 
+/* Nothing presses from outside, so the forces inside are left to their last digits: a stress to which a free body gives
+ * way, a support that sinks, a load taken back, a bolt from one end of a body to its other. */
+START_TEST(a_body_that_bears_nothing_from_outside_balances_whatever_its_size)
+{
+    static const char *mesh[] = { "quads", "triangles", "crossed" }, *inside[] = {
+        "fix at 0 0\nfix at $w 0 y\nstress b 1e6 -3e5 2e5\nstatic\n",
+        "fix at 0 0\nfix at $w 0 y by $(-1e-3*w)\nstatic\n",
+        "fix set b.left\nload at $w $h 1000 500\nstatic\nstage off\nload at $w $h -1000 -500\nend\n",
+        "fix at 0 0\nfix at $w 0 y\nbolt at 0 $h at $w $h stiffness 1e7 pretension 1e4\nstatic\n" };
+
+    for (int k = 0; k < 24; k++) {
+        const double w = 0.37 * pow(1.19, k);
+        ck_assert_int_eq(run_printed("within", "let w %g\nlet h %g\nmaterial m E 1e10 nu 0.2 density 2500\n"
+            "grid b m 0 0 $w $h %d %d %s\n%s", w, 5 / w, 2 + k % 3, 1 + k % 4, mesh[k % 3], inside[_i]), 0);
+        ck_assert_str_eq(slurp("out/model/within.err"), "");
+    }
+}
+END_TEST
+
 /* Freed, a beam that a bolt carries too sinks as one that was never held inside. */
 START_TEST(a_support_that_is_gone_leaves_no_force_to_a_bolt)
 {
@@ -1052,6 +1071,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, what_is_removed_has_no_weight_whatever_its_size);
     tcase_add_test(t, a_corner_at_an_open_bond_has_not_passed_into_the_block);
+    tcase_add_loop_test(t, a_body_that_bears_nothing_from_outside_balances_whatever_its_size, 0, 4);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
