@@ -211,7 +211,8 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
     const double lack = lack_of(&b[worst]), breach = breach_share(&b[broken]);
     if (lack > (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
         return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: forces on block %d lack %.2g of balance: "
-                        "the stiffnesses of materials, bonds and contacts are too far apart",
+                        "a smaller pcg tolerance helps, or the stiffnesses of materials, bonds and "
+                        "contacts are too far apart",
                         m->info.step + 1, m->element[worst].block, lack);
     if (bbm_is_static(m) && breach > BBM_BALANCED)
         return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: contacts of block %d carry %.2g of its "

@@ -121,7 +121,10 @@ static int read_static(model_reader *r)
                          RANGE("tolerance", &p->tolerance, 0, 1, "()",
                                "more than 0 and less than 1") };
 
-    return model_options(r, 0, LENGTH(o), o);
+    return model_options(r, 0, LENGTH(o), o)
+           && (!o[1].seen || p->steps > 1
+               || model_blame(r, "a tolerance of one step, expected `steps N` with more: it "
+                                 "compares a step with all steps"));
 }
 
 static int read_dynamic(model_reader *r)

@@ -908,6 +908,14 @@ START_TEST(what_is_removed_has_no_weight_whatever_its_size)
 }
 END_TEST
 
+/* Its corners sink by W/(2 kn), 0.123 of its size. */
+START_TEST(what_sinks_too_deep_in_statics_says_so)
+{
+    ck_assert_int_eq(run_text("deep", STONE "contact friction 30 kn 1e5\ngravity 0 -9.81\nstatic\n"), 1);
+    check_text("out/model/deep.err", "the contacts are too soft: step 1: a corner of block 'stone'");
+}
+END_TEST
+
 /* Nothing presses from outside, so the forces inside are left to their last digits: a stress to which a free body gives
  * way, a support that sinks, a load taken back, a bolt from one end of a body to its other. */
 START_TEST(a_body_that_bears_nothing_from_outside_balances_whatever_its_size)
@@ -1071,6 +1079,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, what_is_removed_has_no_weight_whatever_its_size);
     tcase_add_test(t, a_corner_at_an_open_bond_has_not_passed_into_the_block);
+    tcase_add_test(t, what_sinks_too_deep_in_statics_says_so);
     tcase_add_loop_test(t, a_body_that_bears_nothing_from_outside_balances_whatever_its_size, 0, 4);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
