@@ -865,25 +865,27 @@ static double steepness(bbm_direction p)
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
- * crosses last. Neither closes while P is behind both by less than the rounding of the corners, if
- * they are no sides that face each other.
+ * crosses last. P is outside r while it is behind it by less than the rounding of the corners and
+ * leaves, and neither closes while P is so little behind both, if they are no sides that face each
+ * other.
  * What was closed keeps its line until P crosses the other one. Of two lines crossed at the same
  * time the one counts that was closed at the start of the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
+    const double low = c->trial.was_closed || face_each_other(m, c->edge, r->edge) ? 0
+                     : rounding_between(m, c->corner, c->edge);
 
     if (r->state != BBM_OPEN)
         return 1;
     if (goes_straight_on(m, c->edge, r->edge))
         return r->d_n < 0 && is_on_edge(m, r, 1) && (!is_on_edge(m, c, 1) || r->edge < c->edge);
     if (r->d_n >= 0)
-        return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= 0
+        return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= -low
             && enters_at_end(m, r);
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
-    if (!c->trial.was_closed && !face_each_other(m, c->edge, r->edge)
-        && fmin(c->d_n, r->d_n) > -rounding_between(m, c->corner, c->edge))
+    if (fmin(c->d_n, r->d_n) > -low)
         return 1;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
