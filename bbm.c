@@ -292,7 +292,7 @@ void bbm_gauss_point(int g, double *s, double *weight)
     const double x[BBM_GAUSS] = { -sqrt(outer), -sqrt(inner), sqrt(inner), sqrt(outer) };
 
     *s = (1 + x[g]) / 2;
-    *weight = (18 + (g == 0 || g == 3 ? -1 : 1) * sqrt(30)) / 72;
+    *weight = (18 + (g == 0 || g == 3 ? -1 : 1) * sqrt(30.0)) / 72;
 }
 
 /* A load f(s) [N/m] that varies along a line from a to b,

@@ -141,7 +141,7 @@ typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;   /* the figur
 /* The phases whose CPU time is counted. */
 enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
-typedef struct {                /* defaults: bbm_model_new; their reasons: doc/paper.md, 4.1    */
+typedef struct {                /* defaults: bbm_model_new; reasons for some: doc/paper.md, 4.1 */
     double dt;                  /* s        time step; INFINITY: statics, without inertia       */
     int    steps;               /* in statics: iterations of Newton-Raphson                     */
     double tolerance;           /* -        of (71), which ends the run; 0: do all steps        */

@@ -17,11 +17,11 @@
  * is the sign of the slip. c and tension are the cohesion and the tensile strength of an unbroken
  * joint, A is the contact's share of its area: in the paper all 0.
  *
- * d_s counts from the anchor P0, a point of the edge's material. P0 is where P1 hit. In LOCK it
- * stays. In SLIDE it is moved at the end of each step, so that p_s d_s is the friction force. In
- * the next step only new slip raises s T above the bound. When the slip turns round, s T falls
- * below it, and the contact locks with the force that it had. A contact that closes with more shear
- * than friction can hold begins with SLIDE.
+ * d_s counts from the anchor P0, a point of the edge's material. P0 is where P1 stood at the start
+ * of the step in which it hit. In LOCK it stays. In SLIDE it is moved at the end of each step, so
+ * that p_s d_s is the friction force. In the next step only new slip raises s T above the bound.
+ * When the slip turns round, s T falls below it, and the contact locks with the force that it had.
+ * A contact that closes with more shear than friction can hold begins with SLIDE.
  *
  * base/detect.c finds which corners may touch which edges. base/open_close.c changes the states by
  * this table until all contacts fit the solution.
@@ -72,7 +72,7 @@ void bbm_spring_submatrix(double p, const double v[6], const double w[6], double
 }
 
 /* The force f of a contact at D = 0 is a load on both sides: F_i -= f e, F_j -= f g. A spring has
- * f = p d0, Eq. (59), (64). The friction force Fr of Eq. (65), positive when P1 slips towards P3,
+ * f = p d0, Eq. (58), (63). The friction force Fr of Eq. (65), positive when P1 slips towards P3,
  * has the e and g of the shear spring, Eq. (66), (67), (68), (69). */
 void bbm_force_submatrix(double f, const double v[6], double F[6])
 {
@@ -144,7 +144,8 @@ double bbm_shear_force(const bbm_contact *c)
 
 /* The figure on top as a table: the state that follows from N and T. N of an open contact is what
  * it would be if it were closed. Forces that differ by less than the tolerance agree. A closed
- * contact opens without a tolerance: it would be a hidden tensile strength. */
+ * contact opens without a tolerance: it would be a hidden tensile strength. How one closes, and a
+ * locked one in tension: close_contact and find_next_state in base/open_close.c. */
 bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double tolerance)
 {
     const double strength = bbm_shear_strength(&c->strength, N);

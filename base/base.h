@@ -424,7 +424,7 @@ double     bbm_normal_stiffness(const bbm_model *m);
 double     bbm_normal_energy(const bbm_model *m, double N);                     /* (51)         */
 void       bbm_spring_submatrix(double p, const double v[6], const double w[6], double K[6][6]);
                                                                                 /* (58), (63)   */
-void       bbm_force_submatrix(double f, const double v[6], double F[6]);       /* (59), (69)   */
+void       bbm_force_submatrix(double f, const double v[6], double F[6]);       /* (58), (69)   */
 double     bbm_tangent(double degrees);
 double     bbm_shear_strength(const bbm_strength *s, double N);                 /* (65)         */
 double     bbm_shear_force(const bbm_contact *c);                               /* T or (65)    */

@@ -14,8 +14,8 @@
 /* What a material may have: products of three or their squares are still numbers then. */
 #define LEAST 1e-100
 
-/* A model that lies more than half as many sizes of its first element away from (0, 0) gets an
- * origin of its own. Else the last digit of a coordinate, times p_n, would be a force that
+/* A model that lies more than FAR/2 sizes of its first element away from (0, 0) gets an origin of
+ * its own. Else the last digit of a coordinate, times p_n, would be a force that
  * counts. */
 #define FAR 1024
 

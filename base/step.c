@@ -223,7 +223,7 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
     if (bbm_is_static(m))
         memset(e->V, 0, sizeof e->V);
     else
-        bbm_newmark_velocity(e, m->h, m->par.velocity_factor);
+        bbm_newmark_velocity(e, m->h, m->par.velocity_factor > 0);     /* its share: bbm_step */
     if (bbm_motion_of(m))
         bbm_motion_of(m)->turn(&start, e, vertex);
 }
@@ -276,7 +276,7 @@ bbm_status bbm_try_step(bbm_model *m)
             if (!status)
                 status = solve(m);                  /* K D = F: section 4                       */
             if (!status)
-                status = open_close(m, &pass);      /* 3.8: do the contacts fit the solution?   */
+                status = open_close(m, &pass);      /* 3.7: do the contacts fit the solution?   */
         } while (!status && pass != BBM_PASS_DONE);
         if (!status)
             status = bbm_detect(m, &holds);         /* too far for the list of contacts?        */
@@ -297,12 +297,18 @@ static bbm_status take_part(bbm_model *m, double h, int tries)
     return status;
 }
 
-/* One time step, Fig. 8. If it fails, the model stays as the last part that went well left it. */
+/* One time step, Fig. 8. Velocities keep their share at its end, in however many parts it was taken;
+ * with a share of 0 each part begins at rest. If it fails, the model stays as the last part that
+ * went well left it. */
 bbm_status bbm_step(bbm_model *m)
 {
-    const bbm_status status = bbm_check_step(m);
+    bbm_status status = bbm_check_step(m);
 
-    return bbm_end_step(m, status ? status : take_part(m, m->par.dt, 0));
+    if (!status)
+        status = take_part(m, m->par.dt, 0);
+    for (int k = 0; k < 6 * m->elements && !status; k++)
+        m->element[k / 6].V[k % 6] *= m->par.velocity_factor;
+    return bbm_end_step(m, status);
 }
 
 /* All time steps. With a tolerance they end when the last step is small against the sum of all

@@ -1,6 +1,6 @@
 /* beyond.h - what stands beside the paper: its settings, and the model that has it all.
  *
- * The core, the four files on top, knows nothing of this. bbm_beyond_new makes a model as
+ * The core, the files on top and base/, knows nothing of this. bbm_beyond_new makes a model as
  * bbm_model_new does and hooks everything into it; what it takes to run is in m->beyond. Each
  * subject is a file of its own with an essay.
  */
@@ -38,7 +38,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double x, y, area, size;    /* m, m, m^2, m     the centre, and how large it is             */
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
-    double inside;              /* N        those of bonds, stresses and supports that move     */
+    double inside;              /* N        what inner forces are as exact as: equilibrium.c    */
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 

@@ -25,8 +25,9 @@
  * NO_FORCE [N]   in any unit: the solver has such a force in place of 0
  * ROUNDING [-]   of a displacement: some dozens of its last digit. What a spring makes of it may be
  *                left, too
- * INSIDE [-]     of the forces inside a body, and of what would bring a support to its place at
- *                once: the solution is no more exact, and a body may bear nothing else
+ * INSIDE [-]     of the force by which the component is solved, of the forces inside a body, and of
+ *                what would bring a support to its place at once: the solution is no more exact,
+ *                and a body may bear nothing else
  * UNLOADED [-]   of what its bonds can carry: a piece that has broken off and bears less bears
  *                nothing. The solver knows the forces from before the break to 1e-10 */
 #define IN_MOTION 1e-5
@@ -42,7 +43,7 @@ static void begin_bodies(bbm_model *m)
     const double unloaded = UNLOADED * m->beyond->bond_tension;
 
     for (int i = 0; i < m->elements; i++)
-        body[i] = (bbm_balance){ 0 };
+        body[i] = (bbm_balance){ .inside = m->K->forces[bbm_component_of(m->K, i)] };
     for (int i = 0; i < m->elements; i++) {
         bbm_balance *b = &body[m->beyond->body[i]];
         const bbm_element *e = &m->element[i];

@@ -414,6 +414,7 @@ START_TEST(a_side_may_dip_as_deep_as_contacts_over_the_shorter_of_both_sides)
     const int f = add_wedge(m, blocks == 1 ? 2 : 1, flat, from, from + radians(60));
     start_step(m, &n);
     bbm_contact *c = find_listed(m, e, 0, other, 2);
+    ck_assert_msg(c != NULL, "the corner of the wedge beside it is in no contact");
     c->state = BBM_LOCK;
     c->d_n = -5e-3;
     ck_assert_ptr_nonnull(find_listed(m, f, 0, 0, 2));

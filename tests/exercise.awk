@@ -32,7 +32,11 @@ function flush()
     comment = head = ""
 }
 
-BEGIN { name = ENVIRON["NAME"]; from = ENVIRON["FROM"]; to = ENVIRON["TO"] }
+BEGIN {
+    name = ENVIRON["NAME"]; from = ENVIRON["FROM"]; to = ENVIRON["TO"]
+    if (name != "")
+        print "#include <string.h>"
+}
 
 name != "" && inside { inside = $0 != "}"; next }
 name != "" && /^\/[*]/ { flush(); open = 1 }
