@@ -223,8 +223,6 @@ static void move_point(const bbm_model *m, int v, double u[2])
     double w[2];
 
     bbm_move(m, &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
-    if (P == Q)
-        return;
     bbm_move(m, &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
     u[0] = (u[0] + w[0]) / 2;
     u[1] = (u[1] + w[1]) / 2;
@@ -462,8 +460,7 @@ static int goes_on_in(const bbm_model *m, int corner, int e, int f)
     const projection on = project(m, corner, e);
 
     return m->edge[e].first != m->edge[f].first && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
-        && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel
-        && fabs(on.d - project(m, corner, f).d) <= surface_depth(m, corner, f);
+        && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel;
 }
 
 /* Edges that may stand for one: itself; those of its straight side; and those of other blocks that
@@ -482,8 +479,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
             continue;
         if (c->edge == edge)
             return c;
-        if ((of >= SIDE && m->edge[c->edge].side == m->edge[edge].side)
-            || (of == LINE && goes_on_in(m, corner, c->edge, edge)))
+        if (of >= SIDE && m->edge[c->edge].side == m->edge[edge].side)
             found = c;
     }
     return found;
@@ -500,8 +496,6 @@ static int is_near(const bbm_model *m, int corner, int e)
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (find_closed(m, corner, e, ITSELF) && find_closed(m, corner, e, ITSELF)->hit > 1)
-        return 1;
     if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e)
         || -f.d > approach + fmax(deep, rounding_between(m, corner, e)))
         return 0;
@@ -712,8 +706,6 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
-        if (goes_straight_on(m, c->edge, r.edge))
-            continue;
         if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, 0, PARALLEL))
             return 1;
         lines++;
@@ -733,8 +725,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     const double touch = touch_between(m, p.corner, p.edge);
 
     *c = old ? *old : (bbm_contact){ 0 };
-    c->inside |= !old && f.d < -touch && f.beyond <= 0
-              && f.d >= -surface_depth(m, p.corner, p.edge);
+    c->inside |= !old && f.d < -touch && f.beyond <= 0;
     c->trial.carried = old && old->corner == p.corner && old->edge == p.edge;
     c->trial.touches = !old && m->info.step == 0 && m->info.t == 0
                     && fmax(fabs(f.d), f.beyond) <= touch;
@@ -742,8 +733,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->edge = p.edge;
     c->trial.d_n0 = f.d;
     c->trial.was_closed = c->state != BBM_OPEN;
-    c->trial.beyond_end = f.beyond > touch
-                       && is_convex(m, f.s < 0 ? p.edge : m->edge[p.edge].after);
+    c->trial.beyond_end = f.beyond > touch;
     for (int k = 0; k < 4; k++) {
         const pair flush = meet(m, p, k / 2, FLUSH);
         const pair other = k % 2 == 0 ? meet(m, p, k / 2, NEXT)
