@@ -871,12 +871,9 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (goes_straight_on(m, c->edge, r->edge))
         return r->d_n < 0 && is_on_edge(m, r, 1) && (!is_on_edge(m, c, 1) || r->edge < c->edge);
     if (r->d_n >= 0)
-        return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= -low
-            && enters_at_end(m, r);
+        return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= -low;
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
-    if (fmin(c->d_n, r->d_n) > -low)
-        return 1;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
     return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
