@@ -855,23 +855,22 @@ static double steepness(bbm_direction p)
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
- * crosses last. P is outside r while it is behind it by less than the rounding of the corners and
- * leaves, and neither closes while P is so little behind both, if they are no sides that face each
- * other.
+ * crosses last. A P that leaves over r has been outside if it was less than the rounding of the
+ * corners behind it, unless the sides face each other.
  * What was closed keeps its line until P crosses the other one. Of two lines crossed at the same
  * time the one counts that was closed at the start of the step, or else the flatter one. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
-    const double low = c->trial.was_closed || face_each_other(m, c->edge, r->edge) ? 0
-                     : rounding_between(m, c->corner, c->edge);
+    const double over_r = r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0);
 
     if (r->state != BBM_OPEN)
         return 1;
     if (goes_straight_on(m, c->edge, r->edge))
         return r->d_n < 0 && is_on_edge(m, r, 1) && (!is_on_edge(m, c, 1) || r->edge < c->edge);
     if (r->d_n >= 0)
-        return r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0) >= -low;
+        return over_r >= (c->trial.was_closed || face_each_other(m, c->edge, r->edge) ? 0
+                          : -rounding_between(m, c->corner, c->edge));
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
