@@ -39,10 +39,20 @@ static bbm_status assemble(bbm_model *m)
     return BBM_OK;
 }
 
+/* Adds to K the stiffness of the stress, what is positive of it or what is negative. */
+static void add_stress(bbm_model *m, double sign)
+{
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        const double tension = e->material.thickness * e->A * (e->stress[0] + e->stress[1]);
+        m->K->D[m->K->place[i]][2][2] += sign * fmax(0, sign * tension);
+    }
+}
+
 /* Whether the static answer that the model has come to is stable. The model stays as it is, but for
  * D, F and K. Every element is pushed and turned a little, each by another amount, so that no mode
- * is missed. A solution for F = 0 makes the preconditioner, from K without the stress: it has to be
- * positive definite itself. */
+ * is missed. A solution for F = 0 makes the preconditioner, from K with the tension alone, which
+ * has to be positive definite itself: what hangs on a pin resists by its tension. */
 bbm_status bbm_find_stability(bbm_model *m, int *stable)
 {
     bbm_pcg pcg = m->par.pcg;
@@ -50,18 +60,20 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
     bbm_status status = assemble(m);
 
     memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
-    if (!status)
+    if (!status) {
+        add_stress(m, 1);
         status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
-    for (int i = 0; i < m->elements && !status; i++) {
-        const bbm_element *e = &m->element[i];
-        double (*D)[6] = m->K->D[m->K->place[i]];
-        for (int a = 0; a < 3; a++)
-            m->F[6 * i + a] = e->A * (a < 2 ? 1 : sqrt(e->A)) * (1 + (37 * i + 11 * a) % 19);
-        D[2][2] += e->material.thickness * e->A * (e->stress[0] + e->stress[1]);
     }
-    pcg.tolerance = NUDGED;
-    if (!status)
+    if (!status) {
+        add_stress(m, -1);
+        for (int k = 0; k < 3 * m->elements; k++) {
+            const int i = k / 3, a = k % 3;
+            const double A = m->element[i].A;
+            m->F[6 * i + a] = A * (a < 2 ? 1 : sqrt(A)) * (1 + (37 * i + 11 * a) % 19);
+        }
+        pcg.tolerance = NUDGED;
         status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
+    }
     m->K->ready = 0;
     *stable = status != BBM_NOT_POSITIVE_DEFINITE;
     return *stable ? status : BBM_OK;

@@ -601,6 +601,9 @@ int model_velocities(model_reader *r)
     if (r->p->velocity[block].given)
         return model_blame(r, "a velocity of '%.60s' for the second time, expected one",
                            r->block[block].name);
+    if (r->block[block].fixed)
+        return model_blame(r, "block '%.60s' is fixed, expected one that may move",
+                           r->block[block].name);
     r->p->velocity[block] = v;
     return 1;
 }
@@ -751,6 +754,7 @@ int model_bolts(model_reader *r)
         return model_blame(r, "a bolt without length or within an element, expected two places; "
                               "`pin` joins two blocks at a point");
     b.rest = along.length - pretension / b.k;
+    b.pull = pretension;
     return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
 }
 

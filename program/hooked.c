@@ -13,6 +13,7 @@ typedef struct {
     model *p;
     bbm_status (*begin)(bbm_model *m);          /* the library's hooks */
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);
+    bbm_status (*move)(bbm_model *m);
 } hooked;
 
 static hooked *hooked_of(const bbm_model *m) { return (hooked *)m->beyond; }
@@ -147,8 +148,8 @@ static bbm_status begin(bbm_model *m)
 
     for (int k = 0; k < p->bolts; k++) {
         scene_bolt *b = &p->bolt[k];
-        if (model_bolt_force(m, b, &(bbm_direction){ 0 }) > b->strength)
-            b->k = 0, b->until = m->info.t;
+        if (b->pull > b->strength)
+            b->k = b->pull = 0, b->until = m->info.t;
     }
     while (q < end && q[1].t < t)
         q++;
@@ -178,6 +179,30 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return next;
 }
 
+/* What the bolts carry: the forces of the solution, since the positions that it leads to are not
+ * exact enough for a pin, nor in statics, which takes turns as small. A bolt that moves pulls as
+ * its length says, which is that at the end of the step. */
+static bbm_status move(bbm_model *m)
+{
+    const model *p = hooked_of(m)->p;
+    double d[2];
+
+    for (int k = 0; k < p->bolts; k++) {
+        const bbm_gap *g = &m->gap[m->gaps - p->bolts + k];
+        bbm_gap_length(m, g, d);
+        const double x = g->W[0][0] * d[0] + g->W[0][1] * d[1],
+                     y = g->W[1][0] * d[0] + g->W[1][1] * d[1];
+        bbm_direction n;
+        model_bolt_force(m, &p->bolt[k], &n);
+        p->bolt[k].next = p->bolt[k].rest == 0 ? hypot(x, y) : n.x * x + n.y * y;
+    }
+    const int moves = bbm_find_motion(m) != NULL;
+    const bbm_status status = hooked_of(m)->move(m);
+    for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts && !status; b++)
+        b->pull = moves && b->rest > 0 ? model_bolt_force(m, b, &(bbm_direction){ 0 }) : b->next;
+    return status;
+}
+
 /* No load on what is gone. */
 static void gather_loads(bbm_model *m)
 {
@@ -204,9 +229,10 @@ int model_hook(model_reader *r)
     if (!b || !gap)
         return model_out_of_memory(r);
     memset(gap + gaps, 0, bolts * sizeof *gap);
-    *b = (hooked){ b->library, p, m->hook->begin, m->hook->renew };
+    *b = (hooked){ b->library, p, m->hook->begin, m->hook->renew, m->hook->move };
     m->hook->begin = begin;
     m->hook->renew = renew;
+    m->hook->move = move;
     m->hook->list_gaps = list_gaps;
     bbm_list_gaps(m);
     bbm_note_springs(m, 0);             /* the energy of bolts that are tight */

@@ -64,7 +64,7 @@ void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED])
     for (int k = 0; k < 2 * m->nodes && m->of == &model_support; k++)
         x[k % 2] += b->beyond->support[m->node[k / 2]].force[k % 2];
     if (m->of == &model_pull)
-        x[0] = model_bolt_force(b, &p->bolt[m->block[0]], &(bbm_direction){ 0 });
+        x[0] = p->bolt[m->block[0]].pull;
     for (int k = 0; k < b->contacts && m->of == &model_force; k++) {
         const bbm_contact *c = &b->contact[k];
         const int i = b->edge[c->corner].block, j = b->edge[c->edge].block,

@@ -110,7 +110,8 @@ extern const model_followed model_displacement, model_force, model_support, mode
 /* u, v of nodes; of a joint normal, shear, and fx, fy of its second block on the first; fx, fy of
  * the supports on nodes; the pull of a bolt; and 0. */
 void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED]);
-/* hooked.c: what a bolt carries, N, and its direction, from the second end to the first. */
+/* hooked.c: what makes a bolt as long as it is, N, and its direction, from the second end to the
+ * first. */
 double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *along);
 void model_free(model *p);
 

@@ -60,8 +60,7 @@ bbm_status run_step(run *r)
     r->stage_is_over = !status && (par->tolerance > 0 ? m->info.change <= par->tolerance
                                                       : m->info.step == par->steps);
     for (int k = 0; k < r->p->bolts && !r->p->dynamic; k++)     /* one breaks in the next step */
-        r->stage_is_over &= model_bolt_force(m, &r->p->bolt[k], &(bbm_direction){ 0 })
-                         <= r->p->bolt[k].strength;
+        r->stage_is_over &= r->p->bolt[k].pull <= r->p->bolt[k].strength;
     r->is_over = r->stage_is_over && r->p->now == r->p->stages;
     return status;
 }

@@ -52,6 +52,7 @@ typedef struct {                /* a point of an element: the sum of share times
 typedef struct {                /* a spring along the line between two points, by hooked.c        */
     scene_end end[2];
     double k, rest, strength, until;    /* N/m, m, N, 0: removed; s: when it broke, or INFINITY   */
+    double pull, next;                  /* N, N     what it carries; will, if the step goes well  */
 } scene_bolt;
 
 typedef struct {

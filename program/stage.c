@@ -127,7 +127,7 @@ void model_next_stage(model *p)
     for (int k = 0; k < p->bolts; k++, b++)
         if (b->k > 0 && (field_is_gone(m, b->end[0].vertex[0])
                          || field_is_gone(m, b->end[1].vertex[0])))
-            b->k = b->strength = 0, b->until = m->info.t;
+            b->k = b->pull = b->strength = 0, b->until = m->info.t;
     for (int k = 0; k < m->gaps; k++)
         if (k >= 2 * m->bonds || field_is_gone(m, m->element[m->gap[k].i].first)) {
             m->gap[k].own = (bbm_multiplier){ 0 };

@@ -52,7 +52,7 @@ static void warn_of_loads(const model *p, const char *path)
     for (int k = 0; k < 3 * m->elements; k++)
         load |= m->element[k / 3].stress[k % 3] != 0 || m->element[k / 3].f[k % 2] != 0;
     for (int k = 0; k < p->bolts; k++)
-        load |= model_bolt_force(m, &p->bolt[k], &(bbm_direction){ 0 }) != 0;
+        load |= p->bolt[k].pull != 0;
     if (!load)
         warn(path, "nothing loads the model; gravity, load, traction, pressure, bodyforce or "
                    "fix ... by does");
@@ -432,8 +432,9 @@ void warn_after(const model *p, const char *path)
         warn(path, "elements turn by more than 0.1 rad, which statics takes as small: lengths are "
                    "wrong; dynamic with velocity_factor 0 has them right");
     if (p->m->beyond->breach > BBM_BALANCED)
-        warn(path, "contacts held up to %.1g of the forces on a block against their law: positions "
-                   "have no more digits; a smaller kn helps", p->m->beyond->breach);
+        warn(path, "contacts or bolts were off their law by up to %.1g of the forces on a block: "
+                   "positions have no more digits; a smaller kn or softer bolts help",
+             p->m->beyond->breach);
     warn_of_coarse_sides(p, path);
     if (!p->dynamic && bbm_find_stability(p->m, &stable) == BBM_OK && !stable)
         warn(path, "in equilibrium, but not stable: a push, however small, moves it on and on");

@@ -167,7 +167,7 @@ static void put_bolts(FILE *f, const write_results *w)
     fprintf(f, "bolt,block_1,block_2,force,state\n");
     for (const scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++)
         fprintf(f, "%d,%s,%s,%.15g,%s\n", (int)(b - p->bolt) + 1, p->block[b->end[0].block],
-                p->block[b->end[1].block], model_bolt_force(p->m, b, &(bbm_direction){ 0 }),
+                p->block[b->end[1].block], b->pull,
                 b->strength == 0 ? "REMOVED" : b->until < INFINITY ? "BROKEN" : "HOLDS");
 }
 

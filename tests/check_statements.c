@@ -498,8 +498,13 @@ static const struct { const char *text, *said; } doubtful[] = {
       "shorter cells or parallelograms do not\n" },
     { CELLS("0", "3.5", "8", "0", "4.5", "8") "bond at vertices\n", NULL }, { CELLS("-1", "3", "7", "1", "5", "9"), NULL },
     { CELLS("0", "3.9", "8", "0", "4.1", "8"), NULL },
-    { PEBBLE "contact friction 29.995 kn 1e12\n", "of the forces on a block against their law: "
-      "positions have no more digits; a smaller kn helps\n" },
+    { PEBBLE "contact friction 29.995 kn 1e12\n", "of the forces on a block: "
+      "positions have no more digits; a smaller kn or softer bolts help\n" },
+    /* what hangs on a pin is stable, and what stands on one is not */
+    { ROCK "block top rock 0 0 1 1 -1 1\nfixblock top\nblock b rock 0 0 0.3 -1 0 -2 -0.3 -1\npin top b at 0 0\ngravity 0 -9.81\n"
+      "contact friction 30\nstatic\n", NULL },
+    { ROCK "block top rock 0 0 -1 -1 1 -1\nfixblock top\nblock b rock 0 0 0.3 1 0 2 -0.3 1\npin top b at 0 0\ngravity 0 -9.81\n"
+      "contact friction 30\nstatic\n", "in equilibrium, but not stable: a push, however small, moves it on and on\n" },
     { PEBBLE "contact friction 29.995 kn 1e8 ks 1e8\n", NULL },
 };
 
@@ -757,6 +762,38 @@ START_TEST(a_pin_lets_turn_and_carries_what_a_hinge_does)
                                  "expect pin force $(4e3*sqrt(2)) within 0.01 %%\n",
                                  _i ? "dynamic dt 0.1 steps 50 velocity_factor 0" : "static"), 0);
     ck_near(cell("hinges", "bolts.csv", "1,l,r", "force"), 4e3 * sqrt(2), 4e3, 1e-4);
+}
+END_TEST
+
+/* A pendulum on a stiff pin, by the support of the other block, which weighs as much as the support bears at the start. */
+START_TEST(a_pin_that_moves_bears_what_its_support_does)
+{
+    ck_assert_int_eq(run_text("swing", "material rock E 1e12 nu 0.25 density 2500\nblock top rock 0 0 1 1 -1 1\n"
+        "fixblock top\nblock b rock 0 0 0.759808 -0.716025 1 -1.732051 0.240192 -1.016025\npin top b at 0 0\n"
+        "gravity 0 -9.81\ncontact friction 30\ndynamic dt 0.01 steps 40\nmonitor p bolt 1\nmonitor r support set top\n"), 0);
+    for (int k = 20; k <= 40; k++) {
+        char row[20];
+        snprintf(row, sizeof row, "%d,", k);
+        const double x = cell("swing", "history.csv", row, "r_fx"),
+                     y = cell("swing", "history.csv", row, "r_fy") - 2500 * 9.81;
+        ck_relative(cell("swing", "history.csv", row, "p_force"), hypot(x, y), 1e-5);      /* of balance in motion */
+    }
+}
+END_TEST
+
+/* A block hangs on two bolts and a third holds it across: statics knows all three forces, however stiff the bolts are
+ * and soft the block is. Its turns are small, and what they would lengthen a bolt by is no force. */
+START_TEST(stiff_bolts_bear_in_statics_what_balance_says)
+{
+    ck_assert_int_eq(run_printed("three", "material soft E %s nu 0.2 density 2500\nmaterial rock E 1e11 nu 0.2 density 2500\n"
+        "block anchor rock -5 5 5 5 5 6 -5 6\nblock wall rock 6 -1 7 -1 7 2 6 2\nfixblock anchor\nfixblock wall\n"
+        "block b soft 0 0 2 0 2 1 0 1\nbolt at 0 1 of b at 0 5 of anchor stiffness %s strength 25e3\n"
+        "bolt at 2 1 of b at 2 5 of anchor stiffness %s strength 25e3\nbolt at 2 0 of b at 6 0 of wall stiffness %s\n"
+        "gravity 0 -9.81\nload at 0 0 of b 5000 0\ncontact friction 30\nstatic\n", _i ? "1e9" : "1e6",
+        _i ? "1e13" : "1e9", _i ? "1e13" : "1e9", _i ? "1e13" : "1e9"), 0);
+    ck_relative(cell("three", "bolts.csv", "1,", "force"), 2500 * 9.81, 1e-6);
+    ck_relative(cell("three", "bolts.csv", "2,", "force"), 2500 * 9.81, 1e-6);
+    ck_relative(cell("three", "bolts.csv", "3,", "force"), -5000, 1e-6);
 }
 END_TEST
 
@@ -1120,6 +1157,8 @@ Suite *statements_suite(void)
     tcase_add_test(t, what_is_removed_has_no_weight_whatever_its_size);
     tcase_add_test(t, a_corner_at_an_open_bond_has_not_passed_into_the_block);
     tcase_add_test(t, a_step_that_is_cut_keeps_its_share_of_the_velocity);
+    tcase_add_test(t, a_pin_that_moves_bears_what_its_support_does);
+    tcase_add_loop_test(t, stiff_bolts_bear_in_statics_what_balance_says, 0, 2);
     tcase_add_test(t, what_sinks_too_deep_in_statics_says_so);
     tcase_add_loop_test(t, a_body_that_bears_nothing_from_outside_balances_whatever_its_size, 0, 4);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
