@@ -705,6 +705,11 @@ static int find_end(const bbm_model *m, int block, const double at[2], scene_end
             *end = here;
         }
     }
+    for (int k = 0; k < 3 && found; k++)
+        if (end->share[k] > 1 - NEAR) {                             /* a node */
+            const int v = end->vertex[k];
+            *end = (scene_end){ end->block, end->element, { v, v, v }, { 1, 0, 0 } };
+        }
     return found;
 }
 

@@ -124,6 +124,36 @@ static void find_gap(const bbm_model *m, const scene_bolt *b, bbm_gap *g)
     }
 }
 
+/* The elements that meet at an end. */
+static int parts_at(const bbm_model *m, const scene_end *e)
+{
+    const int *first = &m->adjacent_first[m->vertex[e->vertex[0]].node];
+
+    return e->share[0] == 1 ? first[1] - first[0] : 1;
+}
+
+static int parts_of(const bbm_model *m, const scene_bolt *b)
+{
+    return parts_at(m, &b->end[0]) * parts_at(m, &b->end[1]);
+}
+
+/* The elements that meet at a node have equal shares in the bolt that ends there: part q of all
+ * from one of this end to one of that. */
+static scene_bolt part_of(const bbm_model *m, const scene_bolt *b, int q)
+{
+    const int parts = parts_at(m, &b->end[0]), at[2] = { q % parts, q / parts };
+    scene_bolt part = *b;
+
+    part.k /= parts_of(m, b);
+    for (int k = 0; k < 2; k++)
+        if (parts_at(m, &b->end[k]) > 1) {
+            const int node = m->vertex[b->end[k].vertex[0]].node;
+            const int v = m->adjacent[m->adjacent_first[node] + at[k]];
+            part.end[k] = (scene_end){ b->end[k].block, m->vertex[v].element, { v, v, v }, { 1, 0, 0 } };
+        }
+    return part;
+}
+
 /* The bolts stand behind the library's own gaps. */
 static void list_gaps(bbm_model *m)
 {
@@ -131,8 +161,21 @@ static void list_gaps(bbm_model *m)
 
     bbm_list_edge_gaps(m);
     for (int k = 0; k < p->bolts; k++)
-        find_gap(m, &p->bolt[k], bbm_add_gap(m, p->bolt[k].end[0].element,
-                                             p->bolt[k].end[1].element));
+        for (int q = 0; q < parts_of(m, &p->bolt[k]); q++) {
+            const scene_bolt part = part_of(m, &p->bolt[k], q);
+            find_gap(m, &part, bbm_add_gap(m, part.end[0].element, part.end[1].element));
+        }
+}
+
+/* The first gap of the bolts, and how many there are. */
+static int find_bolts(const bbm_model *m, const model *p, const bbm_gap **g)
+{
+    int parts = 0;
+
+    for (int k = 0; k < p->bolts; k++)
+        parts += parts_of(m, &p->bolt[k]);
+    *g = m->gap + m->gaps - parts;
+    return parts;
 }
 
 /* ------------------------------------------------------------------------------------ the hooks */
@@ -166,17 +209,22 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     const model *p = hooked_of(m)->p;
 
     next = hooked_of(m)->renew(m, next);
-    for (int k = 0; k < p->bolts && next == BBM_PASS_DONE && bbm_find_motion(m); k++) {
-        const bbm_gap *g = &m->gap[m->gaps - p->bolts + k];
-        bbm_gap now = *g;
-        find_gap(m, &p->bolt[k], &now);
-        if (hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1]) > DIRECTION * p->bolt[k].k) {
-            bbm_set_middle(m);
-            bbm_list_gaps(m);
-            next = BBM_PASS_AGAIN;
+    const bbm_gap *g;
+    int turned = 0;
+    find_bolts(m, p, &g);
+    for (int k = 0; k < p->bolts && next == BBM_PASS_DONE && bbm_find_motion(m); k++)
+        for (int q = 0; q < parts_of(m, &p->bolt[k]); q++, g++) {
+            const scene_bolt part = part_of(m, &p->bolt[k], q);
+            bbm_gap now = *g;
+            find_gap(m, &part, &now);
+            turned |= hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1])
+                      > DIRECTION * part.k;
         }
-    }
-    return next;
+    if (!turned)
+        return next;
+    bbm_set_middle(m);
+    bbm_list_gaps(m);
+    return BBM_PASS_AGAIN;
 }
 
 /* What the bolts carry: the forces of the solution, since the positions that it leads to are not
@@ -185,16 +233,20 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
 static bbm_status move(bbm_model *m)
 {
     const model *p = hooked_of(m)->p;
-    double d[2];
+    const bbm_gap *g;
 
-    for (int k = 0; k < p->bolts; k++) {
-        const bbm_gap *g = &m->gap[m->gaps - p->bolts + k];
-        bbm_gap_length(m, g, d);
-        const double x = g->W[0][0] * d[0] + g->W[0][1] * d[1],
-                     y = g->W[1][0] * d[0] + g->W[1][1] * d[1];
+    find_bolts(m, p, &g);
+    for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++) {
+        const bbm_gap *end = g + parts_of(m, b);
+        double d[2], f[2] = { 0 };
         bbm_direction n;
-        model_bolt_force(m, &p->bolt[k], &n);
-        p->bolt[k].next = p->bolt[k].rest == 0 ? hypot(x, y) : n.x * x + n.y * y;
+        for (; g < end; g++) {
+            bbm_gap_length(m, g, d);
+            for (int a = 0; a < 2; a++)
+                f[a] += g->W[a][0] * d[0] + g->W[a][1] * d[1];
+        }
+        model_bolt_force(m, b, &n);
+        b->next = b->rest == 0 ? hypot(f[0], f[1]) : n.x * f[0] + n.y * f[1];
     }
     const int moves = bbm_find_motion(m) != NULL;
     const bbm_status status = hooked_of(m)->move(m);
@@ -216,7 +268,8 @@ int model_hook(model_reader *r)
 {
     model *p = r->p;
     bbm_model *m = p->m;
-    const size_t gaps = bbm_most_gaps(m), bolts = (size_t)p->bolts;
+    const bbm_gap *none;
+    const size_t gaps = bbm_most_gaps(m), bolts = (size_t)find_bolts(m, p, &none);
 
     if (p->stages)
         m->hook->load = gather_loads;

@@ -765,6 +765,19 @@ START_TEST(a_pin_lets_turn_and_carries_what_a_hinge_does)
 }
 END_TEST
 
+/* Two quadrilaterals share the node at which a bolt or a pin pulls them up, and so its force of 1 MN. */
+START_TEST(elements_that_meet_at_a_node_share_what_pulls_there)
+{
+    ck_assert_int_eq(run_printed("share", ROCK "grid a rock 0 0 2 1 2 1\nfix at 0 0 of a\nfix at 2 0 of a\n%s\nstatic\n", _i
+        ? "block p rock 1 1 1.5 2 0.5 2\npin a p at 1 1\nload at 0.5 2 of p 0 5e5\nload at 1.5 2 of p 0 5e5\n"
+          "fix at 0.5 2 of p x\nfix at 1.5 2 of p x\ncontact friction 30"
+        : "block anchor rock 0.5 3 1.5 3 1 4\nfixblock anchor\nbolt at 1 1 of a at 1 4 of anchor stiffness 1e3 pretension 1e6"), 0);
+    for (int k = 0; k < 2; k++)         /* the bolt is 0.3 mm shorter then */
+        ck_relative(cell("share", "elements.csv", k ? "2,a," : "1,a,", "syy"), 5e5, 1e-6);
+    ck_relative(cell("share", "elements.csv", "1,a,", "sxy"), -cell("share", "elements.csv", "2,a,", "sxy"), 1e-6);
+}
+END_TEST
+
 /* A pendulum on a stiff pin, by the support of the other block, which weighs as much as the support bears at the start. */
 START_TEST(a_pin_that_moves_bears_what_its_support_does)
 {
@@ -1157,6 +1170,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, what_is_removed_has_no_weight_whatever_its_size);
     tcase_add_test(t, a_corner_at_an_open_bond_has_not_passed_into_the_block);
     tcase_add_test(t, a_step_that_is_cut_keeps_its_share_of_the_velocity);
+    tcase_add_loop_test(t, elements_that_meet_at_a_node_share_what_pulls_there, 0, 2);
     tcase_add_test(t, a_pin_that_moves_bears_what_its_support_does);
     tcase_add_loop_test(t, stiff_bolts_bear_in_statics_what_balance_says, 0, 2);
     tcase_add_test(t, what_sinks_too_deep_in_statics_says_so);
