@@ -24,12 +24,12 @@
  * STRIDE [-]   how far blocks may part, against the smaller one's size, in a step from rest and
  *              in the static step from there: contacts and directions are those of its start
  * FAR [-]      how far they have parted in all when that is no elastic way
- * LONG [-]     the first step against a swing on a contact spring; the shortest is the inverse
+ * SHORT [-]    the shortest step against a swing on a contact spring
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
 #define FAR 0.02
-#define LONG 1e3
+#define SHORT 1e-3
 #define DRIFT 0.9
 
 /* ------------------------------------------------------------------------- what holds a body */
@@ -226,8 +226,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         if (m->K->body[i] >= 0)
             least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
     const double swing = sqrt(2 * least / m->par.p_n);
-    double h = LONG * swing;
-    while (h > swing / LONG && !bbm_is_spent(m)) {
+    double h = swing;
+    while (h > SHORT * swing && !bbm_is_spent(m)) {
         m->h = h;
         status = bbm_try_step(m);
         if (status && is_final(status))

@@ -149,7 +149,8 @@ static scene_bolt part_of(const bbm_model *m, const scene_bolt *b, int q)
         if (parts_at(m, &b->end[k]) > 1) {
             const int node = m->vertex[b->end[k].vertex[0]].node;
             const int v = m->adjacent[m->adjacent_first[node] + at[k]];
-            part.end[k] = (scene_end){ b->end[k].block, m->vertex[v].element, { v, v, v }, { 1, 0, 0 } };
+            part.end[k] = (scene_end){ b->end[k].block, m->vertex[v].element, { v, v, v },
+                                        { 1, 0, 0 } };
         }
     return part;
 }

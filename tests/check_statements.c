@@ -1005,6 +1005,17 @@ START_TEST(a_step_that_is_cut_keeps_its_share_of_the_velocity)
 }
 END_TEST
 
+/* Friction of 12 degrees holds it on 10, where a stiff bolt crosses the joint. Had it slid by 0.2 mm, the bolt would
+ * lift it off. */
+START_TEST(statics_finds_what_stands_where_a_slide_would_go_on)
+{
+    ck_assert_int_eq(run_text("stuck", "material r E 4e9 nu 0.2 density 2000\nblock base r -6 -1 8 -1 8 0 -6 0\n"
+        "fixblock base\nblock b r 0 0 0.6 0 0.6 1.5 0 1.5\ngravity $(9.81*sin(10)) $(-9.81*cos(10))\ncontact friction 12\n"
+        "bolt at 0.3 0.55 of b at 0.45 -0.6 of base stiffness 1e9\nmonitor b set b\nstatic\n"), 0);
+    ck_assert_double_lt(cell("stuck", "history.csv", "1,", "b_u"), 1e-5);       /* the springs give way by 1e-6 */
+}
+END_TEST
+
 /* Nothing presses from outside, so the forces inside are left to their last digits: a stress to which a free body gives
  * way, a support that sinks, a load taken back, a bolt from one end of a body to its other. */
 START_TEST(a_body_that_bears_nothing_from_outside_balances_whatever_its_size)
@@ -1169,6 +1180,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_column_springs_back_when_its_top_is_removed, 0, 2);
     tcase_add_test(t, what_is_removed_has_no_weight_whatever_its_size);
     tcase_add_test(t, a_corner_at_an_open_bond_has_not_passed_into_the_block);
+    tcase_add_test(t, statics_finds_what_stands_where_a_slide_would_go_on);
     tcase_add_test(t, a_step_that_is_cut_keeps_its_share_of_the_velocity);
     tcase_add_loop_test(t, elements_that_meet_at_a_node_share_what_pulls_there, 0, 2);
     tcase_add_test(t, a_pin_that_moves_bears_what_its_support_does);
