@@ -297,9 +297,9 @@ static bbm_status take_part(bbm_model *m, double h, int tries)
     return status;
 }
 
-/* One time step, Fig. 8. Velocities keep their share at its end, in however many parts it was taken;
- * with a share of 0 each part begins at rest. If it fails, the model stays as the last part that
- * went well left it. */
+/* One time step, Fig. 8. Velocities keep their share at its end, in however many parts it was
+ * taken; with a share of 0 each part begins at rest. If it fails, the model stays as the last part
+ * that went well left it. */
 bbm_status bbm_step(bbm_model *m)
 {
     bbm_status status = bbm_check_step(m);

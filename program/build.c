@@ -598,11 +598,9 @@ int model_velocities(model_reader *r)
 
     if (block < 0 || !model_numbers(r, 2, v.V) || (model_look(r) && !model_number(r, &v.V[2])))
         return 0;
-    if (r->p->velocity[block].given)
-        return model_blame(r, "a velocity of '%.60s' for the second time, expected one",
-                           r->block[block].name);
-    if (r->block[block].fixed)
-        return model_blame(r, "block '%.60s' is fixed, expected one that may move",
+    if (r->p->velocity[block].given || r->block[block].fixed)
+        return model_blame(r, r->block[block].fixed ? "a velocity of '%.60s', which is fixed"
+                           : "a velocity of '%.60s' for the second time, expected one",
                            r->block[block].name);
     r->p->velocity[block] = v;
     return 1;
@@ -685,6 +683,13 @@ static int find_shares(const bbm_model *m, const double at[2], scene_end *e)
     return area > 0 ? least > -NEAR : -(least > NEAR);
 }
 
+static scene_end at_node(const bbm_model *m, int v)
+{
+    const int e = m->vertex[v].element;
+
+    return (scene_end){ m->element[e].block, e, { v, v, v }, { 1, 0, 0 } };
+}
+
 /* In how many blocks, or whether in this one, the point lies: it becomes an end. The triangles at
  * the first corner of a polygon that is not convex count against each other. */
 static int find_end(const bbm_model *m, int block, const double at[2], scene_end *end)
@@ -706,10 +711,8 @@ static int find_end(const bbm_model *m, int block, const double at[2], scene_end
         }
     }
     for (int k = 0; k < 3 && found; k++)
-        if (end->share[k] > 1 - NEAR) {                             /* a node */
-            const int v = end->vertex[k];
-            *end = (scene_end){ end->block, end->element, { v, v, v }, { 1, 0, 0 } };
-        }
+        if (end->share[k] > 1 - NEAR)
+            *end = at_node(m, end->vertex[k]);
     return found;
 }
 
@@ -725,10 +728,8 @@ static int read_end(model_reader *r, scene_end *end)
     if (found > 1)
         return model_blame(r, "a bolt ends at one of several nodes or blocks there, expected: "
                               "at X Y of BLOCK");
-    if (r->chosen) {
-        const int v = m->adjacent[m->adjacent_first[r->chosen_node[0]]], e = m->vertex[v].element;
-        *end = (scene_end){ m->element[e].block, e, { v, v, v }, { 1, 0, 0 } };
-    }
+    if (r->chosen)
+        *end = at_node(m, m->adjacent[m->adjacent_first[r->chosen_node[0]]]);
     if (found == 0 && w.kind == BY_AT)
         return find_end(m, -1, w.x, end)
                ? model_blame(r, "%.9g %.9g lies in block '%.60s', not in '%.60s'", w.x[0], w.x[1],
@@ -736,6 +737,30 @@ static int read_end(model_reader *r, scene_end *end)
                : model_blame(r, "%.9g %.9g lies in no element, expected one or a node", w.x[0],
                              w.x[1]);
     return found > 0 || blame_nowhere(r, &w);
+}
+
+/* Adds a bolt. The elements that meet at a node have equal shares in what ends there, so its parts
+ * are from each of one end to each of the other. */
+static int add_bolt(model_reader *r, const scene_bolt *b)
+{
+    model *p = r->p;
+    const bbm_model *m = p->m;
+    const int *at[2];
+    int n[2];
+
+    for (int k = 0; k < 2; k++) {
+        const int node = m->vertex[b->end[k].vertex[0]].node, *first = &m->adjacent_first[node];
+        at[k] = &m->adjacent[*first];
+        n[k] = b->end[k].share[0] == 1 ? first[1] - *first : 1;
+    }
+    for (int q = 0; q < n[0] * n[1]; q++) {
+        scene_bolt part = { .of = p->bolts, .k = 1.0 / (n[0] * n[1]), .rest = b->rest };
+        for (int k = 0; k < 2; k++)
+            part.end[k] = n[k] > 1 ? at_node(m, at[k][k ? q / n[0] : q % n[0]]) : b->end[k];
+        if (!model_add(r, &p->part, &p->parts, sizeof part, &part))
+            return 0;
+    }
+    return model_add(r, &p->bolt, &p->bolts, sizeof *b, b);
 }
 
 /* A spring between two points. */
@@ -760,7 +785,7 @@ int model_bolts(model_reader *r)
                               "`pin` joins two blocks at a point");
     b.rest = along.length - pretension / b.k;
     b.pull = pretension;
-    return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
+    return add_bolt(r, &b);
 }
 
 #define PIN 1000                /* a pin is as stiff as a bond of this alpha */
@@ -780,7 +805,7 @@ int model_pins(model_reader *r)
             return model_blame(r, "%.9g %.9g lies in no element of '%.60s', expected a point of "
                                "both", at[0], at[1], block[k] < 0 ? "*" : r->block[block[k]].name);
     b.k = bbm_bonding_stiffness(PIN, &m->element[b.end[0].element], &m->element[b.end[1].element]);
-    return model_add(r, &r->p->bolt, &r->p->bolts, sizeof b, &b);
+    return add_bolt(r, &b);
 }
 
 /* A body is free: which block of another one is nearest to its first element. */

@@ -124,34 +124,12 @@ static void find_gap(const bbm_model *m, const scene_bolt *b, bbm_gap *g)
     }
 }
 
-/* The elements that meet at an end. */
-static int parts_at(const bbm_model *m, const scene_end *e)
+/* A part of a bolt as the bolt is now. */
+static scene_bolt part_of(const model *p, int q)
 {
-    const int *first = &m->adjacent_first[m->vertex[e->vertex[0]].node];
+    scene_bolt part = p->part[q];
 
-    return e->share[0] == 1 ? first[1] - first[0] : 1;
-}
-
-static int parts_of(const bbm_model *m, const scene_bolt *b)
-{
-    return parts_at(m, &b->end[0]) * parts_at(m, &b->end[1]);
-}
-
-/* The elements that meet at a node have equal shares in the bolt that ends there: part q of all
- * from one of this end to one of that. */
-static scene_bolt part_of(const bbm_model *m, const scene_bolt *b, int q)
-{
-    const int parts = parts_at(m, &b->end[0]), at[2] = { q % parts, q / parts };
-    scene_bolt part = *b;
-
-    part.k /= parts_of(m, b);
-    for (int k = 0; k < 2; k++)
-        if (parts_at(m, &b->end[k]) > 1) {
-            const int node = m->vertex[b->end[k].vertex[0]].node;
-            const int v = m->adjacent[m->adjacent_first[node] + at[k]];
-            part.end[k] = (scene_end){ b->end[k].block, m->vertex[v].element, { v, v, v },
-                                        { 1, 0, 0 } };
-        }
+    part.k *= p->bolt[part.of].k;
     return part;
 }
 
@@ -161,22 +139,10 @@ static void list_gaps(bbm_model *m)
     const model *p = hooked_of(m)->p;
 
     bbm_list_edge_gaps(m);
-    for (int k = 0; k < p->bolts; k++)
-        for (int q = 0; q < parts_of(m, &p->bolt[k]); q++) {
-            const scene_bolt part = part_of(m, &p->bolt[k], q);
-            find_gap(m, &part, bbm_add_gap(m, part.end[0].element, part.end[1].element));
-        }
-}
-
-/* The first gap of the bolts, and how many there are. */
-static int find_bolts(const bbm_model *m, const model *p, const bbm_gap **g)
-{
-    int parts = 0;
-
-    for (int k = 0; k < p->bolts; k++)
-        parts += parts_of(m, &p->bolt[k]);
-    *g = m->gap + m->gaps - parts;
-    return parts;
+    for (int q = 0; q < p->parts; q++) {
+        const scene_bolt part = part_of(p, q);
+        find_gap(m, &part, bbm_add_gap(m, part.end[0].element, part.end[1].element));
+    }
 }
 
 /* ------------------------------------------------------------------------------------ the hooks */
@@ -210,17 +176,14 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     const model *p = hooked_of(m)->p;
 
     next = hooked_of(m)->renew(m, next);
-    const bbm_gap *g;
     int turned = 0;
-    find_bolts(m, p, &g);
-    for (int k = 0; k < p->bolts && next == BBM_PASS_DONE && bbm_find_motion(m); k++)
-        for (int q = 0; q < parts_of(m, &p->bolt[k]); q++, g++) {
-            const scene_bolt part = part_of(m, &p->bolt[k], q);
-            bbm_gap now = *g;
-            find_gap(m, &part, &now);
-            turned |= hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1])
-                      > DIRECTION * part.k;
-        }
+    for (int q = 0; q < p->parts && next == BBM_PASS_DONE && bbm_find_motion(m); q++) {
+        const bbm_gap *g = &m->gap[m->gaps - p->parts + q];
+        const scene_bolt part = part_of(p, q);
+        bbm_gap now = *g;
+        find_gap(m, &part, &now);
+        turned |= hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1]) > DIRECTION * part.k;
+    }
     if (!turned)
         return next;
     bbm_set_middle(m);
@@ -228,31 +191,29 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return BBM_PASS_AGAIN;
 }
 
-/* What the bolts carry: the forces of the solution, since the positions that it leads to are not
- * exact enough for a pin, nor in statics, which takes turns as small. A bolt that moves pulls as
- * its length says, which is that at the end of the step. */
+/* What the bolts carry: the forces of the solution. The positions to which it leads are not exact
+ * enough for a pin, nor in statics, where turns are small. */
 static bbm_status move(bbm_model *m)
 {
     const model *p = hooked_of(m)->p;
-    const bbm_gap *g;
+    scene_bolt *b = p->bolt, *end = b + p->bolts;
+    double d[2];
 
-    find_bolts(m, p, &g);
-    for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts; b++) {
-        const bbm_gap *end = g + parts_of(m, b);
-        double d[2], f[2] = { 0 };
-        bbm_direction n;
-        for (; g < end; g++) {
-            bbm_gap_length(m, g, d);
-            for (int a = 0; a < 2; a++)
-                f[a] += g->W[a][0] * d[0] + g->W[a][1] * d[1];
-        }
-        model_bolt_force(m, b, &n);
-        b->next = b->rest == 0 ? hypot(f[0], f[1]) : n.x * f[0] + n.y * f[1];
+    for (; b < end; b++)
+        b->force[0] = b->force[1] = 0;
+    for (int q = 0; q < p->parts; q++) {
+        const bbm_gap *g = &m->gap[m->gaps - p->parts + q];
+        bbm_gap_length(m, g, d);
+        for (int a = 0; a < 2; a++)
+            p->bolt[p->part[q].of].force[a] += g->W[a][0] * d[0] + g->W[a][1] * d[1];
     }
-    const int moves = bbm_find_motion(m) != NULL;
     const bbm_status status = hooked_of(m)->move(m);
-    for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts && !status; b++)
-        b->pull = moves && b->rest > 0 ? model_bolt_force(m, b, &(bbm_direction){ 0 }) : b->next;
+    for (b = p->bolt; b < end && !status; b++) {
+        bbm_direction n;
+        model_bolt_force(m, b, &n);
+        const int pushes = b->rest > 0 && n.x * b->force[0] + n.y * b->force[1] < 0;
+        b->pull = hypot(b->force[0], b->force[1]) * (pushes ? -1 : 1);
+    }
     return status;
 }
 
@@ -269,20 +230,19 @@ int model_hook(model_reader *r)
 {
     model *p = r->p;
     bbm_model *m = p->m;
-    const bbm_gap *none;
-    const size_t gaps = bbm_most_gaps(m), bolts = (size_t)find_bolts(m, p, &none);
+    const size_t gaps = bbm_most_gaps(m), parts = (size_t)p->parts;
 
     if (p->stages)
         m->hook->load = gather_loads;
     if (!p->shakings && !p->bolts)
         return 1;
     hooked *b = realloc(m->beyond, sizeof *b);
-    bbm_gap *gap = realloc(m->gap, (gaps + bolts) * sizeof *gap);
+    bbm_gap *gap = realloc(m->gap, (gaps + parts) * sizeof *gap);
     m->beyond = b ? &b->library : m->beyond;
     m->gap = gap ? gap : m->gap;
     if (!b || !gap)
         return model_out_of_memory(r);
-    memset(gap + gaps, 0, bolts * sizeof *gap);
+    memset(gap + gaps, 0, parts * sizeof *gap);
     *b = (hooked){ b->library, p, m->hook->begin, m->hook->renew, m->hook->move };
     m->hook->begin = begin;
     m->hook->renew = renew;

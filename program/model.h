@@ -82,6 +82,8 @@ typedef struct {
     double shake;               /* its scale */
     int    bolts;
     scene_bolt *bolt;           /* [bolts]      vertices of the library's model */
+    int    parts;
+    scene_bolt *part;           /* [parts]      of bolts, from element to element */
     model_kept *kept;           /* all that is allocated for the file: arrays, and the texts of
                                                 which names and ids are words */
     int    inputs;

@@ -52,7 +52,8 @@ typedef struct {                /* a point of an element: the sum of share times
 typedef struct {                /* a spring along the line between two points, by hooked.c        */
     scene_end end[2];
     double k, rest, strength, until;    /* N/m, m, N, 0: removed; s: when it broke, or INFINITY   */
-    double pull, next;                  /* N, N     what it carries; will, if the step goes well  */
+    double pull, force[2];              /* N        what it carries; of the solution              */
+    int of;                             /*          of a part: its bolt, and k its share          */
 } scene_bolt;
 
 typedef struct {

@@ -353,10 +353,8 @@ static int read_set(model_reader *r)
 {
     const char *word = model_name(r);
 
-    if (word && model_find(&r->block_of, word) >= 0)
-        return model_blame(r, "'%.60s' is a block and the set of its nodes, expected another name",
-                           word);
     if (!word || (!model_skip(r, "add") && !(model_is_new(r, r->s->at, &r->set_of, word)
+                                             && model_is_new(r, r->s->at, &r->block_of, word)
                                              && model_keyword(r, "nodes"))))
         return 0;
     const int set = model_find_set(r, word);
