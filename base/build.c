@@ -15,8 +15,7 @@
 #define LEAST 1e-100
 
 /* A model that lies more than FAR/2 sizes of its first element away from (0, 0) gets an origin of
- * its own. Else the last digit of a coordinate, times p_n, would be a force that
- * counts. */
+ * its own. Else the last digit of a coordinate, times p_n, would be a force that counts. */
 #define FAR 1024
 
 /* ----------------------------------------------------------------------------- building a model */

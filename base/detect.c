@@ -463,9 +463,8 @@ static int goes_on_in(const bbm_model *m, int corner, int e, int f)
         && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel;
 }
 
-/* Edges that may stand for one: itself; those of its straight side; and those of other blocks that
- * it goes on from. */
-typedef enum { ITSELF, SIDE, LINE } family;
+/* The edges that may stand for one: itself, or all of its straight side. */
+typedef enum { ITSELF, SIDE } family;
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge, or else
  * another one of the edge's family, or NULL. */
@@ -479,7 +478,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
             continue;
         if (c->edge == edge)
             return c;
-        if (of >= SIDE && m->edge[c->edge].side == m->edge[edge].side)
+        if (of == SIDE && m->edge[c->edge].side == m->edge[edge].side)
             found = c;
     }
     return found;
@@ -500,7 +499,7 @@ static int is_near(const bbm_model *m, int corner, int e)
         || -f.d > approach + fmax(deep, rounding_between(m, corner, e)))
         return 0;
     return f.beyond > touch_between(m, corner, e) || f.d >= -deep
-        || find_closed(m, corner, e, LINE);
+        || find_closed(m, corner, e, SIDE);
 }
 
 /* Whether the corner may touch the edge. What was closed may. A corner that is still outside may
