@@ -598,8 +598,9 @@ int model_velocities(model_reader *r)
 
     if (block < 0 || !model_numbers(r, 2, v.V) || (model_look(r) && !model_number(r, &v.V[2])))
         return 0;
-    if (r->p->velocity[block].given || r->block[block].fixed)
-        return model_blame(r, r->block[block].fixed ? "a velocity of '%.60s', which is fixed"
+    const int stays = r->block[block].fixed && (v.V[0] != 0 || v.V[1] != 0 || v.V[2] != 0);
+    if (r->p->velocity[block].given || stays)
+        return model_blame(r, stays ? "a velocity of '%.60s', which is fixed, expected 0"
                            : "a velocity of '%.60s' for the second time, expected one",
                            r->block[block].name);
     r->p->velocity[block] = v;
