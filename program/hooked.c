@@ -176,19 +176,18 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     const model *p = hooked_of(m)->p;
 
     next = hooked_of(m)->renew(m, next);
-    int turned = 0;
     for (int q = 0; q < p->parts && next == BBM_PASS_DONE && bbm_find_motion(m); q++) {
         const bbm_gap *g = &m->gap[m->gaps - p->parts + q];
         const scene_bolt part = part_of(p, q);
         bbm_gap now = *g;
         find_gap(m, &part, &now);
-        turned |= hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1]) > DIRECTION * part.k;
+        if (hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1]) > DIRECTION * part.k) {
+            bbm_set_middle(m);
+            bbm_list_gaps(m);
+            next = BBM_PASS_AGAIN;
+        }
     }
-    if (!turned)
-        return next;
-    bbm_set_middle(m);
-    bbm_list_gaps(m);
-    return BBM_PASS_AGAIN;
+    return next;
 }
 
 /* What the bolts carry: the forces of the solution. The positions to which it leads are not exact
