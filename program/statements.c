@@ -595,10 +595,11 @@ static int read_phase(model_reader *r, int phase, int stage, int from)
     return !r->p->status;
 }
 
-/* Some kinds stand in a stage, some once, and one of static and dynamic. */
+/* Some kinds stand in a stage, some once in it, and one of static and dynamic. */
 static int check_places(model_reader *r)
 {
     model_place seen[LENGTH(kinds)] = { { 0 } };        /* the last of a kind; line 0: nowhere */
+    int in[LENGTH(kinds)] = { 0 };                      /* its stage */
     const model_place *s = &seen[find_kind("static")], *d = &seen[find_kind("dynamic")];
 
     for (int k = 0; k < r->statements; k++) {
@@ -607,12 +608,11 @@ static int check_places(model_reader *r)
         if (i->stage && !(may & STAGED))
             return model_fail(r, i->at, "%s in a stage, expected load, traction, pressure, fix, "
                               "contact or gravity", i->name);
-        if (i->stage)
-            continue;
-        if (may & ONCE && seen[i->kind].line > 0)
+        if (may & ONCE && seen[i->kind].line > 0 && in[i->kind] == i->stage)
             return model_fail(r, i->at, "%s for the second time, after line %d, expected it once",
                               i->name, seen[i->kind].line);
         seen[i->kind] = i->at;
+        in[i->kind] = i->stage;
     }
     if (s->line && d->line)
         return model_fail(r, s->line > d->line ? *s : *d,
