@@ -380,14 +380,17 @@ static int lie_flush(const bbm_model *m, int e, int f)
 
 /* The edge that ends at a corner c (0) or starts there (1), as another corner Q meets it: its own,
  * or the one that goes on from it in a block that lies flush and covers its own. Not where a side
- * of Q lies along the other side of c: there Q passes c, or does not, by their rounding. */
+ * of Q lies along the other side of c: there Q passes c, or does not, by their rounding. Nor where
+ * one lies along the side that goes on: between three blocks that meet no side does. */
 static int side_at(const bbm_model *m, int c, int which, int Q)
 {
     const int own[2] = { m->edge[c].before, c }, joined = m->edge[c].joined[which];
-    const int other = own[!which];
+    const int at[2] = { own[!which], joined };
+    int alone = m->edge[joined].first == m->edge[Q].first;
 
-    return m->edge[joined].first == m->edge[Q].first || lie_flush(m, other, Q)
-        || lie_flush(m, other, m->edge[Q].before) ? own[which] : joined;
+    for (int k = 0; k < 4; k++)
+        alone |= lie_flush(m, at[k / 2], k % 2 ? m->edge[Q].before : Q);
+    return alone ? own[which] : joined;
 }
 
 /* Whether the edge is covered where the corner is: another block lies flush with its end there. */
@@ -712,6 +715,15 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     return (c->trial.beyond_end && lines == 0) || is_on_ledge(m, c);
 }
 
+/* Whether the nearer end of the edge is a notch, of its block or with a block that lies flush. */
+static int is_in_notch(const bbm_model *m, int corner, int e)
+{
+    const int Q = end_near(m, corner, e);
+
+    return cross(m->edge[side_at(m, Q, 0, corner)].along, m->edge[side_at(m, Q, 1, corner)].along)
+        <= -PARALLEL;
+}
+
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
  * rounded one is inside. A projection beyond the end of the edge is off it, but not in a notch,
  * where it lies inside the block. An entrance is another line of the list on which P and an end Q
@@ -732,7 +744,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->edge = p.edge;
     c->trial.d_n0 = f.d;
     c->trial.was_closed = c->state != BBM_OPEN;
-    c->trial.beyond_end = f.beyond > touch;
+    c->trial.beyond_end = f.beyond > touch && !is_in_notch(m, p.corner, p.edge);
     for (int k = 0; k < 4; k++) {
         const pair flush = meet(m, p, k / 2, FLUSH);
         const pair other = k % 2 == 0 ? meet(m, p, k / 2, NEXT)

@@ -586,6 +586,33 @@ START_TEST(the_last_of_a_row_flies_off_as_restitution_says)
 }
 END_TEST
 
+/* A corner slides down into a V of two blocks. Each of them ends where the other begins, and between them is no way in. */
+START_TEST(a_corner_stays_in_a_notch_of_two_blocks)
+{
+    static const struct { double left, right, dt, x[3][2]; } vee[] = {
+        { 3, 3, 0.01, { { -1, 1 }, { -0.6, 0.6 }, { -0.4, 1.3 } } },
+        { 1.5, 1.5, 0.01, { { -1, 0.5 }, { -0.6, 0.3 }, { -0.5, 0.8 } } },
+        { 3, 6, 0.005, { { -1, 1 }, { -0.6, 0.6 }, { -0.4, 1.3 } } } };
+    static const char *name[] = { "a", "b", "c" };
+    const double left = vee[_i].left / 3, right = vee[_i].right / 3;
+    const double (*const x)[2] = vee[_i].x;
+
+    ck_assert_int_eq(run_printed("vee", ROCK "block left rock 0 0 0 -1 -3 -1 -3 %g\nblock right rock 0 0 3 %g 3 -1 0 -1\n"
+        "fixblock left\nfixblock right\nblock k rock %g %g %g %g %g %g\ngravity 0 -9.81\ncontact friction 10\n"
+        "dynamic dt %g steps %d\nmonitor a at %g %g\nmonitor b at %g %g\nmonitor c at %g %g\n", vee[_i].left, vee[_i].right,
+        x[0][0], x[0][1], x[1][0], x[1][1], x[2][0], x[2][1], vee[_i].dt, (int)(2 / vee[_i].dt), x[0][0], x[0][1],
+        x[1][0], x[1][1], x[2][0], x[2][1]), 0);
+    for (int k = 0; k < 3; k++) {
+        char column[4];
+        snprintf(column, sizeof column, "%s_u", name[k]);
+        const double X = x[k][0] + cell("vee", "history.csv", "", column);
+        column[2] = 'v';
+        const double Y = x[k][1] + cell("vee", "history.csv", "", column);
+        ck_assert_double_gt(Y - fmax(-left * X, right * X), -1e-5);     /* contacts are 1e-7 m deep, hits 1e-6 */
+    }
+}
+END_TEST
+
 /* Its wagons hit each other a little, and lift by that while a corner is just past a seam. */
 START_TEST(a_train_with_restitution_rolls_over_flush_seams)
 {
@@ -1160,6 +1187,7 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, bonds_are_as_stiff_as_the_document_says_unless_the_file_does, 0, 2);
     tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
+    tcase_add_loop_test(t, a_corner_stays_in_a_notch_of_two_blocks, 0, 3);
     tcase_add_loop_test(t, a_train_with_restitution_rolls_over_flush_seams, 0, 4);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
