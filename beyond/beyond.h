@@ -112,6 +112,7 @@ struct bbm_beyond {
                                 /*          the second half is scratch                          */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
     double lack;                /* -        the most that a body has left, without inertia      */
+    double overload;            /* -        crack.c: the most that a bond bears of its strength */
     double breach;              /* -        the most against a law in all dynamic steps         */
     bbm_account *account;       /* [elements]                                                   */
     double gained;              /* J        what dynamic steps have made beyond the balance     */

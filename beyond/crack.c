@@ -277,7 +277,7 @@ static int find_loose(const bbm_model *m)
 }
 
 /* All has settled: do all bonds hold, and push where they are closed? If not, once more. Steps from
- * rest, with which statics looks for an equilibrium, break nothing. */
+ * rest, with which statics looks for an equilibrium, break nothing, and none is found before. */
 bbm_pass bbm_break_bonds(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
@@ -291,6 +291,7 @@ bbm_pass bbm_break_bonds(bbm_model *m)
             find_across(m, b);
         for (int b = 0; b < m->bonds; b++)
             most = fmax(most, find_load(m, b));
+        y->overload = most;
         if (most == 1 || (isinf(m->par.dt) && !bbm_is_static(m)))
             return BBM_PASS_DONE;
         for (int b = 0; b < m->bonds; b++)
@@ -453,8 +454,8 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
                         "holds its piece at (%.9g, %.9g); dynamics shows how its pieces fall",
                         m->info.step + 1, e->block, e->x + m->origin[0], e->y + m->origin[1]);
     }
-    s = breaks <= BREAKS ? bbm_try_otherwise(m, s) : s;
     const int told = bbm_is_static(m) && m->scratch->contacts > 0;      /* by statics.c */
+    s = breaks <= BREAKS ? bbm_try_otherwise(m, s) : s;
     return s != BBM_OPEN_CLOSE || breaks == 0 || told ? s
          : bbm_fail(m, s, "step %d at t = %g, %d passes, %d contacts, and bonds broke in %d "
                     "passes; a smaller %s helps", m->info.step + 1, m->info.t, m->info.passes,

@@ -241,7 +241,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         lacks = m->beyond->lack;
         if (parted > FAR)
             return blame(m, from, &worst);
-        status = lacks <= BBM_BALANCED ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
+        const int balances = lacks <= BBM_BALANCED && m->beyond->overload <= 1;
+        status = balances ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
         if (is_final(status))
             return status;
         tried = DRIFT * (h > tried ? 2 * h : tried);
