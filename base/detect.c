@@ -456,16 +456,6 @@ int bbm_carries(const bbm_model *m, int c, int e)
     return alike ? faces_up(q, p) : mine->span < other->span;
 }
 
-/* Whether edge f of another block goes on in the line of edge e, where the corner is. */
-static int goes_on_in(const bbm_model *m, int corner, int e, int f)
-{
-    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
-    const projection on = project(m, corner, e);
-
-    return m->edge[e].first != m->edge[f].first && hypot(p.x - q.x, p.y - q.y) <= PARALLEL
-        && on.beyond <= reach_of(m, corner)->travel + reach_of(m, e)->travel;
-}
-
 /* The edges that may stand for one: itself, or all of its straight side. */
 typedef enum { ITSELF, SIDE } family;
 
@@ -715,20 +705,12 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     return (c->trial.beyond_end && lines == 0) || is_on_ledge(m, c);
 }
 
-/* Whether the nearer end of the edge is a notch, of its block or with a block that lies flush. */
-static int is_in_notch(const bbm_model *m, int corner, int e)
-{
-    const int Q = end_near(m, corner, e);
-
-    return cross(m->edge[side_at(m, Q, 0, corner)].along, m->edge[side_at(m, Q, 1, corner)].along)
-        <= -PARALLEL;
-}
-
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
- * rounded one is inside. A projection beyond the end of the edge is off it, but not in a notch,
- * where it lies inside the block. An entrance is another line of the list on which P and an end Q
- * of its edge can enter each other, if both are convex corners; where the blocks are flush each
- * line is one of P or one of Q. In a notch Q both edges hold P at once. */
+ * rounded one is inside. A projection beyond the end of the edge is off it, but not in a notch of
+ * its block, or of it and one that lies flush: there it lies inside. An entrance is another line of
+ * the list on which P and an end Q of its edge can enter each other, if both are convex corners;
+ * where the blocks are flush each line is one of P or one of Q. In a notch Q both edges hold P at
+ * once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
@@ -744,7 +726,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->edge = p.edge;
     c->trial.d_n0 = f.d;
     c->trial.was_closed = c->state != BBM_OPEN;
-    c->trial.beyond_end = f.beyond > touch && !is_in_notch(m, p.corner, p.edge);
+    c->trial.beyond_end = f.beyond > touch;
     for (int k = 0; k < 4; k++) {
         const pair flush = meet(m, p, k / 2, FLUSH);
         const pair other = k % 2 == 0 ? meet(m, p, k / 2, NEXT)
@@ -755,6 +737,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         const int meets = k % 2 == 0 ? cross(in, out) > -PARALLEL && is_corner(m, Q)
                         : is_convex(m, Q) && !coincide(m, p.edge, other.edge);
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
+        c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge) || cross(in, out) > -PARALLEL;
     }
     c->trial.has_left = has_left(m, c);
 }
@@ -931,11 +914,13 @@ void bbm_note_depths(bbm_model *m)
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
-    const projection g = project(m, c->corner, r->edge);
+    const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
+    const bbm_direction p = m->edge[c->edge].along, q = m->edge[r->edge].along;
     const int edge = r->edge;
 
-    if (c->state == BBM_OPEN || project(m, c->corner, c->edge).beyond <= touch || g.beyond > touch
-        || !goes_on_in(m, c->corner, c->edge, edge))
+    if (c->state == BBM_OPEN || f.beyond <= touch || g.beyond > touch
+        || f.beyond > reach_of(m, c->corner)->travel + reach_of(m, c->edge)->travel
+        || hypot(p.x - q.x, p.y - q.y) > PARALLEL || m->edge[c->edge].first == m->edge[edge].first)
         return;
     *r = *c;
     r->edge = edge;
