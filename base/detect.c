@@ -381,7 +381,7 @@ static int lie_flush(const bbm_model *m, int e, int f)
 /* The edge that ends at a corner c (0) or starts there (1), as another corner Q meets it: its own,
  * or the one that goes on from it in a block that lies flush and covers its own. Not where a side
  * of Q lies along the other side of c: there Q passes c, or does not, by their rounding. Nor where
- * one lies along the side that goes on: between three blocks that meet no side does. */
+ * one lies along the side that would go on: the block of Q then covers that side. */
 static int side_at(const bbm_model *m, int c, int which, int Q)
 {
     const int own[2] = { m->edge[c].before, c }, joined = m->edge[c].joined[which];
@@ -576,7 +576,9 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const pair q = meet(m, p, end, kind);
     const int Q = end ? m->edge[p.edge].after : p.edge;
 
-    if ((kind == NEXT ? is_corner(m, Q) : !coincide(m, p.edge, q.edge)) || find_pair(m, q) < 0)
+    const int apart = kind == NEXT ? m->edge[q.edge].side != m->edge[p.edge].side
+                    : !coincide(m, p.edge, q.edge);
+    if (apart || find_pair(m, q) < 0)
         return 0;
     const projection f = project(m, p.corner, p.edge), g = project(m, q.corner, q.edge);
     const bbm_direction t = m->edge[p.edge].along, u = m->edge[q.edge].along;

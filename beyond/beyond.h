@@ -38,7 +38,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double x, y, area, size;    /* m, m, m^2, m     the centre, and how large it is             */
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
-    double inside;              /* N        what inner forces are as exact as: equilibrium.c    */
+    double inside;              /* N        the forces inside it, without direction             */
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 
@@ -112,7 +112,7 @@ struct bbm_beyond {
                                 /*          the second half is scratch                          */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
     double lack;                /* -        the most that a body has left, without inertia      */
-    double overload;            /* -        crack.c: the most that a bond bears of its strength */
+    double overload;            /* -        crack.c: load of a bond over its strength, least 1  */
     double breach;              /* -        the most against a law in all dynamic steps         */
     bbm_account *account;       /* [elements]                                                   */
     double gained;              /* J        what dynamic steps have made beyond the balance     */

@@ -276,8 +276,9 @@ static int find_loose(const bbm_model *m)
     return -1;
 }
 
-/* All has settled: do all bonds hold, and push where they are closed? If not, once more. Steps from
- * rest, with which statics looks for an equilibrium, break nothing, and none is found before. */
+/* Once all has settled: asks for another pass if a bond pushes that did not, or breaks the bonds that
+ * bear the most of their strength, if they bear more than all of it. Steps from rest, with which
+ * statics looks for an equilibrium, break none: statics finds no equilibrium with an overload. */
 bbm_pass bbm_break_bonds(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;

@@ -249,8 +249,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         failed /= DRIFT;
         h *= 4 * h < failed ? 2 : 1;
     }
-    const int cause = status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG;
-    if (status == BBM_TOO_SOFT || (tried == 0 && cause))
+    const int has_reason = status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG;
+    if (status == BBM_TOO_SOFT || (tried == 0 && has_reason))
         return status;
     return bbm_fail(m, BBM_OPEN_CLOSE, "step %d: neither an equilibrium nor a block that falls was "
                     "found; try dynamics; after %d solutions forces lack %.1g of balance, and "

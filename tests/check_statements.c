@@ -613,6 +613,16 @@ START_TEST(a_corner_stays_in_a_notch_of_two_blocks)
 }
 END_TEST
 
+/* A heavy block presses a corner along a floor and against a wall, which has a node where the floor begins. */
+START_TEST(a_corner_stays_between_a_floor_and_a_wall)
+{
+    ck_assert_int_eq(run_text("wall", "material r E 1e10 nu 0.2 density 2500\nmaterial q E 1e10 nu 0.2 density 100000\n"
+        "block floor r 0 0 4 0 4 -1 0 -1\nblock wall r 0 0 0 -1 -1 -1 -1 4 0 4\nfixblock floor\nfixblock wall\n"
+        "block k r 0.01 0.01 0.6 0.39 0.32 0.75\nblock w q 0.1 0.85 0.7 0.85 0.7 1.45 0.1 1.45\ngravity 0 -9.81\n"
+        "contact kn 5e11 friction 1\ndynamic dt 0.002 steps 600\n"), 0);
+}
+END_TEST
+
 /* Its wagons hit each other a little, and lift by that while a corner is just past a seam. */
 START_TEST(a_train_with_restitution_rolls_over_flush_seams)
 {
@@ -1170,11 +1180,8 @@ START_TEST(a_wrong_stage_is_refused_before_anything_runs)
 }
 END_TEST
 
-Suite *statements_suite(void)
+static void add_loads_and_joints(TCase *t)
 {
-    Suite *s = suite_create("statements");
-    TCase *t = new_case(s, "statements");
-
     tcase_add_loop_test(t, a_bar_in_plane_strain_is_stiffer, 0, 3);
     tcase_add_loop_test(t, a_dam_carries_the_force_of_the_water_to_its_base, 0, 5);
     tcase_add_test(t, water_weighs_what_gravity_makes_of_it);
@@ -1191,6 +1198,10 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_joint_carries_the_weight_of_its_block, 0, 4);
     tcase_add_test(t, the_two_joints_of_a_wedge_hold_it);
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
+}
+
+static void add_what_the_file_says(TCase *t)
+{
     tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0, COUNT(limits));
     tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, COUNT(found));
     tcase_add_test(t, what_has_no_limit_is_said);
@@ -1199,6 +1210,7 @@ Suite *statements_suite(void)
     tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_loop_test(t, a_corner_stays_in_a_notch_of_two_blocks, 0, 3);
+    tcase_add_test(t, a_corner_stays_between_a_floor_and_a_wall);
     tcase_add_loop_test(t, a_train_with_restitution_rolls_over_flush_seams, 0, 4);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
@@ -1212,6 +1224,10 @@ Suite *statements_suite(void)
     tcase_add_loop_test(t, a_pin_lets_turn_and_carries_what_a_hinge_does, 0, 2);
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
+}
+
+static void add_what_was_wrong_once(TCase *t)
+{
     tcase_add_test(t, a_block_with_cracks_can_be_removed);
     tcase_add_loop_test(t, a_block_that_breaks_off_another_one_is_named, 0, 2);
     tcase_add_loop_test(t, a_bond_along_the_tension_holds, 0, 9);
@@ -1234,5 +1250,15 @@ Suite *statements_suite(void)
     tcase_add_test(t, a_block_slides_from_where_it_was_when_friction_falls);
     tcase_add_test(t, each_stage_is_said_when_it_begins_and_by_a_check);
     tcase_add_loop_test(t, a_wrong_stage_is_refused_before_anything_runs, 0, COUNT(bad_stages));
+}
+
+Suite *statements_suite(void)
+{
+    Suite *s = suite_create("statements");
+    TCase *t = new_case(s, "statements");
+
+    add_loads_and_joints(t);
+    add_what_the_file_says(t);
+    add_what_was_wrong_once(t);
     return s;
 }
