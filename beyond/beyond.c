@@ -95,8 +95,11 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
         return BBM_PASS_GIVE_UP;
     if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)
         return next;
-    if (!bbm_middle_is_off(m))
+    if (!bbm_middle_is_off(m)) {
+        if (next == BBM_PASS_DONE)
+            next = bbm_break_joints(m);
         return next == BBM_PASS_DONE ? bbm_break_bonds(m) : next;
+    }
     bbm_set_middle(m);
     bbm_list_gaps(m);
     return BBM_PASS_AGAIN;

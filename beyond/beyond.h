@@ -214,6 +214,7 @@ bbm_status bbm_find_near_pairs(bbm_model *m, double search);
 bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
                          double tension);
 void       bbm_joint_strength(const bbm_model *m, bbm_contact *c);
+bbm_pass   bbm_break_joints(bbm_model *m);
 
 /* surroundings.c; of a prepared model, the loads on a boundary edge in N/m */
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);

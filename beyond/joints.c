@@ -4,7 +4,7 @@
  * joint; cohesion and tensile strength act on its area, of which each contact stands for a share:
  * to both sides half the way to the next point that touches. The shares add up to the joint. A
  * contact has its share until it opens, or slips though it has a shear strength: from then on it
- * is 0.
+ * is 0. In statics it is 0 within the same step, and others have to bear what it bore.
  *
  * The strengths are those of the model, unless a joint is given for the two blocks: the first one
  * that fits counts.
@@ -85,4 +85,21 @@ void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
         c->area = joint_area(m, c->corner, c->edge);
     c->strength = (bbm_strength){ bbm_tangent(joint.friction), joint.cohesion * c->area,
                                   joint.tension * c->area };
+}
+
+/* Once all has settled in statics: breaks the joints that have opened or slide, and asks for another
+ * pass if one slides that bore by its cohesion. */
+bbm_pass bbm_break_joints(bbm_model *m)
+{
+    bbm_contact_scratch *w = m->scratch;
+    int bore = 0;
+
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts && isinf(m->par.dt); c++)
+        if (c->area > 0 && bbm_breaks(c)) {
+            bore |= c->state == BBM_SLIDE && c->strength.shear > 0;
+            c->area = c->strength.shear = c->strength.tension = 0;
+        }
+    if (bore)
+        w->passes = w->one_until = 0;
+    return bore ? BBM_PASS_AGAIN : BBM_PASS_DONE;
 }

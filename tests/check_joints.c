@@ -119,6 +119,19 @@ START_TEST(a_joint_slips_at_its_cohesion_and_friction)
 }
 END_TEST
 
+/* What slides at its full strength is no equilibrium: without its cohesion it falls. */
+START_TEST(one_static_step_finds_whether_a_joint_holds)
+{
+    bbm_model *m = joined((_i ? 1.01 : 0.99) * (5000 * 2 + 10000 * tan(PI / 6)), -10000);
+
+    m->par.dt = INFINITY;
+    m->par.steps = 1;
+    ck_assert_int_eq(bbm_step(m), _i ? BBM_NO_EQUILIBRIUM : BBM_OK);
+    for (int k = 0; k < m->contacts; k++)
+        ck_assert_int_eq(m->contact[k].area > 0, 1);
+}
+END_TEST
+
 /* Sheared off under a thrust of 1 kN. Then a push above the friction, though below the cohesion,
  * moves it on, and a pull of a hundredth of the strength lifts it. */
 START_TEST(a_joint_that_broke_has_no_strength_left)
@@ -271,6 +284,7 @@ Suite *joints_suite(void)
         { a_joint_is_there_at_the_start_or_never, 2 },
         { a_joint_breaks_at_its_tensile_strength_whatever_its_shear_strength, 4 },
         { a_joint_slips_at_its_cohesion_and_friction, 4 },
+        { one_static_step_finds_whether_a_joint_holds, 2 },
         { a_joint_that_broke_has_no_strength_left, 1 },
         { the_areas_of_a_joints_contacts_add_up_to_its_own, COUNT(PIECES) * COUNT(SEATS) },
         { blocks_that_come_to_touch_have_no_tensile_strength, 1 },
