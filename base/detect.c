@@ -125,10 +125,20 @@ static void link_edges(bbm_model *m)
     }
 }
 
+/* Direction and length of an edge at the start. */
+static bbm_direction starting(const bbm_model *m, int e)
+{
+    const bbm_node *a = &m->node[m->vertex[m->edge[e].a].node];
+    const bbm_node *b = &m->node[m->vertex[m->edge[e].b].node];
+    const double l = hypot(b->x - a->x, b->y - a->y);
+
+    return (bbm_direction){ (b->x - a->x) / l, (b->y - a->y) / l, l };
+}
+
 /* Whether edge e goes straight on from the one before it. */
 static int goes_on(const bbm_model *m, int e)
 {
-    const bbm_direction p = m->edge[m->edge[e].before].along, q = m->edge[e].along;
+    const bbm_direction p = starting(m, m->edge[e].before), q = starting(m, e);
 
     return hypot(q.x - p.x, q.y - p.y) < STRAIGHT;
 }
@@ -140,13 +150,13 @@ static void find_straight_sides(bbm_model *m)
         int e = first, parts = 0;
         if (goes_on(m, first))
             continue;
+        m->edge[first].span = 0;
         do {
             m->edge[e].side = first;
+            m->edge[first].span += starting(m, e).length;
             e = m->edge[e].after;
             parts++;
         } while (goes_on(m, e));
-        const bbm_vertex *a = bbm_start_of(m, first), *b = bbm_start_of(m, e);
-        m->edge[first].span = hypot(b->x - a->x, b->y - a->y);
         m->edge[first].spacing = m->edge[first].span / parts;
     }
 }
@@ -192,7 +202,7 @@ bbm_status bbm_detect_new(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         reach *b = reach_of(m, e);
         b->depth = m->info.penetration;         /* in a run contacts may be as deep */
-        b->girth += m->edge[e].along.length;
+        b->girth += starting(m, e).length;
         b->edges++;
     }
     return BBM_OK;
@@ -495,16 +505,16 @@ static int is_near(const bbm_model *m, int corner, int e)
         || find_closed(m, corner, e, SIDE);
 }
 
-/* Whether the corner may touch the edge. What was closed may. A corner that is still outside may
- * turn before it does, as when a side falls flat on an edge. */
-static int may_touch(const bbm_model *m, int corner, int e)
+/* Whether the pair may not touch. What was closed may. A corner that is still outside may turn
+ * before it does, as when a side falls flat on an edge. */
+static int is_hidden(const bbm_model *m, pair p)
 {
     const reach *of = m->scratch->reach;
-    const double turns = of[bbm_element_of(m, corner)].turn + of[bbm_element_of(m, e)].turn;
-    const double angle = project(m, corner, e).d > 0 ? turns : PARALLEL;
+    const double turns = of[bbm_element_of(m, p.corner)].turn + of[bbm_element_of(m, p.edge)].turn;
+    const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
-    return find_closed(m, corner, e, ITSELF)
-        || (!is_covered(m, corner, e) && can_enter(m, corner, e, 0, angle));
+    return !find_closed(m, p.corner, p.edge, ITSELF)
+        && (is_covered(m, p.corner, p.edge) || !can_enter(m, p.corner, p.edge, 0, angle));
 }
 
 /* Adds a corner and an edge to the pairs, if they are near. */
@@ -634,9 +644,6 @@ static int is_duplicate(const bbm_model *m, pair p)
     return found;
 }
 
-/* Whether the pair may not touch. */
-static int is_hidden(const bbm_model *m, pair p) { return !may_touch(m, p.corner, p.edge); }
-
 /* Drops some of the pairs; all are judged on the full list. */
 static void drop_pairs(bbm_model *m, int (*is_dropped)(const bbm_model *m, pair p))
 {
@@ -690,8 +697,8 @@ static int is_on_ledge(const bbm_model *m, const bbm_contact *c)
 }
 
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
- * each other is open, or there is no such line and the projection is off the edge. It also has on a
- * ledge. */
+ * each other is open, or there is no such line and the projection is off the edge. A P that hangs
+ * on a ledge has left, too. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     int lines = 0;
@@ -917,12 +924,11 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
     const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
-    const bbm_direction p = m->edge[c->edge].along, q = m->edge[r->edge].along;
     const int edge = r->edge;
 
     if (c->state == BBM_OPEN || f.beyond <= touch || g.beyond > touch
         || f.beyond > reach_of(m, c->corner)->travel + reach_of(m, c->edge)->travel
-        || hypot(p.x - q.x, p.y - q.y) > PARALLEL || m->edge[c->edge].first == m->edge[edge].first)
+        || !goes_straight_on(m, c->edge, edge) || m->edge[c->edge].first == m->edge[edge].first)
         return;
     *r = *c;
     r->edge = edge;

@@ -346,8 +346,7 @@ static void store_contact(bbm_model *m, bbm_contact *c)
         c->slip += fabs(c->d_s - c->T / m->par.p_s);
     if (c->state == BBM_SLIDE || c->trial.time_left < 1)
         place_anchor(m, c, c->T);
-    if (bbm_breaks(c))
-        c->area = 0;
+    c->area *= !bbm_breaks(c);
     c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->trial.was_closed || c->inside);
     if (c->state != BBM_OPEN) {
         m->info.contacts++;

@@ -88,21 +88,21 @@ static bbm_status listed(bbm_model *m)
 
 /* After a pass: if it turns a block too far, no further one will do; when all has settled,
  * multipliers take over what the springs carry; in the end, and where K is new anyway, T of the
- * step is renewed. */
+ * step is renewed; then joints and bonds that bear too much break. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
     if (bbm_contact_turns_over(m))
         return BBM_PASS_GIVE_UP;
     if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)
         return next;
-    if (!bbm_middle_is_off(m)) {
-        if (next == BBM_PASS_DONE)
-            next = bbm_break_joints(m);
-        return next == BBM_PASS_DONE ? bbm_break_bonds(m) : next;
+    if (bbm_middle_is_off(m)) {
+        bbm_set_middle(m);
+        bbm_list_gaps(m);
+        return BBM_PASS_AGAIN;
     }
-    bbm_set_middle(m);
-    bbm_list_gaps(m);
-    return BBM_PASS_AGAIN;
+    if (next == BBM_PASS_DONE && (next = bbm_break_joints(m)) == BBM_PASS_DONE)
+        next = bbm_break_bonds(m);
+    return next;
 }
 
 static void before_solution(bbm_model *m)

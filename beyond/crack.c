@@ -276,9 +276,9 @@ static int find_loose(const bbm_model *m)
     return -1;
 }
 
-/* Once all has settled: asks for another pass if a bond pushes that did not, or breaks the bonds that
- * bear the most of their strength, if they bear more than all of it. Steps from rest, with which
- * statics looks for an equilibrium, break none: statics finds no equilibrium with an overload. */
+/* Once all has settled: asks for another pass if a bond pushes that did not, or breaks the bonds
+ * that bear the most of their strength, if they bear more than all of it. Steps from rest, with
+ * which statics looks for an equilibrium, break none: it finds none with such an overload. */
 bbm_pass bbm_break_bonds(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
@@ -326,25 +326,14 @@ static void add_places(bbm_model *m, double sign)
     }
 }
 
-/* Puts all vertices where they were at the start (0), or back where they are (1). */
-static void place_vertices(bbm_model *m, int now)
-{
-    for (bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++) {
-        v->x = m->node[v->node].x - m->origin[0] + now * v->u;
-        v->y = m->node[v->node].y - m->origin[1] + now * v->v;
-    }
-}
-
-/* The detection begins anew, body by body, with all boundaries as they were at the start. Without
- * memory for it the model has to be prepared anew. */
+/* The detection begins anew, body by body. Without memory for it the model has to be prepared
+ * anew. */
 static bbm_status renew_detection(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->beyond->body[m->edge[e].element];
     bbm_detect_free(m->scratch);
-    place_vertices(m, 0);
     const bbm_status status = bbm_detect_new(m);
-    place_vertices(m, 1);
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->element[m->edge[e].element].block;
     m->is_prepared = !status;

@@ -87,8 +87,8 @@ void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
                                   joint.tension * c->area };
 }
 
-/* Once all has settled in statics: breaks the joints that have opened or slide, and asks for another
- * pass if one slides that bore by its cohesion. */
+/* Once all has settled in statics: breaks the joints that have opened or slide, and asks for
+ * another pass if one slides that bore by its cohesion. */
 bbm_pass bbm_break_joints(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
@@ -100,6 +100,6 @@ bbm_pass bbm_break_joints(bbm_model *m)
             c->area = c->strength.shear = c->strength.tension = 0;
         }
     if (bore)
-        w->passes = w->one_until = 0;
+        w->passes = w->one_until = m->beyond->round = 0;
     return bore ? BBM_PASS_AGAIN : BBM_PASS_DONE;
 }

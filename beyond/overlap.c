@@ -34,7 +34,6 @@ typedef struct {                /* where a point lies against a boundary        
     double distance2;           /* m^2      the square of its distance                          */
     int    nearest;             /* side                                                         */
     int    winding;             /* of the boundary round the point                              */
-    double area;                /* m^2      twice what it encloses; of a hole < 0               */
 } place;
 
 /* Takes one more side of the boundary, from a to b. It counts as winding if it crosses the
@@ -48,7 +47,6 @@ static void take_side(point a, point b, int side, point P, place *at)
     const int up = (py >= 0) - (P.y >= b.y);
 
     at->winding += up * d < 0 ? up : 0;
-    at->area -= d;
     if (distance2 < at->distance2) {
         at->distance2 = distance2;
         at->nearest = side;
@@ -192,32 +190,18 @@ static point start_of(const bbm_model *m, int e)
     return (point){ P[0], P[1] };
 }
 
-/* Takes a boundary edge. */
-static void take_edge(const bbm_model *m, int e, point P, place *at)
+/* How deep P lies in the block of an edge, the distance from its boundary, and from which edge; 0
+ * outside. The outer boundary goes round what is inside once, and so does that of a hole, the other
+ * way. */
+static double depth_in_block(const bbm_model *m, point P, int edge, int *nearest)
 {
-    take_side(start_of(m, e), start_of(m, m->edge[e].after), e, P, at);
-}
+    place at = { .distance2 = INFINITY };
 
-/* How deep P lies in the block of an edge, the distance from its boundary, and from which edge, if
- * that is more than `allowed`; else 0. The outer boundary goes round what is inside once, and so
- * does that of a hole, the other way. Outside the one that the edge belongs to, or near it, the
- * others need not be asked. */
-static double depth_in_block(const bbm_model *m, point P, int edge, double allowed, int *nearest)
-{
-    place own = { .distance2 = INFINITY }, all = own;
-    int e = edge;
-
-    do {
-        take_edge(m, e, P, &own);
-        e = m->edge[e].after;
-    } while (e != edge);
-    if (sqrt(own.distance2) <= allowed || (own.area > 0 && own.winding <= 0))
-        return 0;
-    for (e = 0; e < m->edges; e++)
+    for (int e = 0; e < m->edges; e++)
         if (m->edge[e].first == m->edge[edge].first)
-            take_edge(m, e, P, &all);
-    *nearest = all.nearest;
-    return all.winding > 0 && sqrt(all.distance2) > allowed ? sqrt(all.distance2) : 0;
+            take_side(start_of(m, e), start_of(m, m->edge[e].after), e, P, &at);
+    *nearest = at.nearest;
+    return at.winding > 0 ? sqrt(at.distance2) : 0;
 }
 
 /* How deep the deepest of n contacts between the blocks of two edges is that is closed or has
@@ -255,15 +239,16 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 {
     const point P = start_of(m, corner), a = start_of(m, edge);
     const point b = start_of(m, m->edge[edge].after);
-    const double x = P.x - a.x, y = P.y - a.y, u = b.x - a.x, v = b.y - a.y;
-    const double s = x * u + y * v;
+    const double x = P.x - a.x, y = P.y - a.y, u = b.x - a.x, v = b.y - a.y, l = hypot(u, v);
+    const double s = x * u + y * v, allowed = bbm_allowed_depth(m, corner, edge);
 
     if (m->edge[corner].first == m->edge[edge].first || m->edge[corner].side != corner
         || m->edge[corner].joined[0] != m->edge[corner].before
-        || m->edge[corner].joined[1] != corner || x * v - y * u >= 0 || s < 0 || s > u * u + v * v)
+        || m->edge[corner].joined[1] != corner || s < 0 || s > l * l
+        || y * u - x * v <= allowed * l)
         return 0;
-    const double depth = depth_in_block(m, P, edge, bbm_allowed_depth(m, corner, edge), nearest);
-    return depth > bbm_allowed_depth(m, corner, *nearest) ? depth : 0;
+    const double depth = depth_in_block(m, P, edge, nearest);
+    return depth > fmax(allowed, bbm_allowed_depth(m, corner, *nearest)) ? depth : 0;
 }
 
 /* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.

@@ -121,10 +121,10 @@ bbm_status bbm_check_solution(bbm_model *m)
  * it was none while its bonds softened. */
 bbm_status bbm_check_depth(bbm_model *m)
 {
+    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     const int softens = m->beyond->broken > 0 && m->beyond->bond_energy > 0;
 
-    for (const bbm_contact *c = m->scratch->contact; c < m->scratch->contact + m->scratch->contacts;
-         c++) {
+    for (; c < end; c++) {
         const double deep = DEEP * bbm_size_at(m, c);
         const int came_off = softens && !c->trial.carried && -c->trial.d_n0 > deep;
         if (c->state != BBM_OPEN && c->hit < 2 && -c->d_n > deep)

@@ -53,7 +53,6 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
     const bbm_vertex *a = &m->vertex[load->a];
     const bbm_element *e = &m->element[a->element];
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
-    const bbm_edge_load *now = load;
     const double weight = load->density * hypot(m->par.gravity[0], m->par.gravity[1]);
     const double half = bbm_is_static(m) ? 0 : m->h / 2;
     double T[2][6], am[2], bm[2], va[2], vb[2], c[2];
@@ -71,7 +70,7 @@ static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
         load->q[g][0] = load->f[0] - p * (bm[1] - am[1]);
         load->q[g][1] = load->f[1] + p * (bm[0] - am[0]);
     }
-    bbm_varying_load_submatrix(e, a, b, now->q, F);
+    bbm_varying_load_submatrix(e, a, b, (const double (*)[2])load->q, F);
 }
 
 /* Adds a load on a boundary edge of the prepared model. */
