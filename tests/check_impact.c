@@ -41,6 +41,24 @@ START_TEST(a_block_rebounds_at_the_velocity_asked_for_whatever_the_step)
 }
 END_TEST
 
+/* Two blocks fly to a third one at 3 m/s. When one hits its middle the other needs 1.03 or 1.07 steps. */
+START_TEST(what_is_on_its_way_does_not_hit_with_another)
+{
+    const double gaps[] = { 6.2e-3, 6.4e-3 };
+    bbm_model *m = hard_blocks(0.5, 0);
+
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 0, ROCK, (rectangle){ -3, -1, 6, 1, .fixed = 0 });
+    add_rectangle(m, 1, ROCK, (rectangle){ -1, 1e-3, 2, 1, .fixed = 0 });
+    add_rectangle(m, 2, ROCK, (rectangle){ 1.5, gaps[_i], 1, 1, .fixed = 0 });
+    set_velocity(m, 1, 0, -3);
+    set_velocity(m, 2, 0, -3);
+    run_steps(m, 1);
+    ck_assert_double_gt(m->element[1].V[1], -3 + 0.01);
+    ck_near(m->element[2].V[1], -3, 3, 1e-9);     /* rounding */
+}
+END_TEST
+
 /* Momentum, and angular momentum about the origin. */
 static void momentum_of(const bbm_model *m, double P[3])
 {
@@ -312,6 +330,7 @@ Suite *impact_suite(void)
 
     add_case(s, "impact",
         { a_block_rebounds_at_the_velocity_asked_for_whatever_the_step, 27 },
+        { what_is_on_its_way_does_not_hit_with_another, 2 },
         { what_a_hit_gives_back_depends_on_neither_the_step_nor_the_mesh, 4 },
         { both_corners_of_a_block_that_comes_down_all_but_flat_hit, 6 },
         { a_square_that_gives_back_all_or_nearly_all_bounces_on, 4 },
