@@ -821,14 +821,6 @@ static double crossed_at(const bbm_model *m, const bbm_contact *c)
     return above <= touch ? 0 : way > 0 ? above / way : INFINITY;
 }
 
-/* Whether the corner, as it is turned at the end of the step, can enter there. */
-static int enters_at_end(const bbm_model *m, const bbm_contact *c)
-{
-    const double turn = m->D[6 * c->element[0] + 2] - m->D[6 * c->element[1] + 2];
-
-    return can_enter(m, c->corner, c->edge, turn, PARALLEL);
-}
-
 /* Whether the projection of P is on the edge at the fraction t of the step. */
 static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
 {
@@ -837,17 +829,18 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
     return (1 - t) * s - t * c->trial.past[0] >= 0 && (1 - t) * (l - s) - t * c->trial.past[1] >= 0;
 }
 
-/* Whether P may come in over its line, if it crosses it: not from behind the edge, and not where
- * its projection is beyond the end of the edge at the start of the step, as it crosses the line and
- * at the end of the step, unless the contact was closed. */
+/* Whether P may come in over its line, if it crosses it: as it is turned at the end of the step,
+ * and not from behind the edge. Nor where its projection is beyond the end of the edge at the start
+ * of the step, as it crosses the line and at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
+    const double turn = m->D[6 * c->element[0] + 2] - m->D[6 * c->element[1] + 2];
     const bbm_trial *t = &c->trial;
 
     if (!t->was_closed && !c->inside && t->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
     return (t->was_closed || !t->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
-            || is_on_edge(m, c, 1)) && enters_at_end(m, c);
+            || is_on_edge(m, c, 1)) && can_enter(m, c->corner, c->edge, turn, PARALLEL);
 }
 
 /* The sine by which a line is steep; one that rises to the right passes for flatter. */

@@ -230,24 +230,20 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     while (h > SHORT * swing && !bbm_is_spent(m)) {
         m->h = h;
         status = bbm_try_step(m);
-        if (status && is_final(status))
-            return status;
-        if (status) {
-            failed = h;
-            h /= 4;
-            continue;
+        const int settles = !status;
+        if (settles) {
+            parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
+            lacks = m->beyond->lack;
+            if (parted > FAR)
+                return blame(m, from, &worst);
+            const int balances = lacks <= BBM_BALANCED && m->beyond->overload <= 1;
+            status = balances ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
         }
-        parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
-        lacks = m->beyond->lack;
-        if (parted > FAR)
-            return blame(m, from, &worst);
-        const int balances = lacks <= BBM_BALANCED && m->beyond->overload <= 1;
-        status = balances ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
         if (is_final(status))
             return status;
-        tried = DRIFT * (h > tried ? 2 * h : tried);
-        failed /= DRIFT;
-        h *= 4 * h < failed ? 2 : 1;
+        tried = !settles ? tried : DRIFT * (h > tried ? 2 * h : tried);
+        failed = settles ? failed / DRIFT : h;
+        h *= !settles ? 0.25 : 4 * h < failed ? 2 : 1;
     }
     const int has_reason = status != BBM_OPEN_CLOSE && status != BBM_STEP_TOO_LONG;
     if (status == BBM_TOO_SOFT || (tried == 0 && has_reason))

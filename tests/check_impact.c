@@ -80,6 +80,30 @@ START_TEST(what_lies_on_a_table_when_it_is_hit_carries_on)
 }
 END_TEST
 
+/* A block lies on a table, and another one hits it from above at 3 m/s. The springs below throw it up afterwards, by
+ * up to the share of these 3 m/s that doc/09-limits.md tells. */
+START_TEST(what_is_hit_from_above_hops_as_the_document_says)
+{
+    double most = 0;
+
+    for (int k = 0; k < 24; k++) {
+        bbm_model *m = hard_blocks(0.5, 30);
+        m->par.dt = pow(10, -2 - k % 8 / 4.0);
+        set_springs(m, pow(10, 9 + k / 8), 4e8);
+        add_table(m, 0);
+        add_rectangle(m, 1, ROCK, (rectangle){ -1, 0, 2, 1, .fixed = 0 });
+        add_rectangle(m, 2, ROCK, (rectangle){ -0.5, 1 + 10 * m->par.dt, 1, 1, .fixed = 0 });
+        set_velocity(m, 2, 0, -3);
+        for (int step = 0; step < 20; step++) {
+            run_steps(m, 1);
+            most = fmax(most, m->element[1].V[1]);
+        }
+        release(m);
+    }
+    ck_near(most, 0.12 * 3, 0.01 * 3, 1);
+}
+END_TEST
+
 /* Momentum, and angular momentum about the origin. */
 static void momentum_of(const bbm_model *m, double P[3])
 {
@@ -353,6 +377,7 @@ Suite *impact_suite(void)
         { a_block_rebounds_at_the_velocity_asked_for_whatever_the_step, 27 },
         { what_is_on_its_way_does_not_hit_with_another, 2 },
         { what_lies_on_a_table_when_it_is_hit_carries_on, 1 },
+        { what_is_hit_from_above_hops_as_the_document_says, 1 },
         { what_a_hit_gives_back_depends_on_neither_the_step_nor_the_mesh, 4 },
         { both_corners_of_a_block_that_comes_down_all_but_flat_hit, 6 },
         { a_square_that_gives_back_all_or_nearly_all_bounces_on, 4 },
