@@ -13,6 +13,9 @@
  */
 #include "beyond.h"
 
+/* IN_LINE [-]  points whose triangle is so small against its box lie in one line */
+#define IN_LINE 1e-10
+
 /* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
 void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
 {
@@ -26,37 +29,47 @@ void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
     }
 }
 
-/* An element that is held all round cannot move: its n fixed points g begin with its weight. Each
- * has a share w = a + b X + c Y of it, with (X, Y) from the barycentre to the point, and
- *     sum w = 1,  sum w X = sum w Y = 0. */
+/* Whether a gap is that of a fixed point. */
+static int holds(const bbm_gap *g) { return g->j < 0 && !g->elastic; }
+
+/* An element that is held all round cannot move: its fixed points, among n gaps g, begin with its
+ * weight. Each has a share w = a + b X + c Y of it, with (X, Y) from the barycentre to the point,
+ * and
+ *     sum w = 1,  sum w X = sum w Y = 0;
+ * if they lie in one line they share it alike. */
 static void take_weight(const bbm_model *m, bbm_gap *g, int n)
 {
     double W[6] = { 0 }, S = 0, Sx = 0, Sy = 0, Sxx = 0, Sxy = 0, Syy = 0;
 
     bbm_gravity_submatrix(&m->element[g->i], m->acceleration, W);
     for (int k = 0; k < n; k++) {
-        const double one = !g[k].elastic, X = one * g[k].Ti[1][2], Y = -one * g[k].Ti[0][2];
+        const double one = holds(&g[k]), X = one * g[k].Ti[1][2], Y = -one * g[k].Ti[0][2];
         S += one, Sx += X, Sy += Y, Sxx += X * X, Sxy += X * Y, Syy += Y * Y;
     }
     const double a = Sxx * Syy - Sxy * Sxy, b = Sxy * Sy - Sx * Syy, c = Sx * Sxy - Sxx * Sy;
+    const double det = S * a + Sx * b + Sy * c;
+    const int in_line = det <= IN_LINE * S * Sxx * Syy;
     for (int k = 0; k < n; k++)
-        for (int r = 0; r < 2 && !g[k].elastic; r++)
-            g[k].own.f[r] = W[r] * (a + b * g[k].Ti[1][2] - c * g[k].Ti[0][2])
-                          / (S * a + Sx * b + Sy * c);
+        for (int r = 0; r < 2 && holds(&g[k]); r++)
+            g[k].own.f[r] = in_line ? W[r] / S
+                          : W[r] * (a + b * g[k].Ti[1][2] - c * g[k].Ti[0][2]) / det;
 }
 
 /* f of the last step in statics, also in its steps from rest; 0 in dynamics. */
 void bbm_start_multipliers(bbm_model *m)
 {
+    const bbm_gap *end = m->gap + m->gaps;
     const int rests = isinf(m->par.dt);
     int n;
 
-    for (bbm_gap *g = m->gap; g < m->gap + m->gaps; g += n) {
-        for (n = 0; g + n < m->gap + m->gaps && g[n].i == g->i && g[n].j == g->j; n++)
-            for (int r = 0; r < 2; r++)
+    for (bbm_gap *g = m->gap; g < end; g += n) {
+        int carries = 0;
+        for (n = 0; g + n < end && g[n].i == g->i; n++)
+            for (int r = 0; r < 2; r++) {
                 g[n].own.f[r] = rests ? g[n].own.f_before[r] : 0;
-        const int begins = g->j < 0 && g->own.f[0] == 0 && g->own.f[1] == 0;
-        if (rests && begins && m->beyond->multiplier_rounds > 0
+                carries |= g[n].own.f[r] != 0;
+            }
+        if (rests && !carries && m->beyond->multiplier_rounds > 0
             && bbm_is_held_all_round(m, &m->element[g->i]))
             take_weight(m, g, n);
     }
