@@ -11,7 +11,8 @@
  * elements lack: the bond is rigid in its middle and bends as the material would. With M = 0 a grid
  * of rectangles w_i x h_j would be loose: if element i, j turns about its centre by (-1)^(i+j)
  * c/(w_i h_j), all middles stay together. A fixed edge is a bond with the wall, whose mirror image
- * bends alike. A fixed node is the mean of its corners, as it is for loads.
+ * bends alike. A triangle does not bend: it is to a quadrilateral what the wall is. A fixed node is
+ * the mean of its corners, as it is for loads.
  */
 #include <string.h>
 
@@ -153,18 +154,19 @@ static double own_moment(const bbm_model *m, const bbm_element *e, int v, double
 /* The moment M of a bond. The halves of its two elements bend one after the other, so their
  * moments act in series: with n the normal of the edge and mi = n.Mi n,
  *
- *     M = (Mi + Mj)/2  4 mi mj/(mi + mj)^2,
+ *     M = 2 (Mi + Mj) mi mj/(mi + mj)^2,
  *
- * whose n.M n is the harmonic mean. */
+ * whose n.M n is the harmonic mean; or 2 Mi, if j does not bend. */
 static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
 {
-    double Mi[2][2], Mj[2][2];
-    const double mi = own_moment(m, &m->element[b->i], b->p[0], Mi);
-    const double mj = own_moment(m, &m->element[b->j], b->q[1], Mj);    /* it runs the other way */
-    const double sum = mi + mj, series = sum > 0 ? 4 * (mi / sum) * (mj / sum) : 0;
+    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
+    double Mi[2][2] = { { 0 } }, Mj[2][2] = { { 0 } };
+    const double mi = i->n == 4 ? own_moment(m, i, b->p[0], Mi) : 0;
+    const double mj = j->n == 4 ? own_moment(m, j, b->q[1], Mj) : 0;    /* it runs the other way */
+    const double sum = mi + mj, series = mi > 0 && mj > 0 ? 2 * (mi / sum) * (mj / sum) : 2;
 
     for (int a = 0; a < 4; a++)
-        M[a / 2][a % 2] = series * (Mi[a / 2][a % 2] + Mj[a / 2][a % 2]) / 2;
+        M[a / 2][a % 2] = series * (Mi[a / 2][a % 2] + Mj[a / 2][a % 2]);
 }
 
 /* M turns with the edge, by the mean turn r of its elements, and the opening d is measured in a
@@ -195,6 +197,12 @@ void bbm_turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
     }
 }
 
+/* Whether the bond of two elements is one of their whole edge. */
+static int has_moment(const bbm_model *m, int i, int j)
+{
+    return m->beyond->bonding == BBM_MOMENT && (m->element[i].n == 4 || m->element[j].n == 4);
+}
+
 /* ----------------------------------------------------------------- contacts of shared corners */
 
 /* The vertex that shares a corner of the boundary with v: two elements meet there, and a bond with
@@ -207,8 +215,7 @@ int bbm_find_partner(const bbm_model *m, int v)
     const int Q = starts ? m->edge[m->edge[m->vertex[v].edge].before].b : -1 - m->vertex[v].edge;
 
     return (starts ? m->vertex[Q].edge == -1 - v : m->vertex[Q].edge >= 0)
-        && m->beyond->bonding == BBM_MOMENT && m->element[m->vertex[v].element].n == 4
-        && m->element[m->vertex[Q].element].n == 4 ? Q : v;
+        && has_moment(m, m->vertex[v].element, m->vertex[Q].element) ? Q : v;
 }
 
 /* The vectors of a contact some of whose points P1, P2, P3 are shared. Each point moves by u, the
@@ -265,8 +272,8 @@ static int held_edge(const bbm_model *m, const bbm_element *e, int v)
          ? 0 : m->node[m->vertex[v].node].held & m->node[next].held;
 }
 
-/* A bond of two quadrilaterals is one of their whole edge, every other one is the paper's. In the
- * directions in which the edge is held two bonds with the wall stand in its place. */
+/* A bond of a quadrilateral is one of its whole edge, every other one is the paper's. In the
+ * directions in which the edge is held each of the two elements is held in its place. */
 static void list_bond(bbm_model *m, const bbm_bond *b)
 {
     const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
@@ -274,14 +281,15 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
     bbm_gap end[2];
     double M[2][2];
 
-    if (m->beyond->bonding == BBM_VERTICES || i->n != 4 || j->n != 4) {
+    if (!has_moment(m, b->i, b->j)) {
         bbm_list_bond(m, b);
         return;
     }
     for (int e = 0; e < 2; e++)
         bbm_bonding_gap(i, &m->vertex[b->p[e]], j, &m->vertex[b->q[e]], k, &end[e]);
     bond_moment(m, b, M);
-    list_edge(m, b->i, b->j, end, BBM_XY & ~held_edge(m, i, b->p[0]), k, M);
+    const int held = held_edge(m, i, b->p[0]) | held_edge(m, j, b->q[1]);
+    list_edge(m, b->i, b->j, end, BBM_XY & ~held, k, M);
     if (i->middle)
         bbm_turn_opening(i, j, &m->gap[m->gaps - 1]);
 }
@@ -313,13 +321,14 @@ static int next_corner(const bbm_model *m, int v)
  *
  *     K d.d = sum_i K/n d_i.d_i - sum_{i<j} K/n^2 (d_i - d_j).(d_i - d_j):
  *
- * a spring holds each corner, and one of negative stiffness parts each two. Where a bond softens or
+ * a spring holds each corner, and one of negative stiffness parts each two. Where an edge is held
+ * the corner of a triangle is held by itself. Where a bond softens or
  * has broken nothing would hold the sides of the crack together, and each corner is held. In
  * dynamics it is from the start where bonds may break, since to catch a corner makes energy. */
 static void list_held_node(bbm_model *m, int v)
 {
     const int i = m->vertex[v].element;
-    bbm_node alone = m->node[m->vertex[v].node];
+    bbm_node alone = m->node[m->vertex[v].node], own = alone;
     int corners = 0, quadrilaterals = 0, w = v;
     double K = 0;
 
@@ -331,7 +340,9 @@ static void list_held_node(bbm_model *m, int v)
         corners++;
         w = next_corner(m, w);
     } while (w != v);
-    if (!alone.held || quadrilaterals < 2 || m->beyond->bonding == BBM_VERTICES
+    own.held &= m->element[i].n == 4 ? 0 : ~alone.held;
+    bbm_list_fixed_point(m, v, &own);
+    if (!alone.held || quadrilaterals == 0 || corners < 2 || m->beyond->bonding == BBM_VERTICES
         || (m->beyond->bond_tension > 0 && !bbm_is_static(m))
         || (m->is_prepared && m->beyond->best[m->vertex[v].node] > 0)) {
         bbm_list_fixed_point(m, v, &alone);

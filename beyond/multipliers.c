@@ -13,9 +13,6 @@
  */
 #include "beyond.h"
 
-/* IN_LINE [-]  points whose triangle is so small against its box lie in one line */
-#define IN_LINE 1e-10
-
 /* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
 void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
 {
@@ -35,8 +32,7 @@ static int holds(const bbm_gap *g) { return g->j < 0 && !g->elastic; }
 /* An element that is held all round cannot move: its fixed points, among n gaps g, begin with its
  * weight. Each has a share w = a + b X + c Y of it, with (X, Y) from the barycentre to the point,
  * and
- *     sum w = 1,  sum w X = sum w Y = 0;
- * if they lie in one line they share it alike. */
+ *     sum w = 1,  sum w X = sum w Y = 0. */
 static void take_weight(const bbm_model *m, bbm_gap *g, int n)
 {
     double W[6] = { 0 }, S = 0, Sx = 0, Sy = 0, Sxx = 0, Sxy = 0, Syy = 0;
@@ -47,12 +43,10 @@ static void take_weight(const bbm_model *m, bbm_gap *g, int n)
         S += one, Sx += X, Sy += Y, Sxx += X * X, Sxy += X * Y, Syy += Y * Y;
     }
     const double a = Sxx * Syy - Sxy * Sxy, b = Sxy * Sy - Sx * Syy, c = Sx * Sxy - Sxx * Sy;
-    const double det = S * a + Sx * b + Sy * c;
-    const int in_line = det <= IN_LINE * S * Sxx * Syy;
     for (int k = 0; k < n; k++)
         for (int r = 0; r < 2 && holds(&g[k]); r++)
-            g[k].own.f[r] = in_line ? W[r] / S
-                          : W[r] * (a + b * g[k].Ti[1][2] - c * g[k].Ti[0][2]) / det;
+            g[k].own.f[r] = W[r] * (a + b * g[k].Ti[1][2] - c * g[k].Ti[0][2])
+                          / (S * a + Sx * b + Sy * c);
 }
 
 /* f of the last step in statics, also in its steps from rest; 0 in dynamics. */

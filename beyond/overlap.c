@@ -124,19 +124,8 @@ static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
     }
 }
 
-static int has_boundary_edge(const bbm_model *m, int i)
-{
-    int edges = 0;
-
-    for (int v = m->element[i].first; v < m->element[i].first + m->element[i].n; v++)
-        edges += m->vertex[v].edge >= 0;
-    return edges > 0;
-}
-
-/* Looks for the two elements of a prepared model, one of them with a boundary edge, that overlap
- * deepest at the start; o->i = -1 if none do. The winding numbers of all elements round a point add
- * up to that of all boundary edges, for internal edges cancel. So where elements overlap, the
- * overlap ends at a boundary edge, whose element takes part. */
+/* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
+ * none do. */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
 {
     bbm_box *b = malloc((size_t)m->elements * sizeof *b);
@@ -153,11 +142,10 @@ bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
             bbm_widen_box(&b[i], corner_of(m, i, k).x, corner_of(m, i, k).y, 0);
     }
     bbm_sort_boxes(m->elements, b);
-    for (int i = 0, j = 0; bbm_next_meeting(m->elements, b, &i, &j);)
-        if (has_boundary_edge(m, b[i].of) || has_boundary_edge(m, b[j].of)) {
-            probe_element(m, b[i].of, b[j].of, o);
-            probe_element(m, b[j].of, b[i].of, o);
-        }
+    for (int i = 0, j = 0; bbm_next_meeting(m->elements, b, &i, &j);) {
+        probe_element(m, b[i].of, b[j].of, o);
+        probe_element(m, b[j].of, b[i].of, o);
+    }
     free(b);
     return BBM_OK;
 }

@@ -68,11 +68,11 @@ static void add_cell(bbm_model *m, const grid *g, int i, int j, int block)
                        node_at(g, i, j + 1) };
     const int rising[2][3] = { { c[0], c[1], c[2] }, { c[0], c[2], c[3] } };
     const int falling[2][3] = { { c[0], c[1], c[3] }, { c[1], c[2], c[3] } };
-    const int material = m->materials - 1;
+    const int material = m->materials - 1, cut = g->triangles == 1 || (g->triangles == 2 && (i + 2 * j) % 3 == 0);
 
-    if (!g->triangles)
+    if (!cut)
         ck_ok(bbm_add_element(m, block, material, 4, c, NULL), m);
-    for (int t = 0; t < 2 && g->triangles; t++)
+    for (int t = 0; t < 2 && cut; t++)
         ck_ok(bbm_add_element(m, block, material, 3, (i + j) % 2 ? falling[t] : rising[t],
                               NULL), m);
 }

@@ -23,7 +23,7 @@ extern const bbm_material CORK;
  * rounding allows. */
 bbm_model *new_model(const bbm_material *material);
 
-/* nx x ny cells on a rectangle, each one quadrilateral or two triangles. */
+/* nx x ny cells on a rectangle, each one quadrilateral (triangles = 0) or two triangles (1); 2: every third is two. */
 typedef struct {
     double x, y, lx, ly;
     int nx, ny, triangles;
