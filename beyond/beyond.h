@@ -42,7 +42,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 
-typedef struct {                /* joints.c: a joint of its own strength                        */
+typedef struct {                /* joints.c: a joint of its own strength; -1: that of the model */
     int    block[2];            /* -1: any                                                      */
     double friction;            /* degree   friction angle                                      */
     double cohesion, tension;   /* Pa       as long as it is unbroken                           */

@@ -50,20 +50,24 @@ static double joint_area(const bbm_model *m, int corner, int edge)
                          m->element[e->element].material.thickness);
 }
 
-/* Adds a joint between two blocks, -1: any; angle in degrees, strengths in Pa. */
+static int is_strength(double x, double limit) { return x == -1 || (x >= 0 && x < limit); }
+
+/* Adds a joint between two blocks, -1: any; angle in degrees, strengths in Pa; -1: the model's. */
 bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
                          double tension)
 {
     bbm_beyond *b = m->beyond;
 
-    if (!(friction >= 0 && friction < 90 && cohesion >= 0 && cohesion < INFINITY && tension >= 0
-          && tension < INFINITY))
+    if (!is_strength(friction, 90) || !is_strength(cohesion, INFINITY)
+        || !is_strength(tension, INFINITY))
         return bbm_fail(m, BBM_BAD_PARAMETER, "a joint with friction = %g, cohesion = %g, tension "
                         "= %g, expected 0 or more, and less than 90 degrees", friction, cohesion,
                         tension);
     const bbm_joint joint = { { block[0], block[1] }, friction, cohesion, tension };
     return bbm_append(m, (void **)&b->joint, &b->joints, sizeof joint, &joint, NULL);
 }
+
+static double or_else(double own, double other) { return own < 0 ? other : own; }
 
 static int fits(const int block[2], int i, int j)
 {
@@ -76,15 +80,16 @@ void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
 {
     const int i = m->edge[c->corner].block, j = m->edge[c->edge].block;
     const bbm_beyond *b = m->beyond;
-    bbm_joint joint = { { -1, -1 }, m->par.friction, b->cohesion, b->tension };
+    bbm_joint joint = { { -1, -1 }, -1, -1, -1 };
 
     for (int k = b->joints - 1; k >= 0; k--)
         if (fits(b->joint[k].block, i, j) || fits(b->joint[k].block, j, i))
             joint = b->joint[k];
     if (c->trial.touches)
         c->area = joint_area(m, c->corner, c->edge);
-    c->strength = (bbm_strength){ bbm_tangent(joint.friction), joint.cohesion * c->area,
-                                  joint.tension * c->area };
+    c->strength = (bbm_strength){ bbm_tangent(or_else(joint.friction, m->par.friction)),
+                                  or_else(joint.cohesion, b->cohesion) * c->area,
+                                  or_else(joint.tension, b->tension) * c->area };
 }
 
 /* Once all has settled in statics: breaks the joints that have opened or slide, and asks for

@@ -564,8 +564,7 @@ static int read_blocks(model_reader *r, int block[2])
 /* What is left out is as in `contact`. A joint that can never count is hardly meant. */
 int model_joint(model_reader *r)
 {
-    const bbm_beyond *b = r->p->m->beyond;
-    double friction = r->p->m->par.friction, cohesion = b->cohesion, tension = b->tension;
+    double friction = -1, cohesion = -1, tension = -1;
     model_option o[] = { ANGLE("friction", &friction), FROM_ZERO("cohesion", &cohesion),
                          FROM_ZERO("tension", &tension) };
     int block[2], above = 0;

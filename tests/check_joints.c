@@ -222,7 +222,7 @@ END_TEST
 START_TEST(a_joint_of_no_meaning_is_refused)
 {
     static const double strength[][3] = {
-        { 90, 0, 0 }, { -1, 0, 0 }, { NAN, 0, 0 }, { 0, -1, 0 }, { 0, INFINITY, 0 }, { 0, 0, NAN },
+        { 90, 0, 0 }, { -2, 0, 0 }, { NAN, 0, 0 }, { 0, -2, 0 }, { 0, INFINITY, 0 }, { 0, 0, NAN },
     };
     const double *s = strength[_i];
     bbm_model *m = beyond_model();

@@ -179,6 +179,23 @@ START_TEST(a_joint_holds_by_its_own_tensile_strength)
 }
 END_TEST
 
+/* A block is pulled along by 8 kN; its joint holds 10 kPa and 10 kN tan(10), and then 1 kPa and that, or no friction. */
+START_TEST(a_stage_changes_what_a_joint_takes_from_contact)
+{
+    const struct { const char *contact, *joint, *stage; int status; } table[] = {
+        { "friction 10 cohesion 1e4", "joint f s friction 10", "cohesion 1e3", 1 },
+        { "friction 10 cohesion 1e4", "joint f s cohesion 7e3", "cohesion 1e3", 0 },
+        { "friction 10 cohesion 1e4", "joint * s cohesion 7e3", "friction 1", 1 },
+        { "friction 10 cohesion 1e4", "", "cohesion 1e3", 1 },
+    };
+
+    ck_assert_int_eq(run_printed("weaker", "material r E 1e10 nu 0 density 2500\nmaterial R E 1e13 nu 0 density 2500\n"
+        "block f R -2 -1 3 -1 3 0 -2 0\nblock s r 0 0 1 0 1 1 0 1\nfixblock f\ncontact kn 1e8 %s\n%s\n"
+        "load at 0 0 of s 4e3 -5e3\nload at 1 0 of s 4e3 -5e3\nstatic\nstage weaker\n  contact %s\nend\n",
+        table[_i].contact, table[_i].joint, table[_i].stage), table[_i].status);
+}
+END_TEST
+
 /* A joint that loses its cohesion point by point says so where it gives way. */
 START_TEST(a_joint_that_breaks_says_how)
 {
@@ -1190,6 +1207,7 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_loop_test(t, a_support_that_moves_pulls_its_bar, 0, 3);
     tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
     tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
+    tcase_add_loop_test(t, a_stage_changes_what_a_joint_takes_from_contact, 0, 4);
     tcase_add_test(t, a_joint_that_breaks_says_how);
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 4);
