@@ -22,6 +22,7 @@ typedef struct {                /* surroundings.c, of a node                    
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
     double jump[2];             /* N        impact.c: its force in the jump                     */
+    int    held;                /* directions in which the last step held it                    */
 } bbm_support;
 
 typedef struct {                /* energy.c: of an element, and of the component of this number */
@@ -42,7 +43,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 
-typedef struct {                /* joints.c: a joint of its own strength; -1: that of the model */
+typedef struct {                /* joints.c: a joint of its own strength; < 0: the model's      */
     int    block[2];            /* -1: any                                                      */
     double friction;            /* degree   friction angle                                      */
     double cohesion, tension;   /* Pa       as long as it is unbroken                           */
@@ -238,7 +239,7 @@ double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m    
 bbm_status bbm_check_depth(bbm_model *m);
 int        bbm_is_held(const bbm_model *m, const int body[], int i);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
-bbm_status bbm_check_held(bbm_model *m);                /* of a prepared model                  */
+bbm_status bbm_begin_statics(bbm_model *m);                /* of a prepared model                  */
 bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end);
 bbm_status bbm_try_otherwise(bbm_model *m, bbm_status s);
 

@@ -263,9 +263,9 @@ static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *en
 static int moves(const bbm_model *m, int node)
 {
     const bbm_support *s = &m->beyond->support[node];
-    const int now = s->moved[0] != 0 || s->moved[1] != 0;
+    const int now = m->beyond->h_before > 0 && (s->moved[0] != 0 || s->moved[1] != 0);
 
-    return m->beyond->h_before > 0 && (now || s->rate[0] != 0 || s->rate[1] != 0);
+    return now || s->rate[0] != 0 || s->rate[1] != 0;
 }
 
 /* Which components jump: those with a hit with a restitution, or a support that moves. Returns

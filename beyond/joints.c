@@ -50,18 +50,16 @@ static double joint_area(const bbm_model *m, int corner, int edge)
                          m->element[e->element].material.thickness);
 }
 
-static int is_strength(double x, double limit) { return x == -1 || (x >= 0 && x < limit); }
-
-/* Adds a joint between two blocks, -1: any; angle in degrees, strengths in Pa; -1: the model's. */
+/* Adds a joint between two blocks, -1: any; angle in degrees, strengths in Pa; less than 0: the
+ * model's. */
 bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, double cohesion,
                          double tension)
 {
     bbm_beyond *b = m->beyond;
 
-    if (!is_strength(friction, 90) || !is_strength(cohesion, INFINITY)
-        || !is_strength(tension, INFINITY))
+    if (!(friction < 90 && cohesion < INFINITY && tension < INFINITY))
         return bbm_fail(m, BBM_BAD_PARAMETER, "a joint with friction = %g, cohesion = %g, tension "
-                        "= %g, expected 0 or more, and less than 90 degrees", friction, cohesion,
+                        "= %g, expected finite ones, less than 90 degrees", friction, cohesion,
                         tension);
     const bbm_joint joint = { { block[0], block[1] }, friction, cohesion, tension };
     return bbm_append(m, (void **)&b->joint, &b->joints, sizeof joint, &joint, NULL);

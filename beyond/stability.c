@@ -24,11 +24,8 @@
  * holds again: it is at rest. */
 static bbm_status assemble(bbm_model *m)
 {
-    int holds;
+    const bbm_status status = bbm_begin_statics(m);
 
-    m->h = INFINITY;
-    bbm_status status = bbm_begin_step(m);
-    status = status ? status : bbm_detect(m, &holds);
     if (status)
         return status;
     for (int k = 0; k < m->scratch->contacts; k++)

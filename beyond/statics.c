@@ -99,15 +99,14 @@ bbm_status bbm_check_supports(bbm_model *m)
                     e[loose].block, loose, e[loose].x + m->origin[0], e[loose].y + m->origin[1]);
 }
 
-/* Whether every body of a prepared model is held, by itself or through contacts. */
-bbm_status bbm_check_held(bbm_model *m)
+/* Begins a static step of a prepared model: lists its gaps and contacts, and refuses a body that is
+ * not held, by itself or through contacts. */
+bbm_status bbm_begin_statics(bbm_model *m)
 {
-    bbm_status status = bbm_check_step(m);
     int same;
 
     m->h = INFINITY;
-    if (!status)
-        status = bbm_begin_step(m);
+    const bbm_status status = bbm_begin_step(m);
     return status ? status : bbm_detect(m, &same);
 }
 

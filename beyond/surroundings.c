@@ -127,18 +127,27 @@ void bbm_move_support(bbm_model *m, int node, double u, double v)
 }
 
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
- * way is left. */
+ * way is left. The velocity with which a node comes that is held from now on counts as that of its
+ * support so far. */
 void bbm_place_supports(bbm_model *m)
 {
     const double left = 1 - m->beyond->share;
 
-    for (int n = 0; n < m->nodes; n++)
+    for (int n = 0; n < m->nodes; n++) {
+        bbm_support *s = &m->beyond->support[n];
+        const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
+        const bbm_element *e = &m->element[P->element];
+        const int anew = m->node[n].held & ~s->held;
+        double v[2];
+        bbm_displacement(e, e->V, P->x, P->y, v);
         for (int a = 0; a < 2; a++) {
-            bbm_support *s = &m->beyond->support[n];
+            s->rate[a] = anew & 1 << a ? v[a] : s->rate[a];
             s->jump[a] = 0;
             if (s->moved[a] != 0)
                 m->node[n].wall[a] = s->to[a] - left * s->moved[a];
         }
+        s->held = m->node[n].held;
+    }
 }
 
 /* The force of a support on its node, in the step or in the jump. */

@@ -853,7 +853,7 @@ int model_finish(model_reader *r)
 {
     model *p = r->p;
     const int fits = check_cracks(r) && model_hook(r);
-    const bbm_status status = !fits || p->dynamic ? BBM_OK : bbm_check_held(p->m);
+    const bbm_status status = !fits || p->dynamic ? BBM_OK : bbm_begin_statics(p->m);
 
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);

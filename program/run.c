@@ -24,7 +24,8 @@ static bbm_status settle(run *r)
 static void move_supports(const model *p)
 {
     const bbm_model *m = p->m;
-    const double dt = m->par.dt, whole = p->now ? dt * (m->par.steps - p->begun) : INFINITY,
+    const double dt = m->par.dt, steps = m->par.steps - p->begun,
+                 whole = p->now || isinf(p->ramp) ? dt * steps : INFINITY,
                  left = fmin(p->ramp, whole) - dt * (m->info.step - p->begun),
                  share = p->dynamic && left > dt ? dt / left : 1;
 

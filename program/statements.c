@@ -139,7 +139,7 @@ static int read_dynamic(model_reader *r)
     *factor = 1;
     r->p->dynamic = 1;
     const int good = model_options(r, 2, LENGTH(o), o);
-    r->p->ramp = o[5].seen ? r->p->ramp : p->dt * p->steps;
+    r->p->ramp = o[5].seen ? r->p->ramp : INFINITY;
     return good && (!o[2].seen || !o[3].seen
                     || model_blame(r, "velocity_factor and damping, which are the same, expected "
                                    "one"));

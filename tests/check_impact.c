@@ -275,6 +275,29 @@ static double pull_to(bbm_model *m, int axis, double x)
     return force;
 }
 
+/* A block of 2.5 t that moves at 2 m/s is held at its corners, from the start or after five steps: it stands, and its
+ * supports bear its weight. What springs of alpha let go on is 1 %. */
+START_TEST(what_is_held_on_its_way_stands)
+{
+    bbm_model *m = new_blocks();
+    double force = 0;
+
+    add_rectangle(m, 0, ROCK, (rectangle){ 0, 0, 1, 1, .fixed = 0 });
+    set_velocity(m, 0, 0, -2);
+    run_steps(m, _i ? 5 : 0);
+    for (int v = 0; v < m->vertices; v++) {
+        m->node[m->vertex[v].node].held = BBM_XY;
+        m->node[m->vertex[v].node].wall[1] = m->vertex[v].v;
+    }
+    m->links = -1;
+    run_steps(m, 10);
+    for (int n = 0; n < m->nodes; n++)
+        force += m->beyond->support[n].force[1];
+    ck_near(m->element[0].V[1], 0, 2, 0.01);
+    ck_relative(force, 2500 * -m->par.gravity[1], 0.01);
+}
+END_TEST
+
 /* A belt that is moved at 1 m/s carries a stone: after 0.5 s both have that velocity to 1e-3, and
  * no force is left along it, to 1e-2 of the weight. In cut steps the motion is shared. */
 START_TEST(what_a_support_moves_evenly_moves_evenly)
@@ -384,6 +407,7 @@ Suite *impact_suite(void)
         { a_rocking_block_loses_what_housner_says, 3 },
         { blocks_that_hit_keep_their_momentum, 6 },
         { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 4 },
+        { what_is_held_on_its_way_stands, 2 },
         { what_a_support_moves_evenly_moves_evenly, 2 },
         { a_support_that_swings_pulls_with_mass_times_acceleration, 2 },
         { a_support_that_turns_a_block_does_the_work_of_turning_it, 2 });
