@@ -26,7 +26,8 @@
  * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
  * where several points hit together or rub, and a little by the order of the step. Such a jump is
  * done again with less asked of the contacts, in the end with 0 for all that is asked of contacts,
- * elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion.
+ * elements and bonds, and without friction: (M + h^2/2 K) V'' = M V' takes energy from any motion,
+ * and settles where a corner that slides jams.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
@@ -229,6 +230,7 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
         }
+        c->strength = of->jumps < 0 ? (bbm_strength){ 0 } : c->strength;
         c->trial.was_closed = 1;
         c->trial.closings = 0;
         c->trial.time_left = 1;

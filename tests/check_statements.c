@@ -640,6 +640,16 @@ START_TEST(a_corner_stays_between_a_floor_and_a_wall)
 }
 END_TEST
 
+/* A slab falls on a stone and jams its foot: sliding friction would pull there, and an open foot goes in. */
+START_TEST(a_hit_in_which_a_corner_jams_goes_on)
+{
+    ck_assert_int_eq(run_text("jam", "material m E 1e9 nu 0.2 density 600\ngravity 0 -9.81\n"
+        "contact friction 60 kn 1e8 ks 4e7 restitution 0.3\ndynamic dt 0.001 steps 1200\n"
+        "block base m -2 -1 8 -1 8 0 -2 0\nfixblock base\nvelocity a 0 0 -3\nblock a m 0 0 0.193 0 0.193 1 0 1\n"
+        "block b m 0.369 0 0.569 0 0.569 0.349 0.369 0.349\n"), 0);
+}
+END_TEST
+
 /* Its wagons hit each other a little, and lift by that while a corner is just past a seam. */
 START_TEST(a_train_with_restitution_rolls_over_flush_seams)
 {
@@ -1229,6 +1239,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_loop_test(t, a_corner_stays_in_a_notch_of_two_blocks, 0, 3);
     tcase_add_test(t, a_corner_stays_between_a_floor_and_a_wall);
+    tcase_add_test(t, a_hit_in_which_a_corner_jams_goes_on);
     tcase_add_loop_test(t, a_train_with_restitution_rolls_over_flush_seams, 0, 4);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
