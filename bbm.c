@@ -189,8 +189,8 @@ void bbm_newmark_velocity(bbm_element *e, double dt, double factor)
 
 /* -------------------------------------------------------------- 3.3 Bonding submatrices */
 
-/* T in gaps, loads and contacts, and where the point is: that of Eq. (2), and (x, y); or a hook's,
- * taken at another moment of the step. */
+/* T of Eq. (2) for gaps, loads and contacts, and the point itself; a hook may take both at another
+ * moment of the step. */
 void bbm_step_point(const bbm_element *e, double x, double y, double T[2][6], double at[2])
 {
     if (e->middle) {

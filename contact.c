@@ -15,7 +15,7 @@
  *
  * N = -p_n d_n is the normal force. T = p_s d_s is what the shear spring carries, or would carry. s
  * is the sign of the slip. c and tension are the cohesion and the tensile strength of an unbroken
- * joint, A is the contact's share of its area: in the paper all 0.
+ * joint, in the paper 0. A is the contact's share of its area.
  *
  * d_s counts from the anchor P0, a point of the edge's material. P0 is where P1 stood at the start
  * of the step in which it hit. In LOCK it stays. In SLIDE it is moved at the end of each step, so

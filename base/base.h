@@ -348,7 +348,7 @@ void       bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_
                            const bbm_vertex *Q, double k, bbm_gap *g);          /* (22)         */
 void       bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s);       /* (27), (28)   */
 void       bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_node *W, double k,
-                         bbm_gap *g);                                           /* (36)         */
+                         bbm_gap *g);                                           /* (33)         */
 
 /* order.c: a new K, of one row or more. `link` lists the i, j whose submatrix K_ij is not zero, in
  * any order, either way round, repeats allowed. Then its entries. */
@@ -357,7 +357,7 @@ void       bbm_matrix_free(bbm_matrix *K);                      /* takes NULL   
 int        bbm_compare_pairs(const void *p, const void *q);     /* by their first two integers  */
 static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
 void       bbm_matrix_clear(bbm_matrix *K);
-bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji = B^T;
+bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji += B^T;
                                    what the pattern does not have fails here and in bbm_solve   */
 bbm_status bbm_lay_out_matrix(bbm_model *m);                    /* for the gaps and contacts    */
 
@@ -404,7 +404,7 @@ void       bbm_detect_free(bbm_contact_scratch *w);             /* takes NULL   
 void       bbm_foresee_step(bbm_model *m);                      /* D by the velocities          */
 int        bbm_moved_too_far(const bbm_model *m);
 bbm_status bbm_list_pairs(bbm_model *m, int *same);             /* and what carries over        */
-bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they may touch            */
+bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they are near             */
 int        bbm_carries(const bbm_model *m, int corner, int edge);
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
@@ -430,7 +430,8 @@ double     bbm_shear_strength(const bbm_strength *s, double N);                 
 double     bbm_shear_force(const bbm_contact *c);                               /* T or (65)    */
 bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double tolerance);  /* table  */
 int        bbm_is_strengthless(const bbm_contact *c, double N);
-void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_spring v[2]);
+void       bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor,
+                               bbm_spring v[2]);
 void       bbm_assemble_contacts(bbm_model *m);
 
 /* open_close.c: the contacts of a step, and their states */

@@ -20,8 +20,9 @@
  *             their component of K is solved: the solver is not more exact
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
- * ROUGH  [-]  but at most this share of that force does. Stiffer springs do not settle
- * FIT    [-]  and at most this share where states have to fit: friction is right to 0.01 degrees */
+ * ROUGH  [-]  the most that DIGITS may be of the force by which a component is solved. Springs that
+ *             are stiffer do not settle
+ * FIT    [-]  the same where states have to fit: friction is right to 0.01 degrees */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define ROUGH 1e-3

@@ -72,8 +72,8 @@ static double largest(const bbm_matrix *K, const double *F, int entries)
     return most;
 }
 
-/* Notes in each component the largest force on the body that has the least of it. The tolerance is
- * a share of it where the F of bbm_solve is larger, so that a light body is solved beside a heavy
+/* Notes of each body its largest force, and of these the least in each component. The tolerance is
+ * a share of that where the F of bbm_solve is larger, so that a light body is solved beside a heavy
  * one. Held bodies do not count, unless all are held, nor those that have next to no force. A
  * spring that closes a gap also begins with a force far above the one that it carries in the end.
  */

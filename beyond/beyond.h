@@ -11,8 +11,8 @@
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */
 
-typedef enum {                  /* how two quadrilaterals are bonded; others at their vertices  */
-    BBM_MOMENT,                 /* in its middle, with the moment that bending needs            */
+typedef enum {                  /* how quadrilaterals are bonded; others at their vertices      */
+    BBM_MOMENT,                 /* in the middle of the edge, with the moment of bending        */
     BBM_VERTICES                /* at both ends: the paper                                      */
 } bbm_bonding;
 
@@ -26,11 +26,11 @@ typedef struct {                /* surroundings.c, of a node                    
 } bbm_support;
 
 typedef struct {                /* energy.c: of an element, and of the component of this number */
-    double springs[2];          /* J        in springs that count at the element: at the start, */
-                                /*          and in the solution in hand                         */
+    double springs[2];          /* J        what springs store that are counted at the element: */
+                                /*          at the start, and in the solution in hand           */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
     double held;                /* J        work of the supports of element i, in a part of one */
-    int    jumps;               /* impact.c: the component does; -1: and nothing is kept        */
+    int    jumps;               /* impact.c: the component does; -1: it keeps no deformation    */
     double asked;               /* -        of the energy that hits are to give back            */
     double mass;                /* kg       in a hit: what is free to move                      */
 } bbm_account;
@@ -99,12 +99,13 @@ struct bbm_beyond {
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     bbm_crack *crack, *kept;    /* [bonds]  crack.c: of the step in hand; of the last one       */
     double *best;               /* [nodes]  scratch; in a list 1: cracks end there              */
-    int breaks, parts, loose;   /* passes of the step in hand in which bonds broke; they did in */
-                                /*          the last step; an element of a piece that came off  */
-                                /*          in statics and no support holds, or -1              */
+    int breaks;                 /*          in how many passes of the step bonds broke          */
+    int parts;                  /*          whether bonds broke in the last step                */
+    int loose;                  /*          an element of a piece that came off in statics and  */
+                                /*          that no support holds; or -1                        */
     int edge_loads;
     bbm_edge_load *edge_load;   /* [edge_loads]                                                 */
-    /* --- results, energy.c --- */
+    /* --- results --- */
     int broken, caught;         /* crack.c: bonds; corners that were inside another body        */
     bbm_break *broke;           /* [broken] in the order of steps                               */
     double crack_energy;        /* J        that softening has taken                            */
@@ -119,7 +120,7 @@ struct bbm_beyond {
     double gained;              /* J        what dynamic steps have made beyond the balance     */
     double gain;                /* -        the most that one made, against what was there      */
     double hit[2];              /* J        impact.c: of contacts that closed, before and after */
-    double made;                /* -        the same of the step in hand, so far                */
+    double made;                /* -        what the step in hand has, as in `gain`             */
 };
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */

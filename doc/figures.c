@@ -872,7 +872,7 @@ static void draw_stress(drawing *d)
         mean[k] = at_node(m, 24, at[k]).stress[0];
     }
     const plot_series series[] = {
-        { .name = "theory (70)", .n = 2, .x = end, .y = exact, .look = 1 },
+        { .name = "theory", .n = 2, .x = end, .y = exact, .look = 1 },
         { .name = "triangles above and below in a cell", .n = 3 * STEPS, .x = y[0], .y = s[0],
           .look = 2 },
         { .name = "triangles left and right in a cell", .n = 3 * STEPS, .x = y[1], .y = s[1],

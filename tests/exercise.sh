@@ -106,12 +106,13 @@ answers()
         right[++rights] = r[1] == "answer" ? r[2] : r[4]
     }
     FNR == NR { next }
-    $1 == "expect" && $2 " " $3 == what { value = $4; mine = width($6, $4, $7) }
+    $1 == "expect" && $2 " " $3 == what { value = $4; mine = $6; unit = $7 }
     $1 == "#" && $2 == what { value = $3; mine = 0 }
     value != "" {
         for (k = 1; k <= rights; k++) {
             most = width(of[parts - (of[parts] == "%")], right[k], of[parts])
-            enough = enough || (mine <= 1.001 * most && size(value - right[k]) <= most)
+            wide = width(mine, right[k], unit) > 1.001 * most
+            enough = enough || (!wide && size(value - right[k]) <= most)
         }
         value = ""
     }
