@@ -437,7 +437,6 @@ void       bbm_assemble_contacts(bbm_model *m);
 /* open_close.c: the contacts of a step, and their states */
 bbm_status bbm_detect_contacts(bbm_model *m, int *same);
 bbm_pass   bbm_open_close(bbm_model *m);
-int        bbm_breaks(const bbm_contact *c);
 void       bbm_store_contacts(bbm_model *m);
 
 /* step.c: assembly (5), the step */

@@ -2,8 +2,9 @@
  * counts, what went wrong in it, and when it is cut in two and tried again.
  *
  * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
- * half of dt, down to dt/4096, as long as that takes no more than SOLUTIONS solutions. The nominal step
- * is completed in parts, which grow again. A static step has no parts; a hook may know another way.
+ * half of dt, down to dt/4096, as long as that takes no more than SOLUTIONS solutions. The nominal
+ * step is completed in parts, which grow again. A static step has no parts; a hook may know another
+ * way.
  */
 #include <stdarg.h>
 #include <stdio.h>

@@ -529,9 +529,9 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
     return bbm_append(m, (void **)&w->pair, &w->pairs, sizeof found, &found, NULL);
 }
 
-/* All pairs that may touch. The hook gets a search distance. It looks at the edges that are as near to
- * a corner along x and y, or by their rounding farther. Two blocks approach each other by two
- * ways, and a vertex lies inside by its depth, which is at most the four ways of start_depth:
+/* All pairs that may touch. The hook gets a search distance. It looks at the edges that are as
+ * near to a corner along x and y, or by their rounding farther. Two blocks approach each other by
+ * two ways, and a vertex lies inside by its depth, which is at most the four ways of start_depth:
  * together six times the longest way. As far across the edge as along it that is sqrt(2) times as
  * much, nine at most. */
 static bbm_status find_pairs(bbm_model *m)

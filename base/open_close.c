@@ -331,23 +331,20 @@ bbm_pass bbm_open_close(bbm_model *m)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* A joint that has opened, or slid against a shear strength, is broken. */
-int bbm_breaks(const bbm_contact *c)
-{
-    return c->state == BBM_OPEN
-        || (c->state == BBM_SLIDE && bbm_shear_strength(&c->strength, c->N) > 0);
-}
-
 /* When the model has moved: the anchor of a sliding contact follows, so that a shear spring would
- * carry the friction force. It has slid by as much as the anchor moved. */
+ * carry the friction force. It has slid by as much as the anchor moved. A joint that has opened, or
+ * slid against a shear strength, is broken. */
 static void store_contact(bbm_model *m, bbm_contact *c)
 {
+    const double strength = bbm_shear_strength(&c->strength, c->N);
+
     c->T = bbm_shear_force(c);
     if (c->state == BBM_SLIDE)
         c->slip += fabs(c->d_s - c->T / m->par.p_s);
     if (c->state == BBM_SLIDE || c->trial.time_left < 1)
         place_anchor(m, c, c->T);
-    c->area *= !bbm_breaks(c);
+    if (c->state == BBM_OPEN || (c->state == BBM_SLIDE && strength > 0))
+        c->area = 0;
     c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->trial.was_closed || c->inside);
     if (c->state != BBM_OPEN) {
         m->info.contacts++;

@@ -90,19 +90,19 @@ void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
                                   or_else(joint.tension, b->tension) * c->area };
 }
 
-/* Once all has settled in statics: breaks the joints that have opened or slide, and asks for
- * another pass if one slides that bore by its cohesion. */
+/* Once all has settled in statics: breaks the joints that slide against their cohesion, and asks
+ * for another pass if there are any. */
 bbm_pass bbm_break_joints(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
-    int bore = 0;
+    bbm_pass next = BBM_PASS_DONE;
 
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts && isinf(m->par.dt); c++)
-        if (c->area > 0 && bbm_breaks(c)) {
-            bore |= c->state == BBM_SLIDE && c->strength.shear > 0;
+        if (c->state == BBM_SLIDE && c->strength.shear > 0
+            && bbm_shear_strength(&c->strength, c->N) > 0) {
             c->area = c->strength.shear = c->strength.tension = 0;
+            w->passes = w->one_until = m->beyond->round = 0;
+            next = BBM_PASS_AGAIN;
         }
-    if (bore)
-        w->passes = w->one_until = m->beyond->round = 0;
-    return bore ? BBM_PASS_AGAIN : BBM_PASS_DONE;
+    return next;
 }

@@ -115,14 +115,14 @@ static void side_moment(const bbm_model *m, const bbm_element *e, int k, double 
     memcpy(M, both[k % 2], 4 * sizeof M[0][0]);
 }
 
-/* Of two: half the sum, so scaled that it is the harmonic mean along the normal of the edge. */
+/* Of two: half the sum, so scaled that it is the harmonic mean along the normal of the edge; of one alone twice that. */
 static void join_moments(double (*A)[2], double (*B)[2], double x, double y, double M[2][2])
 {
     const double a = x * x * A[0][0] + x * y * (A[0][1] + A[1][0]) + y * y * A[1][1];
     const double b = x * x * B[0][0] + x * y * (B[0][1] + B[1][0]) + y * y * B[1][1];
 
     for (int k = 0; k < 4; k++)
-        M[k / 2][k % 2] = a + b > 0 ? 2 * a * b / ((a + b) * (a + b)) * (A[k / 2][k % 2] + B[k / 2][k % 2]) : 0;
+        M[k / 2][k % 2] = (a > 0 && b > 0 ? 2 * a * b / ((a + b) * (a + b)) : 2) * (A[k / 2][k % 2] + B[k / 2][k % 2]);
 }
 
 static double bond_energy(const bbm_model *m, const bbm_bond *bond)
@@ -139,7 +139,7 @@ static double bond_energy(const bbm_model *m, const bbm_bond *bond)
     side_moment(m, i, bond->p[0] - i->first, A);
     side_moment(m, j, bond->q[1] - j->first, B);
     join_moments(A, B, b->y - a->y, a->x - b->x, M);
-    return edge_energy(bond_stiffness(m, i, j), hinged(m, i) && hinged(m, j), M, p, q);
+    return edge_energy(bond_stiffness(m, i, j), hinged(m, i) || hinged(m, j), M, p, q);
 }
 
 /* Elements of which all nodes are held. */
