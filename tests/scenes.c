@@ -161,7 +161,7 @@ static void cut_like_a_cake(scene_block *b)
         b->element[k] = (scene_element){ 3, { k, (k + 1) % n, n } };
 }
 
-/* A quadrilateral into nx times ny, or twice as many triangles (1), or so every other one (2). */
+/* A quadrilateral into nx times ny (0), or twice as many triangles (1), or every other one into two (2). */
 static void cut_like_a_grid(scene_block *b, int nx, int ny, int triangles)
 {
     double c[4][2];
@@ -193,7 +193,7 @@ static void subdivide(test_scene *s, uint64_t *r, double share)
         scene_block *b = &s->block[k];
         if (between(r, 0, 1) >= share)
             continue;
-        const int nx = 1 + one_of(r, 4), ny = 2 + one_of(r, 2), triangles = one_of(r, 3);
+        const int nx = 1 + one_of(r, 4), ny = 2 + one_of(r, 2), triangles = one_of(r, 2) + (s->seed % 10 == 1);
         if (b->nodes == 4 && one_of(r, 4) > 0)
             cut_like_a_grid(b, nx, ny, triangles);
         else
