@@ -76,6 +76,7 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     /* --- detect.c --- */
     int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
+    int    next;                /* another edge of the block, in a ring of all                  */
     int    meets[2];            /* of its start: another block covers the edge that ends or     */
                                 /*          starts there, its corner not farther than rounding  */
     int    slides;              /* of its start: a block that lies flush slides along it in     */

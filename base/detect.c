@@ -161,7 +161,7 @@ static void find_straight_sides(bbm_model *m)
     }
 }
 
-/* Finds the first element of each block. */
+/* Finds the first element of each block, and links its edges to a ring. */
 static void number_blocks(bbm_model *m)
 {
     pair *of = m->scratch->pair;                            /* block and edge                   */
@@ -172,6 +172,8 @@ static void number_blocks(bbm_model *m)
     for (int k = 0, first = 0; k < m->edges; k++) {
         first = of[k].corner == of[first].corner ? first : k;
         m->edge[of[k].edge].first = m->edge[of[first].edge].element;
+        const int more = k + 1 < m->edges && of[k + 1].corner == of[k].corner;
+        m->edge[of[k].edge].next = of[more ? k + 1 : first].edge;
     }
 }
 

@@ -30,7 +30,8 @@ typedef struct {                /* energy.c: of an element, and of the component
                                 /*          at the start, and in the solution in hand           */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
     double held;                /* J        work of the supports of element i, in a part of one */
-    int    jumps;               /* impact.c: the component does; -1: it keeps no deformation    */
+    int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
+                                /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */
     double mass;                /* kg       in a hit: what is free to move                      */
 } bbm_account;

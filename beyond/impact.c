@@ -26,8 +26,8 @@
  * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
  * where several points hit together or rub, and a little by the order of the step. Such a jump is
  * done again with less asked of the contacts, in the end with 0 for all that is asked of contacts,
- * elements and bonds, and without friction: (M + h^2/2 K) V'' = M V' takes energy from any motion,
- * and settles where a corner that slides jams.
+ * elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion. Where a corner that
+ * slides jams it may not settle; then it is done without friction.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
@@ -230,7 +230,7 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
             c->state = BBM_OPEN;
             c->rest = -INFINITY;
         }
-        c->strength = of->jumps < 0 ? (bbm_strength){ 0 } : c->strength;
+        c->strength = of->jumps < -1 ? (bbm_strength){ 0 } : c->strength;
         c->trial.was_closed = 1;
         c->trial.closings = 0;
         c->trial.time_left = 1;
@@ -352,7 +352,7 @@ static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model
 
 /* The jump that is asked for. Where it makes energy, contacts are to give back less: by twice the
  * share that it makes, and in each further try by twice as much again, for what hits have may be a
- * small part of all. In the end nothing is asked, and then nothing is kept. */
+ * small part of all. In the end nothing is asked, then nothing is kept, and then nothing rubs. */
 static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 {
     bbm_account *of = m->beyond->account;
@@ -369,9 +369,10 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
         again = 0;
         for (bbm_account *a = of; a < of + m->elements; a++) {
             const double less = a->asked - ldexp(a->gain / a->there, tries);
-            if (a->jumps <= 0 || (!status && a->gain <= GAIN * a->there))
+            const int fits = !status && (a->jumps < 0 || a->gain <= GAIN * a->there);
+            if (fits || a->jumps == 0 || a->jumps == -2)
                 continue;
-            a->jumps = a->asked > 0 ? 1 : -1;
+            a->jumps = a->jumps < 0 ? -2 : a->asked > 0 ? 1 : -1;
             a->asked = status ? 0 : fmax(0, less);
             again = 1;
         }

@@ -184,10 +184,12 @@ static point start_of(const bbm_model *m, int e)
 static double depth_in_block(const bbm_model *m, point P, int edge, int *nearest)
 {
     place at = { .distance2 = INFINITY };
+    int e = edge;
 
-    for (int e = 0; e < m->edges; e++)
-        if (m->edge[e].first == m->edge[edge].first)
-            take_side(start_of(m, e), start_of(m, m->edge[e].after), e, P, &at);
+    do {
+        take_side(start_of(m, e), start_of(m, m->edge[e].after), e, P, &at);
+        e = m->edge[e].next;
+    } while (e != edge);
     *nearest = at.nearest;
     return at.winding > 0 ? sqrt(at.distance2) : 0;
 }
@@ -205,20 +207,6 @@ static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int
             depth = fmax(depth, fmax(0, -c->d_n));
     }
     return depth;
-}
-
-/* Whether the corner moves out of the edge. */
-static int moves_out(const bbm_model *m, int corner, int edge)
-{
-    const bbm_vertex *P = &m->vertex[m->edge[corner].a];
-    const bbm_element *i = &m->element[m->edge[corner].element];
-    const bbm_element *j = &m->element[m->edge[edge].element];
-    const bbm_direction t = m->edge[edge].along;
-    double vi[2], vj[2];
-
-    bbm_displacement(i, i->V, P->x, P->y, vi);
-    bbm_displacement(j, j->V, P->x, P->y, vj);
-    return (vi[0] - vj[0]) * t.y - (vi[1] - vj[1]) * t.x > 0;
 }
 
 /* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are, and
@@ -240,8 +228,7 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 }
 
 /* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.
- * Else 0, and where it is on its way out. A fragment may have been made there, and its corners
- * count each for itself. */
+ * Else 0. A fragment may have been made there, and its corners count each for itself. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
     int nearest = edge, first = 0, n = m->contacts;
@@ -251,8 +238,7 @@ double bbm_depth_passed(const bbm_model *m, int corner, int edge)
         for (first = m->edge[corner].contact, n = 0;
              first + n < m->contacts && m->contact[first + n].corner == corner;)
             n++;
-    return depth == 0 || moves_out(m, corner, nearest)
-        || depth_between(m, m->contact + first, n, corner, edge) >= 0 ? 0 : depth;
+    return depth == 0 || depth_between(m, m->contact + first, n, corner, edge) >= 0 ? 0 : depth;
 }
 
 /* Refuses a step before which, or a solution by which, a corner has passed the edge; end: the model

@@ -139,8 +139,7 @@ static int is_off(const bbm_model *m, int i)
 }
 
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
- * by more than a share of the largest one on its elements, or in direction, or an open contact
- * on the wrong side. */
+ * by more than a share of the largest one on its elements, or in direction. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
     const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
