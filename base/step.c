@@ -95,6 +95,8 @@ void bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
         m->F[6 * i + a] += s->Fi[a];
     if (j < 0)
         return;
+    for (int a = 0; a < 36 && i == j; a++)          /* within one element: K_ji is there, too  */
+        s->Kjj[a / 6][a % 6] += s->Kij[a % 6][a / 6];
     bbm_matrix_add(m->K, i, j, s->Kij);
     bbm_matrix_add(m->K, j, j, s->Kjj);
     for (int a = 0; a < 6; a++)

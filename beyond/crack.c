@@ -255,7 +255,7 @@ static int renew_pushes(bbm_model *m)
 }
 
 /* The first element of a piece that has come off and that supports do not hold, by themselves or by
- * contacts; -1: there is none. What a crack presses on is not held: it may slide. */
+ * contacts and bolts; -1: there is none. What a crack presses on is not held: it may slide. */
 static int find_loose(const bbm_model *m)
 {
     const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
@@ -265,6 +265,9 @@ static int find_loose(const bbm_model *m)
     for (; c < end; c++)
         if (c->state != BBM_OPEN)
             body[bbm_root_of(body, c->element[0])] = bbm_root_of(body, c->element[1]);
+    for (const bbm_gap *g = m->gap + 2 * m->bonds; g < m->gap + m->gaps; g++)
+        if (g->j >= 0)
+            body[bbm_root_of(body, g->i)] = bbm_root_of(body, g->j);
     for (int i = 0; i < m->elements; i++)
         body[i] = bbm_root_of(body, i);
     for (int b = 0; b < m->bonds; b++) {

@@ -174,7 +174,7 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
     }
     if (bbm_motion_of(m) && b->made + share > GAIN)
         return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: beyond the work of loads "
-                        "its parts have made %.2g of the %.2g J that were there, expected at most "
+                        "its parts have made %.3g of the %.2g J that were there, expected at most "
                         "%g", m->info.step + 1, m->info.t, m->h, b->made + share, worst->there,
                         GAIN);
     for (int i = 0; i < m->elements; i++)

@@ -92,7 +92,8 @@ static double support_velocity(const bbm_model *m, int node, int a)
     const bbm_support *s = &m->beyond->support[node];
     const double r = m->beyond->share * s->moved[a] / m->h;
 
-    return r == 0 ? 0 : r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
+    return r == 0 || m->beyond->h_before == 0 ? r
+         : r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
 }
 
 /* Marks the components with a hit that has a restitution, also with one that an earlier pass had,
@@ -265,9 +266,8 @@ static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *en
 static int moves(const bbm_model *m, int node)
 {
     const bbm_support *s = &m->beyond->support[node];
-    const int now = m->beyond->h_before > 0 && (s->moved[0] != 0 || s->moved[1] != 0);
 
-    return now || s->rate[0] != 0 || s->rate[1] != 0;
+    return s->moved[0] != 0 || s->moved[1] != 0 || s->rate[0] != 0 || s->rate[1] != 0;
 }
 
 /* Which components jump: those with a hit with a restitution, or a support that moves. Returns

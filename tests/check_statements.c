@@ -1111,6 +1111,49 @@ START_TEST(a_body_that_bears_nothing_from_outside_balances_whatever_its_size)
 }
 END_TEST
 
+/* A free bar of three elements with a bolt of 1 GN/m between two nodes, also of one element: its mean velocity stays. */
+START_TEST(a_bolt_within_one_body_moves_it_nowhere)
+{
+    const char *end[] = { "2 0", "2 1", "3 1" }, *row[] = { "1,", "2,", "3," };
+    double v[2] = { 0, 0 };
+
+    ck_assert_int_eq(run_printed("inner", "material m E 1e10 nu 0.2 density 2000\ngrid b m 0 0 3 1 3 1\nvelocity b 1 0 1\n"
+        "bolt at 1 0 at %s stiffness 1e9\ndynamic dt 1e-3 steps 100\n", end[_i]), 0);
+    for (int k = 0; k < 3; k++) {
+        v[0] += cell("inner", "elements.csv", row[k], "vx") / 3;
+        v[1] += cell("inner", "elements.csv", row[k], "vy") / 3;
+    }
+    ck_near(v[0], 1, 1, 1e-9);                          /* what the solver leaves */
+    ck_near(v[1], 0, 1, 1e-9);
+}
+END_TEST
+
+/* The bond that breaks leaves the lower block to two bolts and a third one across, or to two pins. */
+START_TEST(what_bolts_hold_hangs_when_its_bond_breaks)
+{
+    const char *held[] = {
+        "bolt at 0.2 0.8 of a at 0.2 -0.8 of c stiffness 1e9\nbolt at 0.8 0.8 of a at 0.8 -0.8 of c stiffness 1e9\n"
+        "bolt at 0.2 0.8 of a at 0.8 -0.8 of c stiffness 1e9\n", "pin a c at 0.2 0\npin a c at 0.8 0\n", "",
+    };
+
+    ck_assert_int_eq(run_printed("hung", "material m E 1e10 nu 0.2 density 2000\nblock a m 0 0 1 0 1 1 0 1\n"
+        "block c m 0 -1 1 -1 1 0 0 0\nbond a c\nbond tension 1e3 cohesion 3e5 friction 30\nfix at 0 1 of a\n"
+        "fix at 1 1 of a\ngravity 0 -9.81\n%sstatic\n", held[_i]), _i == 2);
+}
+END_TEST
+
+/* Lifted, or pulled, at one corner from the first step on, while its side lies on the floor. */
+START_TEST(a_restitution_changes_no_lift_by_a_support)
+{
+    const char *way[] = { "x by 0.01 y by 0.01", "y by 0.01", "x by -0.01" };
+
+    ck_assert_int_eq(run_printed("lifts", "material r E 1e9 nu 0 density 2000\nblock base r -2 -1 2 -1 2 0 -2 0\n"
+        "block b r -.5 0 .5 0 .5 1 -.5 1\nfixblock base\ngravity 0 -9.81\nfix at .5 1 of b %s\n"
+        "contact friction 30 restitution 0\ndynamic dt %g steps 100\nmonitor top at .5 1 of b\nexpect top %s\n",
+        way[_i % 3], _i / 3 ? 1e-3 : 1e-4, _i % 3 == 2 ? "u -0.01 within 1 %" : "v 0.01 within 1 %"), 0);
+}
+END_TEST
+
 /* Freed, a beam that a bolt carries too sinks as one that was never held inside. */
 START_TEST(a_support_that_is_gone_leaves_no_force_to_a_bolt)
 {
@@ -1273,6 +1316,9 @@ static void add_what_was_wrong_once(TCase *t)
     tcase_add_loop_test(t, stiff_bolts_bear_in_statics_what_balance_says, 0, 2);
     tcase_add_test(t, what_sinks_too_deep_in_statics_says_so);
     tcase_add_loop_test(t, a_body_that_bears_nothing_from_outside_balances_whatever_its_size, 0, 4);
+    tcase_add_loop_test(t, a_bolt_within_one_body_moves_it_nowhere, 0, 3);
+    tcase_add_loop_test(t, what_bolts_hold_hangs_when_its_bond_breaks, 0, 3);
+    tcase_add_loop_test(t, a_restitution_changes_no_lift_by_a_support, 0, 6);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
