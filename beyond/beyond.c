@@ -117,8 +117,8 @@ static bbm_status move(bbm_model *m)
 {
     bbm_status status;
 
-    if ((status = bbm_check_solution(m)) || (status = bbm_check_depth(m))
-        || (status = bbm_check_equilibrium(m)))
+    if ((status = bbm_check_solution(m)) || (status = bbm_check_equilibrium(m))
+        || (status = bbm_check_depth(m)))
         return status;
     bbm_find_reactions(m);
     bbm_model end = bbm_end_of_step(m);

@@ -393,6 +393,39 @@ START_TEST(what_contacts_have_against_their_laws_is_refused_in_statics_and_noted
 }
 END_TEST
 
+/* In place of moving the model: spoils a contact of the solution, deep and with three times its force. */
+typedef struct { bbm_status (*move)(bbm_model *m), said; } spoiler;
+
+static bbm_status spoil(bbm_model *m)
+{
+    spoiler *s = m->monitor_context;
+    bbm_contact *c = m->scratch->contact;
+
+    ck_assert(c->state == BBM_LOCK);
+    c->N *= 3;
+    c->d_n = -0.5;
+    s->said = s->move(m);
+    return BBM_STOPPED;
+}
+
+/* A solution that is none is told as such, and a step is tried again, before its contacts are called too soft. */
+START_TEST(a_solution_that_does_not_balance_is_no_fault_of_soft_contacts)
+{
+    bbm_model *m = new_blocks();
+    spoiler s = { m->hook->move, BBM_OK };
+
+    m->par.dt = _i ? 0.01 : INFINITY;
+    m->par.friction = 60;
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -3, .y = -1, .w = 7, .h = 1, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    m->monitor_context = &s;
+    m->hook->move = spoil;
+    ck_assert_int_eq(bbm_step(m), BBM_STOPPED);
+    ck_assert_int_eq(s.said, BBM_NOT_CONVERGED);
+}
+END_TEST
+
 /* Behind the library's own gaps a bolt of 2 m between two squares, tight, that pulls along itself
  * or across. */
 static void list_bolt(bbm_model *m, int across)
@@ -505,6 +538,7 @@ Suite *statics_suite(void)
         { a_small_stone_slides_below_the_slope_anywhere_on_a_base_of_any_weight, 24 },
         { forces_and_moments_on_each_body_are_judged_against_its_own, 8 * COUNT(MEASURES) },
         { what_contacts_have_against_their_laws_is_refused_in_statics_and_noted_in_dynamics, 12 },
+        { a_solution_that_does_not_balance_is_no_fault_of_soft_contacts, 2 },
         { a_bolt_that_makes_angular_momentum_is_told, 2 });
     tcase_add_loop_test(new_case(s, "wedged"), a_contact_that_no_friction_holds_opens, 0, 3);
     return s;
