@@ -66,9 +66,9 @@ static void add_breach(bbm_model *m, int i, double force)
 }
 
 /* Adds a force on element i, F as on the right of (5); returns its moment about the origin. In
- * dynamics its lever is that of the middle
- * of the step, and F[2] is its moment times tan(r/2)/(r/2), see rotation.c. `counts`: 1, or 0 for
- * bonds. k: the stiffness that makes it of displacements and of their rounding. */
+ * dynamics its lever is that of the middle of the step, and F[2] is its moment times
+ * tan(r/2)/(r/2), see rotation.c. `counts`: 1, or 0 for bonds. k: the stiffness that makes it of
+ * displacements and of their rounding. */
 static double add_force(bbm_model *m, int i, const double F[6], int counts, double k)
 {
     const bbm_element *e = &m->element[i];

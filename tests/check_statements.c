@@ -1111,6 +1111,16 @@ START_TEST(a_body_that_bears_nothing_from_outside_balances_whatever_its_size)
 }
 END_TEST
 
+/* The run has 10 steps, its stage 40, in which the block goes 40 mm: half of that in half of them. */
+START_TEST(a_support_of_a_stage_takes_the_whole_stage_for_its_way)
+{
+    ck_assert_int_eq(run_text("ramped", "material r E 5e9 nu .2 density 2500\nblock s r 0 0 1 0 1 1 0 1\nfix set s\n"
+        "dynamic dt 0.005 steps 10\nmonitor s set s\nstage on steps 40\n  fix set s x by 0.04\nend\n"), 0);
+    ck_near(cell("ramped", "history.csv", "30,", "s_u"), 0.02, 0.04, 1e-9);
+    ck_near(cell("ramped", "history.csv", "50,", "s_u"), 0.04, 0.04, 1e-9);
+}
+END_TEST
+
 /* A free bar of three elements with a bolt of 1 GN/m between two nodes, also of one element: its mean velocity stays. */
 START_TEST(a_bolt_within_one_body_moves_it_nowhere)
 {
@@ -1316,6 +1326,7 @@ static void add_what_was_wrong_once(TCase *t)
     tcase_add_loop_test(t, stiff_bolts_bear_in_statics_what_balance_says, 0, 2);
     tcase_add_test(t, what_sinks_too_deep_in_statics_says_so);
     tcase_add_loop_test(t, a_body_that_bears_nothing_from_outside_balances_whatever_its_size, 0, 4);
+    tcase_add_test(t, a_support_of_a_stage_takes_the_whole_stage_for_its_way);
     tcase_add_loop_test(t, a_bolt_within_one_body_moves_it_nowhere, 0, 3);
     tcase_add_loop_test(t, what_bolts_hold_hangs_when_its_bond_breaks, 0, 3);
     tcase_add_loop_test(t, a_restitution_changes_no_lift_by_a_support, 0, 6);
