@@ -6,7 +6,9 @@
  * one run; printed are medians and their ratio, since these survive a busy machine. Solutions and
  * iterations are as many on every machine.
  *
- * With BENCH_LARGE in the environment CHOLMOD solves the largest model, too.
+ * With BENCH_LARGE in the environment CHOLMOD solves the largest model, too. `make bench` gives
+ * CHOLMOD one thread. With more its BLAS waits for work in a loop while ours runs, and the clock
+ * counts the time of all threads.
  */
 #include <math.h>
 #include <stdlib.h>
