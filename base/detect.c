@@ -398,10 +398,10 @@ static int side_at(const bbm_model *m, int c, int which, int Q)
 {
     const int own[2] = { m->edge[c].before, c }, joined = m->edge[c].joined[which];
     const int at[2] = { own[!which], joined };
-    int alone = m->edge[joined].first == m->edge[Q].first;
+    int alone = joined == own[which] || m->edge[joined].first == m->edge[Q].first;
 
-    for (int k = 0; k < 4; k++)
-        alone |= lie_flush(m, at[k / 2], k % 2 ? m->edge[Q].before : Q);
+    for (int k = 0; k < 4 && !alone; k++)
+        alone = lie_flush(m, at[k / 2], k % 2 ? m->edge[Q].before : Q);
     return alone ? own[which] : joined;
 }
 
