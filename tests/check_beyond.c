@@ -597,6 +597,43 @@ START_TEST(the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivativ
 }
 END_TEST
 
+/* ---------------------------------------------------------------------------------------- water */
+
+/* A square, turned, with its centre in any depth: the level crosses none, two or four of its sides.
+ * Each strip of a side is pressed by what the water weighs above its middle; where the level crosses a
+ * strip that is wrong by some 1e-8 of the force. */
+START_TEST(water_presses_each_strip_of_a_side_by_its_depth)
+{
+    enum { STRIPS = 10000 };
+    const double angle = 0.1 + 0.3 * (_i % 5), depth = -0.6 + 0.3 * (_i / 5), g = 9.81;
+    double p[4][2], force[3] = { 0 };
+    bbm_model *m = new_model(&SOLID);
+
+    for (int k = 0; k < 4; k++) {
+        p[k][0] = 3 + cos(angle + k * PI / 2);
+        p[k][1] = 7 + sin(angle + k * PI / 2);
+    }
+    add_polygon(m, 0, 4, (const double (*)[2])p);
+    m->par.gravity[1] = -g;
+    ck_ok(bbm_prepare(m), m);
+    for (int k = 0; k < 4; k++)
+        ck_ok(bbm_add_water(m, k, 7 + depth, 1000), m);
+    memset(m->load, 0, 6 * sizeof *m->load);
+    bbm_gather_edge_loads(m);
+    for (int k = 0; k < 4 * STRIPS; k++) {
+        const double *a = p[k / STRIPS], *b = p[(k / STRIPS + 1) % 4], s = (k % STRIPS + 0.5) / STRIPS;
+        const double x = a[0] + s * (b[0] - a[0]) - 3, y = a[1] + s * (b[1] - a[1]) - 7;
+        const double q = 1000 * g * fmax(0, depth - y) / STRIPS;
+        const double fx = -q * (b[1] - a[1]), fy = q * (b[0] - a[0]);
+        force[0] += fx;
+        force[1] += fy;
+        force[2] += x * fy - y * fx;
+    }
+    for (int a = 0; a < 3; a++)
+        ck_near(m->load[a], force[a], 1000 * g, 1e-7);
+}
+END_TEST
+
 Suite *beyond_suite(void)
 {
     Suite *s = suite_create("beyond");
@@ -616,6 +653,8 @@ Suite *beyond_suite(void)
         { a_contact_between_two_quadrilaterals_presses_both_alike, 2 },
         { a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides, COUNT(PILES) },
         { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 2 });
+    add_case(s, "water",
+        { water_presses_each_strip_of_a_side_by_its_depth, 25 });
     add_case(s, "energies",
         { the_work_of_the_loads_is_twice_the_energy_of_elements_and_springs, 8 },
         { fixed_points_away_from_their_walls_hold_the_energy_of_their_springs, 1 },

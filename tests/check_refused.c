@@ -83,6 +83,9 @@ static const outlines OUTLINES[] = {
     { "a triangle over a corner: its side enters at x = 0.4 and leaves at x = 1, y = 9.3/13", { 4, 3 },
       { { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { { 0.5, 1.6 }, { 0.4, 0.9 }, { 1.7, 0.5 } } },
           1 - (0.9 + 9.3 / 13) / 2 },
+    { "a sliver across a diamond: both of its sides are oblique, and so are all that they cut", { 4, 4 },
+      { { { -1, 0 }, { 0, -1 }, { 1, 0 }, { 0, 1 } },
+        { { -2, -1 }, { 6, 3 }, { 6, 3.0001 }, { -2, -0.9999 } } }, 0.70710678118654752 },
     { "apart, boxes overlap", { 3, 3 },
       { { { 0, 0 }, { 1, 0 }, { 0, 1 } }, { { 1, 1 }, { 0.01, 1 }, { 1, 0.01 } } }, 0 },
 };
