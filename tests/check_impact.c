@@ -55,6 +55,8 @@ START_TEST(what_is_on_its_way_does_not_hit_with_another)
     set_velocity(m, 2, 0, -3);
     run_steps(m, 1);
     ck_near(m->beyond->hit[1] / m->beyond->hit[0], 0.25, 1, 0.01);      /* E^2, the promise */
+    /* 3 m/s and the reduced mass of 15 and 5 t, at two corners. */
+    ck_relative(m->beyond->hit[0], 2 * 3750 * 3 * 3 / 2.0, 1e-9);
     ck_near(m->element[2].V[1], -3, 3, 1e-9);     /* rounding */
 }
 END_TEST
