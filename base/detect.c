@@ -670,7 +670,7 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     const bbm_contact *old = find_closed(m, p.corner, p.edge, SIDE);
 
     for (int k = 0; k < 4 && !old; k++) {
-        const pair q = meet(m, p, k / 2, k == 0 || k == 3 ? FLUSH : OTHER);
+        const pair q = meet(m, p, k / 2, k % 2 ? OTHER : FLUSH);
         if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
             old = find_closed(m, q.corner, q.edge, ITSELF);
     }
