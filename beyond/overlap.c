@@ -169,25 +169,27 @@ bbm_status bbm_check_overlap(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ in a step */
 
-/* Where edge e starts for its contacts: bonds may have opened there. */
-static point start_of(const bbm_model *m, int e)
+/* Where a vertex is for its contacts. */
+static point point_of(const bbm_model *m, int v)
 {
     double P[2];
 
-    bbm_point_at(m, m->edge[e].a, P);
+    bbm_point_at(m, v, P);
     return (point){ P[0], P[1] };
 }
 
 /* How deep P lies in the block of an edge, the distance from its boundary, and from which edge; 0
  * outside. The outer boundary goes round what is inside once, and so does that of a hole, the other
- * way. */
+ * way. Where an edge ends the next one starts a little apart, as far as their bonds have opened. */
 static double depth_in_block(const bbm_model *m, point P, int edge, int *nearest)
 {
     place at = { .distance2 = INFINITY };
     int e = edge;
 
     do {
-        take_side(start_of(m, e), start_of(m, m->edge[e].after), e, P, &at);
+        const point end = point_of(m, m->edge[e].b);
+        take_side(point_of(m, m->edge[e].a), end, e, P, &at);
+        take_side(end, point_of(m, m->edge[m->edge[e].after].a), e, P, &at);
         e = m->edge[e].next;
     } while (e != edge);
     *nearest = at.nearest;
@@ -213,8 +215,8 @@ static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int
  * the edge that it is nearest to; else 0. */
 double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
 {
-    const point P = start_of(m, corner), a = start_of(m, edge);
-    const point b = start_of(m, m->edge[edge].after);
+    const point P = point_of(m, m->edge[corner].a), a = point_of(m, m->edge[edge].a);
+    const point b = point_of(m, m->edge[edge].b);
     const double x = P.x - a.x, y = P.y - a.y, u = b.x - a.x, v = b.y - a.y, l = hypot(u, v);
     const double s = x * u + y * v, allowed = bbm_allowed_depth(m, corner, edge);
 

@@ -503,6 +503,35 @@ START_TEST(a_mesh_of_both_kinds_sinks_alike_however_often_its_multipliers_take_o
 }
 END_TEST
 
+/* Two triangles and a quadrilateral, whose left side is struck: their bonds open, and the corner of the quadrilateral is
+ * no longer where the side of the triangle ends. What struck it is outside of that gap, too. */
+START_TEST(a_corner_beside_bonds_that_open_does_not_lie_inside)
+{
+    static const double x[][2] = { { -0.6667, 0.2 }, { -1, 0.2 }, { -0.6667, 0.4 }, { -1, 0.4 }, { -0.6667, 0.6 },
+                                   { -1, 0.6 }, { -1, 0.4539 }, { -1, 1.154 }, { -1.5, 0.4539 } };
+    bbm_model *m = new_model(&(bbm_material){ 4.93e9, 0.2, 2500, 1 });
+    const double side = _i ? -1 : 1;
+
+    m->beyond->bonding = BBM_MOMENT;
+    for (int k = 0; k < COUNT(x); k++)
+        bbm_add_node(m, side * x[k][0], x[k][1], NULL);
+    bbm_add_element(m, 0, 0, 3, (int[]){ 0, 1, 3 }, NULL);
+    bbm_add_element(m, 0, 0, 3, (int[]){ 0, 3, 2 }, NULL);
+    bbm_add_element(m, 0, 0, 4, (int[]){ 2, 3, 5, 4 }, NULL);
+    bbm_add_element(m, 1, 0, 3, (int[]){ 6, 7, 8 }, NULL);
+    set_springs(m, 2.47e11, 1e11);
+    m->par.friction = 0;
+    m->par.dt = 4.27e-5;
+    m->par.velocity_factor = 1;
+    m->par.alpha = 100;
+    prepare(m);
+    for (int e = 0; e < 3; e++)
+        m->element[e].V[0] = -0.1988 * side;
+    run_steps(m, 20);
+    release(m);
+}
+END_TEST
+
 Suite *bars_suite(void)
 {
     Suite *s = suite_create("bars");
@@ -511,6 +540,7 @@ Suite *bars_suite(void)
         { bars_of_rectangles_bend_exactly, COUNT(bars) },
         { rows_of_parallelograms_bend_as_beams, COUNT(slanted) },
         { a_beam_of_both_kinds_bends_between_those_of_one, 2 },
+        { a_corner_beside_bonds_that_open_does_not_lie_inside, 2 },
         { a_bond_of_two_elements_of_one_shape_has_the_moment_of_springs_in_series, 3 });
     add_case(s, "supports",
         { a_support_with_reaction_0_changes_no_answer, STARS * 8 },
