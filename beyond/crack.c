@@ -314,8 +314,8 @@ bbm_pass bbm_break_bonds(bbm_model *m)
 /* ------------------------------------------------------------------------------------ fragments */
 
 /* Where the corners of contacts lie, times a sign, is added to where they count from. Two elements
- * share a corner no more when a bond between them has broken, and it jumps. Contacts keep their
- * forces. */
+ * share a corner no more when a bond between them has broken, or begin to when another one has, and
+ * it jumps. Contacts keep their forces. */
 static void add_places(bbm_model *m, double sign)
 {
     for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
@@ -369,8 +369,9 @@ static bbm_status part_bodies(bbm_model *m)
             (size_t)(m->gaps - 2 * kept) * sizeof *m->gap);
     m->bonds = kept;
     y->parts = 0;
+    const bbm_status status = renew_detection(m);
     add_places(m, 1);
-    return renew_detection(m);
+    return status;
 }
 
 /* A step, or a part of one, begins with the cracks of the last one. */

@@ -650,6 +650,22 @@ START_TEST(a_hit_in_which_a_corner_jams_goes_on)
 }
 END_TEST
 
+/* Where a quadrilateral and two triangles meet the bond of the triangles breaks. From then on the quadrilateral and one
+ * of them share the corner that presses on the other body, and it jumps to halfway between the two. */
+START_TEST(a_corner_that_two_elements_begin_to_share_keeps_its_force)
+{
+    ck_assert_int_eq(run_text("share",
+        "node 2 0.25715 -0.42666\nnode 3 0.51621 -0.85646\nnode 5 0.045557 -0.65607\n"
+        "node 6 0.2429 -1.0212\nnode 8 -0.27809 -0.70093\nnode 9 0.0023297 -1.1662\n"
+        "element 2 a m 2 3 6 5\nelement 4 a m 5 6 8\nelement 5 a m 6 9 8\nnode 1001 0.32123 -0.9742\n"
+        "node 1002 0.43658 -1.1656\nnode 1006 0.03198 -1.1485\nnode 1007 0.1153 -1.3959\n"
+        "element 6 b m 1001 1002 1007\nelement 7 b m 1001 1007 1006\n"
+        "material m E 8.5438e+08 nu 0.2 density 2500 thickness 1\nvelocity a 0.41237 -0.68418 0.7633\n"
+        "velocity b -0.35319 0.58599 0\ncontact friction 0\n"
+        "bond tension 22799 cohesion 68397 friction 35\ndynamic dt 0.00010264 steps 200\n"), 0);
+}
+END_TEST
+
 /* Its wagons hit each other a little, and lift by that while a corner is just past a seam. */
 START_TEST(a_train_with_restitution_rolls_over_flush_seams)
 {
@@ -1291,6 +1307,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, shipped_models_give_no_warning);
     tcase_add_test(t, a_turning_block_is_out_of_place_by_the_papers_update);
     tcase_add_loop_test(t, a_corner_stays_in_a_notch_of_two_blocks, 0, 3);
+    tcase_add_test(t, a_corner_that_two_elements_begin_to_share_keeps_its_force);
     tcase_add_test(t, a_corner_stays_between_a_floor_and_a_wall);
     tcase_add_test(t, a_hit_in_which_a_corner_jams_goes_on);
     tcase_add_loop_test(t, a_train_with_restitution_rolls_over_flush_seams, 0, 4);
