@@ -412,9 +412,9 @@ void bbm_keep_cracks(bbm_model *m)
 bbm_status bbm_catch_corners(bbm_model *m, double search)
 {
     bbm_beyond *y = m->beyond;
-    bbm_status status = bbm_find_near_pairs(m, search);
+    bbm_status status;
 
-    while (!status && y->broken > 0 && y->passed[0] >= 0) {
+    while (!(status = bbm_find_near_pairs(m, search)) && y->broken > 0 && y->passed[0] >= 0) {
         bbm_contact c = { .corner = y->passed[0], .edge = y->passed[1], .inside = 1, .hit = 2 };
         bbm_contact *more = realloc(m->contact, ((size_t)m->contacts + 1) * sizeof *more);
         if (!more)
@@ -428,7 +428,6 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
         y->caught++;
         y->passed[0] = -1;
         m->scratch->pairs = 0;
-        status = bbm_find_near_pairs(m, search);
     }
     return status;
 }
