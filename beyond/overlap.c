@@ -180,20 +180,23 @@ static point point_of(const bbm_model *m, int v)
 
 /* How deep P lies in the block of an edge, the distance from its boundary, and from which edge; 0
  * outside. The outer boundary goes round what is inside once, and so does that of a hole, the other
- * way. Where an edge ends the next one starts a little apart, as far as their bonds have opened. */
+ * way. Where an edge ends the next one starts a little apart, as far as their bonds have opened.
+ * The boundary goes from start to start and once more from end to end. What lies inside of one of
+ * them alone lies in such a gap, where no contact keeps it out. */
 static double depth_in_block(const bbm_model *m, point P, int edge, int *nearest)
 {
-    place at = { .distance2 = INFINITY };
+    place starts = { .distance2 = INFINITY }, ends = starts;
     int e = edge;
 
     do {
-        const point end = point_of(m, m->edge[e].b);
-        take_side(point_of(m, m->edge[e].a), end, e, P, &at);
-        take_side(end, point_of(m, m->edge[m->edge[e].after].a), e, P, &at);
-        e = m->edge[e].next;
+        const bbm_edge *E = &m->edge[e];
+        take_side(point_of(m, E->a), point_of(m, m->edge[E->after].a), e, P, &starts);
+        take_side(point_of(m, m->edge[E->before].b), point_of(m, E->b), e, P, &ends);
+        e = E->next;
     } while (e != edge);
-    *nearest = at.nearest;
-    return at.winding > 0 ? sqrt(at.distance2) : 0;
+    *nearest = starts.nearest;
+    return starts.winding > 0 && ends.winding > 0
+         ? sqrt(fmin(starts.distance2, ends.distance2)) : 0;
 }
 
 /* How deep the deepest of n contacts between the blocks of two edges is that is closed or has
@@ -229,18 +232,17 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
     return depth > fmax(allowed, bbm_allowed_depth(m, corner, *nearest)) ? depth : 0;
 }
 
-/* That depth where no contact of the two blocks accounts for it: the last step let the corner pass.
- * Else 0. A fragment may have been made there, and its corners count each for itself. */
+/* That depth where no contact of the corner and that block accounts for it: the last step let the
+ * corner pass. Else 0. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    int nearest = edge, first = 0, n = m->contacts;
+    int nearest = edge, first = m->edge[corner].contact, n = first;
     const double depth = bbm_depth_behind(m, corner, edge, &nearest);
 
-    if (m->beyond->broken > 0)
-        for (first = m->edge[corner].contact, n = 0;
-             first + n < m->contacts && m->contact[first + n].corner == corner;)
-            n++;
-    return depth == 0 || depth_between(m, m->contact + first, n, corner, edge) >= 0 ? 0 : depth;
+    while (n < m->contacts && m->contact[n].corner == corner)
+        n++;
+    return depth == 0 || depth_between(m, m->contact + first, n - first, corner, edge) >= 0
+         ? 0 : depth;
 }
 
 /* Refuses a step before which, or a solution by which, a corner has passed the edge; end: the model
