@@ -382,12 +382,12 @@ double bbm_allowed_depth(const bbm_model *m, int c, int e)
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
 
-/* Whether two edges lie along one line and face each other. */
-static int lie_flush(const bbm_model *m, int e, int f)
+/* Whether two edges are parallel, and run one against the other (-1) or the same way (1). */
+static int are_parallel(const bbm_model *m, int e, int f, int way)
 {
     const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
 
-    return hypot(p.x + q.x, p.y + q.y) <= PARALLEL;
+    return hypot(p.x - way * q.x, p.y - way * q.y) <= PARALLEL;
 }
 
 /* The edge that ends at a corner c (0) or starts there (1), as another corner Q meets it: its own,
@@ -401,7 +401,7 @@ static int side_at(const bbm_model *m, int c, int which, int Q)
     int alone = joined == own[which] || m->edge[joined].first == m->edge[Q].first;
 
     for (int k = 0; k < 4 && !alone; k++)
-        alone = lie_flush(m, at[k / 2], k % 2 ? m->edge[Q].before : Q);
+        alone = are_parallel(m, at[k / 2], k % 2 ? m->edge[Q].before : Q, -1);
     return alone ? own[which] : joined;
 }
 
@@ -622,7 +622,7 @@ static void join_flush_corners(bbm_model *m)
         const bbm_direction t = m->edge[p.edge].along;
         const projection f = project(m, P, p.edge);
         const double apart = hypot(f.d, f.s - end * t.length);
-        if (!lie_flush(m, p.edge, side)
+        if (!are_parallel(m, p.edge, side, -1)
             || apart > touch_between(m, P, Q) + rounding_between(m, P, p.edge))
             continue;
         m->edge[Q].meets[!end] = m->edge[P].meets[end] = 1;
@@ -675,14 +675,6 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
             old = find_closed(m, q.corner, q.edge, ITSELF);
     }
     return old;
-}
-
-/* Whether edge f lies in the direction of edge e. */
-static int goes_straight_on(const bbm_model *m, int e, int f)
-{
-    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
-
-    return hypot(p.x - q.x, p.y - q.y) <= PARALLEL;
 }
 
 /* Whether P hangs on a ledge: on a covered face of a convex corner Q, by less than the rounding
@@ -864,7 +856,7 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
 
     if (r->state != BBM_OPEN)
         return 1;
-    if (goes_straight_on(m, c->edge, r->edge))
+    if (are_parallel(m, c->edge, r->edge, 1))
         return r->d_n < 0 && is_on_edge(m, r, 1) && (!is_on_edge(m, c, 1) || r->edge < c->edge);
     if (r->d_n >= 0)
         return over_r >= (c->trial.was_closed || face_each_other(m, c->edge, r->edge) ? 0
@@ -923,7 +915,7 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 
     if (c->state == BBM_OPEN || f.beyond <= touch || g.beyond > touch
         || f.beyond > reach_of(m, c->corner)->travel + reach_of(m, c->edge)->travel
-        || !goes_straight_on(m, c->edge, edge) || m->edge[c->edge].first == m->edge[edge].first)
+        || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first)
         return;
     *r = *c;
     r->edge = edge;

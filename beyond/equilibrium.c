@@ -126,22 +126,25 @@ void bbm_contact_forces(const bbm_model *m, const bbm_contact *c, double F[BBM_P
         F[k / 6][k % 6] = c->N * v[0].v[k / 6][k % 6] - T * v[1].v[k / 6][k % 6];
 }
 
-/* The force by which a contact breaks its law. An open one may be as deep as rounding. */
+/* The force by which a contact breaks its law. An open one may be as deep as rounding, of its place
+ * and of the length of its edge. */
 static double breach_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P = bbm_start_of(m, c->corner);
-    const double digits = c->state == BBM_OPEN ? ROUNDING * hypot(P->x, P->y) : 0;
-    const double N = bbm_normal_force(m, c->d_n + digits - c->rest);
+    const double size = hypot(P->x, P->y) + m->edge[c->edge].along.length;
+    const double N = bbm_normal_force(m, c->d_n - c->rest
+                                         + (c->state == BBM_OPEN ? ROUNDING * size : 0));
     const double T = fabs(bbm_shear_force(c)) - bbm_shear_strength(&c->strength, c->N);
 
     return c->state != BBM_OPEN ? fmax(fmax(fabs(N - c->N), T), -N - c->strength.tension)
          : bbm_is_blocked(m, c) ? 0 : N;
 }
 
-/* Adds the forces of a contact, and what they break of its law. */
+/* Adds the forces of a contact, and what they break of its law by more than the solver's error. */
 static void add_contact(bbm_model *m, const bbm_contact *c)
 {
-    const double breach = breach_of(m, c);
+    const double solved = fmax(0, c->trial.force_tolerance - c->trial.digits);
+    const double breach = fmax(0, breach_of(m, c) - solved);
     double F[BBM_PARTS][6] = { { 0 } };
 
     if (c->state != BBM_OPEN)

@@ -465,6 +465,39 @@ START_TEST(a_contact_between_two_quadrilaterals_presses_both_alike)
 }
 END_TEST
 
+/* Two blocks of 2 m x 1 m lie on each other, two quadrilaterals below a quadrilateral and two triangles, or mirrored. Where
+ * these meet at the joint, the element between the two whose sides lie on it has no side there. Under an even pressure the
+ * stress is even, but for the gaps of the contacts. */
+START_TEST(a_contact_below_both_kinds_presses_all_their_elements_alike)
+{
+    static const int corners[5][4] = { { 0, 1, 4, 3 }, { 1, 2, 5, 4 }, { 6, 7, 10, 9 }, { 7, 8, 11, 0 }, { 7, 11, 10, 0 } };
+    const double side = _i ? -1 : 1;
+    bbm_model *m = new_model(&(bbm_material){ 1e9, 0, 2500, 1 });
+
+    m->beyond->bonding = BBM_MOMENT;
+    m->beyond->multiplier_rounds = 2;
+    m->par.faces = 1;
+    m->par.dt = INFINITY;
+    m->par.friction = 30;
+    set_springs(m, 5e10, 2e10);
+    for (int n = 0; n < 12; n++)
+        bbm_add_node(m, side * (n % 3), (n + 3) / 6, NULL);
+    for (int e = 0; e < 5; e++)
+        bbm_add_element(m, e / 2 > 0, 0, e < 3 ? 4 : 3, corners[e], NULL);
+    for (int n = 0; n < 3; n++)
+        bbm_fix_node(m, n, n == 0 ? BBM_XY : BBM_Y, 0, 0);
+    prepare(m);
+    for (int e = 0; e < m->edges; e++)
+        if (m->vertex[m->edge[e].a].node > 8 && m->vertex[m->edge[e].b].node > 8)
+            ck_ok(bbm_load_edge(m, e, 0, 0, 1e4), m);
+    run_steps(m, 10);
+    ck_assert_int_eq(m->info.contacts, 3);
+    for (int e = 0; e < 5; e++)
+        ck_relative(m->element[e].stress[1], -1e4, 2e-3);
+    release(m);
+}
+END_TEST
+
 /* An equal block of nx x ny quadrilaterals lies on one that is held below, nodes on nodes: what is
  * symmetric is so in the lower block, too, and of two columns each carries its own. */
 static const struct { int nx, ny, is_static; double friction; } PILES[] = {
@@ -654,6 +687,7 @@ Suite *beyond_suite(void)
         { the_moment_of_a_rectangle_is_that_of_a_beam, 1 },
         { a_turning_body_feels_no_moment_in_its_bonds, 2 },
         { a_contact_between_two_quadrilaterals_presses_both_alike, 2 },
+        { a_contact_below_both_kinds_presses_all_their_elements_alike, 2 },
         { a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides, COUNT(PILES) },
         { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 2 });
     add_case(s, "water",

@@ -517,6 +517,12 @@ static const struct { const char *text, *said; } doubtful[] = {
     { CELLS("0", "3.9", "8", "0", "4.1", "8"), NULL },
     { PEBBLE "contact friction 29.995 kn 1e12\n", "of the forces on a block: "
       "positions have no more digits; a smaller kn or softer bolts help\n" },
+    /* before and after its hit nothing bears on a block */
+    { "material r E 1e12 nu 0 density 2500\ncontact kn 1e9 friction 20\nblock a r -1.1 0 -0.1 0 -0.1 1 -1.1 1\nvelocity a 1 0\n"
+      "block b r 0 0 1 0 1 1 0 1\ndynamic dt 1e-4 steps 3000\n", NULL },
+    { "material r E 1e12 nu 0 density 2500\ncontact kn 1e9 friction 0 restitution .5\ndynamic dt 1e-4 steps 1100\n"
+      "block a r -1.1 0 -0.1 0 -0.1 1 -1.1 1\nvelocity a 1 0\nblock b r 0 0 1 0 1 1 0 1\nblock c r 1 0 2 0 2 1 1 1\n"
+      "block d r 2 0 3 0 3 1 2 1\njoint b c friction 0\njoint c d friction 0\n", NULL },
     /* what hangs on a pin is stable, and what stands on one is not */
     { ROCK "block top rock 0 0 1 1 -1 1\nfixblock top\nblock b rock 0 0 0.3 -1 0 -2 -0.3 -1\npin top b at 0 0\ngravity 0 -9.81\n"
       "contact friction 30\nstatic\n", NULL },
