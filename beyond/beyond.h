@@ -252,6 +252,7 @@ void       bbm_contact_forces(const bbm_model *m, const bbm_contact *c, double F
 bbm_status bbm_check_equilibrium(bbm_model *m);         /* of the solution in hand              */
 
 /* stability.c */
+double     bbm_tension_stiffness(const bbm_model *m, int i);
 bbm_status bbm_find_stability(bbm_model *m, int *stable);       /* of a static answer           */
 
 /* overlap.c */

@@ -200,8 +200,11 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
     const bbm_balance *b = m->beyond->balance;
 
     begin_bodies(m);
-    for (int i = 0; i < m->elements; i++)
+    for (int i = 0; i < m->elements; i++) {
+        const double turn[6] = { [2] = -bbm_tension_stiffness(m, i) * m->D[6 * i + 2] };
         add_force(m, i, &m->load[6 * i], 1, 0);
+        add_force(m, i, turn, 1, 0);
+    }
     for (int k = 0; k < m->gaps; k++)
         add_gap(m, &m->gap[k]);
     for (; c < end; c++)

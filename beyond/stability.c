@@ -9,9 +9,14 @@
  *     K_ii[r0][r0] += t A (sx + sy),
  *
  * negative in compression. With it a column buckles at Euler's load, and a block tips over a corner
- * as its weight does at the height of its centre. Left out is what is as small as stress/E, and
- * that the normal of a contact turns with its edge. The answer is stable if K is positive definite
- * with this stiffness: conjugate gradients come upon a direction in which it is not.
+ * as its weight does at the height of its centre. Left out is what is as small as stress/E, that
+ * the normal of a contact turns with its edge, and that pressure turns with what it presses. The
+ * answer is stable if K is positive definite with this stiffness: conjugate gradients come upon a
+ * direction in which it is not.
+ *
+ * What tension has of it is in the K of every static step. Without it a taut string turns too far in
+ * one step and back by more in the next, and each turn r lengthens an element by the share r^2/2,
+ * until no tension is left.
  */
 #include <string.h>
 
@@ -20,57 +25,48 @@
 /* NUDGED [-]  tolerance of the solution that looks for such a direction */
 #define NUDGED 1e-3
 
-/* Lists the contacts of the model as it stands, closed as they are, and assembles K. What slides
- * holds again: it is at rest. */
-static bbm_status assemble(bbm_model *m)
+/* The stiffness of the stress of an element against turning, N m. */
+static double turning_stiffness(const bbm_element *e)
 {
-    const bbm_status status = bbm_begin_statics(m);
-
-    if (status)
-        return status;
-    for (int k = 0; k < m->scratch->contacts; k++)
-        if (m->scratch->contact[k].state == BBM_SLIDE)
-            m->scratch->contact[k].state = BBM_LOCK;
-    bbm_assemble(m);
-    m->hook->before_solution(m);
-    return BBM_OK;
+    return e->material.thickness * e->A * (e->stress[0] + e->stress[1]);
 }
 
-/* Adds to K the stiffness of the stress, what is positive of it or what is negative. */
-static void add_stress(bbm_model *m, double sign)
+/* What is in K of it: tension, in statics. */
+double bbm_tension_stiffness(const bbm_model *m, int i)
 {
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        const double tension = e->material.thickness * e->A * (e->stress[0] + e->stress[1]);
-        m->K->D[m->K->place[i]][2][2] += sign * fmax(0, sign * tension);
-    }
+    return bbm_is_static(m) ? fmax(0, turning_stiffness(&m->element[i])) : 0;
 }
 
 /* Whether the static answer that the model has come to is stable. The model stays as it is, but for
- * D, F and K. Every element is pushed and turned a little, each by another amount, so that no mode
+ * D, F and K. The contacts are listed as it stands, closed as they are; what slides holds again: it
+ * is at rest. Every element is pushed and turned a little, each by another amount, so that no mode
  * is missed. A solution for F = 0 makes the preconditioner, from K with the tension alone, which
  * has to be positive definite itself: what hangs on a pin resists by its tension. */
 bbm_status bbm_find_stability(bbm_model *m, int *stable)
 {
     bbm_pcg pcg = m->par.pcg;
     bbm_pcg_info info;
-    bbm_status status = assemble(m);
+    bbm_status status = bbm_begin_statics(m);
 
-    memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
+    for (int k = 0; k < m->scratch->contacts && !status; k++)
+        if (m->scratch->contact[k].state == BBM_SLIDE)
+            m->scratch->contact[k].state = BBM_LOCK;
     if (!status) {
-        add_stress(m, 1);
+        bbm_assemble(m);
+        m->hook->before_solution(m);
+        memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
         status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
     }
-    if (!status) {
-        add_stress(m, -1);
-        for (int k = 0; k < 3 * m->elements; k++) {
-            const int i = k / 3, a = k % 3;
-            const double A = m->element[i].A;
-            m->F[6 * i + a] = A * (a < 2 ? 1 : sqrt(A)) * (1 + (37 * i + 11 * a) % 19);
-        }
-        pcg.tolerance = NUDGED;
-        status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
+    for (int k = 0; k < 3 * m->elements && !status; k++) {
+        const int i = k / 3, a = k % 3;
+        const bbm_element *e = &m->element[i];
+        m->F[6 * i + a] = e->A * (a < 2 ? 1 : sqrt(e->A)) * (1 + (37 * i + 11 * a) % 19);
+        if (a == 2)
+            m->K->D[m->K->place[i]][2][2] += fmin(0, turning_stiffness(e));
     }
+    pcg.tolerance = NUDGED;
+    if (!status)
+        status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
     m->K->ready = 0;
     *stable = status != BBM_NOT_POSITIVE_DEFINITE;
     return *stable ? status : BBM_OK;

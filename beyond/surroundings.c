@@ -103,13 +103,15 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
     return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .density = density });
 }
 
-/* Adds them to the loads of the step. */
+/* Adds them to the loads of the step, and the stiffness of tension to K. */
 void bbm_gather_edge_loads(bbm_model *m)
 {
     for (int l = 0; l < m->beyond->edge_loads; l++) {
         bbm_edge_load *load = &m->beyond->edge_load[l];
         add_load(m, load, &m->load[6 * m->vertex[load->a].element]);
     }
+    for (int i = 0; i < m->elements; i++)
+        m->K->D[m->K->place[i]][2][2] += bbm_tension_stiffness(m, i);
 }
 
 /* ------------------------------------------------------------------------------------- supports */
