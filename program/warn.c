@@ -351,9 +351,36 @@ static void warn_of_shaking(const model *p, const char *path)
     if (p->shakings == 0)
         return;
     const double from = p->shaking[0].t, to = p->shaking[p->shakings - 1].t;
-    if (p->shake == 0 || to > end * (1 + 1e-9) || to - from < 0.999 * dt * (p->shakings - 1))
+    double apart = INFINITY;
+    for (int k = 1; k < p->shakings; k++)
+        apart = fmin(apart, p->shaking[k].t - p->shaking[k - 1].t);
+    if (p->shake == 0 || to > end * (1 + 1e-9) || apart < 0.999 * dt)
         warn(path, "shake has %d rows from %g s to %g s and the scale %g: steps of %g s to %g s do "
                    "not feel all of it", p->shakings, from, to, p->shake, dt, end);
+}
+
+/* What floats lies on its water as on a spring of density g width. Water presses by the velocity at
+ * the start of a step, so that a long step makes energy: above 2 sqrt(m/k). */
+static void warn_of_water(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    const double dt = m->par.dt, g = hypot(m->par.gravity[0], m->par.gravity[1]);
+    double (*of)[2] = calloc((size_t)p->blocks + 1, sizeof *of);                /* N/m, kg */
+    int said = !p->dynamic;
+
+    for (int e = 0; e < m->elements && of; e++)
+        of[m->element[e].block][1] += bbm_mass_per_area(&m->element[e]) * m->element[e].A;
+    for (int l = 0; l < m->beyond->edge_loads && of; l++) {
+        const bbm_edge_load *w = &m->beyond->edge_load[l];
+        const bbm_element *e = &m->element[m->vertex[w->a].element];
+        const double x = m->vertex[bbm_next_vertex(e, w->a)].x - m->vertex[w->a].x;
+        of[e->block][0] += w->density * g * fmax(0, x);
+    }
+    for (int b = 0; b < p->blocks && of && !said; b++)
+        if ((said = of[b][0] * dt * dt > 4 * of[b][1]))
+            warn(path, "a step of %g s is long for water: if block '%.60s' floats it makes energy; "
+                       "less than %.2g s helps", dt, p->block[b], 2 * sqrt(of[b][1] / of[b][0]));
+    free(of);
 }
 
 /* A side of few grid points that touches a longer one of many: in dynamics the longer one has no
@@ -386,6 +413,7 @@ void warn_before(const model *p, const char *path)
     warn_of_bodies(p, path);
     warn_of_cells(p, path);
     warn_of_shaking(p, path);
+    warn_of_water(p, path);
 }
 
 void warn_in_step(const run *r, const char *path, int *said)

@@ -363,6 +363,17 @@ START_TEST(a_bolt_that_turns_keeps_angular_momentum_and_energy)
 }
 END_TEST
 
+#define BLOCK_SHAKEN "material rock E 1e10 nu 0.25 density 2500\nblock b rock 0 0 1 0 1 1 0 1\nshake pulse.csv\ndynamic dt "
+
+/* A record of rows far apart, but for a pulse that steps of 0.01 s hardly see. */
+START_TEST(a_pulse_that_is_shorter_than_a_step_is_told)
+{
+    write_text("out/model/pulse.csv", "0 0\n0.5 0\n0.505 10\n0.51 0\n2 0\n");
+    ck_assert_int_eq(run_text("pulse", _i ? BLOCK_SHAKEN "0.01 steps 200\n" : BLOCK_SHAKEN "0.005 steps 400\n"), 0);
+    ck_assert_int_eq(strstr(slurp("out/model/pulse.err"), "do not feel all of it") != NULL, _i);
+}
+END_TEST
+
 /* A block swings on a stiff bolt of 2 m from 30 degrees, T = 2 pi sqrt(L/g)/agm(1, cos 15): after 2 1/4
  * periods it hangs straight down. Steps of T/400 change T by (w dt)^2/24 = 1e-5, and it by 1.4e-4 rad. */
 START_TEST(a_pendulum_on_a_bolt_keeps_its_period)
@@ -399,6 +410,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
     tcase_add_loop_test(t, a_bolt_that_turns_keeps_angular_momentum_and_energy, 0, 2);
     tcase_add_test(t, a_pendulum_on_a_bolt_keeps_its_period);
+    tcase_add_loop_test(t, a_pulse_that_is_shorter_than_a_step_is_told, 0, 2);
     tcase_add_test(t, a_monitor_is_at_the_nearest_node_whatever_lies_far_away);
     return s;
 }

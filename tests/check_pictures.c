@@ -434,7 +434,7 @@ START_TEST(fixed_blocks_are_hatched_and_supports_and_loads_are_drawn)
 {
     static const struct { const char *model; int hatched, fixed, roller, load, locked, sliding; } drawn[] = {
         { "exp1", 0, 1, 0, 1, 0, 0 }, { "exp2", 0, 0, 1, 1, 0, 0 }, { "exp3", 0, 1, 0, 1, 0, 1 },
-        { "dam", 0, 1, 1, 0, 1, 0 }, { "disc", 0, 1, 1, 1, 0, 0 },
+        { "dam", 0, 1, 1, 0, 1, 1 }, { "disc", 0, 1, 1, 1, 0, 0 },
         { "incline", 1, 0, 0, 0, 0, 1 }, { "arch", 3, 0, 0, 0, 1, 0 },
     };
 

@@ -16,7 +16,7 @@ function set_bounds()
     bound["paper"] = 1100
     bound["base"] = 2950
     bound["beyond"] = 6400
-    bound["program"] = 7250
+    bound["program"] = 7275
     bound["page"] = 1650
     words_bound = 30000
     says["base"] = " with the paper"
