@@ -529,6 +529,12 @@ static const struct { const char *text, *said; } doubtful[] = {
     { "material r E 1e12 nu 0 density 2500\ncontact kn 1e9 friction 0 restitution .5\ndynamic dt 1e-4 steps 1100\n"
       "block a r -1.1 0 -0.1 0 -0.1 1 -1.1 1\nvelocity a 1 0\nblock b r 0 0 1 0 1 1 0 1\nblock c r 1 0 2 0 2 1 1 1\n"
       "block d r 2 0 3 0 3 1 2 1\njoint b c friction 0\njoint c d friction 0\n", NULL },
+    /* two pinned bars under 100 kN need k = P (1/1 + 1/1) = 2e5 N/m at their pin, a little more below a top that gives way */
+#define BARS(k) "material r E 1e10 nu 0.2 density 2000\nblock b0 r 0 0 0.1 0.5 0 1 -0.1 0.5\nblock b1 r 0 1 0.1 1.5 0 2 -0.1 1.5\n" \
+      "block w r 3 0 4 0 4 3 3 3\nfixblock w\npin b0 b1 at 0 1\nfix at 0 0 of b0\nload at 0 2 of b1 0 -1e5\n" \
+      "bolt at 0 1 of b0 at 3 1 of w stiffness " k "\nbolt at 0 2 of b1 at 3 2 of w stiffness 1e6\ncontact friction 30\nstatic\n"
+    { BARS("2.6e5"), NULL },
+    { BARS("1.9e5"), "in equilibrium, but not stable: a push, however small, moves it on and on\n" },
     /* what hangs on a pin is stable, and what stands on one is not */
     { ROCK "block top rock 0 0 1 1 -1 1\nfixblock top\nblock b rock 0 0 0.3 -1 0 -2 -0.3 -1\npin top b at 0 0\ngravity 0 -9.81\n"
       "contact friction 30\nstatic\n", NULL },
