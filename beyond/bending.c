@@ -205,21 +205,21 @@ static int has_moment(const bbm_model *m, int i, int j)
 
 /* ----------------------------------------------------------------- contacts of shared corners */
 
-/* The vertex that shares a corner of the boundary with v: one edge ends there and the next starts,
- * and among the bonds that join their elements, from one to the next, is one with a moment. Such a
- * bond does not hold vertices together. The corner is halfway between the two, and half of a force
- * on it acts on each. If all of it acted on one element, the bonds would carry half of it to the
- * other at their middles, and that would strain both. */
+/* The vertex that shares a corner of the boundary with v: one edge ends there and the next starts, in
+ * elements that bonds join, from one to the next. A bond with a moment does not hold vertices
+ * together, and one at vertices only as well as its springs do. The corner is halfway between the
+ * two, and half of a force on it acts on each. If all of it acted on one element, the bonds would
+ * carry half of it to the other, which strains both, and a mirrored model were another one. */
 int bbm_find_partner(const bbm_model *m, int v)
 {
-    int start = v, shared = 0;
+    int start = v;
 
     while (m->vertex[start].edge < 0)
         start = -1 - m->vertex[start].edge;
     const int end = m->edge[m->edge[m->vertex[start].edge].before].b;
-    for (int u = end; u != start && m->vertex[u].edge < 0; u = -1 - m->vertex[u].edge)
-        shared |= has_moment(m, m->vertex[u].element, m->vertex[-1 - m->vertex[u].edge].element);
-    return !shared || (v != start && v != end) ? v : v == start ? end : start;
+    if (m->beyond->bonding != BBM_MOMENT || (v != start && v != end))
+        return v;
+    return v == start ? end : start;
 }
 
 /* The vectors of a contact some of whose points P1, P2, P3 are shared. Each point moves by u, the

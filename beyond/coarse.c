@@ -88,8 +88,8 @@ static int corners(const coarse_space *c, int i)
 }
 
 /* What the block of the rows i and j adds to Kc: WHOLE, all of it; ACROSS, what modes across a side
- * have. Nothing to be added whole is the bond of two triangles, or of two quadrilaterals with modes
- * at no node that is held. mode: where those of i and j across their side stand. */
+ * have. Nothing to be added whole is the bond of two triangles, or of two quadrilaterals with modes,
+ * at no node that is held or in contact. mode: where those of i and j across their side stand. */
 enum { WHOLE = 1, ACROSS = 2 };
 
 static int find_share(const coarse_space *c, int i, int j, int mode[2])
@@ -109,7 +109,7 @@ static int find_share(const coarse_space *c, int i, int j, int mode[2])
     mode[1] = c->first[j] + nj + (sum[1] != 3);
     if (common != 2 || !(modes || (ni == 3 && nj == 3)))
         return WHOLE;
-    return modes ? ACROSS | (held ? WHOLE : 0) : 0;
+    return (modes ? ACROSS : 0) | (held ? WHOLE : 0);
 }
 
 static int add_entry(int (*entry)[2], int n, int p, int q)

@@ -498,6 +498,40 @@ START_TEST(a_contact_below_both_kinds_presses_all_their_elements_alike)
 }
 END_TEST
 
+/* A rectangle hits the side of two triangles, and they its corner. In the mirror image the edges run the other way, but
+ * the hit is the same, to the rounding of positions. */
+START_TEST(what_hits_a_corner_of_two_triangles_does_so_in_a_mirror_too)
+{
+    static const double x[8][2] = { { 0, 0 }, { 1, 0 }, { 1, 0.6 }, { 0, 0.6 }, { 1.00001, 0.154 }, { 2.00001, 0.154 },
+                                    { 2.00001, 0.854 }, { 1.00001, 0.854 } };
+    bbm_model *m[2];
+
+    for (int k = 0; k < 2; k++) {
+        m[k] = new_model(&(bbm_material){ 1e9, 0.2, 2500, 1 });
+        m[k]->beyond->bonding = BBM_MOMENT;
+        m[k]->par.dt = 1e-4;
+        m[k]->par.velocity_factor = 1;
+        set_springs(m[k], 5e10, 2e10);
+        for (int n = 0; n < 8; n++)
+            bbm_add_node(m[k], (k ? -1 : 1) * x[n][0], x[n][1], NULL);
+        bbm_add_element(m[k], 0, 0, 4, (int[]){ 0, 1, 2, 3 }, NULL);
+        bbm_add_element(m[k], 1, 0, 3, (int[]){ 4, 5, 6 }, NULL);
+        bbm_add_element(m[k], 1, 0, 3, (int[]){ 4, 6, 7 }, NULL);
+        prepare(m[k]);
+        m[k]->element[0].V[0] = k ? -0.15 : 0.15;
+        run_steps(m[k], 5);
+    }
+    ck_assert_double_lt(m[0]->element[0].V[0], 0.149);
+    for (int e = 0; e < 3; e++) {
+        ck_near(m[0]->element[e].V[0], -m[1]->element[e].V[0], 0.15, 1e-9);
+        ck_near(m[0]->element[e].V[1], m[1]->element[e].V[1], 0.15, 1e-9);
+        ck_near(m[0]->element[e].V[2], -m[1]->element[e].V[2], 0.15, 1e-9);
+    }
+    release(m[0]);
+    release(m[1]);
+}
+END_TEST
+
 /* An equal block of nx x ny quadrilaterals lies on one that is held below, nodes on nodes: what is
  * symmetric is so in the lower block, too, and of two columns each carries its own. */
 static const struct { int nx, ny, is_static; double friction; } PILES[] = {
@@ -688,6 +722,7 @@ Suite *beyond_suite(void)
         { a_turning_body_feels_no_moment_in_its_bonds, 2 },
         { a_contact_between_two_quadrilaterals_presses_both_alike, 2 },
         { a_contact_below_both_kinds_presses_all_their_elements_alike, 2 },
+        { what_hits_a_corner_of_two_triangles_does_so_in_a_mirror_too, 1 },
         { a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides, COUNT(PILES) },
         { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 2 });
     add_case(s, "water",
