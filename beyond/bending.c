@@ -205,11 +205,12 @@ static int has_moment(const bbm_model *m, int i, int j)
 
 /* ----------------------------------------------------------------- contacts of shared corners */
 
-/* The vertex that shares a corner of the boundary with v: one edge ends there and the next starts, in
- * elements that bonds join, from one to the next. A bond with a moment does not hold vertices
- * together, and one at vertices only as well as its springs do. The corner is halfway between the
- * two, and half of a force on it acts on each. If all of it acted on one element, the bonds would
- * carry half of it to the other, which strains both, and a mirrored model were another one. */
+/* The vertex that shares a corner of the boundary with v: one edge ends there and the next starts,
+ * in elements that bonds join, from one to the next. A bond with a moment does not hold vertices
+ * together, and bonds at vertices only do so as well as their springs can. The corner is halfway
+ * between the two, and half of a force on it acts on each. If all of it acted on one element, the
+ * bonds would carry half of it to the other, and that would strain both. A mirrored model would
+ * choose the other element. */
 int bbm_find_partner(const bbm_model *m, int v)
 {
     int start = v;

@@ -88,8 +88,9 @@ static int corners(const coarse_space *c, int i)
 }
 
 /* What the block of the rows i and j adds to Kc: WHOLE, all of it; ACROSS, what modes across a side
- * have. Nothing to be added whole is the bond of two triangles, or of two quadrilaterals with modes,
- * at no node that is held or in contact. mode: where those of i and j across their side stand. */
+ * have. Nothing to be added whole is the bond of two triangles, or of two quadrilaterals with
+ * modes, at no node that is held or in contact. mode: where those of i and j across their side
+ * stand. */
 enum { WHOLE = 1, ACROSS = 2 };
 
 static int find_share(const coarse_space *c, int i, int j, int mode[2])

@@ -132,8 +132,8 @@ static double breach_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P = bbm_start_of(m, c->corner);
     const double size = hypot(P->x, P->y) + m->edge[c->edge].along.length;
-    const double N = bbm_normal_force(m, c->d_n - c->rest
-                                         + (c->state == BBM_OPEN ? ROUNDING * size : 0));
+    const double digits = c->state == BBM_OPEN ? ROUNDING * size : 0;
+    const double N = bbm_normal_force(m, c->d_n + digits - c->rest);
     const double T = fabs(bbm_shear_force(c)) - bbm_shear_strength(&c->strength, c->N);
 
     return c->state != BBM_OPEN ? fmax(fmax(fabs(N - c->N), T), -N - c->strength.tension)

@@ -103,7 +103,8 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
     return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .density = density });
 }
 
-/* Adds them to the loads of the step, and the stiffness of tension to K. */
+/* Adds them to the loads of the step, and to K what forces get by turning under tension, see
+ * stability.c. */
 void bbm_gather_edge_loads(bbm_model *m)
 {
     for (int l = 0; l < m->beyond->edge_loads; l++) {

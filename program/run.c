@@ -79,7 +79,8 @@ void run_says(const run *r, bbm_status status, char out[500])
     snprintf(step, sizeof step, "step %d: ", m->info.step + 1);
     if (status == BBM_STEPS_EXHAUSTED)
         snprintf(out, 500, m->par.tolerance > 0
-                 ? "step %d: no equilibrium, change %.2g, expected %.2g; more steps, or a larger tolerance, may help"
+                 ? "step %d: no equilibrium, change %.2g, expected %.2g; more steps, or a larger "
+                   "tolerance, may help"
                  : "step %d: a bolt carries more than its strength; more steps may help",
                  m->info.step, m->info.change, m->par.tolerance);
     else

@@ -65,6 +65,7 @@ static void warn_of_loads(const model *p, const char *path)
 typedef struct {
     bbm_box box;
     double size, gap;           /* m            size: root of its area                          */
+    double mass, lift;          /* kg, N/m      lift: by which its water presses more if it sinks */
     int    elements, pieces, free, held, thrown, edge, near;        /* free, held: its nodes;   */
 } body;                         /*              edge: the first; near: the block at the gap     */
 
@@ -83,6 +84,8 @@ typedef struct {
 static void measure(bodies *s)
 {
     const bbm_model *m = s->p->m;
+    const bbm_beyond *y = m->beyond;
+    const double *g = m->par.gravity;
 
     for (int b = 0; b < s->p->blocks; b++) {
         s->body[b] = (body){ .box = bbm_empty_box(b), .gap = INFINITY, .edge = -1,
@@ -93,9 +96,15 @@ static void measure(bodies *s)
         body *b = &s->body[m->element[e].block];
         b->size = hypot(b->size, sqrt(m->element[e].A0));
         b->elements++;
+        b->mass += bbm_mass_per_area(&m->element[e]) * m->element[e].A0;
         b->pieces += s->piece[e] == e;
         for (int k = m->element[e].first; k < m->element[e].first + m->element[e].n; k++)
             bbm_widen_box(&b->box, m->vertex[k].x, m->vertex[k].y, 0);
+    }
+    for (const bbm_edge_load *w = y->edge_load; w < y->edge_load + y->edge_loads; w++) {
+        const bbm_element *e = &m->element[m->vertex[w->a].element];
+        const double x = m->vertex[bbm_next_vertex(e, w->a)].x - m->vertex[w->a].x;
+        s->body[e->block].lift += w->density * hypot(g[0], g[1]) * fmax(0, x);
     }
     for (int n = 0; n < m->nodes; n++)
         *(m->node[n].held ? &s->body[s->p->node_block[n]].held
@@ -114,6 +123,21 @@ static void measure(bodies *s)
         s->next[e] = *first;
         *first = e;
     }
+}
+
+/* What floats lies on its water as on a spring. Water presses by the velocity at the start of a
+ * step, and makes energy in steps above 2 sqrt(mass/lift). Said of the first such block. */
+static void warn_of_water(const bodies *s, const char *path)
+{
+    const double dt = s->p->m->par.dt;
+    int b = 0;
+
+    while (b < s->p->blocks && !(s->body[b].lift * dt * dt > 4 * s->body[b].mass))
+        b++;
+    if (s->p->dynamic && b < s->p->blocks)
+        warn(path, "a step of %g s is long for water: if block '%.60s' floats it makes energy; "
+                   "less than %.2g s helps", dt, s->p->block[b],
+             2 * sqrt(s->body[b].mass / s->body[b].lift));
 }
 
 /* A block whose elements nothing bonds together may be meant, but is said: with an element of
@@ -270,6 +294,7 @@ static void warn_of_bodies(const model *p, const char *path)
         if (p->slippery && (p->dynamic || s.met))
             warn(path, "no friction between blocks: `contact friction DEGREES` gives it");
         warn_of_times(&s, path);
+        warn_of_water(&s, path);
     }
     free(s.body);
     free(s.box);
@@ -359,30 +384,6 @@ static void warn_of_shaking(const model *p, const char *path)
                    "not feel all of it", p->shakings, from, to, p->shake, dt, end);
 }
 
-/* What floats lies on its water as on a spring of density g width. Water presses by the velocity at
- * the start of a step, so that a long step makes energy: above 2 sqrt(m/k). */
-static void warn_of_water(const model *p, const char *path)
-{
-    const bbm_model *m = p->m;
-    const double dt = m->par.dt, g = hypot(m->par.gravity[0], m->par.gravity[1]);
-    double (*of)[2] = calloc((size_t)p->blocks + 1, sizeof *of);                /* N/m, kg */
-    int said = !p->dynamic;
-
-    for (int e = 0; e < m->elements && of; e++)
-        of[m->element[e].block][1] += bbm_mass_per_area(&m->element[e]) * m->element[e].A;
-    for (int l = 0; l < m->beyond->edge_loads && of; l++) {
-        const bbm_edge_load *w = &m->beyond->edge_load[l];
-        const bbm_element *e = &m->element[m->vertex[w->a].element];
-        const double x = m->vertex[bbm_next_vertex(e, w->a)].x - m->vertex[w->a].x;
-        of[e->block][0] += w->density * g * fmax(0, x);
-    }
-    for (int b = 0; b < p->blocks && of && !said; b++)
-        if ((said = of[b][0] * dt * dt > 4 * of[b][1]))
-            warn(path, "a step of %g s is long for water: if block '%.60s' floats it makes energy; "
-                       "less than %.2g s helps", dt, p->block[b], 2 * sqrt(of[b][1] / of[b][0]));
-    free(of);
-}
-
 /* A side of few grid points that touches a longer one of many: in dynamics the longer one has no
  * contacts of its own. */
 static void warn_of_coarse_sides(const model *p, const char *path)
@@ -413,7 +414,6 @@ void warn_before(const model *p, const char *path)
     warn_of_bodies(p, path);
     warn_of_cells(p, path);
     warn_of_shaking(p, path);
-    warn_of_water(p, path);
 }
 
 void warn_in_step(const run *r, const char *path, int *said)

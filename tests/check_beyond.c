@@ -532,6 +532,31 @@ START_TEST(what_hits_a_corner_of_two_triangles_does_so_in_a_mirror_too)
 }
 END_TEST
 
+/* Triangles lie on triangles, whose sides end elsewhere: each contact presses up to five elements. Were the bonds of these
+ * left out of Kc there, so would be what the contact has between them, and it would take 32 iterations for 12. */
+START_TEST(triangles_in_contact_take_few_iterations)
+{
+    grid g[2] = { { .x = -2, .y = -2, .lx = 4, .ly = 2, .nx = 7, .ny = 4, .triangles = 1 },
+                  { .x = -1.5, .lx = 3, .ly = 2, .nx = 8, .ny = 4, .triangles = 1 } };
+    bbm_model *m = new_blocks();
+
+    m->beyond->bonding = BBM_MOMENT;
+    m->par.faces = 1;
+    m->par.alpha = 1000;
+    m->par.pcg.tolerance = 1e-10;
+    for (int k = 0; k < 2; k++)
+        add_grid(m, &g[k], k);
+    for (int n = 0; n <= 7; n++)
+        bbm_fix_node(m, node_at(&g[0], n, 0), BBM_XY, 0, 0);
+    set_springs(m, 5e15, 2e15);
+    prepare(m);
+    run_steps(m, 3);
+    ck_assert_int_ge(m->info.contacts, 5);
+    ck_assert_int_le(m->info.pcg.iterations, 18);
+    release(m);
+}
+END_TEST
+
 /* An equal block of nx x ny quadrilaterals lies on one that is held below, nodes on nodes: what is
  * symmetric is so in the lower block, too, and of two columns each carries its own. */
 static const struct { int nx, ny, is_static; double friction; } PILES[] = {
@@ -667,8 +692,9 @@ END_TEST
 /* ---------------------------------------------------------------------------------------- water */
 
 /* A square, turned, with its centre in any depth: the level crosses none, two or four of its sides.
- * In dynamics it is pressed where it is in the middle of the step. Each strip of a side is pressed by what the water weighs above its middle; where the level crosses a
- * strip that is wrong by some 1e-8 of the force. */
+ * In dynamics it is pressed where it is in the middle of the step. Each strip of a side is pressed by
+ * what the water weighs above its middle; where the level crosses a strip that is wrong by some 1e-8
+ * of the force. */
 START_TEST(water_presses_each_strip_of_a_side_by_its_depth)
 {
     enum { STRIPS = 10000 };
@@ -723,6 +749,7 @@ Suite *beyond_suite(void)
         { a_contact_between_two_quadrilaterals_presses_both_alike, 2 },
         { a_contact_below_both_kinds_presses_all_their_elements_alike, 2 },
         { what_hits_a_corner_of_two_triangles_does_so_in_a_mirror_too, 1 },
+        { triangles_in_contact_take_few_iterations, 1 },
         { a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides, COUNT(PILES) },
         { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 2 });
     add_case(s, "water",
