@@ -95,7 +95,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
         return BBM_PASS_GIVE_UP;
     if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)
         return next;
-    if (bbm_middle_is_off(m)) {
+    if (bbm_settle_loads(m) > 0 || bbm_middle_is_off(m)) {
         bbm_set_middle(m);
         bbm_list_gaps(m);
         return BBM_PASS_AGAIN;

@@ -29,6 +29,7 @@ typedef struct {                /* energy.c: of an element, and of the component
     double springs[2];          /* J        what springs store that are counted at the element: */
                                 /*          at the start, and in the solution in hand           */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
+    double pressed;             /* N m      sum f.X of what presses on element i, see stability.c */
     double held;                /* J        work of the supports of element i, in a part of one */
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
@@ -54,7 +55,8 @@ typedef struct {                /* surroundings.c: on the edge that starts at th
     int    a;
     double f[2], pressure;      /* N/m      pressure: against the outward normal, turns with it */
     double level, density;      /* m, kg/m^2 of water, which presses besides; 0: there is none  */
-    double q[BBM_GAUSS][2];     /* N/m      all of it at the Gauss points, of the step          */
+    double N[6];                /*          what presses in the step, in F                      */
+    double sinks[6][6], turns[6][6];        /* of its stiffness what is in K, and what is not   */
 } bbm_edge_load;
 
 typedef struct {                /* crack.c: of a bond                                           */
@@ -223,6 +225,7 @@ bbm_pass   bbm_break_joints(bbm_model *m);
 bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pressure);
 bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density);
 void       bbm_gather_edge_loads(bbm_model *m);
+double     bbm_settle_loads(bbm_model *m);
 void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
 void       bbm_place_supports(bbm_model *m);
 void       bbm_find_reactions(bbm_model *m);

@@ -9,14 +9,14 @@
  *     K_ii[r0][r0] += t A (sx + sy),
  *
  * negative in compression. With it a column buckles at Euler's load, and a block tips over a corner
- * as its weight does at the height of its centre. Left out is what is as small as stress/E, that
- * the normal of a contact turns with its edge, and that pressure turns with what it presses. The
- * answer is stable if K is positive definite with this stiffness: conjugate gradients come upon a
- * direction in which it is not.
+ * as its weight does at the height of its centre. Pressure and water turn with their edge, which is
+ * a stiffness of its own, see surroundings.c. Left out is what is as small as stress/E, and that
+ * the normal of a contact turns with its edge. The answer is stable if K is positive definite with
+ * all this: conjugate gradients come upon a direction in which it is not.
  *
- * What tension has of it is in the K of every static step. Without it a taut string turns too far
- * in one step and back by more in the next, and each turn r lengthens an element by the share
- * r^2/2, until no tension is left.
+ * What tension has of it is in the K of every static step, but for sum f.X of what presses. Without
+ * it a taut string turns too far in one step and back by more in the next, and each turn r
+ * lengthens an element by the share r^2/2, until no tension is left.
  */
 #include <string.h>
 
@@ -35,7 +35,9 @@ static double turning_stiffness(const bbm_element *e)
 /* What is in K of it: tension, in statics. */
 double bbm_tension_stiffness(const bbm_model *m, int i)
 {
-    return bbm_is_static(m) ? fmax(0, turning_stiffness(&m->element[i])) : 0;
+    const double turning = turning_stiffness(&m->element[i]) - m->beyond->account[i].pressed;
+
+    return bbm_is_static(m) ? fmax(0, turning) : 0;
 }
 
 /* Whether the static answer that the model has come to is stable. The model stays as it is, but for
@@ -53,16 +55,24 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
         if (m->scratch->contact[k].state == BBM_SLIDE)
             m->scratch->contact[k].state = BBM_LOCK;
     if (!status) {
+        memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+        bbm_set_middle(m);
         bbm_assemble(m);
         m->hook->before_solution(m);
         memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
         status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
     }
+    for (int l = 0; l < m->beyond->edge_loads && !status; l++) {
+        bbm_edge_load *load = &m->beyond->edge_load[l];
+        const int i = m->vertex[load->a].element;
+        bbm_matrix_add(m->K, i, i, load->turns);
+    }
     for (int i = 0; i < m->elements && !status; i++) {
         const double A = m->element[i].A;
         for (int a = 0; a < 3; a++)
             m->F[6 * i + a] = A * (a < 2 ? 1 : sqrt(A)) * (1 + (37 * i + 11 * a) % 19);
-        m->K->D[m->K->place[i]][2][2] += fmin(0, turning_stiffness(&m->element[i]));
+        m->K->D[m->K->place[i]][2][2] += turning_stiffness(&m->element[i])
+                                       - bbm_tension_stiffness(m, i);
     }
     pcg.tolerance = NUDGED;
     if (!status)

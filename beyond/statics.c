@@ -48,6 +48,19 @@ static void add_hold(bbm_gap g, double X, double Y, double G[3][3])
     }
 }
 
+/* G += t t^T, where the level of water crosses an edge: what floats does not sink there. */
+static void add_floating(const bbm_model *m, const bbm_edge_load *load, double x, double G[3][3])
+{
+    const bbm_vertex *a = &m->vertex[load->a];
+    const bbm_vertex *b = &m->vertex[bbm_next_vertex(&m->element[a->element], load->a)];
+    const double depth[2] = { load->level - a->y, load->level - b->y };
+    const double s = depth[0] == depth[1] ? 0 : depth[0] / (depth[0] - depth[1]);
+    const double t[3] = { 0, 1, a->x + s * (b->x - a->x) - x };
+
+    for (int k = 0; k < 9 && load->density > 0 && depth[0] * depth[1] <= 0; k++)
+        G[k / 3][k % 3] += t[k / 3] * t[k % 3];
+}
+
 /* Whether a positive semi-definite 3x3 matrix is regular, by its pivots. */
 static int is_regular(double G[3][3])
 {
@@ -69,8 +82,8 @@ int bbm_is_held(const bbm_model *m, const int body[], int i)
     return is_regular(G);
 }
 
-/* Statics needs bodies that the wall holds, by themselves or through contacts; a component of K is
- * a body. That a contact holds in each direction is too kind to it: a block on a slope passes, and
+/* Statics needs bodies that the wall holds, by themselves or through contacts, or on which they
+ * float; a component of K is a body. That a contact holds in each direction is too kind to it: a block on a slope passes, and
  * fails later. */
 bbm_status bbm_check_supports(bbm_model *m)
 {
@@ -87,6 +100,11 @@ bbm_status bbm_check_supports(bbm_model *m)
         const int o = of[body[g->i]].first;
         if (g->j < 0)
             add_hold(*g, e[g->i].x - e[o].x, e[g->i].y - e[o].y, of[body[g->i]].G);
+    }
+    for (int l = 0; l < m->beyond->edge_loads; l++) {
+        const bbm_edge_load *load = &m->beyond->edge_load[l];
+        const int i = m->vertex[load->a].element, o = of[body[i]].first;
+        add_floating(m, load, e[o].x, of[body[i]].G);
     }
     for (int i = m->elements - 1; i >= 0 && bbm_is_static(m); i--)
         if (of[body[i]].first == i && !is_regular(of[body[i]].G))

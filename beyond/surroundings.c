@@ -6,7 +6,8 @@
  * and a pressure p pushes that way, p (-(b - a)_y, (b - a)_x)/|b - a|, with the edge in the middle
  * of the step: its work is then p times the area that the edge sweeps. Still water up to the level
  * y = Y presses with density times gravity's size times Y - y, above the level with nothing. This y
- * is where the velocity would bring the edge by then: what is at rest feels the water of its depth.
+ * is that in the middle of the step, too, or in statics at its end. So water has a stiffness for
+ * what floats.
  *
  * A fixed point is held to a wall point by a stiff spring and its multiplier: what these carry at
  * the end of the step is the force of the support, the reaction. In equilibrium the reactions
@@ -26,58 +27,70 @@
 
 #include "beyond.h"
 
+/* SETTLED [-]  of the force by which a component is solved, see AGREE of open_close.c */
+#define SETTLED 1e-9
+
 /* ----------------------------------------------------------------------------- loads on an edge */
 
-/* p = c[0] + c[1] s for the depths below the level (negative: above it) at both ends. Along an edge
- * displacements are linear in the way s, so that force and moment are all that an element feels: an
- * edge that the level crosses gets the p that has the same two,
- *     int p ds = c0 + c1/2,  int p s ds = c0/2 + c1/3. */
-static void press(double depth_a, double depth_b, double c[2])
-{
-    const double most = fmax(depth_a, depth_b), least = fmin(depth_a, depth_b);
-
-    c[0] = depth_a;
-    c[1] = depth_b - depth_a;
-    if (least >= 0)
-        return;
-    const double wet = most > 0 ? most / (most - least) : 0;    /* share of the edge */
-    const double force = fmax(most, 0) * wet / 2;
-    const double s = depth_a > depth_b ? wet / 3 : 1 - wet / 3; /* where that acts */
-    c[1] = 12 * force * s - 6 * force;
-    c[0] = force - c[1] / 2;
-}
-
-/* What lies on the edge in the step, which adds to F of its element, Eq. (42). */
-static void add_load(const bbm_model *m, bbm_edge_load *load, double F[6])
+/* What presses in a direction (0: x, 1: y) on an edge whose element moves by D in the step, N on the
+ * right of (5), and two parts of its stiffness -dN/dD. With the depth level - y(s) along the edge,
+ * its length l and its inward normal n,
+ *
+ *     N_r = int (pressure + weight depth) l n_r T_r ds over what is under water.
+ *
+ * An edge that sinks meets more pressure, which is `sinks`. What this does sideways, and that all
+ * pressure turns with its edge, is `turns`: the symmetric part, for all around a body there is no
+ * other. In statics both begin with the next step, when the forces have their new arms, too. */
+static void press(const bbm_model *m, const bbm_edge_load *load, int r, const double D[6],
+                  double N[6], double sinks[6][6], double turns[6][6])
 {
     const bbm_vertex *a = &m->vertex[load->a];
     const bbm_element *e = &m->element[a->element];
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
     const double weight = load->density * hypot(m->par.gravity[0], m->par.gravity[1]);
-    const double half = bbm_is_static(m) ? 0 : m->h / 2;
-    double T[2][6], am[2], bm[2], va[2], vb[2], c[2];
+    const double end = bbm_is_static(m) ? r : 0.5;
+    double Ta[2][6], Tb[2][6], am[2], bm[2], from = 0, to = 1;
+    double depth[2] = { load->level - a->y, load->level - b->y };
 
-    bbm_step_point(e, a->x, a->y, T, am);
-    bbm_step_point(e, b->x, b->y, T, bm);
-    bbm_displacement(e, e->V, a->x, a->y, va);
-    bbm_displacement(e, e->V, b->x, b->y, vb);
-    press(load->level - a->y - half * va[1], load->level - b->y - half * vb[1], c);
-    for (int g = 0; g < BBM_GAUSS; g++) {
-        double s, share;
-        bbm_gauss_point(g, &s, &share);
-        const double p = (load->pressure + weight * (c[0] + c[1] * s))
-                         / hypot(b->x - a->x, b->y - a->y);
-        load->q[g][0] = load->f[0] - p * (bm[1] - am[1]);
-        load->q[g][1] = load->f[1] + p * (bm[0] - am[0]);
+    bbm_step_point(e, a->x, a->y, Ta, am);
+    bbm_step_point(e, b->x, b->y, Tb, bm);
+    for (int k = 0; k < 6; k++) {
+        depth[0] -= end * Ta[1][k] * D[k];
+        depth[1] -= end * Tb[1][k] * D[k];
     }
-    bbm_varying_load_submatrix(e, a, b, (const double (*)[2])load->q, F);
+    const double n = r ? bm[0] - am[0] : am[1] - bm[1], at = depth[0] / (depth[0] - depth[1]);
+    if (weight > 0 && depth[0] < 0)
+        from = depth[1] > 0 ? at : 1;
+    if (weight > 0 && depth[1] < 0)
+        to = depth[0] > 0 ? at : from;
+    for (int g = 0; g < BBM_GAUSS; g++) {
+        double s, share, T[2][6];
+        bbm_gauss_point(g, &s, &share);
+        s = from + (to - from) * s;
+        share *= to - from;
+        const double p = load->pressure + weight * ((1 - s) * depth[0] + s * depth[1]);
+        for (int k = 0; k < 6; k++) {
+            T[0][k] = (1 - s) * Ta[0][k] + s * Tb[0][k];
+            T[1][k] = (1 - s) * Ta[1][k] + s * Tb[1][k];
+            N[k] += share * p * n * T[r][k];
+        }
+        for (int k = 0; k < 36; k++) {
+            const int i = k / 6, j = k % 6;
+            const double sideways = weight * n * T[0][i] * T[1][j];
+            const double turning = p * ((Tb[1][j] - Ta[1][j]) * T[0][i]
+                                        - (Tb[0][j] - Ta[0][j]) * T[1][i]);
+            const double half = share * (r ? turning : sideways) / 2;
+            sinks[i][j] += r * end * share * weight * n * T[1][i] * T[1][j];
+            turns[i][j] += half;
+            turns[j][i] += half;
+        }
+    }
 }
 
 /* Adds a load on a boundary edge of the prepared model. */
 static bbm_status add(bbm_model *m, int edge, bbm_edge_load load)
 {
     bbm_beyond *b = m->beyond;
-    double F[6] = { 0 };
 
     if (m->status)
         return m->status;
@@ -86,7 +99,6 @@ static bbm_status add(bbm_model *m, int edge, bbm_edge_load load)
     if (!isfinite(load.f[0] + load.f[1] + load.pressure + load.level * load.density))
         return m->status = bbm_fail(m, BBM_NOT_FINITE, "the load of edge %d", edge);
     load.a = m->edge[edge].a;
-    add_load(m, &load, F);
     return m->status = bbm_append(m, (void **)&b->edge_load, &b->edge_loads, sizeof load, &load,
                                   NULL);
 }
@@ -103,16 +115,55 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
     return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .density = density });
 }
 
-/* Adds them to the loads of the step, and to K what forces get by turning under tension, see
- * stability.c. */
+/* Adds them to the loads of the step; to K what water adds, for the D of bbm_set_middle, and what
+ * forces get by turning under tension, see stability.c. */
 void bbm_gather_edge_loads(bbm_model *m)
 {
-    for (int l = 0; l < m->beyond->edge_loads; l++) {
-        bbm_edge_load *load = &m->beyond->edge_load[l];
-        add_load(m, load, &m->load[6 * m->vertex[load->a].element]);
+    bbm_beyond *b = m->beyond;
+
+    for (bbm_edge_load *load = b->edge_load; load < b->edge_load + b->edge_loads; load++) {
+        const bbm_vertex *v = &m->vertex[load->a];
+        const bbm_element *e = &m->element[v->element];
+        double *F = &m->load[6 * v->element], *N = load->N, (*K)[6] = load->sinks;
+        memset(N, 0, sizeof load->N);
+        memset(K, 0, sizeof load->sinks);
+        memset(load->turns, 0, sizeof load->turns);
+        bbm_constant_load_submatrix(e, v, &m->vertex[bbm_next_vertex(e, load->a)], load->f, F);
+        for (int r = 0; r < 2; r++)
+            press(m, load, r, b->middle[v->element].D, N, K, load->turns);
+        for (int k = 0; k < 36; k++)
+            N[k / 6] += K[k / 6][k % 6] * b->middle[v->element].D[k % 6];
+        for (int k = 0; k < 6; k++)
+            F[k] += N[k];
+        bbm_matrix_add(m->K, v->element, v->element, K);
     }
     for (int i = 0; i < m->elements; i++)
         m->K->D[m->K->place[i]][2][2] += bbm_tension_stiffness(m, i);
+}
+
+/* Puts what presses at the solution in the place of what was taken for it among the loads. Returns
+ * by how much more of it the two differ than is left, N: the solver is not more exact. */
+double bbm_settle_loads(bbm_model *m)
+{
+    double most = 0;
+
+    for (int l = 0; l < m->beyond->edge_loads; l++) {
+        bbm_edge_load *load = &m->beyond->edge_load[l];
+        const int i = m->vertex[load->a].element;
+        double N[6] = { 0 }, K[6][6] = { { 0 } }, off[6];
+        for (int r = 0; r < 2; r++)
+            press(m, load, r, &m->D[6 * i], N, K, K);
+        for (int k = 0; k < 6; k++) {
+            off[k] = N[k] - load->N[k];
+            m->load[6 * i + k] += off[k];
+            load->N[k] = N[k];
+        }
+        for (int k = 0; k < 36; k++)
+            off[k / 6] += load->sinks[k / 6][k % 6] * m->D[6 * i + k % 6];
+        most = fmax(most, hypot(off[0], off[1])
+                          - SETTLED * m->K->forces[bbm_component_of(m->K, i)]);
+    }
+    return most;
 }
 
 /* ------------------------------------------------------------------------------------- supports */
@@ -187,10 +238,16 @@ void bbm_find_reactions(bbm_model *m)
     }
 }
 
-/* The step, or a part of it, is done, and what is left of the way is left. */
+/* The step, or a part of it, is done, and what is left of the way is left. What presses did so with
+ * the stress that elements have now. */
 void bbm_stop_supports(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;
+
+    for (int i = 0; i < m->elements; i++)
+        b->account[i].pressed = 0;
+    for (const bbm_edge_load *l = b->edge_load; l < b->edge_load + b->edge_loads; l++)
+        b->account[m->vertex[l->a].element].pressed += l->N[3] + l->N[4];
 
     for (int n = 0; n < m->nodes; n++)
         for (int a = 0; a < 2; a++) {

@@ -10,8 +10,7 @@ int scene_edge_load(const bbm_model *m, int k, scene_line *l)
     const bbm_edge_load *e = &m->beyond->edge_load[k];
     const double *g = m->par.gravity;
     *l = (scene_line){ .a = e->a, .b = bbm_next_vertex(&m->element[m->vertex[e->a].element], e->a),
-                       .loads = e->density > 0 ? BBM_GAUSS : 1,
-                       .q = e->density > 0 ? e->q : &e->f, .pressure = e->pressure,
+                       .loads = 1, .q = &e->f, .pressure = e->pressure,
                        .level = e->level + m->origin[1], .weight = e->density * hypot(g[0], g[1]) };
     return 1;
 }

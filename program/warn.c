@@ -65,7 +65,6 @@ static void warn_of_loads(const model *p, const char *path)
 typedef struct {
     bbm_box box;
     double size, gap;           /* m            size: root of its area                          */
-    double mass, lift;          /* kg, N/m      lift: by which its water presses more if it sinks */
     int    elements, pieces, free, held, thrown, edge, near;        /* free, held: its nodes;   */
 } body;                         /*              edge: the first; near: the block at the gap     */
 
@@ -84,8 +83,6 @@ typedef struct {
 static void measure(bodies *s)
 {
     const bbm_model *m = s->p->m;
-    const bbm_beyond *y = m->beyond;
-    const double *g = m->par.gravity;
 
     for (int b = 0; b < s->p->blocks; b++) {
         s->body[b] = (body){ .box = bbm_empty_box(b), .gap = INFINITY, .edge = -1,
@@ -96,15 +93,9 @@ static void measure(bodies *s)
         body *b = &s->body[m->element[e].block];
         b->size = hypot(b->size, sqrt(m->element[e].A0));
         b->elements++;
-        b->mass += bbm_mass_per_area(&m->element[e]) * m->element[e].A0;
         b->pieces += s->piece[e] == e;
         for (int k = m->element[e].first; k < m->element[e].first + m->element[e].n; k++)
             bbm_widen_box(&b->box, m->vertex[k].x, m->vertex[k].y, 0);
-    }
-    for (const bbm_edge_load *w = y->edge_load; w < y->edge_load + y->edge_loads; w++) {
-        const bbm_element *e = &m->element[m->vertex[w->a].element];
-        const double x = m->vertex[bbm_next_vertex(e, w->a)].x - m->vertex[w->a].x;
-        s->body[e->block].lift += w->density * hypot(g[0], g[1]) * fmax(0, x);
     }
     for (int n = 0; n < m->nodes; n++)
         *(m->node[n].held ? &s->body[s->p->node_block[n]].held
@@ -123,21 +114,6 @@ static void measure(bodies *s)
         s->next[e] = *first;
         *first = e;
     }
-}
-
-/* What floats lies on its water as on a spring. Water presses by the velocity at the start of a
- * step, and makes energy in steps above 2 sqrt(mass/lift). Said of the first such block. */
-static void warn_of_water(const bodies *s, const char *path)
-{
-    const double dt = s->p->m->par.dt;
-    int b = 0;
-
-    while (b < s->p->blocks && !(s->body[b].lift * dt * dt > 4 * s->body[b].mass))
-        b++;
-    if (s->p->dynamic && b < s->p->blocks)
-        warn(path, "a step of %g s is long for water: if block '%.60s' floats it makes energy; "
-                   "less than %.2g s helps", dt, s->p->block[b],
-             2 * sqrt(s->body[b].mass / s->body[b].lift));
 }
 
 /* A block whose elements nothing bonds together may be meant, but is said: with an element of
@@ -294,7 +270,6 @@ static void warn_of_bodies(const model *p, const char *path)
         if (p->slippery && (p->dynamic || s.met))
             warn(path, "no friction between blocks: `contact friction DEGREES` gives it");
         warn_of_times(&s, path);
-        warn_of_water(&s, path);
     }
     free(s.body);
     free(s.box);
