@@ -89,6 +89,13 @@ void bbm_displacement(const bbm_element *e, const double D[6], double x, double 
 
 static double shear_modulus(const bbm_material *m) { return m->E / (2 * (1 + m->nu)); }
 
+/* G of (4) and (29). Deviation: G/(1 - 2 nu) in plane strain, which the paper does not have. So much
+ * stiffer is what is strained along both axes, and springs have to be stiff beside that. */
+static double bond_modulus(const bbm_element *e)
+{
+    return shear_modulus(&e->material) / (1 - 2 * fmax(0, e->out_of_plane));
+}
+
 /* Stiffness [N/m] of the bonding springs between two elements, Eq. (4),
  *     k = alpha G t max(A)/min(A),
  * with G and t the means of the two. The areas are those at the start: k stays constant. The
@@ -96,7 +103,7 @@ static double shear_modulus(const bbm_material *m) { return m->E / (2 * (1 + m->
  * has the dimension of G t, is symmetric, and is alpha G t on a uniform mesh. */
 double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_element *j)
 {
-    const double G = (shear_modulus(&i->material) + shear_modulus(&j->material)) / 2;
+    const double G = (bond_modulus(i) + bond_modulus(j)) / 2;
     const double t = (i->material.thickness + j->material.thickness) / 2;
 
     return alpha * G * t * fmax(i->A0, j->A0) / fmin(i->A0, j->A0);
@@ -253,7 +260,7 @@ void bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s)
  * element of the same material and area, which is our choice. */
 double bbm_fixed_stiffness(double alpha, const bbm_element *e)
 {
-    return alpha * shear_modulus(&e->material) * e->material.thickness;
+    return alpha * bond_modulus(e) * e->material.thickness;
 }
 
 /* A spring k between the vertex P and the wall point W,

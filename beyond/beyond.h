@@ -226,11 +226,11 @@ bbm_status bbm_load_edge(bbm_model *m, int edge, double fx, double fy, double pr
 bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density);
 void       bbm_gather_edge_loads(bbm_model *m);
 double     bbm_settle_loads(bbm_model *m);
-void       bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
+bbm_status bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
 void       bbm_place_supports(bbm_model *m);
 void       bbm_find_reactions(bbm_model *m);
 void       bbm_stop_supports(bbm_model *m);
-void       bbm_set_plane_strain(bbm_model *m);
+void       bbm_set_plane_strain(bbm_model *m);          /* of the elements that are there       */
 
 /* impact.c */
 void       bbm_stiffen(bbm_model *m);                   /* K of a step with a hit               */

@@ -32,6 +32,11 @@ bbm_status bbm_check_settings(bbm_model *m)
     const bbm_range range[] = {
         { "cohesion", b->cohesion, 0, most, "0 or more" },
         { "tension", b->tension, 0, most, "0 or more" },
+        { "bond_tension", b->bond_tension, 0, most, "0 or more" },
+        { "bond_cohesion", b->bond_cohesion, 0, most, "0 or more" },
+        { "bond_friction", b->bond_friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
+        { "bond_energy", b->bond_energy, 0, most, "0 or more" },
+        { "reach", b->reach, 0, INFINITY, "0 or more" },
         { "multiplier_rounds", b->multiplier_rounds, 0, most, "0 or more" },
         { "restitution", b->restitution, -1, 1, "0 to 1, or -1 for none" },
         { "shake[0]", b->shake[0], -most, most, "a finite number" },

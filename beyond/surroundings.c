@@ -169,8 +169,11 @@ double bbm_settle_loads(bbm_model *m)
 /* ------------------------------------------------------------------------------------- supports */
 
 /* Displaces the wall point of a node that is held, by the end of the next step. */
-void bbm_move_support(bbm_model *m, int node, double u, double v)
+bbm_status bbm_move_support(bbm_model *m, int node, double u, double v)
 {
+    if (!m->is_prepared || node < 0 || node >= m->nodes)
+        return bbm_fail(m, BBM_BAD_INDEX, "moved support %d of %d of a prepared model", node,
+                        m->nodes);
     bbm_support *s = &m->beyond->support[node];
     const double to[2] = { u, v };
 
@@ -178,6 +181,7 @@ void bbm_move_support(bbm_model *m, int node, double u, double v)
         s->moved[a] += to[a] - (s->moved[a] != 0 ? s->to[a] : m->node[node].wall[a]);
         s->to[a] = m->node[node].wall[a] = to[a];
     }
+    return BBM_OK;
 }
 
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their

@@ -24,8 +24,8 @@ enum { FIELD_ROWS = 16 };
 extern const field field_table[];       /* [FIELD_ROWS], and one without a name                 */
 
 /* Whether a stage has removed the block of vertex v, by the mark that stage.c gives its elements.
- * No other one has it: szz is at most half of sx + sy. */
-#define FIELD_GONE 1
+ * No other one has it: szz is more than -1 times sx + sy. */
+#define FIELD_GONE (-1)
 static inline int field_is_gone(const bbm_model *m, int v)
 {
     return m->element[m->vertex[v].element].out_of_plane == FIELD_GONE;

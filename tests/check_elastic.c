@@ -506,6 +506,34 @@ START_TEST(bonded_triangles_tend_to_the_constant_strain_finite_element_as_one_ov
 }
 END_TEST
 
+/* Strained alike along both axes, ex = ey = e, a body in plane strain has s = E e/((1 + nu)(1 - 2 nu)),
+ * whatever nu, but for the share of the springs, some 3/alpha and more in flat cells. */
+START_TEST(what_can_hardly_be_compressed_is_stiff_in_plane_strain)
+{
+    static const double nus[] = { -0.5, 0, 0.3, 0.49, 0.4999 };
+    const double nu = nus[_i % 5], E = 1e9, e = 1e-6, h = _i < 5 ? 1 : 0.25;
+    bbm_model *m = new_model(&(bbm_material){ E, nu, 1, 1 });
+
+    for (int n = 0; n < 9; n++) {
+        bbm_add_node(m, n % 3, h * (n / 3), NULL);
+        if (n != 4)
+            bbm_fix_node(m, n, BBM_XY, e * (n % 3), e * h * (n / 3));
+    }
+    for (int k = 0; k < 4; k++) {
+        const int a = k % 2 + 3 * (k / 2), cell[6] = { a, a + 1, a + 4, a, a + 4, a + 3 };
+        bbm_add_element(m, 0, 0, 3, cell, NULL);
+        bbm_add_element(m, 0, 0, 3, cell + 3, NULL);
+    }
+    m->par.alpha = 1000;
+    ck_ok(bbm_prepare(m), m);
+    bbm_set_plane_strain(m);
+    ck_ok(bbm_run(m), m);
+    for (int i = 0; i < m->elements; i++)
+        for (int a = 0; a < 2; a++)
+            ck_relative(m->element[i].stress[a], E * e / (1 + nu) / (1 - 2 * nu), 0.01);
+}
+END_TEST
+
 /* Heat strains alpha dT = 1e-3 in all directions, as an initial strain: the stress that would hold
  * all three, -E alpha dT/(1 - 2 nu). Free in the plane, held out of it, there is szz = -E alpha dT
  * alone; ex = ey = (1 + nu) alpha dT. A stress q along x that goes leaves szz = -nu q, and ex = -
@@ -606,6 +634,7 @@ Suite *elastic_suite(void)
           COUNT(STRESSES) },
         { a_body_under_pressure_all_round_has_that_stress, COUNT(SHAPES) },
         { a_block_that_is_one_polygon_has_the_mean_stress_of_its_loads, 1 },
+        { what_can_hardly_be_compressed_is_stiff_in_plane_strain, 10 },
         { heat_in_plane_strain_leaves_its_stress_out_of_the_plane, 2 });
     add_case(s, "bars",
         { a_bonded_bar_stretches_by_its_strain_and_its_springs, 1 },

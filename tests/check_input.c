@@ -397,6 +397,8 @@ static const struct { size_t offset; double value; const char *name; } PARAMETER
     SETTING(cohesion, -1e-9), SETTING(cohesion, INFINITY), SETTING(cohesion, NAN),
     SETTING(tension, -1e-9), SETTING(tension, INFINITY), SETTING(tension, NAN),
     SETTING(shake[0], NAN), SETTING(shake[1], INFINITY), SETTING(shake_omega, -INFINITY),
+    SETTING(bond_tension, -1), SETTING(bond_tension, NAN), SETTING(bond_cohesion, NAN), SETTING(bond_friction, 90),
+    SETTING(bond_energy, -1e-9), SETTING(reach, -1e-9), SETTING(reach, NAN),
 };
 
 /* The unit square, held, loaded and prepared. */
@@ -488,6 +490,34 @@ START_TEST(a_step_needs_bbm_prepare_and_again_after_what_is_added)
         : bbm_add_line_load(m, 0, 1, 0, 1), m);
     ck_assert_int_eq(bbm_nodal_result(m, m->nodes - 1, -1, &r), BBM_BAD_INDEX);
     check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again");
+}
+END_TEST
+
+START_TEST(a_support_that_does_not_exist_does_not_move)
+{
+    bbm_model *m = unit_square(&SOLID);
+
+    check_error(m, bbm_move_support(m, 0, 1, 0), BBM_BAD_INDEX, "moved support 0 of 4 of a prepared model");
+    ck_ok(bbm_prepare(m), m);
+    check_error(m, bbm_move_support(m, 4, 1, 0), BBM_BAD_INDEX, "moved support 4");
+    check_error(m, bbm_move_support(m, -1, 1, 0), BBM_BAD_INDEX, "moved support -1");
+    ck_ok(bbm_move_support(m, 3, 1, 0), m);
+}
+END_TEST
+
+/* Nor does a load lie on an edge along which another element has come to lie. */
+START_TEST(a_loaded_edge_that_is_none_any_more_is_refused)
+{
+    bbm_model *m = unit_square(&SOLID);
+    int far[2];
+
+    ck_ok(bbm_prepare(m), m);
+    const int a = m->vertex[m->edge[1].a].node, b = m->vertex[m->edge[1].b].node;
+    ck_ok(bbm_load_edge(m, 1, 0, 0, 5), m);
+    bbm_add_node(m, 2 * m->node[b].x - m->node[a].x + 1, m->node[b].y, &far[0]);
+    bbm_add_node(m, 2, m->node[a].y, &far[1]);
+    ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ a, far[1], far[0], b }, NULL), m);
+    check_error(m, bbm_prepare(m), BBM_BAD_INDEX, "a loaded edge of element 0 is none any more");
 }
 END_TEST
 
@@ -613,6 +643,8 @@ Suite *input_suite(void)
     add_case(s, "bad parameters",
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { settings_outside_their_range_are_refused_by_name, COUNT(SETTINGS) },
+        { a_support_that_does_not_exist_does_not_move, 1 },
+        { a_loaded_edge_that_is_none_any_more_is_refused, 1 },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
         { a_step_needs_bbm_prepare_and_again_after_what_is_added, 3 });
