@@ -40,9 +40,11 @@
 
 /* SAME [-]  loads that differ less are the same: symmetry, and the rounding of a solution
  * ACROSS [-] the least s/s1: 55 degrees, which no usual mesh has
+ * WIDE [-]  of the size of an element: how far a crack that softens may open
  * BREAKS    the most passes of a step in which bonds break */
 #define SAME 1e-6
 #define ACROSS (1 / 3.0)
+#define WIDE 0.1
 enum { TEETH = 10, BROKEN = TEETH + 1, BREAKS = 1000 };
 
 /* ----------------------------------------------------------------------------- how bonds soften */
@@ -456,25 +458,25 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
 }
 
 /* What breaking bonds are not for: hits that have no stress; corners that come off inside another
- * piece where no contact begins unloaded, see bbm_rest_of; cracks wider than their elements. */
+ * piece where no contact begins unloaded, see bbm_rest_of; cracks so wide that corners which come
+ * off lie as deep as no contact may. */
 static bbm_status check_cracks(bbm_model *m)
 {
     const bbm_beyond *y = m->beyond;
     const char *why = y->restitution >= 0 ? "restitution: its jump has no stress that breaks any"
                     : y->rotation == BBM_LINEAR && isfinite(m->par.dt) ? "linear rotation: its "
                       "contacts throw out corners that come off inside another piece" : NULL;
-    double n[2];
 
     if (y->bond_tension > 0 && why)
         return bbm_fail(m, BBM_BAD_PARAMETER, "bonds that break and %s, expected one of the two",
                         why);
     for (const bbm_bond *b = m->bond; b < m->bond + m->bonds && y->bond_energy > 0; b++) {
         const double open = y->bond_energy / (y->bond_tension * taken(BROKEN));
-        const double side = find_normal(m, b, 0, n) / fmin(m->element[b->i].material.thickness,
-                                                           m->element[b->j].material.thickness);
-        if (open > side)
+        const double size = sqrt(fmin(m->element[b->i].A0, m->element[b->j].A0));
+        if (open > WIDE * size)
             return bbm_fail(m, BBM_BAD_PARAMETER, "a crack that softens is free at %.3g m, by "
-                            "energy/tension, expected at most the %.3g m of a bond", open, side);
+                            "energy/tension, expected at most a tenth of its elements, %.3g m",
+                            open, WIDE * size);
     }
     return BBM_OK;
 }

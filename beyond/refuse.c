@@ -122,23 +122,16 @@ bbm_status bbm_check_solution(bbm_model *m)
                                                  : "a smaller dt, velocity or load helps");
 }
 
-/* Whether the springs of all contacts keep their blocks apart. A corner may also be inside because
- * it was none while its bonds softened. */
+/* Whether the springs of all contacts keep their blocks apart. */
 bbm_status bbm_check_depth(bbm_model *m)
 {
     const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
-    const int softens = m->beyond->broken > 0 && m->beyond->bond_energy > 0;
 
-    for (; c < end; c++) {
-        const double deep = DEEP * bbm_size_at(m, c);
-        const int came_off = softens && !c->trial.carried && -c->trial.d_n0 > deep;
-        if (c->state != BBM_OPEN && c->hit < 2 && -c->d_n > deep)
-            return bbm_fail(m, came_off ? BBM_BAD_PARAMETER : BBM_TOO_SOFT, "step %d: a corner of "
-                            "block %d is %.2g m deep in block %d, a tenth of the smaller one; %s",
-                            m->info.step + 1, m->edge[c->corner].block, -c->d_n,
-                            m->edge[c->edge].block, came_off
-                            ? "its bonds had softened: less energy or more tension helps"
-                            : "larger stiffnesses p_n, p_s help");
-    }
+    for (; c < end; c++)
+        if (c->state != BBM_OPEN && c->hit < 2 && -c->d_n > DEEP * bbm_size_at(m, c))
+            return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in "
+                            "block %d, a tenth of the smaller one; larger stiffnesses p_n, p_s "
+                            "help", m->info.step + 1, m->edge[c->corner].block, -c->d_n,
+                            m->edge[c->edge].block);
     return BBM_OK;
 }

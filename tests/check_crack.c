@@ -319,29 +319,6 @@ START_TEST(more_passes_with_breaks_than_the_bound_are_said)
 }
 END_TEST
 
-/* A corner of soft bonds may open into another body before it is one. Stiffer contacts would not
- * help against that. */
-START_TEST(a_corner_that_softening_has_put_inside_is_no_fault_of_the_contacts)
-{
-    bbm_model *m = two_squares(0, 1);
-    bbm_contact c = { .corner = 0, .edge = 5, .state = BBM_LOCK, .d_n = -0.5, .trial.d_n0 = -0.5 };
-
-    ck_ok(bbm_prepare(m), m);
-    bbm_contact *const own = m->scratch->contact;
-    m->scratch->contact = &c;
-    m->scratch->contacts = 1;
-    ck_assert_int_eq(bbm_check_depth(m), BBM_TOO_SOFT);
-    m->beyond->broken = 1;
-    m->beyond->bond_energy = 20;
-    ck_assert_int_eq(bbm_check_depth(m), BBM_BAD_PARAMETER);
-    ck_assert_msg(strstr(bbm_message(m), "less energy or more tension"), "%s", bbm_message(m));
-    c.trial.carried = 1;
-    ck_assert_int_eq(bbm_check_depth(m), BBM_TOO_SOFT);
-    m->scratch->contact = own;
-    m->scratch->contacts = 0;
-}
-END_TEST
-
 /* ------------------------------------------------------------------------------------ fragments */
 
 enum { NX = 4, NY = 3, CELLS = NX * NY };
@@ -473,7 +450,7 @@ START_TEST(a_crack_is_said_to_be_between_its_sides)
     m->par.dt = 1e-4;
     m->par.velocity_factor = 1;
     m->beyond->bond_tension = m->beyond->bond_cohesion = 1;
-    m->beyond->bond_energy = 0.1;               /* it opens by some 0.1 m before it breaks */
+    m->beyond->bond_energy = 0.03;              /* it opens by some 0.08 m before it breaks */
     ck_ok(bbm_prepare(m), m);
     for (int i = 0; i < 2; i++)
         m->element[i].V[0] = 2 * i - 1;
@@ -538,8 +515,7 @@ Suite *crack_suite(void)
              { a_piece_that_no_support_holds_is_named, 1 },
              { halves_stand_if_supports_hold_them, 1 },
              { a_support_holds_both_sides_of_a_crack, 2 },
-             { more_passes_with_breaks_than_the_bound_are_said, 1 },
-             { a_corner_that_softening_has_put_inside_is_no_fault_of_the_contacts, 1 });
+             { more_passes_with_breaks_than_the_bound_are_said, 1 });
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
              { a_support_that_moves_two_fragments_works_on_each, 2 },
              { a_crack_is_said_to_be_between_its_sides, 1 },
