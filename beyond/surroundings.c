@@ -58,6 +58,15 @@ static void press(const bbm_model *m, const bbm_edge_load *load, int r, const do
         depth[0] -= end * Ta[1][k] * D[k];
         depth[1] -= end * Tb[1][k] * D[k];
     }
+    if (weight > 0 && e->middle) {
+        const double whole = 1 / cos(e->middle->D[2] / 2), middle = load->level - e->y - D[1] / 2;
+        depth[0] = middle + whole * (depth[0] - middle);
+        depth[1] = middle + whole * (depth[1] - middle);
+        for (int i = 0; i < 2; i++) {
+            am[i] *= whole;
+            bm[i] *= whole;
+        }
+    }
     const double n = r ? bm[0] - am[0] : am[1] - bm[1], at = depth[0] / (depth[0] - depth[1]);
     if (weight > 0 && depth[0] < 0)
         from = depth[1] > 0 ? at : 1;
@@ -160,8 +169,8 @@ double bbm_settle_loads(bbm_model *m)
         }
         for (int k = 0; k < 36; k++)
             off[k / 6] += load->sinks[k / 6][k % 6] * m->D[6 * i + k % 6];
-        most = fmax(most, hypot(off[0], off[1])
-                          - SETTLED * m->K->forces[bbm_component_of(m->K, i)]);
+        most = fmax(most, hypot(off[0], off[1]) - SETTLED * (hypot(N[0], N[1])
+                          + load->density * hypot(m->par.gravity[0], m->par.gravity[1]) * m->element[i].A));
     }
     return most;
 }
