@@ -259,6 +259,7 @@ struct bbm_hooks {
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */
+    const bbm_motion *(*ends)(const bbm_model *m);          /* by which points and stress do    */
     bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */
 };
 

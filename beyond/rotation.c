@@ -81,7 +81,7 @@ void bbm_turn_tensor(double s[3], double r)
     s[2] += half * n + t * c1;
 }
 
-/* Stress and strain rates turn with an element that has moved. The stress that the strain adds
+/* Stress and strain rates turn with an element that has moved, in statics the stress alone. The stress that the strain adds
  * belongs to the starting area, as in (10): (A stress0 + A0 E e)/A', A' the area at the end. The
  * change of its moments by strain, which no force of the step knows of, changes no energy: turning
  * and straining slow down or speed up together. */
@@ -91,6 +91,10 @@ static void turn(const bbm_element *start, bbm_element *e, const bbm_vertex vert
     double turning[6] = { 0, 0, e->V[2], e->V[3], e->V[4], e->V[5] };
     bbm_element end = *e;
 
+    if (!e->middle) {
+        bbm_turn_tensor(e->stress, e->D[2]);
+        return;
+    }
     const double before = bbm_inertia_form(start, turning);
     bbm_element_geometry(&end, vertex);
     for (int a = 0; a < 3; a++)
@@ -111,6 +115,15 @@ static const bbm_motion exact_motion = { find_point, move, turn };
 const bbm_motion *bbm_find_motion(const bbm_model *m)
 {
     return m->beyond->rotation == BBM_EXACT && !bbm_is_static(m) ? &exact_motion : NULL;
+}
+
+/* How elements end it: in statics by the exact rotation, too, or they would swell by r^2/2 in each
+ * step. One static step by itself is linear. */
+const bbm_motion *bbm_find_ends(const bbm_model *m)
+{
+    const int linear = bbm_is_static(m) && m->par.steps == 1 && m->info.step == 0;
+
+    return m->beyond->rotation == BBM_EXACT && !linear ? &exact_motion : NULL;
 }
 
 /* Takes the vectors of the step in the middle of D; not exact: at its start. */
