@@ -155,7 +155,6 @@ typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP 
 
 struct bbm_contact_scratch {
     /* --- the contacts of the step --- */
-    int is_listed;
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- open_close.c --- */

@@ -225,7 +225,7 @@ void bbm_foresee_step(bbm_model *m)
             m->D[6 * i + a] = bbm_is_static(m) ? e->D[a] : e->V[a] * h + fall[a];
         m->scratch->reach[i].travel = 0;
     }
-    m->scratch->is_listed = 0;
+    m->detections = 0;
 }
 
 /* How far the point of the boundary at v moves by D. */
@@ -751,6 +751,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 bbm_status bbm_list_pairs(bbm_model *m, int *same)
 {
     bbm_contact_scratch *w = m->scratch;
+    const int is_listed = m->detections++ > 0;
 
     find_directions(m);
     for (int e = 0; e < m->edges; e++)
@@ -763,7 +764,7 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
         drop_pairs(m, is_hidden);
         drop_pairs(m, is_duplicate);
     }
-    *same = !status && w->is_listed && w->contacts == w->pairs;
+    *same = !status && is_listed && w->contacts == w->pairs;
     for (int k = 0; k < w->pairs && *same; k++)
         *same = bbm_compare_pairs(&w->contact[k], &w->pair[k]) == 0;
     if (status || *same)
@@ -775,7 +776,6 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
     w->contacts = w->pairs;
     for (int k = 0; k < w->pairs; k++)
         continue_contact(m, w->pair[k], &list[k]);
-    w->is_listed = 1;
     return BBM_OK;
 }
 
@@ -948,5 +948,4 @@ void bbm_keep_contacts(bbm_model *m)
     m->contacts = w->contacts;
     w->contact = last;
     w->contacts = 0;
-    w->is_listed = 0;
 }

@@ -151,7 +151,6 @@ void bbm_assemble(bbm_model *m)
  * in statics the D of the last step. */
 bbm_status bbm_begin_step(bbm_model *m)
 {
-    m->detections = 0;
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
@@ -170,7 +169,7 @@ bbm_status bbm_detect(bbm_model *m, int *holds)
     *holds = 1;
     if (m->detections > 0 && !bbm_moved_too_far(m))
         return BBM_OK;
-    if (m->detections++ == BBM_MAX_DETECTIONS)
+    if (m->detections == BBM_MAX_DETECTIONS)
         return bbm_say_what_failed(m, BBM_OPEN_CLOSE);
     bbm_status status = bbm_detect_contacts(m, holds);
     bbm_count_time(m, BBM_DETECT, start);
