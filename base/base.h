@@ -292,8 +292,6 @@ static inline const bbm_vertex *bbm_end_of(const bbm_model *m, int edge)
     return &m->vertex[m->edge[edge].b];
 }
 
-static inline int bbm_element_of(const bbm_model *m, int edge) { return m->edge[edge].element; }
-
 /* The d_n from which the normal spring of a contact counts, so that it carries N at d_n. In the
  * paper 0; with a hook's motion a corner that closes inside starts unloaded. */
 static inline double bbm_rest_of(const bbm_model *m, double d_n, double N)
@@ -355,7 +353,6 @@ void       bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_no
 bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                      /* takes NULL                   */
 int        bbm_compare_pairs(const void *p, const void *q);     /* by their first two integers  */
-static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
 void       bbm_matrix_clear(bbm_matrix *K);
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji += B^T;
                                    what the pattern does not have fails here and in bbm_solve   */

@@ -264,7 +264,7 @@ int bbm_moved_too_far(const bbm_model *m)
     int too_far = 0;
 
     for (int e = 0; e < m->edges && !too_far; e++) {
-        const int i = bbm_element_of(m, e);
+        const int i = m->edge[e].element;
         too_far = way_of(m, e) > reach_of(m, e)->travel
                || fabs(m->D[6 * i + 2]) > m->scratch->reach[i].turn;
     }
@@ -512,7 +512,7 @@ static int is_near(const bbm_model *m, int corner, int e)
 static int is_hidden(const bbm_model *m, pair p)
 {
     const reach *of = m->scratch->reach;
-    const double turns = of[bbm_element_of(m, p.corner)].turn + of[bbm_element_of(m, p.edge)].turn;
+    const double turns = of[m->edge[p.corner].element].turn + of[m->edge[p.edge].element].turn;
     const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
     return !find_closed(m, p.corner, p.edge, ITSELF)

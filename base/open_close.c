@@ -46,8 +46,8 @@ static void find_elements(const bbm_model *m, bbm_contact *c)
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
 
-    c->element[0] = bbm_element_of(m, c->corner);
-    c->element[1] = bbm_element_of(m, c->edge);
+    c->element[0] = m->edge[c->corner].element;
+    c->element[1] = m->edge[c->edge].element;
     c->parts = 2;
     for (int k = 0; k < 3; k++)
         if (bbm_partner_of(m, P[k]) != P[k])
@@ -160,7 +160,7 @@ static void find_tolerances(const bbm_model *m)
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        const double force = fmax(fabs(c->N), m->K->forces[bbm_component_of(m->K, c->element[0])]);
+        const double force = fmax(fabs(c->N), m->K->forces[m->K->component[c->element[0]]]);
         const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
         const double digits = fmin(m->par.p_n * lever * DIGITS, ROUGH * force);
         c->trial.digits = bbm_is_static(m) ? 0 : digits;

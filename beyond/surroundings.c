@@ -161,7 +161,7 @@ double bbm_settle_loads(bbm_model *m)
         for (int k = 0; k < 36; k++)
             off[k / 6] += load->sinks[k / 6][k % 6] * m->D[6 * i + k % 6];
         most = fmax(most, hypot(off[0], off[1])
-                          - SETTLED * m->K->forces[bbm_component_of(m->K, i)]);
+                          - SETTLED * m->K->forces[m->K->component[i]]);
     }
     return most;
 }
