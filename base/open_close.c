@@ -119,21 +119,16 @@ static void vector_distances(const bbm_model *m, const bbm_contact *c, double an
  * an anchor at P3, and minus d_s from one at P2. A hook's motion says where the points are. */
 static void measure_open(const bbm_model *m, bbm_contact *c)
 {
-    double from_P3[2], from_P2[2];
+    double from[2][2];                                      /* P3 and P2 */
 
-    if (bbm_motion_of(m)) {
-        bbm_end_distances(m, c, 0, from_P3);
-        bbm_end_distances(m, c, 1, from_P2);
-    } else {
-        vector_distances(m, c, 0, from_P3);
-        vector_distances(m, c, 1, from_P2);
-    }
+    for (int end = 0; end < 2; end++)
+        (bbm_motion_of(m) ? bbm_end_distances : vector_distances)(m, c, end, from[end]);
     c->anchor = 0;
     c->trial.time_left = 1;
-    c->trial.past[0] = from_P3[1];
-    c->trial.past[1] = -from_P2[1];
-    c->d_n = from_P3[0];
-    c->d_s = from_P3[1];
+    c->trial.past[0] = from[0][1];
+    c->trial.past[1] = -from[1][1];
+    c->d_n = from[0][0];
+    c->d_s = from[0][1];
     c->N = c->T = 0;
 }
 
@@ -203,20 +198,7 @@ static void close_contact(const bbm_model *m, bbm_contact *c)
     const double N = bbm_normal_force(m, c->d_n - fmin(0, c->rest));
     const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
     c->state = slides ? BBM_SLIDE : BBM_LOCK;
-    if (slides)
-        c->sign = copysign(1, slip);
-}
-
-/* Gives a contact its next state. */
-static void change_state(const bbm_model *m, bbm_contact *c)
-{
-    if (c->state == BBM_OPEN) {
-        close_contact(m, c);
-        return;
-    }
-    c->state = c->trial.next_state;
-    if (c->state == BBM_SLIDE)
-        c->sign = copysign(1, c->T);
+    c->sign = copysign(1, slip);
 }
 
 /* The normal force that an open contact would have if it were closed. */
@@ -283,7 +265,12 @@ static int change_states(bbm_model *m)
         bbm_contact *c = &w->contact[k];
         if (c->trial.next_state == c->state || (one ? c != worst : sure && is_at_corner(m, c)))
             continue;
-        change_state(m, c);
+        if (c->state == BBM_OPEN)
+            close_contact(m, c);
+        else {
+            c->state = c->trial.next_state;
+            c->sign = copysign(1, c->T);
+        }
         changes++;
     }
     return changes;
