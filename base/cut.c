@@ -94,12 +94,6 @@ bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const
 
 /* ------------------------------------------------------------------------- what a step counts */
 
-/* Counts the CPU time since `since` for a phase. */
-void bbm_count_time(bbm_model *m, int phase, clock_t since)
-{
-    m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
-}
-
 /* Whether the step has had all the work that it may take. */
 int bbm_is_spent(const bbm_model *m)
 {
