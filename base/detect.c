@@ -786,20 +786,18 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
-    double at[4][2], u[4][2], x[2], p[2], s[2];
+    double at[3][2], u[3][2], x[2], p[2], s[2];
 
     for (int k = 0; k < 3; k++) {
         bbm_point_at(m, P[k], at[k]);
         move_point(m, P[k], u[k]);
     }
     for (int a = 0; a < 2; a++) {
-        at[3][a] = at[2][a] + anchor * (at[1][a] - at[2][a]);
-        u[3][a] = u[2][a] + anchor * (u[1][a] - u[2][a]);
-    }
-    for (int a = 0; a < 2; a++) {
+        const double at0 = at[2][a] + anchor * (at[1][a] - at[2][a]);
+        const double u0 = u[2][a] + anchor * (u[1][a] - u[2][a]);
         x[a] = at[2][a] - at[1][a] + u[2][a] - u[1][a];
         p[a] = at[0][a] - at[1][a] + u[0][a] - u[1][a];
-        s[a] = at[0][a] - at[3][a] + u[0][a] - u[3][a];
+        s[a] = at[0][a] - at0 + u[0][a] - u0;
     }
     d[0] = (x[0] * p[1] - x[1] * p[0]) / m->edge[c->edge].along.length;
     d[1] = (s[0] * x[0] + s[1] * x[1]) / m->edge[c->edge].along.length;
