@@ -61,17 +61,8 @@ static void add_floating(const bbm_model *m, const bbm_edge_load *load, double x
         G[k / 3][k % 3] += t[k / 3] * t[k % 3];
 }
 
-/* Whether a positive semi-definite 3x3 matrix is regular, by its pivots. */
-static int is_regular(double G[3][3])
-{
-    const double whole[3] = { G[0][0], G[1][1], G[2][2] };
-
-    bbm_condense(3, 1, G[0]);
-    return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
-}
-
 /* Whether the wall holds the body of element i by itself, or it floats, if that counts; body[] has
- * a number for each element. */
+ * a number for each element. It does if G, positive semi-definite, is regular, by its pivots. */
 int bbm_is_held(const bbm_model *m, const int body[], int i, int floats)
 {
     const bbm_element *e = m->element;
@@ -84,7 +75,9 @@ int bbm_is_held(const bbm_model *m, const int body[], int i, int floats)
     for (int l = 0; l < m->beyond->edge_loads && floats; l++)
         if (body[m->vertex[load[l].a].element] == body[i])
             add_floating(m, &load[l], e[i].x, G);
-    return is_regular(G);
+    const double whole[3] = { G[0][0], G[1][1], G[2][2] };
+    bbm_condense(3, 1, G[0]);
+    return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
 }
 
 /* Statics needs bodies that the wall holds, by themselves or through contacts, or on which they
