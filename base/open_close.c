@@ -147,35 +147,29 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
         c->trial.N_of_friction = c->N;
 }
 
-/* The force tolerance of each contact: a share of its own force, or of the force on a body by which
+/* The force tolerance of a contact: a share of its own force, or of the force on a body by which
  * its component is solved. The error of every N is small against this force alone. What the spring
  * makes of the rounding of positions is added, but not in statics, whose one solution has none. */
-static void find_tolerances(const bbm_model *m)
+static void find_tolerance(const bbm_model *m, bbm_contact *c)
 {
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        bbm_contact *c = &m->scratch->contact[k];
-        const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        const double force = fmax(fabs(c->N), m->K->forces[m->K->component[c->element[0]]]);
-        const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
-        const double digits = fmin(m->par.p_n * lever * DIGITS, ROUGH * force);
-        c->trial.digits = bbm_is_static(m) ? 0 : digits;
-        c->trial.force_tolerance = AGREE * force + fmin(c->trial.digits, FIT * force);
-    }
+    const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
+    const double force = fmax(fabs(c->N), m->K->forces[m->K->component[c->element[0]]]);
+    const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
+    const double digits = fmin(m->par.p_n * lever * DIGITS, ROUGH * force);
+
+    c->trial.digits = bbm_is_static(m) ? 0 : digits;
+    c->trial.force_tolerance = AGREE * force + fmin(c->trial.digits, FIT * force);
 }
 
-/* Takes the N of this solution for the friction of the next one. Returns whether an N is not the
- * one that its friction was taken for. */
-static int renew_friction(const bbm_model *m)
+/* Takes the N of this solution for the friction of the next one. Returns whether it is not the one
+ * that friction was taken for. */
+static int renew_friction(bbm_contact *c)
 {
-    int renewed = 0;
+    const double change = fabs(c->N - c->trial.N_of_friction);
 
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        bbm_contact *c = &m->scratch->contact[k];
-        renewed |= c->state == BBM_SLIDE && c->strength.tan_phi != 0
-                && !(fabs(c->N - c->trial.N_of_friction) <= c->trial.force_tolerance);
-        c->trial.N_of_friction = c->N;
-    }
-    return renewed;
+    c->trial.N_of_friction = c->N;
+    return c->state == BBM_SLIDE && c->strength.tan_phi != 0
+        && !(change <= c->trial.force_tolerance);
 }
 
 /* ------------------------------------------------------------- the open-close iteration: states */
@@ -300,13 +294,16 @@ static void note_states(bbm_contact_scratch *w)
 bbm_pass bbm_open_close(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
+    int renewed = 0;
 
     m->info.passes++;
-    for (int k = 0; k < w->contacts; k++)
-        (w->contact[k].state == BBM_OPEN ? measure_open : measure_closed)(m, &w->contact[k]);
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        (c->state == BBM_OPEN ? measure_open : measure_closed)(m, c);
+        find_tolerance(m, c);
+        renewed |= renew_friction(c);
+    }
     bbm_note_depths(m);
-    find_tolerances(m);
-    if (renew_friction(m))
+    if (renewed)
         return ++w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
     w->friction_passes = 0;
     note_states(w);
