@@ -195,18 +195,13 @@ static void close_contact(const bbm_model *m, bbm_contact *c)
     c->sign = copysign(1, slip);
 }
 
-/* The normal force that an open contact would have if it were closed. */
-static double N_if_closed(const bbm_model *m, const bbm_contact *c)
-{
-    return bbm_normal_force(m, c->d_n - c->rest);
-}
-
-/* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
- * may have been pulled open by its shear spring. If that carries more than friction would hold
- * under as much pressure, the contact slides first, which removes the spring. */
+/* The state of a contact in the next pass, of an open one by the N that it would have if it were
+ * closed. A blocked contact stays open. A locked one in tension may have been pulled open by its
+ * shear spring. If that carries more than friction would hold under as much pressure, the contact
+ * slides first, which removes the spring. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
-    const double N = c->state == BBM_OPEN ? N_if_closed(m, c) : c->N;
+    const double N = c->state == BBM_OPEN ? bbm_normal_force(m, c->d_n - c->rest) : c->N;
     const bbm_contact_state next = bbm_next_state(c, N, c->trial.force_tolerance);
     const double strength = bbm_shear_strength(&c->strength, fabs(c->N));
 
@@ -217,11 +212,11 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
     return next;
 }
 
-/* The force by which a state fails to fit the solution. */
+/* The force by which a state fails to fit the solution; of an open one the N if it were closed. */
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
-        return N_if_closed(m, c);
+        return bbm_normal_force(m, c->d_n - c->rest);
     if (c->trial.next_state == BBM_OPEN && c->N < 0)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
