@@ -213,8 +213,6 @@ static bbm_status try_statics(bbm_model *m)
     return status;
 }
 
-static int is_final(bbm_status s) { return !s || s == BBM_NO_MEMORY || s == BBM_STOPPED; }
-
 /* Steps from rest, each as long as it settles without that blocks part far in it, until statics
  * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
  * A length that failed, or after which statics did, is not tried again for some steps. Lengths
@@ -242,7 +240,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
             const int balances = lacks <= BBM_BALANCED && m->beyond->overload <= 1;
             status = balances ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
         }
-        if (is_final(status))
+        if (!status || status == BBM_NO_MEMORY || status == BBM_STOPPED)
             return status;
         tried = !settles ? tried : DRIFT * (h > tried ? 2 * h : tried);
         failed = settles ? failed / DRIFT : h;
