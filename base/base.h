@@ -405,7 +405,7 @@ int        bbm_carries(const bbm_model *m, int corner, int edge);
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_rounding(const bbm_model *m, int corner);       /* m                            */
-double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
+double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m                    */
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */

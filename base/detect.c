@@ -76,8 +76,11 @@ static reach *reach_of(const bbm_model *m, int e)
     return &m->scratch->reach[m->edge[e].first];
 }
 
-/* The length of the boundary of the block of edge e. */
-double bbm_girth(const bbm_model *m, int e) { return reach_of(m, e)->girth; }
+/* A quarter of the boundary of the smaller of two blocks in contact. */
+double bbm_size_at(const bbm_model *m, const bbm_contact *c)
+{
+    return fmin(reach_of(m, c->corner)->girth, reach_of(m, c->edge)->girth) / 4;
+}
 
 /* Distances up to this are rounding: TOUCH times the mean boundary edge of the block of edge e. */
 static double rounding_of(const bbm_model *m, int e)
