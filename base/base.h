@@ -392,7 +392,6 @@ int        bbm_parts_to_try(bbm_model *m, bbm_status status, int tries);
 bbm_status bbm_end_step(bbm_model *m, bbm_status status);
 int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
 bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status);
-bbm_status bbm_note_solution(bbm_model *m, bbm_status status);
 
 /* detect.c: which corner may touch which edge */
 bbm_status bbm_detect_new(bbm_model *m);

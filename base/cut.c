@@ -125,17 +125,6 @@ bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
                                      ? "; more iterations or a smaller alpha help" : "");
 }
 
-/* Counts the work of a solution; what went wrong in it becomes a sentence. */
-bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
-{
-    const bbm_pcg_info *i = &m->info.pcg;
-
-    m->info.iterations += i->iterations;
-    m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
-    m->info.seconds[BBM_ITERATE] += i->seconds[1];
-    return status ? bbm_say_what_failed(m, status) : BBM_OK;
-}
-
 /* ------------------------------------------------------------------------- the parts of a step */
 
 /* Refuses the first value that is outside its range; a comparison with NaN is false, so NaN is

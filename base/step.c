@@ -180,14 +180,18 @@ bbm_status bbm_detect(bbm_model *m, int *holds)
     return status || !m->hook->listed ? status : m->hook->listed(m);
 }
 
-/* Solves K D = F, Eq. (5), section 4. */
+/* Solves K D = F, Eq. (5), section 4, and counts the work. */
 static bbm_status solve(bbm_model *m)
 {
     if (m->hook->before_solution)
         m->hook->before_solution(m);
     if (m->monitor && m->monitor(m, m->monitor_context))
         return bbm_fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
-    return bbm_note_solution(m, bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg));
+    const bbm_status status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
+    m->info.iterations += m->info.pcg.iterations;
+    m->info.seconds[BBM_PRECONDITION] += m->info.pcg.seconds[0];
+    m->info.seconds[BBM_ITERATE] += m->info.pcg.seconds[1];
+    return status ? bbm_say_what_failed(m, status) : BBM_OK;
 }
 
 /* One pass of the open-close iteration. A step that has taken too much work ends as one that does
