@@ -389,7 +389,6 @@ bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters         */
 int        bbm_parts_to_try(bbm_model *m, bbm_status status, int tries);
-bbm_status bbm_end_step(bbm_model *m, bbm_status status);
 int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
 bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status);
 

@@ -183,12 +183,3 @@ int bbm_parts_to_try(bbm_model *m, bbm_status status, int tries)
     m->message[0] = '\0';
     return 2;
 }
-
-/* Counts the step, or says why it failed, if no hook finds another way. */
-bbm_status bbm_end_step(bbm_model *m, bbm_status status)
-{
-    if (status && m->K && m->hook->failed)
-        status = m->hook->failed(m, status);
-    m->info.step += !status;
-    return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
-}

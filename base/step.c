@@ -313,7 +313,10 @@ bbm_status bbm_step(bbm_model *m)
         status = take_part(m, m->par.dt, 0);
     for (int k = 0; k < 6 * m->elements && !status; k++)
         m->element[k / 6].V[k % 6] *= m->par.velocity_factor;
-    return bbm_end_step(m, status);
+    if (status && m->K && m->hook->failed)
+        status = m->hook->failed(m, status);        /* a hook may find another way            */
+    m->info.step += !status;
+    return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }
 
 /* All time steps. With a tolerance they end when the last step is small against the sum of all
