@@ -1,5 +1,5 @@
-/* cut.c - what stands around the step of Fig. 8: messages, what must hold before it, what it
- * counts, what went wrong in it, and when it is cut in two and tried again.
+/* cut.c - what stands around the step of Fig. 8: messages, what must hold before it, what went
+ * wrong in it, and when it is cut in two and tried again.
  *
  * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
  * half of dt, down to dt/4096, as long as that takes no more than SOLUTIONS solutions. The nominal
@@ -92,7 +92,7 @@ bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------------------- what a step counts */
+/* -------------------------------------------------------------------- what went wrong in a step */
 
 /* Whether the step has had all the work that it may take. */
 int bbm_is_spent(const bbm_model *m)
