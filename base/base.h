@@ -155,7 +155,6 @@ typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP 
 
 struct bbm_contact_scratch {
     /* --- the contacts of the step --- */
-    int is_listed;
     int contacts;
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- open_close.c --- */
@@ -294,8 +293,6 @@ static inline const bbm_vertex *bbm_end_of(const bbm_model *m, int edge)
     return &m->vertex[m->edge[edge].b];
 }
 
-static inline int bbm_element_of(const bbm_model *m, int edge) { return m->edge[edge].element; }
-
 /* The d_n from which the normal spring of a contact counts, so that it carries N at d_n. In the
  * paper 0; with a hook's motion a corner that closes inside starts unloaded. */
 static inline double bbm_rest_of(const bbm_model *m, double d_n, double N)
@@ -357,7 +354,6 @@ void       bbm_fixed_gap(const bbm_element *e, const bbm_vertex *P, const bbm_no
 bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **K);
 void       bbm_matrix_free(bbm_matrix *K);                      /* takes NULL                   */
 int        bbm_compare_pairs(const void *p, const void *q);     /* by their first two integers  */
-static inline int bbm_component_of(const bbm_matrix *K, int i) { return K->component[i]; }
 void       bbm_matrix_clear(bbm_matrix *K);
 bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6]); /* K_ij += B, K_ji += B^T;
                                    what the pattern does not have fails here and in bbm_solve   */
@@ -394,11 +390,8 @@ bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const
 bbm_status bbm_check_ranges(bbm_model *m, int n, const bbm_range range[]);
 bbm_status bbm_check_step(bbm_model *m);                        /* prepared; parameters         */
 int        bbm_parts_to_try(bbm_model *m, bbm_status status, int tries);
-bbm_status bbm_end_step(bbm_model *m, bbm_status status);
 int        bbm_is_spent(const bbm_model *m);                    /* too much work for a step     */
 bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status);
-bbm_status bbm_note_solution(bbm_model *m, bbm_status status);
-void       bbm_count_time(bbm_model *m, int phase, clock_t since);
 
 /* detect.c: which corner may touch which edge */
 bbm_status bbm_detect_new(bbm_model *m);
@@ -411,7 +404,7 @@ int        bbm_carries(const bbm_model *m, int corner, int edge);
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_rounding(const bbm_model *m, int corner);       /* m                            */
-double     bbm_girth(const bbm_model *m, int edge);             /* m, of its block              */
+double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m                    */
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */

@@ -40,13 +40,11 @@ bbm_status bbm_model_new(bbm_model **out)
 /* What bbm_prepare made, the members from `is_prepared` up to `h`. */
 static void free_prepared(bbm_model *m)
 {
-    free(m->bond);
-    free(m->edge);
-    free(m->adjacent_first);
-    free(m->F);
-    free(m->gap);
-    free(m->link);
-    free(m->contact);
+    void *const array[] = { m->bond, m->edge, m->adjacent_first, m->F, m->gap, m->link,
+                            m->contact };
+
+    for (int k = 0; k < LENGTH(array); k++)
+        free(array[k]);
     bbm_matrix_free(m->K);
     bbm_detect_free(m->scratch);
     memset((char *)m + offsetof(bbm_model, is_prepared), 0,
@@ -60,12 +58,9 @@ void bbm_model_free(bbm_model *m)
     free_prepared(m);
     if (m->hook->release)
         m->hook->release(m);
-    free(m->node);
-    free(m->element);
-    free(m->vertex);
-    free(m->line_load);
-    free(m->material);
-    free(m);
+    void *const array[] = { m->node, m->element, m->vertex, m->line_load, m->material, m };
+    for (int k = 0; k < LENGTH(array); k++)
+        free(array[k]);
 }
 
 /* Remembers the first error of building, and says what it is. A model that has one takes no more:

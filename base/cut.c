@@ -1,5 +1,5 @@
-/* cut.c - what stands around the step of Fig. 8: messages, what must hold before it, what it
- * counts, what went wrong in it, and when it is cut in two and tried again.
+/* cut.c - what stands around the step of Fig. 8: messages, what must hold before it, what went
+ * wrong in it, and when it is cut in two and tried again.
  *
  * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
  * half of dt, down to dt/4096, as long as that takes no more than SOLUTIONS solutions. The nominal
@@ -92,13 +92,7 @@ bbm_status bbm_append(bbm_model *m, void **array, int *count, size_t size, const
     return BBM_OK;
 }
 
-/* ------------------------------------------------------------------------- what a step counts */
-
-/* Counts the CPU time since `since` for a phase. */
-void bbm_count_time(bbm_model *m, int phase, clock_t since)
-{
-    m->info.seconds[phase] += (double)(clock() - since) / CLOCKS_PER_SEC;
-}
+/* -------------------------------------------------------------------- what went wrong in a step */
 
 /* Whether the step has had all the work that it may take. */
 int bbm_is_spent(const bbm_model *m)
@@ -129,17 +123,6 @@ bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
     return bbm_fail(m, status, "step %d, iteration %d, residual %.2g%s", step, i->iterations,
                     i->residual, status == BBM_NOT_CONVERGED
                                      ? "; more iterations or a smaller alpha help" : "");
-}
-
-/* Counts the work of a solution; what went wrong in it becomes a sentence. */
-bbm_status bbm_note_solution(bbm_model *m, bbm_status status)
-{
-    const bbm_pcg_info *i = &m->info.pcg;
-
-    m->info.iterations += i->iterations;
-    m->info.seconds[BBM_PRECONDITION] += i->seconds[0];
-    m->info.seconds[BBM_ITERATE] += i->seconds[1];
-    return status ? bbm_say_what_failed(m, status) : BBM_OK;
 }
 
 /* ------------------------------------------------------------------------- the parts of a step */
@@ -199,13 +182,4 @@ int bbm_parts_to_try(bbm_model *m, bbm_status status, int tries)
     m->info.cuts++;
     m->message[0] = '\0';
     return 2;
-}
-
-/* Counts the step, or says why it failed, if no hook finds another way. */
-bbm_status bbm_end_step(bbm_model *m, bbm_status status)
-{
-    if (status && m->K && m->hook->failed)
-        status = m->hook->failed(m, status);
-    m->info.step += !status;
-    return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }

@@ -76,8 +76,11 @@ static reach *reach_of(const bbm_model *m, int e)
     return &m->scratch->reach[m->edge[e].first];
 }
 
-/* The length of the boundary of the block of edge e. */
-double bbm_girth(const bbm_model *m, int e) { return reach_of(m, e)->girth; }
+/* A quarter of the boundary of the smaller of two blocks in contact. */
+double bbm_size_at(const bbm_model *m, const bbm_contact *c)
+{
+    return fmin(reach_of(m, c->corner)->girth, reach_of(m, c->edge)->girth) / 4;
+}
 
 /* Distances up to this are rounding: TOUCH times the mean boundary edge of the block of edge e. */
 static double rounding_of(const bbm_model *m, int e)
@@ -225,7 +228,7 @@ void bbm_foresee_step(bbm_model *m)
             m->D[6 * i + a] = bbm_is_static(m) ? e->D[a] : e->V[a] * h + fall[a];
         m->scratch->reach[i].travel = 0;
     }
-    m->scratch->is_listed = 0;
+    m->detections = 0;
 }
 
 /* How far the point of the boundary at v moves by D. */
@@ -264,7 +267,7 @@ int bbm_moved_too_far(const bbm_model *m)
     int too_far = 0;
 
     for (int e = 0; e < m->edges && !too_far; e++) {
-        const int i = bbm_element_of(m, e);
+        const int i = m->edge[e].element;
         too_far = way_of(m, e) > reach_of(m, e)->travel
                || fabs(m->D[6 * i + 2]) > m->scratch->reach[i].turn;
     }
@@ -512,7 +515,7 @@ static int is_near(const bbm_model *m, int corner, int e)
 static int is_hidden(const bbm_model *m, pair p)
 {
     const reach *of = m->scratch->reach;
-    const double turns = of[bbm_element_of(m, p.corner)].turn + of[bbm_element_of(m, p.edge)].turn;
+    const double turns = of[m->edge[p.corner].element].turn + of[m->edge[p.edge].element].turn;
     const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
     return !find_closed(m, p.corner, p.edge, ITSELF)
@@ -751,6 +754,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 bbm_status bbm_list_pairs(bbm_model *m, int *same)
 {
     bbm_contact_scratch *w = m->scratch;
+    const int is_listed = m->detections++ > 0;
 
     find_directions(m);
     for (int e = 0; e < m->edges; e++)
@@ -763,7 +767,7 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
         drop_pairs(m, is_hidden);
         drop_pairs(m, is_duplicate);
     }
-    *same = !status && w->is_listed && w->contacts == w->pairs;
+    *same = !status && is_listed && w->contacts == w->pairs;
     for (int k = 0; k < w->pairs && *same; k++)
         *same = bbm_compare_pairs(&w->contact[k], &w->pair[k]) == 0;
     if (status || *same)
@@ -775,7 +779,6 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
     w->contacts = w->pairs;
     for (int k = 0; k < w->pairs; k++)
         continue_contact(m, w->pair[k], &list[k]);
-    w->is_listed = 1;
     return BBM_OK;
 }
 
@@ -786,20 +789,18 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
-    double at[4][2], u[4][2], x[2], p[2], s[2];
+    double at[3][2], u[3][2], x[2], p[2], s[2];
 
     for (int k = 0; k < 3; k++) {
         bbm_point_at(m, P[k], at[k]);
         move_point(m, P[k], u[k]);
     }
     for (int a = 0; a < 2; a++) {
-        at[3][a] = at[2][a] + anchor * (at[1][a] - at[2][a]);
-        u[3][a] = u[2][a] + anchor * (u[1][a] - u[2][a]);
-    }
-    for (int a = 0; a < 2; a++) {
+        const double at0 = at[2][a] + anchor * (at[1][a] - at[2][a]);
+        const double u0 = u[2][a] + anchor * (u[1][a] - u[2][a]);
         x[a] = at[2][a] - at[1][a] + u[2][a] - u[1][a];
         p[a] = at[0][a] - at[1][a] + u[0][a] - u[1][a];
-        s[a] = at[0][a] - at[3][a] + u[0][a] - u[3][a];
+        s[a] = at[0][a] - at0 + u[0][a] - u0;
     }
     d[0] = (x[0] * p[1] - x[1] * p[0]) / m->edge[c->edge].along.length;
     d[1] = (s[0] * x[0] + s[1] * x[1]) / m->edge[c->edge].along.length;
@@ -948,5 +949,4 @@ void bbm_keep_contacts(bbm_model *m)
     m->contacts = w->contacts;
     w->contact = last;
     w->contacts = 0;
-    w->is_listed = 0;
 }

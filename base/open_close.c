@@ -46,8 +46,8 @@ static void find_elements(const bbm_model *m, bbm_contact *c)
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
 
-    c->element[0] = bbm_element_of(m, c->corner);
-    c->element[1] = bbm_element_of(m, c->edge);
+    c->element[0] = m->edge[c->corner].element;
+    c->element[1] = m->edge[c->edge].element;
     c->parts = 2;
     for (int k = 0; k < 3; k++)
         if (bbm_partner_of(m, P[k]) != P[k])
@@ -119,21 +119,16 @@ static void vector_distances(const bbm_model *m, const bbm_contact *c, double an
  * an anchor at P3, and minus d_s from one at P2. A hook's motion says where the points are. */
 static void measure_open(const bbm_model *m, bbm_contact *c)
 {
-    double from_P3[2], from_P2[2];
+    double from[2][2];                                      /* P3 and P2 */
 
-    if (bbm_motion_of(m)) {
-        bbm_end_distances(m, c, 0, from_P3);
-        bbm_end_distances(m, c, 1, from_P2);
-    } else {
-        vector_distances(m, c, 0, from_P3);
-        vector_distances(m, c, 1, from_P2);
-    }
+    for (int end = 0; end < 2; end++)
+        (bbm_motion_of(m) ? bbm_end_distances : vector_distances)(m, c, end, from[end]);
     c->anchor = 0;
     c->trial.time_left = 1;
-    c->trial.past[0] = from_P3[1];
-    c->trial.past[1] = -from_P2[1];
-    c->d_n = from_P3[0];
-    c->d_s = from_P3[1];
+    c->trial.past[0] = from[0][1];
+    c->trial.past[1] = -from[1][1];
+    c->d_n = from[0][0];
+    c->d_s = from[0][1];
     c->N = c->T = 0;
 }
 
@@ -152,35 +147,29 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
         c->trial.N_of_friction = c->N;
 }
 
-/* The force tolerance of each contact: a share of its own force, or of the force on a body by which
+/* The force tolerance of a contact: a share of its own force, or of the force on a body by which
  * its component is solved. The error of every N is small against this force alone. What the spring
  * makes of the rounding of positions is added, but not in statics, whose one solution has none. */
-static void find_tolerances(const bbm_model *m)
+static void find_tolerance(const bbm_model *m, bbm_contact *c)
 {
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        bbm_contact *c = &m->scratch->contact[k];
-        const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        const double force = fmax(fabs(c->N), m->K->forces[bbm_component_of(m->K, c->element[0])]);
-        const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
-        const double digits = fmin(m->par.p_n * lever * DIGITS, ROUGH * force);
-        c->trial.digits = bbm_is_static(m) ? 0 : digits;
-        c->trial.force_tolerance = AGREE * force + fmin(c->trial.digits, FIT * force);
-    }
+    const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
+    const double force = fmax(fabs(c->N), m->K->forces[m->K->component[c->element[0]]]);
+    const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
+    const double digits = fmin(m->par.p_n * lever * DIGITS, ROUGH * force);
+
+    c->trial.digits = bbm_is_static(m) ? 0 : digits;
+    c->trial.force_tolerance = AGREE * force + fmin(c->trial.digits, FIT * force);
 }
 
-/* Takes the N of this solution for the friction of the next one. Returns whether an N is not the
- * one that its friction was taken for. */
-static int renew_friction(const bbm_model *m)
+/* Takes the N of this solution for the friction of the next one. Returns whether it is not the one
+ * that friction was taken for. */
+static int renew_friction(bbm_contact *c)
 {
-    int renewed = 0;
+    const double change = fabs(c->N - c->trial.N_of_friction);
 
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        bbm_contact *c = &m->scratch->contact[k];
-        renewed |= c->state == BBM_SLIDE && c->strength.tan_phi != 0
-                && !(fabs(c->N - c->trial.N_of_friction) <= c->trial.force_tolerance);
-        c->trial.N_of_friction = c->N;
-    }
-    return renewed;
+    c->trial.N_of_friction = c->N;
+    return c->state == BBM_SLIDE && c->strength.tan_phi != 0
+        && !(change <= c->trial.force_tolerance);
 }
 
 /* ------------------------------------------------------------- the open-close iteration: states */
@@ -203,34 +192,16 @@ static void close_contact(const bbm_model *m, bbm_contact *c)
     const double N = bbm_normal_force(m, c->d_n - fmin(0, c->rest));
     const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
     c->state = slides ? BBM_SLIDE : BBM_LOCK;
-    if (slides)
-        c->sign = copysign(1, slip);
+    c->sign = copysign(1, slip);
 }
 
-/* Gives a contact its next state. */
-static void change_state(const bbm_model *m, bbm_contact *c)
-{
-    if (c->state == BBM_OPEN) {
-        close_contact(m, c);
-        return;
-    }
-    c->state = c->trial.next_state;
-    if (c->state == BBM_SLIDE)
-        c->sign = copysign(1, c->T);
-}
-
-/* The normal force that an open contact would have if it were closed. */
-static double N_if_closed(const bbm_model *m, const bbm_contact *c)
-{
-    return bbm_normal_force(m, c->d_n - c->rest);
-}
-
-/* The state of a contact in the next pass. A blocked contact stays open. A locked one in tension
- * may have been pulled open by its shear spring. If that carries more than friction would hold
- * under as much pressure, the contact slides first, which removes the spring. */
+/* The state of a contact in the next pass, of an open one by the N that it would have if it were
+ * closed. A blocked contact stays open. A locked one in tension may have been pulled open by its
+ * shear spring. If that carries more than friction would hold under as much pressure, the contact
+ * slides first, which removes the spring. */
 static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *c)
 {
-    const double N = c->state == BBM_OPEN ? N_if_closed(m, c) : c->N;
+    const double N = c->state == BBM_OPEN ? bbm_normal_force(m, c->d_n - c->rest) : c->N;
     const bbm_contact_state next = bbm_next_state(c, N, c->trial.force_tolerance);
     const double strength = bbm_shear_strength(&c->strength, fabs(c->N));
 
@@ -241,11 +212,11 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
     return next;
 }
 
-/* The force by which a state fails to fit the solution. */
+/* The force by which a state fails to fit the solution; of an open one the N if it were closed. */
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
-        return N_if_closed(m, c);
+        return bbm_normal_force(m, c->d_n - c->rest);
     if (c->trial.next_state == BBM_OPEN && c->N < 0)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
@@ -283,7 +254,12 @@ static int change_states(bbm_model *m)
         bbm_contact *c = &w->contact[k];
         if (c->trial.next_state == c->state || (one ? c != worst : sure && is_at_corner(m, c)))
             continue;
-        change_state(m, c);
+        if (c->state == BBM_OPEN)
+            close_contact(m, c);
+        else {
+            c->state = c->trial.next_state;
+            c->sign = copysign(1, c->T);
+        }
         changes++;
     }
     return changes;
@@ -313,13 +289,16 @@ static void note_states(bbm_contact_scratch *w)
 bbm_pass bbm_open_close(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
+    int renewed = 0;
 
     m->info.passes++;
-    for (int k = 0; k < w->contacts; k++)
-        (w->contact[k].state == BBM_OPEN ? measure_open : measure_closed)(m, &w->contact[k]);
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        (c->state == BBM_OPEN ? measure_open : measure_closed)(m, c);
+        find_tolerance(m, c);
+        renewed |= renew_friction(c);
+    }
     bbm_note_depths(m);
-    find_tolerances(m);
-    if (renew_friction(m))
+    if (renewed)
         return ++w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
     w->friction_passes = 0;
     note_states(w);

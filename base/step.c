@@ -142,7 +142,7 @@ void bbm_assemble(bbm_model *m)
     for (; g < m->gaps; g++)                        /* fixed points */
         assemble_gap(m, &m->gap[g]);
     bbm_assemble_contacts(m);
-    bbm_count_time(m, BBM_ASSEMBLE, start);
+    m->info.seconds[BBM_ASSEMBLE] += (double)(clock() - start) / CLOCKS_PER_SEC;
 }
 
 /* ------------------------------------------------------------- the parts of a time step */
@@ -151,7 +151,6 @@ void bbm_assemble(bbm_model *m)
  * in statics the D of the last step. */
 bbm_status bbm_begin_step(bbm_model *m)
 {
-    m->detections = 0;
     for (int i = 0; i < m->elements; i++)
         bbm_element_geometry(&m->element[i], &m->vertex[m->element[i].first]);
     memcpy(m->acceleration, m->par.gravity, sizeof m->acceleration);
@@ -170,10 +169,10 @@ bbm_status bbm_detect(bbm_model *m, int *holds)
     *holds = 1;
     if (m->detections > 0 && !bbm_moved_too_far(m))
         return BBM_OK;
-    if (m->detections++ == BBM_MAX_DETECTIONS)
+    if (m->detections == BBM_MAX_DETECTIONS)
         return bbm_say_what_failed(m, BBM_OPEN_CLOSE);
     bbm_status status = bbm_detect_contacts(m, holds);
-    bbm_count_time(m, BBM_DETECT, start);
+    m->info.seconds[BBM_DETECT] += (double)(clock() - start) / CLOCKS_PER_SEC;
     if (status || *holds)
         return status;
     bbm_list_gaps(m);
@@ -181,14 +180,18 @@ bbm_status bbm_detect(bbm_model *m, int *holds)
     return status || !m->hook->listed ? status : m->hook->listed(m);
 }
 
-/* Solves K D = F, Eq. (5), section 4. */
+/* Solves K D = F, Eq. (5), section 4, and counts the work. */
 static bbm_status solve(bbm_model *m)
 {
     if (m->hook->before_solution)
         m->hook->before_solution(m);
     if (m->monitor && m->monitor(m, m->monitor_context))
         return bbm_fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
-    return bbm_note_solution(m, bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg));
+    const bbm_status status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
+    m->info.iterations += m->info.pcg.iterations;
+    m->info.seconds[BBM_PRECONDITION] += m->info.pcg.seconds[0];
+    m->info.seconds[BBM_ITERATE] += m->info.pcg.seconds[1];
+    return status ? bbm_say_what_failed(m, status) : BBM_OK;
 }
 
 /* One pass of the open-close iteration. A step that has taken too much work ends as one that does
@@ -314,7 +317,10 @@ bbm_status bbm_step(bbm_model *m)
         status = take_part(m, m->par.dt, 0);
     for (int k = 0; k < 6 * m->elements && !status; k++)
         m->element[k / 6].V[k % 6] *= m->par.velocity_factor;
-    return bbm_end_step(m, status);
+    if (status && m->K && m->hook->failed)
+        status = m->hook->failed(m, status);        /* a hook may find another way            */
+    m->info.step += !status;
+    return status == BBM_NO_MEMORY ? bbm_out_of_memory(m) : status;
 }
 
 /* All time steps. With a tolerance they end when the last step is small against the sum of all

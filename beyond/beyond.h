@@ -241,7 +241,6 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end);      /* of a step that has se
 bbm_status bbm_check_settings(bbm_model *m);
 int        bbm_contact_turns_over(const bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
-double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m                    */
 bbm_status bbm_check_depth(bbm_model *m);
 int        bbm_is_held(const bbm_model *m, const int body[], int i);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */

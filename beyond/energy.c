@@ -93,7 +93,7 @@ void bbm_note_springs(bbm_model *m, int when)
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
         const double T = bbm_shear_force(c);
-        a[bbm_element_of(m, c->corner)].springs[when] += c->state == BBM_OPEN ? 0
+        a[m->edge[c->corner].element].springs[when] += c->state == BBM_OPEN ? 0
             : bbm_normal_energy(m, c->N) + T * T / (2 * m->par.p_s);
     }
 }
@@ -135,7 +135,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     for (int c = 0; c < m->elements; c++)
         b->account[c].gain = b->account[c].there = b->account[c].work = 0;
     for (int i = 0; i < m->elements; i++) {
-        bbm_account *of = &b->account[bbm_component_of(m->K, i)];
+        bbm_account *of = &b->account[m->K->component[i]];
         const double *F = &m->F[6 * i], *load = &m->load[6 * i];
         const double before = sum_of(energy_of(m, i, 0));
         const double lever = hypot(m->element[i].x, m->element[i].y);
@@ -148,7 +148,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P = bbm_start_of(m, c->corner);
-        b->account[bbm_component_of(m->K, P->element)].gain -= ROUNDING * fabs(c->N)
+        b->account[m->K->component[P->element]].gain -= ROUNDING * fabs(c->N)
                                                               * hypot(P->x, P->y);
     }
     for (int c = 0; c < m->elements && (bbm_is_static(m) || m->par.velocity_factor < 1); c++)

@@ -43,7 +43,7 @@ static void begin_bodies(bbm_model *m)
     const double unloaded = UNLOADED * m->beyond->bond_tension;
 
     for (int i = 0; i < m->elements; i++)
-        body[i] = (bbm_balance){ .inside = m->K->forces[bbm_component_of(m->K, i)] };
+        body[i] = (bbm_balance){ .inside = m->K->forces[m->K->component[i]] };
     for (int i = 0; i < m->elements; i++) {
         bbm_balance *b = &body[m->beyond->body[i]];
         const bbm_element *e = &m->element[i];

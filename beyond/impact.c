@@ -83,7 +83,7 @@ static double mobility(const bbm_model *m, int i)
 /* Of the component of an element. */
 static bbm_account *account_of(const bbm_model *m, int i)
 {
-    return &m->beyond->account[bbm_component_of(m->K, i)];
+    return &m->beyond->account[m->K->component[i]];
 }
 
 /* The velocity of a support at the end of the step. One that stands has none. */
@@ -105,7 +105,7 @@ static void find_hits(const bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         m->beyond->account[i].mass = m->beyond->account[i].jumps = 0;
     for (; c < m->scratch->contact + m->scratch->contacts && m->beyond->restitution >= 0; c++)
-        account_of(m, bbm_element_of(m, c->corner))->jumps |=
+        account_of(m, m->edge[c->corner].element)->jumps |=
             has_closed(c) || (c->trial.closings > 0 && !c->trial.was_closed);
     for (int i = 0; i < m->elements; i++)
         if (account_of(m, i)->jumps && mobility(m, i) > 0)
@@ -218,7 +218,7 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         *c = m->beyond->jump_of[k];
-        const bbm_account *of = account_of(m, bbm_element_of(m, c->corner));
+        const bbm_account *of = account_of(m, m->edge[c->corner].element);
         const double came = approach(step, c);
         const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
         bbm_spring v[2];

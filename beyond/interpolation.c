@@ -110,10 +110,10 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
     for (int k = 0; k < m->elements; k++)
         box[k] = bbm_empty_box(k);
     for (int k = 0; k < m->vertices; k++)
-        bbm_widen_box(&box[bbm_component_of(m->K, m->vertex[k].element)], m->vertex[k].x,
+        bbm_widen_box(&box[m->K->component[m->vertex[k].element]], m->vertex[k].x,
                       m->vertex[k].y, 0);
     for (int k = 0; k < m->vertices; k++) {
-        const int component = bbm_component_of(m->K, m->vertex[k].element);
+        const int component = m->K->component[m->vertex[k].element];
         const bbm_box *b = &box[component];
         const double size = fmax(b->high[1] - b->low[1], b->high[2] - b->low[2]) / 32767;
         const int x = (int)fmin(32767, (m->vertex[k].x - b->low[1]) / size);    /* or no number */
@@ -150,7 +150,7 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
             up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
         const bbm_element *e = &m->element[b->i];
         const double way2 = e->material.E / e->material.density * m->par.dt * m->par.dt;
-        worth[bbm_component_of(m->K, b->i)] |= way2 > CROSSED * CROSSED * e->A
+        worth[m->K->component[b->i]] |= way2 > CROSSED * CROSSED * e->A
                                             && !bbm_is_held_all_round(m, e);
     }
     find_places(m, box, place);
@@ -166,7 +166,7 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
-        const int in = worth[bbm_component_of(m->K, i)] && !bbm_is_held_all_round(m, e);
+        const int in = worth[m->K->component[i]] && !bbm_is_held_all_round(m, e);
         for (int k = 0; k < in * e->n; k++) {
             const int at = number[bbm_root_of(up, e->first + k)];
             const int is_held = held[at] || m->node[m->vertex[e->first + k].node].held;

@@ -47,12 +47,6 @@ bbm_status bbm_check_settings(bbm_model *m)
     return bbm_check_ranges(m, LENGTH(range), range);
 }
 
-/* A quarter of the boundary of the smaller of two blocks in contact. */
-double bbm_size_at(const bbm_model *m, const bbm_contact *c)
-{
-    return fmin(bbm_girth(m, c->corner), bbm_girth(m, c->edge)) / 4;
-}
-
 /* Whether a closed contact turns an element too far. Its vectors mean nothing then, and what they
  * would close or open in the next pass does not either. */
 int bbm_contact_turns_over(const bbm_model *m)
@@ -92,13 +86,12 @@ static double curve_of(const bbm_model *m, const bbm_contact *c)
 static int curving_element(const bbm_model *m)
 {
     const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
-    int far = -1;
 
-    for (; c < end && far < 0 && bbm_motion_of(m); c++)
+    for (; c < end && bbm_motion_of(m); c++)
         if (c->state == BBM_OPEN && curve_of(m, c) > CURVE * bbm_size_at(m, c))
-            far = c->element[fabs(m->D[6 * c->element[0] + 2])
-                             <= fabs(m->D[6 * c->element[1] + 2])];
-    return far;
+            return c->element[fabs(m->D[6 * c->element[0] + 2])
+                              <= fabs(m->D[6 * c->element[1] + 2])];
+    return -1;
 }
 
 /* Whether the solution turns and strains no element too far; a comparison with NaN is false. */

@@ -83,8 +83,8 @@ int bbm_is_held(const bbm_model *m, const int body[], int i)
 }
 
 /* Statics needs bodies that the wall holds, by themselves or through contacts, or on which they
- * float; a component of K is a body. That a contact holds in each direction is too kind to it: a block on a slope passes, and
- * fails later. */
+ * float; a component of K is a body. That a contact holds in each direction is too kind to it: a
+ * block on a slope passes, and fails later. */
 bbm_status bbm_check_supports(bbm_model *m)
 {
     const int *body = m->K->component;
@@ -103,8 +103,8 @@ bbm_status bbm_check_supports(bbm_model *m)
     }
     for (int l = 0; l < m->beyond->edge_loads; l++) {
         const bbm_edge_load *load = &m->beyond->edge_load[l];
-        const int i = m->vertex[load->a].element, o = of[body[i]].first;
-        add_floating(m, load, e[o].x, of[body[i]].G);
+        const int c = body[m->vertex[load->a].element];
+        add_floating(m, load, e[of[c].first].x, of[c].G);
     }
     for (int i = m->elements - 1; i >= 0 && bbm_is_static(m); i--)
         if (of[body[i]].first == i && !is_regular(of[body[i]].G))
@@ -227,8 +227,6 @@ static bbm_status try_statics(bbm_model *m)
     return status;
 }
 
-static int is_final(bbm_status s) { return !s || s == BBM_NO_MEMORY || s == BBM_STOPPED; }
-
 /* Steps from rest, each as long as it settles without that blocks part far in it, until statics
  * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
  * A length that failed, or after which statics did, is not tried again for some steps. Lengths
@@ -256,7 +254,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
             const int balances = lacks <= BBM_BALANCED && m->beyond->overload <= 1;
             status = balances ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
         }
-        if (is_final(status))
+        if (!status || status == BBM_NO_MEMORY || status == BBM_STOPPED)
             return status;
         tried = !settles ? tried : DRIFT * (h > tried ? 2 * h : tried);
         failed = settles ? failed / DRIFT : h;

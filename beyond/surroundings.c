@@ -27,10 +27,15 @@
 
 #include "beyond.h"
 
-/* SETTLED [-]  of the force by which a component is solved, see AGREE of open_close.c */
+/* SETTLED [-]  of what presses on an edge, and of the water that its element displaces */
 #define SETTLED 1e-9
 
 /* ----------------------------------------------------------------------------- loads on an edge */
+
+static double weight_of(const bbm_model *m, const bbm_edge_load *water)
+{
+    return water->density * hypot(m->par.gravity[0], m->par.gravity[1]);
+}
 
 /* What presses in a direction (0: x, 1: y) on an edge whose element moves by D in the step, N on the
  * right of (5), and two parts of its stiffness -dN/dD. With the depth level - y(s) along the edge,
@@ -47,7 +52,7 @@ static void press(const bbm_model *m, const bbm_edge_load *load, int r, const do
     const bbm_vertex *a = &m->vertex[load->a];
     const bbm_element *e = &m->element[a->element];
     const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
-    const double weight = load->density * hypot(m->par.gravity[0], m->par.gravity[1]);
+    const double weight = weight_of(m, load);
     const double end = bbm_is_static(m) ? r : 0.5;
     double Ta[2][6], Tb[2][6], am[2], bm[2], from = 0, to = 1;
     double depth[2] = { load->level - a->y, load->level - b->y };
@@ -169,8 +174,8 @@ double bbm_settle_loads(bbm_model *m)
         }
         for (int k = 0; k < 36; k++)
             off[k / 6] += load->sinks[k / 6][k % 6] * m->D[6 * i + k % 6];
-        most = fmax(most, hypot(off[0], off[1]) - SETTLED * (hypot(N[0], N[1])
-                          + load->density * hypot(m->par.gravity[0], m->par.gravity[1]) * m->element[i].A));
+        const double all = hypot(N[0], N[1]) + weight_of(m, load) * m->element[i].A;
+        most = fmax(most, hypot(off[0], off[1]) - SETTLED * all);
     }
     return most;
 }

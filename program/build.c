@@ -178,7 +178,7 @@ static int name_blocks(model_reader *r)
     for (int e = 0; e < m->elements; e++)
         m->element[e].block = r->element[e].block;
     for (int e = 0; e < m->edges; e++)
-        m->edge[e].block = m->element[bbm_element_of(m, e)].block;
+        m->edge[e].block = m->element[m->edge[e].element].block;
     for (int k = 0; k < m->bonds; k++) {
         const int i = m->element[m->bond[k].i].block, j = m->element[m->bond[k].j].block;
         side[2 * k][0] = side[2 * k + 1][1] = i;
@@ -507,7 +507,7 @@ static int load_edges(model_reader *r, const edge_load *l)
 
     for (int e = 0; e < m->edges; e++) {
         const bbm_vertex *a = bbm_start_of(m, e), *b = bbm_end_of(m, e);
-        const double t = m->element[bbm_element_of(m, e)].material.thickness;
+        const double t = m->element[m->edge[e].element].material.thickness;
         if (r->named[a->node] != r->wheres || r->named[b->node] != r->wheres)
             continue;
         found = 1;
@@ -812,15 +812,15 @@ int model_pins(model_reader *r)
 static int blame_free(model_reader *r)
 {
     const bbm_model *m = r->p->m;
-    const int loose = m->blamed[0], body = bbm_component_of(m->K, loose);
+    const int loose = m->blamed[0], body = m->K->component[loose];
     char near[300] = "", touch[300];
     double gap = INFINITY;
 
     for (int e = 0; e < m->edges; e++)
-        for (int f = 0; f < m->edges && bbm_element_of(m, e) == loose; f++) {
-            const int other = bbm_element_of(m, f);
+        for (int f = 0; f < m->edges && m->edge[e].element == loose; f++) {
+            const int other = m->edge[f].element;
             const double d = fmin(model_distance(m, e, f), model_distance(m, f, e));
-            if (bbm_component_of(m->K, other) == body || d >= gap)
+            if (m->K->component[other] == body || d >= gap)
                 continue;
             gap = d;
             snprintf(near, sizeof near, "; element %.60s is %.3g m away from block '%.60s'",

@@ -185,8 +185,8 @@ static void compare(bodies *s, const char *path, int one, int two)
         a->gap = gap, a->near = j;
     }
     const bbm_model *m = s->p->m;
-    const bbm_material *r = &m->element[bbm_element_of(m, a->edge)].material,
-                       *q = &m->element[bbm_element_of(m, b->edge)].material;
+    const bbm_material *r = &m->element[m->edge[a->edge].element].material,
+                       *q = &m->element[m->edge[b->edge].element].material;
     if (count[0] > 4 && count[1] > 3 && a->elements > 1 && b->elements > 1 && a->free && b->free
         && ((r->E == q->E && r->density == q->density) || s->p->slippery) && !m->beyond->joints
         && m->beyond->tension + m->beyond->cohesion <= 0 && s->alike++ == 0)

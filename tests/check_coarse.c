@@ -46,7 +46,7 @@ static void hang(dense_system *s, dense_coarse *c)
 {
     for (int i = 0; i < s->n; i++)
         for (int k = c->first[i]; k < c->first[i + 1]; k++)
-            c->place[c->node[k]] = bbm_component_of(s->K, i) * BBM_PLACES
+            c->place[c->node[k]] = s->K->component[i] * BBM_PLACES
                                    + 7919 * (c->node[k] / (c->joined + 1)) % 1024;
     ck_assert_int_eq(bbm_matrix_coarse(s->K, c->nodes, c->first, c->node, c->place, 0), BBM_OK);
     for (int i = 0; i < s->n; i++) {
@@ -456,7 +456,7 @@ static double chains_time(int apart)
     }
     ck_assert_int_eq(bbm_matrix_new(ROWS, PAIRS, pair, &K), BBM_OK);
     for (int i = 0; i < ROWS; i++)
-        place[first[i]] = bbm_component_of(K, i) * BBM_PLACES;
+        place[first[i]] = K->component[i] * BBM_PLACES;
     ck_assert_int_eq(bbm_matrix_coarse(K, first[ROWS], first, node, place, 0), BBM_OK);
     for (int i = 0; i < ROWS; i++) {
         for (int a = 0; a < 6; a++) {
@@ -728,7 +728,7 @@ START_TEST(corners_that_a_bond_ties_together_are_one_coarse_node)
     for (int k = 0; k < 6; k++)
         P[k / 3][k % 3] = bbm_interpolation(&m->element[k / 3], &m->vertex[3 * (k / 3)], k % 3);
     ck_ok(bbm_step(m), m);
-    const long long start = bbm_component_of(m->K, 0) * BBM_PLACES, x = 0x2aaaaaaa, y = x / 2;
+    const long long start = m->K->component[0] * BBM_PLACES, x = 0x2aaaaaaa, y = x / 2;
     const long long place[] = { start, start + x, start + y, start + x + y };
     ck_assert_int_eq(bbm_matrix_coarse(m->K, 4, first, held[0], place, 0), BBM_OK);
     bbm_slopes((double [6]){ 0 }, Q);

@@ -368,7 +368,7 @@ START_TEST(the_balance_of_a_step_is_what_it_says)
         end.element[k].V[0] = v;
     ck_assert_int_eq(bbm_check_balance(m, &end), BBM_OK);
     for (int k = 0; k < 2; k++) {
-        const bbm_account *a = &m->beyond->account[bbm_component_of(m->K, k)];
+        const bbm_account *a = &m->beyond->account[m->K->component[k]];
         const double rounding = 64 * ldexp(1, -52) * size[k];
         ck_near(a->there, _i ? 0 : 1250 * 4 + way[k] + rounding, rounding, 1e-6);
         ck_near(a->gain, _i ? 0 : 1250 * (v * v - 4) - work[k], 1e4, 1e-12);
