@@ -197,12 +197,6 @@ void bbm_turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
     }
 }
 
-/* Whether the bond of two elements is one of their whole edge. */
-static int has_moment(const bbm_model *m, int i, int j)
-{
-    return m->beyond->bonding == BBM_MOMENT && (m->element[i].n == 4 || m->element[j].n == 4);
-}
-
 /* ----------------------------------------------------------------- contacts of shared corners */
 
 /* The vertex that shares a corner of the boundary with v: one edge ends there and the next starts,
@@ -286,7 +280,7 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
     bbm_gap end[2];
     double M[2][2];
 
-    if (!has_moment(m, b->i, b->j)) {
+    if (m->beyond->bonding == BBM_VERTICES || (i->n != 4 && j->n != 4)) {
         bbm_list_bond(m, b);
         return;
     }
