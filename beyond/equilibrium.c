@@ -180,14 +180,13 @@ static double breach_share(const bbm_balance *b)
     return b->breach > NO_FORCE ? b->breach / (b->forces + b->breach) : 0;
 }
 
-/* The element that stands for the body of which the most is left or broken. */
-static int find_worst(const bbm_model *m, double (*share)(const bbm_balance *b))
+/* The body of which the most is left or broken. */
+static const bbm_balance *worst_of(const bbm_model *m, double (*share)(const bbm_balance *b))
 {
-    const bbm_balance *b = m->beyond->balance;
-    int worst = 0;
+    const bbm_balance *worst = m->beyond->balance, *end = worst + m->elements;
 
-    for (int i = 1; i < m->elements; i++)
-        worst = share(&b[i]) > share(&b[worst]) ? i : worst;
+    for (const bbm_balance *b = worst; b < end; b++)
+        worst = share(b) > share(worst) ? b : worst;
     return worst;
 }
 
@@ -195,8 +194,6 @@ static int find_worst(const bbm_model *m, double (*share)(const bbm_balance *b))
  * its law. Notes what is left or broken without inertia. */
 bbm_status bbm_check_equilibrium(bbm_model *m)
 {
-    const bbm_balance *b = m->beyond->balance;
-
     begin_bodies(m);
     for (int i = 0; i < m->elements; i++) {
         const double turn[6] = { [2] = -bbm_tension_stiffness(m, i) * m->D[6 * i + 2] };
@@ -207,22 +204,21 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
         add_gap(m, &m->gap[k]);
     for (int k = 0; k < m->scratch->contacts; k++)
         add_contact(m, &m->scratch->contact[k]);
-    m->beyond->lack = fmax(lack_of(&b[find_worst(m, lack_of)]),
-                           breach_share(&b[find_worst(m, breach_share)]));
+    m->beyond->lack = fmax(lack_of(worst_of(m, lack_of)), breach_share(worst_of(m, breach_share)));
     for (int i = 0; i < m->elements; i++)
         if (bbm_has_inertia(m, i))
             add_inertia(m, i);
-    const int worst = find_worst(m, lack_of), broken = find_worst(m, breach_share);
-    const double lack = lack_of(&b[worst]), breach = breach_share(&b[broken]);
+    const bbm_balance *worst = worst_of(m, lack_of), *broken = worst_of(m, breach_share);
+    const double lack = lack_of(worst), breach = breach_share(broken);
     if (lack > (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
         return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: forces on block %d lack %.2g of balance: "
                         "a smaller pcg tolerance helps, or the stiffnesses of materials, bonds and "
                         "contacts are too far apart",
-                        m->info.step + 1, m->element[worst].block, lack);
+                        m->info.step + 1, m->element[worst - m->beyond->balance].block, lack);
     if (bbm_is_static(m) && breach > BBM_BALANCED)
         return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: contacts of block %d carry %.2g of its "
-                        "forces against their law", m->info.step + 1, m->element[broken].block,
-                        breach);
+                        "forces against their law", m->info.step + 1,
+                        m->element[broken - m->beyond->balance].block, breach);
     m->beyond->breach = isinf(m->par.dt) ? 0 : fmax(m->beyond->breach, breach);
     return BBM_OK;
 }
