@@ -109,7 +109,7 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
 {
     const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
 
-    K->n = K->to = g->n;
+    K->n = g->n;
     K->place = calloc(6 * (n + 1) + blocks, sizeof *K->place);
     K->D = calloc(2 * n + blocks, sizeof *K->D);
     K->x = calloc(37 * n, sizeof *K->x);
