@@ -109,18 +109,15 @@ static bbm_status allocate(bbm_matrix *K, const graph *g)
 {
     const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
 
-    K->n = K->to = g->n;
-    K->place = calloc(6 * n + 2 + blocks, sizeof *K->place);
+    K->n = g->n;
+    K->place = calloc(6 * (n + 1) + blocks, sizeof *K->place);
     K->D = calloc(2 * n + blocks, sizeof *K->D);
     K->x = calloc(37 * n, sizeof *K->x);
     if (!K->place || !K->D || !K->x)
         return BBM_NO_MEMORY;
-    K->caller = K->place + n;
-    K->first = K->caller + n;
-    K->start = K->first + n + 1;
-    K->component = K->start + n + 1;
-    K->body = K->component + n;
-    K->back = K->body + n;
+    int **const list[] = { &K->caller, &K->first, &K->start, &K->component, &K->body, &K->back };
+    for (int k = 0; k < LENGTH(list); k++)
+        *list[k] = K->place + (n + 1) * (size_t)(k + 1);
     K->L = K->D + n;
     K->inverse = K->L + blocks;
     double **const vector[] = { &K->r, &K->u, &K->p, &K->q, &K->y, &K->forces };

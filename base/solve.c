@@ -158,8 +158,6 @@ bbm_status bbm_solve(bbm_matrix *K, const double *F, double *D, const bbm_pcg *w
         info->iterations = one.iterations > info->iterations ? one.iterations : info->iterations;
         info->residual = one.residual <= info->residual ? info->residual : one.residual;
     }
-    K->from = 0;
-    K->to = K->n;
     info->seconds[1] = (double)(clock() - ready) / CLOCKS_PER_SEC;
     return !status && !all_finite(6 * (size_t)K->n, D) ? BBM_NOT_FINITE : status;
 }

@@ -156,13 +156,14 @@ static double own_moment(const bbm_model *m, const bbm_element *e, int v, double
  *
  *     M = 2 (Mi + Mj) mi mj/(mi + mj)^2,
  *
- * whose n.M n is the harmonic mean; or 2 Mi, if j does not bend. */
-static void bond_moment(const bbm_model *m, const bbm_bond *b, double M[2][2])
+ * whose n.M n is the harmonic mean; or 2 Mi, if j does not bend or is the wall, NULL. p, q: where
+ * the edge starts in i and, the other way, in j. */
+static void bond_moment(const bbm_model *m, const bbm_element *i, int p, const bbm_element *j,
+                        int q, double M[2][2])
 {
-    const bbm_element *i = &m->element[b->i], *j = &m->element[b->j];
     double Mi[2][2] = { { 0 } }, Mj[2][2] = { { 0 } };
-    const double mi = i->n == 4 ? own_moment(m, i, b->p[0], Mi) : 0;
-    const double mj = j->n == 4 ? own_moment(m, j, b->q[1], Mj) : 0;    /* it runs the other way */
+    const double mi = i->n == 4 ? own_moment(m, i, p, Mi) : 0;
+    const double mj = j && j->n == 4 ? own_moment(m, j, q, Mj) : 0;
     const double sum = mi + mj, series = mi > 0 && mj > 0 ? 2 * (mi / sum) * (mj / sum) : 2;
 
     for (int a = 0; a < 4; a++)
@@ -195,12 +196,6 @@ void bbm_turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
             T[1][a] = (T[1][a] - t * x) / (1 + t * t);
         }
     }
-}
-
-/* Whether the bond of two elements is one of their whole edge. */
-static int has_moment(const bbm_model *m, int i, int j)
-{
-    return m->beyond->bonding == BBM_MOMENT && (m->element[i].n == 4 || m->element[j].n == 4);
 }
 
 /* ----------------------------------------------------------------- contacts of shared corners */
@@ -286,13 +281,13 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
     bbm_gap end[2];
     double M[2][2];
 
-    if (!has_moment(m, b->i, b->j)) {
+    if (m->beyond->bonding == BBM_VERTICES || (i->n != 4 && j->n != 4)) {
         bbm_list_bond(m, b);
         return;
     }
     for (int e = 0; e < 2; e++)
         bbm_bonding_gap(i, &m->vertex[b->p[e]], j, &m->vertex[b->q[e]], k, &end[e]);
-    bond_moment(m, b, M);
+    bond_moment(m, i, b->p[0], j, b->q[1], M);
     const int held = held_edge(m, i, b->p[0]) | held_edge(m, j, b->q[1]);
     list_edge(m, b->i, b->j, end, BBM_XY & ~held, k, M);
     if (i->middle)
@@ -383,9 +378,7 @@ static void list_fixed(bbm_model *m, int v)
         return;
     for (int n = 0; n < 2; n++)
         bbm_fixed_gap(e, &m->vertex[ends[n]], &m->node[m->vertex[ends[n]].node], k, &end[n]);
-    own_moment(m, e, v, M);
-    for (int a = 0; a < 4; a++)
-        M[a / 2][a % 2] *= 2;
+    bond_moment(m, e, v, NULL, 0, M);
     list_edge(m, i, -1, end, edge, k, M);
 }
 

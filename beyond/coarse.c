@@ -61,18 +61,25 @@
  * grow with alpha; with none they are half as many again. */
 #define HOURGLASS 1e-3
 
+typedef struct {                /* a corner of a row, or a mode                                 */
+    int node, held;             /* its node; whether that is held                               */
+    bbm_linear P;
+} coarse_corner;
+
+typedef struct {                /* a row of K                                                   */
+    int start, mode;            /* a component of the rows i .. j-1 has the nodes row[i].start  */
+                                /* .. row[j].start-1 and the modes row[i].mode .. row[j].mode-1 */
+    int corners, modes;         /* how many; modes: 2 or 0                                      */
+    coarse_corner *corner;      /* [corners + modes]                                            */
+    double at[2];               /* centroid                                                     */
+    double Q[4][4];             /* unknowns 2 to 5 of the slopes ux, uy, vx, vy                 */
+    double hourglass;           /* stiffness against it, N/m                                    */
+} coarse_row;
+
 typedef struct {
     int nodes;                  /* without modes; some without a corner                         */
-    int *start;                 /* [rows+1]  a component of the rows i .. j-1 has the nodes     */
-                                /*           start[i] .. start[j]-1 ...                         */
-    int *mode;                  /* [rows+1]  ... and the modes mode[i] .. mode[j]-1             */
-    int *first, *node;          /* [rows+1]  row i has the nodes node[first[i] .. first[i+1]-1],*/
-                                /*           those of its corners, then its modes               */
-    int *held;                  /* as node: it is                                               */
-    bbm_linear *P;              /* as node                                                      */
-    double (*at)[2];            /* [rows]    centroid                                           */
-    double (*Q)[4][4];          /* [rows]    unknowns 2 to 5 of the slopes ux, uy, vx, vy       */
-    double *hourglass;          /* [rows]    stiffness against it, N/m                          */
+    coarse_row *row;            /* [rows+1]                                                     */
+    coarse_corner *corner;      /* of all rows, one after the other                             */
     bbm_factor Kc;              /* then its factor                                              */
     double *x;                  /* [2 (nodes + modes)]  a vector                                */
     double *z;                  /* [6 rows]  a vector                                           */
@@ -80,35 +87,28 @@ typedef struct {
 
 /* ----------------------------------------------------------------------------------- the layout */
 
-static int has_modes(const coarse_space *c, int i) { return c->mode[i + 1] > c->mode[i]; }
-
-static int corners(const coarse_space *c, int i)
-{
-    return c->first[i + 1] - c->first[i] - (has_modes(c, i) ? 2 : 0);
-}
-
 /* What the block of the rows i and j adds to Kc: WHOLE, all of it; ACROSS, what modes across a side
  * have. Nothing to be added whole is the bond of two triangles, or of two quadrilaterals with
- * modes, at no node that is held or in contact. mode: where those of i and j across their side
- * stand. */
+ * modes, at no node that is held or in contact. mode: which corners of i and j are those across
+ * their side. */
 enum { WHOLE = 1, ACROSS = 2 };
 
-static int find_share(const coarse_space *c, int i, int j, int mode[2])
+static int find_share(const coarse_row *i, const coarse_row *j, int mode[2])
 {
-    const int ni = corners(c, i), nj = corners(c, j), modes = has_modes(c, i) && has_modes(c, j);
+    const int modes = i->modes && j->modes;
     int common = 0, held = 0, sum[2] = { 0 };
 
-    for (int a = 0; a < ni; a++)
-        for (int b = 0; b < nj; b++)
-            if (c->node[c->first[i] + a] == c->node[c->first[j] + b]) {
+    for (int a = 0; a < i->corners; a++)
+        for (int b = 0; b < j->corners; b++)
+            if (i->corner[a].node == j->corner[b].node) {
                 common++;
-                held |= c->held[c->first[i] + a];
+                held |= i->corner[a].held;
                 sum[0] += a;
                 sum[1] += b;
             }
-    mode[0] = c->first[i] + ni + (sum[0] != 3);     /* corners 1 and 2, or 3 and 0 */
-    mode[1] = c->first[j] + nj + (sum[1] != 3);
-    if (common != 2 || !(modes || (ni == 3 && nj == 3)))
+    mode[0] = i->corners + (sum[0] != 3);           /* corners 1 and 2, or 3 and 0 */
+    mode[1] = j->corners + (sum[1] != 3);
+    if (common != 2 || !(modes || (i->corners == 3 && j->corners == 3)))
         return WHOLE;
     return (modes ? ACROSS : 0) | (held ? WHOLE : 0);
 }
@@ -127,15 +127,15 @@ static int list_entries(const bbm_matrix *K, const coarse_space *c, int (*entry)
 {
     int n = 0, mode[2];
 
-    for (int i = 0; i < K->n; i++)
-        for (int k = K->first[i]; k <= K->first[i + 1]; k++) {
-            const int j = k < K->first[i + 1] ? i - K->back[k] : i;
-            const int share = find_share(c, i, j, mode);
+    for (int row = 0; row < K->n; row++)
+        for (int k = K->first[row]; k <= K->first[row + 1]; k++) {
+            const coarse_row *i = &c->row[row], *j = k < K->first[row + 1] ? i - K->back[k] : i;
+            const int share = find_share(i, j, mode);
             if (share & ACROSS)
-                n = add_entry(entry, n, c->node[mode[0]], c->node[mode[1]]);
-            for (int a = 0; a < corners(c, i) && share & WHOLE; a++)
-                for (int b = i == j ? a + 1 : 0; b < corners(c, j); b++)
-                    n = add_entry(entry, n, c->node[c->first[i] + a], c->node[c->first[j] + b]);
+                n = add_entry(entry, n, i->corner[mode[0]].node, j->corner[mode[1]].node);
+            for (int a = 0; a < i->corners && share & WHOLE; a++)
+                for (int b = i == j ? a + 1 : 0; b < j->corners; b++)
+                    n = add_entry(entry, n, i->corner[a].node, j->corner[b].node);
         }
     return n;
 }
@@ -154,8 +154,7 @@ static int compare_keys(const void *a, const void *b)
     return (p[k] > q[k]) - (p[k] < q[k]);
 }
 
-/* Numbers the nodes by sorted keys, also in the entries; modes stay. key, number: [n], scratch, the
- * first 0. */
+/* Numbers the nodes by sorted keys; modes stay. key, number: [n], scratch, the first 0. */
 static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *place, int entries,
                          int (*entry)[2], long long (*key)[KEYS], int *number)
 {
@@ -175,70 +174,63 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *
     qsort(key, (size_t)c->nodes, sizeof *key, compare_keys);
     for (int k = 0; k < c->nodes; k++)
         number[key[k][NODE]] = k;
-    for (int a = 0; a < c->first[K->n]; a++)
-        if (c->node[a] < c->nodes)
-            c->node[a] = number[c->node[a]];
-    for (int k = 0; k < 2 * entries; k++)
-        if (entry[k / 2][k % 2] < c->nodes)
-            entry[k / 2][k % 2] = number[entry[k / 2][k % 2]];
+    for (coarse_corner *a = c->corner; a < c->row[K->n].corner; a++)
+        if (a->node < c->nodes)
+            a->node = number[a->node];
     for (int k = 0, v = 0; k <= K->components; k++) {
         while (v < c->nodes && key[v][LAST] < BBM_PLACES * k)
             v++;
-        c->start[K->start[k]] = v;
+        c->row[K->start[k]].start = v;
     }
 }
 
 static int node_of(int number) { return number < 0 ? -1 - number : number; }
 
-/* start, mode, first, held, and node in the caller's numbers. */
+/* mode, corners, modes and held of each row, and node in the caller's numbers. */
 static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, const int *node,
                              const int *middles, coarse_space *c)
 {
-    const size_t rows = (size_t)K->n + 1;
+    size_t corners = (size_t)first[K->n];
 
+    for (int i = 0; i < K->n && middles; i++)
+        corners += middles[i] ? 2 : 0;
     c->nodes = nodes;
-    c->start = calloc(3 * rows + 3 * (size_t)first[K->n], sizeof *c->start);
-    if (!c->start)
+    c->row = calloc((size_t)K->n + 1, sizeof *c->row);
+    c->corner = calloc(corners, sizeof *c->corner);
+    if (!c->row || !c->corner)
         return BBM_NO_MEMORY;
-    c->mode = c->start + rows;
-    c->first = c->mode + rows;
-    c->node = c->first + rows;
-    c->held = c->node + 3 * first[K->n] / 2;
-    c->mode[0] = nodes;
+    c->row->mode = nodes;
+    c->row->corner = c->corner;
     for (int i = 0; i < K->n; i++) {
         const int *from = first + K->caller[i];
-        int n = c->first[i];
-        c->mode[i + 1] = c->mode[i] + (middles && middles[K->caller[i]] ? 2 : 0);
-        for (int k = from[0]; k < from[1]; k++, n++) {
-            c->node[n] = node_of(node[k]);
-            c->held[n] = node[k] < 0;
-        }
-        for (int k = c->mode[i]; k < c->mode[i + 1]; k++)
-            c->node[n++] = k;
-        c->first[i + 1] = n;
+        coarse_row *r = &c->row[i];
+        coarse_corner *corner = r->corner;
+        r->corners = from[1] - from[0];
+        r->modes = middles && middles[K->caller[i]] ? 2 : 0;
+        for (int k = from[0]; k < from[1]; k++)
+            *corner++ = (coarse_corner){ .node = node_of(node[k]), .held = node[k] < 0 };
+        for (int k = 0; k < r->modes; k++)
+            *corner++ = (coarse_corner){ .node = r->mode + k };
+        r[1].mode = r->mode + r->modes;
+        r[1].corner = corner;
     }
     return BBM_OK;
 }
 
 static bbm_status lay_out(const bbm_matrix *K, const long long *place, coarse_space *c)
 {
-    const size_t rows = (size_t)K->n, nodes = (size_t)c->nodes, all = (size_t)c->mode[K->n];
-    const size_t columns = (size_t)c->first[K->n];
+    const size_t nodes = (size_t)c->nodes, all = (size_t)c->row[K->n].mode;
     const int entries = list_entries(K, c, NULL);
     int (*entry)[2] = calloc((size_t)entries + nodes, sizeof *entry);
     long long (*key)[KEYS] = calloc(nodes, sizeof *key);
     bbm_status status = BBM_NO_MEMORY;
 
-    c->P = calloc(columns * sizeof *c->P + rows * (sizeof *c->at + sizeof *c->Q
-                                                   + sizeof *c->hourglass), 1);
-    c->x = calloc(2 * all + 6 * rows, sizeof *c->x);
-    if (c->P && c->x && entry && key) {
-        c->at = (double (*)[2])(c->P + columns);
-        c->Q = (double (*)[4][4])(c->at + rows);
-        c->hourglass = (double *)(c->Q + rows);
+    c->x = calloc(2 * all + 6 * (size_t)K->n, sizeof *c->x);
+    if (c->x && entry && key) {
         c->z = c->x + 2 * all;
         list_entries(K, c, entry);
         number_nodes(K, c, place, entries, entry, key, entry[entries]);
+        list_entries(K, c, entry);
         status = bbm_factor_lay_out(&c->Kc, (int)all, entries, entry);
     }
     free(entry);
@@ -252,8 +244,8 @@ static void coarse_free(void *extra)
 
     if (!c)
         return;
-    free(c->start);
-    free(c->P);
+    free(c->row);
+    free(c->corner);
     free(c->x);
     bbm_factor_free(&c->Kc);
     free(c);
@@ -292,15 +284,15 @@ bbm_status bbm_matrix_interpolate(bbm_matrix *K, int i, int k, double Q[4][4], b
                                   const bbm_element *e)
 {
     const coarse_space *c = K->extra;
-    const int row = c && i >= 0 && i < K->n ? K->place[i] : -1;
+    coarse_row *r = c && i >= 0 && i < K->n ? &c->row[K->place[i]] : NULL;
 
-    if (row < 0 || k < 0 || k >= corners(c, row))
+    if (!r || k < 0 || k >= r->corners)
         return BBM_BAD_INDEX;
-    c->P[c->first[row] + k] = f;
-    c->at[row][0] = e->x;
-    c->at[row][1] = e->y;
-    c->hourglass[row] = HOURGLASS * e->material.E * e->material.thickness;
-    memcpy(c->Q[row], Q, sizeof *c->Q);
+    r->corner[k].P = f;
+    r->at[0] = e->x;
+    r->at[1] = e->y;
+    r->hourglass = HOURGLASS * e->material.E * e->material.thickness;
+    memcpy(r->Q, Q, sizeof r->Q);
     K->ready = 0;
     return BBM_OK;
 }
@@ -345,22 +337,22 @@ static void multiply(double B[6][6], const bbm_linear *P, double Y[2][6])
     }
 }
 
-/* Kc += P^T Y + its transpose, where P belongs to node i and Y to node j; `own`: P is Y's, the
+/* Kc += P^T Y + its transpose, P that of the corner i and Y that of j. If these are the same, the
  * sum is symmetric and is added once. Pivots are measured by such sums. */
-static void add_block(const coarse_space *c, const bbm_linear *P, int i, double Y[2][6], int j,
-                      int own)
+static void add_block(const bbm_factor *Kc, const coarse_corner *i, double Y[2][6],
+                      const coarse_corner *j)
 {
     double sum[2][2] = { { 0 } };
 
     for (int k = 0; k < 2; k++)
-        add_to_node(P, Y[k], sum[k]);
+        add_to_node(&i->P, Y[k], sum[k]);
     for (int k = 0; k < 4; k++) {
-        const int p = 2 * i + k / 2, q = 2 * j + k % 2;
-        if (!own || p >= q)
-            *bbm_entry(&c->Kc, p > q ? p : q, p > q ? q : p)
-                += (p == q && !own ? 2 : 1) * sum[k % 2][k / 2];
-        if (own && p == q)
-            c->Kc.size[p] += sum[k / 2][k / 2];
+        const int p = 2 * i->node + k / 2, q = 2 * j->node + k % 2;
+        if (i != j || p >= q)
+            *bbm_entry(Kc, p > q ? p : q, p > q ? q : p)
+                += (p == q && i != j ? 2 : 1) * sum[k % 2][k / 2];
+        if (i == j && p == q)
+            Kc->size[p] += sum[k / 2][k / 2];
     }
 }
 
@@ -374,64 +366,65 @@ static void add_continued(double B[6][6], const double d[2], double own[6][6])
 
 /* What the block B of the rows i and j adds, to the corners or to the elements' own stiffness, and
  * to the modes. */
-static void add_pair(const coarse_space *c, int i, int j, double B[6][6], double (*own)[6][6])
+static void add_pair(const bbm_factor *Kc, const coarse_row *i, const coarse_row *j,
+                     double B[6][6], double own_i[6][6], double own_j[6][6])
 {
-    const double way[2] = { c->at[j][0] - c->at[i][0], c->at[j][1] - c->at[i][1] };
+    const double way[2] = { j->at[0] - i->at[0], j->at[1] - i->at[1] };
     double Y[2][6], transposed[6][6];
     int mode[2];
-    const int share = find_share(c, i, j, mode);
+    const int share = find_share(i, j, mode);
 
-    for (int b = c->first[j]; b < c->first[j] + corners(c, j) && share & WHOLE; b++) {
-        multiply(B, &c->P[b], Y);
-        for (int a = c->first[i]; a < c->first[i] + corners(c, i); a++)
-            add_block(c, &c->P[a], c->node[a], Y, c->node[b], 0);
+    for (int b = 0; b < j->corners && share & WHOLE; b++) {
+        multiply(B, &j->corner[b].P, Y);
+        for (int a = 0; a < i->corners; a++)
+            add_block(Kc, &i->corner[a], Y, &j->corner[b]);
     }
     if (share & ACROSS) {
-        multiply(B, &c->P[mode[1]], Y);
-        add_block(c, &c->P[mode[0]], c->node[mode[0]], Y, c->node[mode[1]], 0);
+        multiply(B, &j->corner[mode[1]].P, Y);
+        add_block(Kc, &i->corner[mode[0]], Y, &j->corner[mode[1]]);
     }
     if (share & WHOLE)
         return;
     for (int a = 0; a < 36; a++)
         transposed[a / 6][a % 6] = B[a % 6][a / 6];
-    add_continued(B, way, own[i]);
-    add_continued(transposed, (double [2]){ -way[0], -way[1] }, own[j]);
+    add_continued(B, way, own_i);
+    add_continued(transposed, (double [2]){ -way[0], -way[1] }, own_j);
 }
 
-/* P of the modes of row i, s and t: half of what two corners next to each other do, less half of
+/* P of the modes of a row, s and t: half of what two corners next to each other do, less half of
  * what the others do. Adds their block of Kc. */
-static void add_modes(const coarse_space *c, int i, double B[6][6])
+static void add_modes(const bbm_factor *Kc, const coarse_row *r, double B[6][6])
 {
-    const bbm_linear *P = &c->P[c->first[i]];
+    const coarse_corner *of = r->corner;
     double Y[2][6];
 
-    for (int k = 0; k < 2; k++) {
-        const bbm_linear *up[2] = { P + 1 + k, P + 2 + k }, *down[2] = { P, P + 3 - 2 * k };
-        bbm_linear *mode = &c->P[c->first[i] + 4 + k];
-        mode->f = (up[0]->f + up[1]->f - down[0]->f - down[1]->f) / 2;
-        mode->fx = (up[0]->fx + up[1]->fx - down[0]->fx - down[1]->fx) / 2;
-        mode->fy = (up[0]->fy + up[1]->fy - down[0]->fy - down[1]->fy) / 2;
-        multiply(B, mode, Y);
-        add_block(c, mode, c->mode[i] + k, Y, c->mode[i] + k, 1);
+    for (int k = 0; k < r->modes; k++) {
+        const bbm_linear *up[2] = { &of[1 + k].P, &of[2 + k].P };
+        const bbm_linear *down[2] = { &of[0].P, &of[3 - 2 * k].P };
+        coarse_corner *mode = &r->corner[4 + k];
+        mode->P.f = (up[0]->f + up[1]->f - down[0]->f - down[1]->f) / 2;
+        mode->P.fx = (up[0]->fx + up[1]->fx - down[0]->fx - down[1]->fx) / 2;
+        mode->P.fy = (up[0]->fy + up[1]->fy - down[0]->fy - down[1]->fy) / 2;
+        multiply(B, &mode->P, Y);
+        add_block(Kc, mode, Y, mode);
     }
 }
 
 /* The stiffness of an element without bonds, and against its hourglass, to and fro by turns. */
-static void add_element(const coarse_space *c, int i, double own[6][6])
+static void add_element(const bbm_factor *Kc, const coarse_row *r, double own[6][6])
 {
-    const int *node = c->node + c->first[i];
-    const bbm_linear *P = &c->P[c->first[i]];
+    const coarse_corner *of = r->corner;
     double Y[2][6];
 
-    for (int b = 0; b < corners(c, i); b++) {
-        multiply(own, &P[b], Y);
+    for (int b = 0; b < r->corners; b++) {
+        multiply(own, &of[b].P, Y);
         for (int a = 0; a <= b; a++)
-            add_block(c, &P[a], node[a], Y, node[b], a == b);
+            add_block(Kc, &of[a], Y, &of[b]);
     }
-    for (int k = 0; k < 32 && has_modes(c, i); k++) {
-        const int p = 2 * node[k / 8] + k % 2, q = 2 * node[k / 2 % 4] + k % 2;
+    for (int k = 0; k < 32 && r->modes; k++) {
+        const int p = 2 * of[k / 8].node + k % 2, q = 2 * of[k / 2 % 4].node + k % 2;
         if (p >= q)
-            *bbm_entry(&c->Kc, p, q) += (k / 8 + k / 2) % 2 ? -c->hourglass[i] : c->hourglass[i];
+            *bbm_entry(Kc, p, q) += (k / 8 + k / 2) % 2 ? -r->hourglass : r->hourglass;
     }
 }
 
@@ -446,19 +439,19 @@ static void make_coarse(bbm_matrix *K)
     memset(c->Kc.A, 0, (c->Kc.entries + 2 * (size_t)c->Kc.n) * sizeof *c->Kc.A);
     memset(own, 0, (size_t)K->n * sizeof *own);
     for (int i = 0; i < K->n; i++) {
-        take_block(K->D[i], c->Q[i], V);
-        take_block(V, c->Q[i], B);
+        coarse_row *r = &c->row[i];
+        take_block(K->D[i], r->Q, V);
+        take_block(V, r->Q, B);
         add_continued(B, (double [2]){ 0 }, own[i]);
-        if (has_modes(c, i))
-            add_modes(c, i, B);
+        add_modes(&c->Kc, r, B);
         for (int k = K->first[i]; k < K->first[i + 1]; k++) {
-            take_block(K->L[k], c->Q[i - K->back[k]], V);
-            take_block(V, c->Q[i], B);
-            add_pair(c, i, i - K->back[k], B, own);
+            take_block(K->L[k], r[-K->back[k]].Q, V);
+            take_block(V, r->Q, B);
+            add_pair(&c->Kc, r, r - K->back[k], B, own[i], own[i - K->back[k]]);
         }
     }
     for (int i = 0; i < K->n; i++)
-        add_element(c, i, own[i]);
+        add_element(&c->Kc, &c->row[i], own[i]);
     bbm_factor_make(&c->Kc);
 }
 
@@ -466,17 +459,17 @@ static void make_coarse(bbm_matrix *K)
 static void interpolate(const bbm_matrix *K, const coarse_space *c)
 {
     for (int i = K->from; i < K->to; i++) {
-        double *z = &c->z[6 * i], (*Q)[4] = c->Q[i], s[4] = { 0 };
+        coarse_row *r = &c->row[i];
+        double *z = &c->z[6 * i], (*Q)[4] = r->Q, s[4] = { 0 };
         memset(z, 0, 6 * sizeof *z);
-        for (int a = c->first[i]; a < c->first[i + 1]; a++) {
-            const bbm_linear *P = &c->P[a];
-            const double *x = &c->x[2 * c->node[a]];
-            z[0] += P->f * x[0];
-            z[1] += P->f * x[1];
-            s[0] += P->fx * x[0];
-            s[1] += P->fy * x[0];
-            s[2] += P->fx * x[1];
-            s[3] += P->fy * x[1];
+        for (const coarse_corner *a = r->corner; a < r[1].corner; a++) {
+            const double *x = &c->x[2 * a->node];
+            z[0] += a->P.f * x[0];
+            z[1] += a->P.f * x[1];
+            s[0] += a->P.fx * x[0];
+            s[1] += a->P.fy * x[0];
+            s[2] += a->P.fx * x[1];
+            s[3] += a->P.fy * x[1];
         }
         for (int a = 0; a < 4; a++)
             z[2 + a] = Q[a][0] * s[0] + Q[a][1] * s[1] + Q[a][2] * s[2] + Q[a][3] * s[3];
@@ -487,18 +480,18 @@ static void interpolate(const bbm_matrix *K, const coarse_space *c)
 static void correct(const bbm_matrix *K, const double *y, double *f)
 {
     const coarse_space *c = K->extra;
-    const int range[2][2] = { { c->start[K->from], c->start[K->to] },
-                              { c->mode[K->from], c->mode[K->to] } };
+    coarse_row *from = &c->row[K->from], *to = &c->row[K->to];
+    const int range[2][2] = { { from->start, to->start }, { from->mode, to->mode } };
     double s[6];
 
     memset(c->z + 6 * K->from, 0, 6 * (size_t)(K->to - K->from) * sizeof *c->z);
     for (int k = 0; k < 2; k++)
         memset(c->x + 2 * range[k][0], 0, 2 * (size_t)(range[k][1] - range[k][0]) * sizeof *c->x);
     bbm_add_upper(K, y, c->z);
-    for (int i = K->from; i < K->to; i++) {
-        take_to_slopes(c->Q[i], &c->z[6 * i], s);
-        for (int a = c->first[i]; a < c->first[i + 1]; a++)
-            add_to_node(&c->P[a], s, &c->x[2 * c->node[a]]);
+    for (coarse_row *r = from; r < to; r++) {
+        take_to_slopes(r->Q, &c->z[6 * (r - c->row)], s);
+        for (const coarse_corner *a = r->corner; a < r[1].corner; a++)
+            add_to_node(&a->P, s, &c->x[2 * a->node]);
     }
     for (int k = 0; k < 2; k++)
         bbm_substitute(&c->Kc, range[k][0], range[k][1], c->x);

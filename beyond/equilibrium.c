@@ -40,7 +40,6 @@
 static void begin_bodies(bbm_model *m)
 {
     bbm_balance *body = m->beyond->balance;
-    const double unloaded = UNLOADED * m->beyond->bond_tension;
 
     for (int i = 0; i < m->elements; i++)
         body[i] = (bbm_balance){ .inside = m->K->forces[m->K->component[i]] };
@@ -53,7 +52,7 @@ static void begin_bodies(bbm_model *m)
         b->size = sqrt(b->area);
         b->inside += sqrt(e->A) * e->material.thickness
                    * (fabs(e->stress[0]) + fabs(e->stress[1]) + fabs(e->stress[2]));
-        b->rounding = unloaded * b->size * e->material.thickness;
+        b->rounding = UNLOADED * m->beyond->bond_tension * b->size * e->material.thickness;
     }
 }
 
@@ -91,26 +90,26 @@ static double add_force(bbm_model *m, int i, const double F[6], int counts, doub
 static void add_gap(bbm_model *m, const bbm_gap *g)
 {
     const int *body = m->beyond->body, counts = g->j < 0 || body[g->i] != body[g->j];
-    double d[2], f[2], Fi[6], Fj[6];
+    const double k = g->W[0][0] + g->W[1][1];
+    bbm_balance *b = &m->beyond->balance[body[g->i]];
+    double d[2], f[2], Fi[6] = { 0 }, Fj[6] = { 0 };
 
     bbm_gap_length(m, g, d);
-    for (int a = 0; a < 2; a++)
+    for (int a = 0; a < 2; a++) {
         f[a] = g->own.f[a] + g->W[a][0] * d[0] + g->W[a][1] * d[1];
-    for (int a = 0; a < 6; a++) {
-        Fi[a] = -f[0] * g->Ti[0][a] - f[1] * g->Ti[1][a];
-        Fj[a] = f[0] * g->Tj[0][a] + f[1] * g->Tj[1][a];
+        bbm_force_submatrix(f[a], g->Ti[a], Fi);
+        bbm_force_submatrix(-f[a], g->Tj[a], Fj);
     }
     if (!counts)
-        m->beyond->balance[body[g->i]].inside += hypot(f[0], f[1]);
+        b->inside += hypot(f[0], f[1]);
     else if (g->j < 0)
-        m->beyond->balance[body[g->i]].inside += hypot(g->W[0][0] * g->d0[0],
-                                                       g->W[1][1] * g->d0[1]);
-    double moment = add_force(m, g->i, Fi, counts, g->W[0][0] + g->W[1][1]);
+        b->inside += hypot(g->W[0][0] * g->d0[0], g->W[1][1] * g->d0[1]);
+    double moment = add_force(m, g->i, Fi, counts, k);
     if (g->j < 0)
         return;
-    moment += add_force(m, g->j, Fj, counts, g->W[0][0] + g->W[1][1]);
+    moment += add_force(m, g->j, Fj, counts, k);
     if (counts && bbm_motion_of(m)) {
-        add_breach(m, g->i, fabs(moment) / m->beyond->balance[body[g->i]].size);
+        add_breach(m, g->i, fabs(moment) / b->size);
         add_breach(m, g->j, fabs(moment) / m->beyond->balance[body[g->j]].size);
     }
 }
@@ -181,14 +180,13 @@ static double breach_share(const bbm_balance *b)
     return b->breach > NO_FORCE ? b->breach / (b->forces + b->breach) : 0;
 }
 
-/* The element that stands for the body of which the most is left or broken. */
-static int find_worst(const bbm_model *m, double (*share)(const bbm_balance *b))
+/* The body of which the most is left or broken. */
+static const bbm_balance *worst_of(const bbm_model *m, double (*share)(const bbm_balance *b))
 {
-    const bbm_balance *b = m->beyond->balance;
-    int worst = 0;
+    const bbm_balance *worst = m->beyond->balance, *end = worst + m->elements;
 
-    for (int i = 1; i < m->elements; i++)
-        worst = share(&b[i]) > share(&b[worst]) ? i : worst;
+    for (const bbm_balance *b = worst; b < end; b++)
+        worst = share(b) > share(worst) ? b : worst;
     return worst;
 }
 
@@ -196,9 +194,6 @@ static int find_worst(const bbm_model *m, double (*share)(const bbm_balance *b))
  * its law. Notes what is left or broken without inertia. */
 bbm_status bbm_check_equilibrium(bbm_model *m)
 {
-    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
-    const bbm_balance *b = m->beyond->balance;
-
     begin_bodies(m);
     for (int i = 0; i < m->elements; i++) {
         const double turn[6] = { [2] = -bbm_tension_stiffness(m, i) * m->D[6 * i + 2] };
@@ -207,24 +202,23 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
     }
     for (int k = 0; k < m->gaps; k++)
         add_gap(m, &m->gap[k]);
-    for (; c < end; c++)
-        add_contact(m, c);
-    m->beyond->lack = fmax(lack_of(&b[find_worst(m, lack_of)]),
-                           breach_share(&b[find_worst(m, breach_share)]));
+    for (int k = 0; k < m->scratch->contacts; k++)
+        add_contact(m, &m->scratch->contact[k]);
+    m->beyond->lack = fmax(lack_of(worst_of(m, lack_of)), breach_share(worst_of(m, breach_share)));
     for (int i = 0; i < m->elements; i++)
         if (bbm_has_inertia(m, i))
             add_inertia(m, i);
-    const int worst = find_worst(m, lack_of), broken = find_worst(m, breach_share);
-    const double lack = lack_of(&b[worst]), breach = breach_share(&b[broken]);
+    const bbm_balance *worst = worst_of(m, lack_of), *broken = worst_of(m, breach_share);
+    const double lack = lack_of(worst), breach = breach_share(broken);
     if (lack > (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
         return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: forces on block %d lack %.2g of balance: "
                         "a smaller pcg tolerance helps, or the stiffnesses of materials, bonds and "
                         "contacts are too far apart",
-                        m->info.step + 1, m->element[worst].block, lack);
+                        m->info.step + 1, m->element[worst - m->beyond->balance].block, lack);
     if (bbm_is_static(m) && breach > BBM_BALANCED)
         return bbm_fail(m, BBM_NOT_CONVERGED, "step %d: contacts of block %d carry %.2g of its "
-                        "forces against their law", m->info.step + 1, m->element[broken].block,
-                        breach);
+                        "forces against their law", m->info.step + 1,
+                        m->element[broken - m->beyond->balance].block, breach);
     m->beyond->breach = isinf(m->par.dt) ? 0 : fmax(m->beyond->breach, breach);
     return BBM_OK;
 }

@@ -133,13 +133,12 @@ static void add_products(size_t n, const double *a, size_t m, const double *b, s
         s[k] += sum[k][0] + sum[k][1];
 }
 
-/* s = the products of the rows i with the rows j <= i, pairs both, over the columns before j. */
+/* s += the products of the rows i with the rows j <= i, pairs both, over the columns before j. */
 static void multiply_rows(const bbm_factor *f, int i, int j, double s[4])
 {
     const bbm_part *p = f->part + f->first[i], *q = f->part + f->first[j];
     const bbm_part *end = f->part + f->first[j + 1];
 
-    memset(s, 0, 4 * sizeof *s);
     while (q < end) {
         const int from = p->from > q->from ? p->from : q->from;
         const int stop = q + 1 == end ? j : q->to, to = p->to < stop ? p->to : stop;
@@ -164,7 +163,7 @@ static double find_pivot(double square, double size)
 static void make_entry(const bbm_factor *f, int i, int j, const bbm_part *p)
 {
     const bbm_part *last = f->part + f->first[j + 1] - 1;
-    double *c = f->A + place_in(p, j), s[4];
+    double *c = f->A + place_in(p, j), s[4] = { 0 };
     const double *d = f->A + place_in(last, j), *e = d + width(last);
 
     multiply_rows(f, i, j, s);

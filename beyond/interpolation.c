@@ -190,13 +190,11 @@ void bbm_interpolate_elements(bbm_model *m)
 
     if (!m->K->extra || m->K->ready || m->par.pcg.method != &bbm_two_level)
         return;
-    for (int i = 0; i < m->vertices; i++) {
-        const bbm_vertex *v = &m->vertex[i];
-        const bbm_element *e = &m->element[v->element];
-        const int k = i - e->first;
-        if (k == 0)
-            bbm_slopes(e->middle ? e->middle->D : (double [6]){ 0 }, Q);
-        (void)bbm_matrix_interpolate(m->K, v->element, k, Q,
-                                     bbm_interpolation(e, &m->vertex[e->first], k), e);
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        bbm_slopes(e->middle ? e->middle->D : (double [6]){ 0 }, Q);
+        for (int k = 0; k < e->n; k++)
+            (void)bbm_matrix_interpolate(m->K, i, k, Q,
+                                         bbm_interpolation(e, &m->vertex[e->first], k), e);
     }
 }

@@ -82,13 +82,11 @@ bbm_pass bbm_take_over(bbm_model *m)
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         bbm_gap_length(m, g, d);
-        for (int r = 0; r < 2 && !g->elastic; r++) {
+        for (int r = 0; r < 2 && !g->elastic; r++) {        /* at the wall Tj = 0 */
             const double df = g->W[r][0] * d[0] + g->W[r][1] * d[1];
             g->own.f[r] += df;
-            for (int a = 0; a < 6; a++) {
-                m->F[6 * g->i + a] -= df * g->Ti[r][a];
-                m->F[6 * (g->j < 0 ? g->i : g->j) + a] += df * g->Tj[r][a];     /* wall: T = 0 */
-            }
+            bbm_force_submatrix(df, g->Ti[r], &m->F[6 * g->i]);
+            bbm_force_submatrix(-df, g->Tj[r], &m->F[6 * (g->j < 0 ? g->i : g->j)]);
         }
     }
     return BBM_PASS_SAME_K;

@@ -51,7 +51,7 @@ void release(bbm_model *m);
 void release_models(void);
 
 /* systems.c: y = K x in the caller's order. */
-void matrix_multiply(const bbm_matrix *K, const double *x, double *y);
+void matrix_multiply(bbm_matrix *K, const double *x, double *y);
 
 /* systems.c: solves A x = b by elimination without pivots; A is positive definite, and is lost; x
  * takes the place of b. */

@@ -115,8 +115,10 @@ double inner_product(int n, const double *x, const double *y)
     return sum;
 }
 
-void matrix_multiply(const bbm_matrix *K, const double *x, double *y)
+void matrix_multiply(bbm_matrix *K, const double *x, double *y)
 {
+    K->from = 0;
+    K->to = K->n;
     for (int i = 0; i < K->n; i++)
         memcpy(K->p + 6 * i, x + 6 * K->caller[i], 6 * sizeof *x);
     bbm_multiply(K, K->p, K->q);
