@@ -21,8 +21,9 @@
  * Tarnow, Wong: Comput. Methods Appl. Mech. Eng. 100, 1992, take the middle for the same reason).
  *
  * T_m needs the D of the solution. A step begins with what its velocities foretell and renews T_m
- * in each pass whose solution has another D. Statics and `rotation` BBM_LINEAR, the paper's way,
- * keep T.
+ * in each pass whose solution has another D. Statics keeps T, but where several of its steps follow
+ * each other, which are Newton's, an element ends each by the exact motion. With `rotation`
+ * BBM_LINEAR, the paper's way, both are T D.
  */
 #include <string.h>
 

@@ -424,7 +424,7 @@ void warn_after(const model *p, const char *path)
         if (p->monitor[k].of == &model_force && !p->monitor[k].touched)
             warn(path, "monitor %.60s: nothing touched in its joint", p->monitor[k].name);
     for (int e = 0; e < p->m->elements && !p->dynamic; e++) {
-        most = fmax(most, fabs(p->m->element[e].sum[2]));
+        most = fmax(most, fabs(p->m->element[e].D[2]));
         for (int k = 3; k < 6; k++)
             strain = fmax(strain, fabs(p->m->element[e].D[k]));
     }
@@ -432,8 +432,8 @@ void warn_after(const model *p, const char *path)
         warn(path, "elements strain by up to %.2g, which statics takes as small: displacements are "
                    "large beside the model; is E in Pa?", strain);
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
-        warn(path, "elements turn by more than 0.1 rad, which statics takes as small: lengths are "
-                   "wrong; dynamic with velocity_factor 0 has them right");
+        warn(path, "elements turn by more than 0.1 rad in the last step, which statics takes as "
+                   "small: lengths are wrong; more steps help");
     if (p->m->beyond->breach > BBM_BALANCED)
         warn(path, "contacts or bolts were off their law by up to %.1g of the forces on a block: "
                    "positions have no more digits; a smaller kn or softer bolts help",
