@@ -258,7 +258,8 @@ struct bbm_hooks {
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */
-    const bbm_motion *(*ends)(const bbm_model *m);          /* by which points and stress do    */
+    const bbm_motion *(*end_motion)(const bbm_model *m);    /* of points and stress then; NULL: */
+                                                            /* u = T D                          */
     bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */
 };
 

@@ -84,8 +84,8 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
             return REFUSE(m, BBM_BAD_MATERIAL, "material %d has %s = %g, expected more than 0, "
                           "from 1e-100 to 1e+100", n, positive[k].name, positive[k].value);
     if (!(a->nu > -1 && a->nu < 0.5))
-        return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected more than -1, less than 0.5",
-                      n, a->nu);
+        return REFUSE(m, BBM_BAD_MATERIAL, "material %d has nu = %g, expected more than -1, less "
+                      "than 0.5", n, a->nu);
     return APPEND(m, m->material, m->materials, a, index);
 }
 

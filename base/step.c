@@ -206,14 +206,14 @@ static bbm_status open_close(bbm_model *m, bbm_pass *pass)
 /* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
 static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
 {
-    const bbm_motion *ends = m->hook->ends ? m->hook->ends(m) : NULL;
+    const bbm_motion *motion = m->hook->end_motion ? m->hook->end_motion(m) : NULL;
     const bbm_element start = *e;
     double E[3][3], u[2];
 
     for (int k = 0; k < e->n; k++) {
         bbm_vertex *p = &vertex[k];
-        if (ends)
-            ends->move(e->D, p->x - e->x, p->y - e->y, u);
+        if (motion)
+            motion->move(e->D, p->x - e->x, p->y - e->y, u);
         else
             bbm_displacement(e, e->D, p->x, p->y, u);
         p->u += u[0];
@@ -233,8 +233,8 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
         memset(e->V, 0, sizeof e->V);
     else
         bbm_newmark_velocity(e, m->h, m->par.velocity_factor > 0);     /* its share: bbm_step */
-    if (ends)
-        ends->turn(&start, e, vertex);
+    if (motion)
+        motion->turn(&start, e, vertex);
 }
 
 /* Moves the elements and vertices of the model, or of a copy, by the D of the model, Eq. (3). */

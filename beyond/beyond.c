@@ -169,7 +169,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .motion = bbm_find_motion,
-        .ends = bbm_find_ends,
+        .end_motion = bbm_find_end_motion,
         .before_solution = before_solution,
         .renew = renew,
         .move = move,

@@ -170,7 +170,7 @@ double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u
 
 /* rotation.c */
 const bbm_motion *bbm_find_motion(const bbm_model *m);
-const bbm_motion *bbm_find_ends(const bbm_model *m);
+const bbm_motion *bbm_find_end_motion(const bbm_model *m);
 void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);

@@ -82,10 +82,10 @@ void bbm_turn_tensor(double s[3], double r)
     s[2] += half * n + t * c1;
 }
 
-/* Stress and strain rates turn with an element that has moved, in statics the stress alone. The stress that the strain adds
- * belongs to the starting area, as in (10): (A stress0 + A0 E e)/A', A' the area at the end. The
- * change of its moments by strain, which no force of the step knows of, changes no energy: turning
- * and straining slow down or speed up together. */
+/* Stress and strain rates turn with an element that has moved, in statics the stress alone. The
+ * stress that the strain adds belongs to the starting area, as in (10): (A stress0 + A0 E e)/A', A'
+ * the area at the end. The change of its moments by strain, which no force of the step knows of,
+ * changes no energy: turning and straining slow down or speed up together. */
 static void turn(const bbm_element *start, bbm_element *e, const bbm_vertex vertex[])
 {
     double rate[3] = { e->V[3], e->V[4], e->V[5] / 2 };
@@ -120,7 +120,7 @@ const bbm_motion *bbm_find_motion(const bbm_model *m)
 
 /* How elements end it: in statics by the exact rotation, too, or they would swell by r^2/2 in each
  * step. One static step by itself is linear. */
-const bbm_motion *bbm_find_ends(const bbm_model *m)
+const bbm_motion *bbm_find_end_motion(const bbm_model *m)
 {
     const int linear = bbm_is_static(m) && m->par.steps == 1 && m->info.step == 0;
 

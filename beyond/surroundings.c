@@ -37,9 +37,9 @@ static double weight_of(const bbm_model *m, const bbm_edge_load *water)
     return water->density * hypot(m->par.gravity[0], m->par.gravity[1]);
 }
 
-/* What presses in a direction (0: x, 1: y) on an edge whose element moves by D in the step, N on the
- * right of (5), and two parts of its stiffness -dN/dD. With the depth level - y(s) along the edge,
- * its length l and its inward normal n,
+/* What presses in a direction (0: x, 1: y) on an edge whose element moves by D in the step, N on
+ * the right of (5), and two parts of its stiffness -dN/dD. With the depth level - y(s) along the
+ * edge, its length l and its inward normal n,
  *
  *     N_r = int (pressure + weight depth) l n_r T_r ds over what is under water.
  *
@@ -63,7 +63,7 @@ static void press(const bbm_model *m, const bbm_edge_load *load, int r, const do
         depth[0] -= end * Ta[1][k] * D[k];
         depth[1] -= end * Tb[1][k] * D[k];
     }
-    if (weight > 0 && e->middle) {
+    if (weight > 0 && e->middle) {              /* the mean of start and end is too small */
         const double whole = 1 / cos(e->middle->D[2] / 2), middle = load->level - e->y - D[1] / 2;
         depth[0] = middle + whole * (depth[0] - middle);
         depth[1] = middle + whole * (depth[1] - middle);
