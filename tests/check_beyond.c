@@ -732,6 +732,57 @@ START_TEST(water_presses_each_strip_of_a_side_by_its_depth)
 }
 END_TEST
 
+/* What presses all round a quadrilateral whose corners x move by T D has the energy int p dA, with p + w (Y - y)
+ * the pressure at a point. */
+static double pressed_energy(const bbm_model *m, const double D[6], double p, double w, double Y)
+{
+    double area = 0, moment = 0, x[5][2];
+
+    for (int k = 0; k < 5; k++) {
+        const bbm_vertex *v = &m->vertex[k % 4];
+        bbm_displacement(m->element, D, v->x, v->y, x[k]);
+        x[k][0] += v->x;
+        x[k][1] += v->y;
+    }
+    for (int k = 0; k < 4; k++) {
+        const double twice = x[k][0] * x[k + 1][1] - x[k + 1][0] * x[k][1];
+        area += twice / 2;
+        moment += twice * (x[k][1] + x[k + 1][1]) / 6;
+    }
+    return (p + w * Y) * area - w * moment;
+}
+
+/* Its second derivatives, by differences, are the sum of what the edges have. Without weight it is pressure
+ * alone. */
+START_TEST(the_stiffness_of_what_presses_all_round_is_that_of_its_energy)
+{
+    static const double quad[4][2] = { { 0, 0 }, { 2, 0.3 }, { 1.8, 1.5 }, { -0.2, 1.1 } };
+    const double d = 1e-3, p = _i ? 0 : 5, w = _i ? 3 : 0, Y = 4;
+    bbm_model *m = new_model(&SOLID);
+
+    add_polygon(m, 0, 4, quad);
+    m->par.gravity[1] = -1;
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < 4; e++)
+        ck_ok(_i ? bbm_add_water(m, e, Y, w) : bbm_load_edge(m, e, 0, 0, p), m);
+    m->h = INFINITY;
+    bbm_gather_edge_loads(m);
+    for (int k = 0; k < 36; k++) {
+        const int a = k / 6, b = k % 6;
+        double K = 0, energy = 0;
+        for (int e = 0; e < 4; e++)
+            K += m->beyond->edge_load[e].sinks[a][b] + m->beyond->edge_load[e].turns[a][b];
+        for (int s = 0; s < 4; s++) {
+            double D[6] = { 0 };
+            D[a] += s % 2 ? d : -d;
+            D[b] += s / 2 ? d : -d;
+            energy += (s % 2 == s / 2 ? 1 : -1) * pressed_energy(m, D, p, w, Y - m->origin[1]);
+        }
+        ck_near(K, energy / (4 * d * d), 10, 1e-5);
+    }
+}
+END_TEST
+
 Suite *beyond_suite(void)
 {
     Suite *s = suite_create("beyond");
@@ -755,7 +806,8 @@ Suite *beyond_suite(void)
         { a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides, COUNT(PILES) },
         { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 2 });
     add_case(s, "water",
-        { water_presses_each_strip_of_a_side_by_its_depth, 25 });
+        { water_presses_each_strip_of_a_side_by_its_depth, 25 },
+        { the_stiffness_of_what_presses_all_round_is_that_of_its_energy, 2 });
     add_case(s, "energies",
         { the_work_of_the_loads_is_twice_the_energy_of_elements_and_springs, 8 },
         { fixed_points_away_from_their_walls_hold_the_energy_of_their_springs, 1 },
