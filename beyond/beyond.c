@@ -44,10 +44,12 @@ static bbm_status check(bbm_model *m)
         return BBM_NO_MEMORY;
     if (cracks)
         return cracks;
-    for (const bbm_edge_load *l = b->edge_load; l < b->edge_load + b->edge_loads; l++)
-        if (m->vertex[l->a].edge < 0)
+    for (int l = 0; l < b->edge_loads; l++) {
+        const bbm_vertex *a = &m->vertex[b->edge_load[l].a];
+        if (a->edge < 0)
             return bbm_fail(m, BBM_BAD_INDEX, "a loaded edge of element %d is none any more: "
-                            "elements have come to lie along it", m->vertex[l->a].element);
+                            "elements have come to lie along it", a->element);
+    }
     bbm_find_pieces(m, b->body);
     bbm_note_springs(m, 0);
     return bbm_check_overlap(m);

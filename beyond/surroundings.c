@@ -135,7 +135,8 @@ void bbm_gather_edge_loads(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;
 
-    for (bbm_edge_load *load = b->edge_load; load < b->edge_load + b->edge_loads; load++) {
+    for (int l = 0; l < b->edge_loads; l++) {
+        bbm_edge_load *load = &b->edge_load[l];
         const bbm_vertex *v = &m->vertex[load->a];
         const bbm_element *e = &m->element[v->element];
         double *F = &m->load[6 * v->element], *N = load->N, (*K)[6] = load->sinks;
@@ -264,8 +265,10 @@ void bbm_stop_supports(bbm_model *m)
 
     for (int i = 0; i < m->elements; i++)
         b->account[i].pressed = 0;
-    for (const bbm_edge_load *l = b->edge_load; l < b->edge_load + b->edge_loads; l++)
-        b->account[m->vertex[l->a].element].pressed += l->N[3] + l->N[4];
+    for (int l = 0; l < b->edge_loads; l++) {
+        const bbm_edge_load *load = &b->edge_load[l];
+        b->account[m->vertex[load->a].element].pressed += load->N[3] + load->N[4];
+    }
 
     for (int n = 0; n < m->nodes; n++)
         for (int a = 0; a < 2; a++) {
