@@ -331,6 +331,51 @@ static void add_places(bbm_model *m, double sign)
     }
 }
 
+/* As the detection finds them. */
+static void sort_contacts(bbm_model *m)
+{
+    qsort(m->contact, (size_t)m->contacts, sizeof *m->contact, bbm_compare_pairs);
+    for (int k = m->contacts - 1; k >= 0; k--)
+        m->edge[m->contact[k].corner].contact = k;
+}
+
+static bbm_status add_contact(bbm_model *m, bbm_contact c)
+{
+    bbm_contact *more = realloc(m->contact, ((size_t)m->contacts + 1) * sizeof *more);
+
+    if (!more)
+        return BBM_NO_MEMORY;
+    m->contact = more;
+    m->contact[m->contacts++] = c;
+    return BBM_OK;
+}
+
+/* Of a contact k whose corner was shared with the vertex shares[k], and is no more, each of the two
+ * corners gets half of the forces: a mirrored model would leave all of it to the other one. What
+ * its rest and anchor count from is taken away by add_places. */
+static bbm_status part_contacts(bbm_model *m, const int shares[], int n)
+{
+    bbm_status status = BBM_OK;
+
+    for (int k = 0; k < n && !status; k++) {
+        bbm_contact *c = &m->contact[k];
+        int other = m->vertex[shares[k]].edge;
+        while (other < 0)
+            other = m->vertex[-1 - other].edge;
+        if (shares[k] == m->edge[c->corner].a || other == c->corner)
+            continue;
+        c->N /= 2;
+        c->T /= 2;
+        c->rest /= 2;
+        c->anchor /= 2;
+        c->area /= 2;
+        bbm_contact half = *c;
+        half.corner = other;
+        status = add_contact(m, half);
+    }
+    return status;
+}
+
 /* The detection begins anew, body by body. Without memory for it the model has to be prepared
  * anew. */
 static bbm_status renew_detection(bbm_model *m)
@@ -349,8 +394,13 @@ static bbm_status renew_detection(bbm_model *m)
 static bbm_status part_bodies(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
-    int kept = 0;
+    const int n = m->contacts;
+    int kept = 0, *shares = malloc(((size_t)n + 1) * sizeof *shares);
 
+    if (!shares)
+        return BBM_NO_MEMORY;
+    for (int k = 0; k < n; k++)
+        shares[k] = bbm_find_partner(m, m->edge[m->contact[k].corner].a);
     add_places(m, -1);
     for (int b = 0; b < m->bonds; b++) {
         const bbm_bond of = m->bond[b];
@@ -371,8 +421,12 @@ static bbm_status part_bodies(bbm_model *m)
             (size_t)(m->gaps - 2 * kept) * sizeof *m->gap);
     m->bonds = kept;
     y->parts = 0;
-    const bbm_status status = renew_detection(m);
+    bbm_status status = renew_detection(m);
+    if (!status)
+        status = part_contacts(m, shares, n);
+    free(shares);
     add_places(m, 1);
+    sort_contacts(m);
     return status;
 }
 
@@ -418,15 +472,10 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
 
     while (!(status = bbm_find_near_pairs(m, search)) && y->broken > 0 && y->passed[0] >= 0) {
         bbm_contact c = { .corner = y->passed[0], .edge = y->passed[1], .inside = 1, .hit = 2 };
-        bbm_contact *more = realloc(m->contact, ((size_t)m->contacts + 1) * sizeof *more);
-        if (!more)
-            return BBM_NO_MEMORY;
         (void)bbm_depth_behind(m, c.corner, c.edge, &c.edge);
-        m->contact = more;
-        m->contact[m->contacts++] = c;
-        qsort(m->contact, (size_t)m->contacts, sizeof *m->contact, bbm_compare_pairs);
-        for (int k = m->contacts - 1; k >= 0; k--)
-            m->edge[m->contact[k].corner].contact = k;
+        if ((status = add_contact(m, c)))
+            return status;
+        sort_contacts(m);
         y->caught++;
         y->passed[0] = -1;
         m->scratch->pairs = 0;
