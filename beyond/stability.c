@@ -15,8 +15,7 @@
  * all this: conjugate gradients come upon a direction in which it is not.
  *
  * What tension has of it is in the K of every static step, but for sum f.X of what presses. Without
- * it a taut string turns too far in one step and back by more in the next, and each turn r
- * lengthens an element by the share r^2/2, until no tension is left.
+ * it a taut string turns too far in one step and back by more in the next.
  */
 #include <string.h>
 
