@@ -89,8 +89,9 @@ void bbm_displacement(const bbm_element *e, const double D[6], double x, double 
 
 static double shear_modulus(const bbm_material *m) { return m->E / (2 * (1 + m->nu)); }
 
-/* G of (4) and (29). Deviation: G/(1 - 2 nu) in plane strain, which the paper does not have. So
- * much stiffer is what is strained along both axes, and springs have to be stiff beside that. */
+/* G of (4) and (29); in plane strain, which the paper does not have, G/(1 - 2 nu). The stiffness of
+ * what is strained along both axes alike is in proportion to that, and springs have to be stiff
+ * beside it. */
 static double bond_modulus(const bbm_element *e)
 {
     return shear_modulus(&e->material) / (1 - 2 * fmax(0, e->out_of_plane));

@@ -376,8 +376,7 @@ static bbm_status part_contacts(bbm_model *m, const int shares[], int n)
     return status;
 }
 
-/* The detection begins anew, body by body. Without memory for it the model has to be prepared
- * anew. */
+/* The detection begins anew, body by body. */
 static bbm_status renew_detection(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++)
@@ -386,11 +385,11 @@ static bbm_status renew_detection(bbm_model *m)
     const bbm_status status = bbm_detect_new(m);
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->element[m->edge[e].element].block;
-    m->is_prepared = !status;
     return status;
 }
 
-/* What has broken in the last step is a boundary, and what has come off is a body. */
+/* What has broken in the last step is a boundary, and what has come off is a body. Without memory
+ * for that the model has to be prepared anew. */
 static bbm_status part_bodies(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
@@ -427,6 +426,7 @@ static bbm_status part_bodies(bbm_model *m)
     free(shares);
     add_places(m, 1);
     sort_contacts(m);
+    m->is_prepared = !status;
     return status;
 }
 

@@ -45,7 +45,10 @@ static double weight_of(const bbm_model *m, const bbm_edge_load *water)
  *
  * An edge that sinks meets more pressure, which is `sinks`. What this does sideways, and that all
  * pressure turns with its edge, is `turns`: the symmetric part, for all around a body there is no
- * other. In statics both begin with the next step, when the forces have their new arms, too. */
+ * other. In statics both begin with the next step, when the forces have their new arms, too.
+ *
+ * The mean of a point's start and end lies on the chord of its way: when the element turns by r,
+ * cos(r/2) as far from the barycentre. As far as ever, the element displaces the same water. */
 static void press(const bbm_model *m, const bbm_edge_load *load, int r, const double D[6],
                   double N[6], double sinks[6][6], double turns[6][6])
 {
@@ -63,7 +66,7 @@ static void press(const bbm_model *m, const bbm_edge_load *load, int r, const do
         depth[0] -= end * Ta[1][k] * D[k];
         depth[1] -= end * Tb[1][k] * D[k];
     }
-    if (weight > 0 && e->middle) {              /* the mean of start and end is too small */
+    if (weight > 0 && e->middle) {
         const double whole = 1 / cos(e->middle->D[2] / 2), middle = load->level - e->y - D[1] / 2;
         depth[0] = middle + whole * (depth[0] - middle);
         depth[1] = middle + whole * (depth[1] - middle);
@@ -129,8 +132,8 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
     return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .density = density });
 }
 
-/* Adds them to the loads of the step; to K what water adds, for the D of bbm_set_middle, and what
- * forces get by turning under tension, see stability.c. */
+/* Adds what lies on edges to the loads of the step, forces by (43), and what presses with the D of
+ * bbm_set_middle; to K its `sinks`, and the stiffness of tension, see stability.c. */
 void bbm_gather_edge_loads(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;

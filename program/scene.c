@@ -502,9 +502,16 @@ static void visit_force(film *f, int kind, point from, point force, point side, 
     visit(f, kind, from, d, is_stress(kind) ? 1 : share);
 }
 
+/* y of vertex v as it is, though displacements may be magnified. */
+static double height(const film *f, int frame, int v)
+{
+    const double start = position(f, 0, v).y, scale = f->s->scale > 0 ? f->s->scale : 1;
+
+    return start + (position(f, frame, v).y - start) / scale;
+}
+
 /* Arrows along a loaded edge, 10 pixels apart or more: of what varies, at the Gauss points; of
- * water, what presses there, or if displacements are magnified, at the height of the first frame.
- * To be measured (visit NULL), at both ends. */
+ * water, what presses there. To be measured (visit NULL), at both ends. */
 static void visit_edge(film *f, int frame, const scene_line *l, point *last, visitor *visit)
 {
     const point a = position(f, frame, l->a), b = position(f, frame, l->b);
@@ -512,7 +519,6 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
     const point side = { (b.y - a.y) / length, (a.x - b.x) / length };
     const int wet = l->weight > 0, varies = l->loads > 1 && !wet;
     const int n = varies ? l->loads : visit ? (int)fmax(1, length * f->scale / 16) : 2;
-    const point *still = f->s->frame[f->s->scale > 0 ? 0 : frame].at;
 
     for (int i = 0; i < n; i++) {
         const double *q = wet ? (double [2]){ 0, 0 } : l->q[varies ? i : 0];
@@ -523,7 +529,7 @@ static void visit_edge(film *f, int frame, const scene_line *l, point *last, vis
         if (visit && gap(x, *last) * f->scale < 10)
             continue;
         *last = x;
-        const double y = (1 - s) * still[l->a].y + s * still[l->b].y;
+        const double y = (1 - s) * height(f, frame, l->a) + s * height(f, frame, l->b);
         const double p = l->pressure + l->weight * fmax(0, l->level - y);
         visit_force(f, wet ? WATER : LINE_LOAD, x, (point){ q[0] - p * side.x, q[1] - p * side.y },
                     side, visit);
@@ -1181,6 +1187,7 @@ int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
                && fill_frame(&state[1], m, shown, nodal, (double[]){ 0, 1 });
         s.scale = s.scale == 0 && done ? find_scale(&s, m) : fmax(0, s.scale);
         fill_frame(&state[1], m, shown, nodal, (double[]){ 1, s.scale });
+        state[0].lines = 0;                     /* an outline: nothing presses on it */
         done = done && draw_map(&f, path);
     }
     end_film(&f);

@@ -718,6 +718,17 @@ START_TEST(water_is_drawn_as_it_presses)
 }
 END_TEST
 
+/* It rises from 0.9 m to 0.5 m deep, drawn as 0.8 m higher: 4.91 kN/m press in the end. */
+START_TEST(water_is_drawn_as_deep_as_a_body_floats)
+{
+    ck_assert_int_eq(run_text("floated", "material r E 1e10 nu 0 density 500\nblock a r 0 0 4 0 4 1 0 1\nfix at 4 0 x\n"
+                              "gravity 0 -9.81\nwater set a 0.9\nstatic\noutput svg scale 2\n"), 0);
+    check_text("out/model/floated/contacts.svg", ">water 4.91 kN/m<");
+    check_text("out/model/floated/mises.svg", ">water 4.91 kN/m<");
+    check_text("out/model/floated/mises.svg", ">displacements × 2<");
+}
+END_TEST
+
 /* A column sinks by rho g h^2/2E = 5e-5 m, which is enlarged as without the block, or by 5e-9 m. */
 START_TEST(a_block_that_is_gone_does_not_move_far_and_rounding_is_not_enlarged)
 {
@@ -788,6 +799,7 @@ Suite *pictures_suite(void)
     tcase_add_test(t, a_field_of_elements_is_their_mean_at_a_node);
     tcase_add_test(t, fixed_blocks_are_hatched_and_supports_and_loads_are_drawn);
     tcase_add_loop_test(t, water_is_drawn_as_it_presses, 0, 2);
+    tcase_add_test(t, water_is_drawn_as_deep_as_a_body_floats);
     tcase_add_loop_test(t, a_block_that_is_gone_does_not_move_far_and_rounding_is_not_enlarged, 0, 2);
     tcase_add_test(t, a_film_of_stages_shows_what_is_fixed_in_each);
     tcase_add_test(t, a_map_of_blocks_hides_where_they_were_and_says_that_stresses_are_means);

@@ -618,12 +618,14 @@ static const struct { const char *text, *said; } doubtful[] = {
     { BARS("1.9e5"), "in equilibrium, but not stable: a push, however small, moves it on and on\n" },
     /* a post under water, 3.9 kN heavier than it, is pinned 1.025 m below its centre, and two lines hold it 2 m up:
      * 2 k 2^2 = 3900 1.025 for k = 499.6 N/m */
-#define BUOY(k, g) "material r E 1e11 nu 0.2 density 2000\nblock b r 0 0 0.1 0.1 0.1 2 -0.1 2 -0.1 0.1\nblock w r 3 1 4 1 4 3 3 3\n" \
-      "block v r -3 1 -3 3 -4 3 -4 1\nfixblock v\nfixblock w\nfix at 0 0 of b\ngravity 0 " g "\nwater set b 7\nstatic steps 2\n" \
+#define BUOY(k, g, w) "material r E 1e11 nu 0.2 density 2000\nblock b r 0 0 0.1 0.1 0.1 2 -0.1 2 -0.1 0.1\nblock w r 3 1 4 1 4 3 3 3\n" \
+      "block v r -3 1 -3 3 -4 3 -4 1\nfixblock v\nfixblock w\nfix at 0 0 of b\ngravity 0 " g "\nwater set b 7 density " w "\nstatic steps 20\n" \
       "bolt at 0.1 2 of b at 3 2 of w stiffness " k "\nbolt at -0.1 2 of b at -3 2 of v stiffness " k "\ncontact friction 30\n"
-    { BUOY("490", "-10"), "in equilibrium, but not stable: a push, however small, moves it on and on\n" }, { BUOY("510", "-10"), NULL },
+    { BUOY("490", "-10", "1000"), "in equilibrium, but not stable: a push, however small, moves it on and on\n" }, { BUOY("510", "-10", "1000"), NULL },
+    /* in three times as heavy water it stands by its buoyancy */
+    { BUOY("5", "-10", "3000"), NULL },
     /* the pressure on top turns with it: it pushes the bar back as far as it leans */
-    { BUOY("9", "-1e-9") "pressure box -1 1.99 1 2.01 1e5\n", NULL },
+    { BUOY("9", "-1e-9", "1000") "pressure box -1 1.99 1 2.01 1e5\n", NULL },
     /* what hangs on a pin is stable, and what stands on one is not */
     { ROCK "block top rock 0 0 1 1 -1 1\nfixblock top\nblock b rock 0 0 0.3 -1 0 -2 -0.3 -1\npin top b at 0 0\ngravity 0 -9.81\n"
       "contact friction 30\nstatic\n", NULL },
