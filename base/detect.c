@@ -22,15 +22,14 @@
  * last, where P comes in. A line is crossed when P is deeper behind it than at the surface, which
  * has the depth of contacts and the rounding of the corners. So whatever slides over a seam or a
  * low ledge stays on top: there it is at the surface of the next block. If both are crossed at the
- * same time, the one that was closed counts, or else the flatter one, the same in any order of the
- * blocks.
+ * same time, the one that was closed counts, or else the one that goes before the other.
  *
  * In dynamics two corners of A and B that lie flush are none for a third block: the boundary of the
  * one goes on as that of the other, and the faces between them are covered.
  *
  * Two lines that coincide are one contact, of P on Q's edge or of Q on P's. That one stays whose
  * projection is on its edge. At a tie it is the one that it was before, or else the one whose edge
- * faces up.
+ * goes before the other: by size, then as gravity points, the same in any order of the blocks.
  */
 #include <stdlib.h>
 
@@ -437,11 +436,29 @@ static int can_enter(const bbm_model *m, int corner, int e, double r, double ang
         && cross(s, p) >= -angle - dip / fmin(p.length, t.length) && cross(p, q) > -PARALLEL;
 }
 
-/* Two edges along p and q face each other. Whether the outward normal of the first, (p.y, -p.x),
- * points up, or to the right if both edges are upright. */
-static int faces_up(bbm_direction p, bbm_direction q)
+/* Whether edge e goes before f where either could be the edge of a contact. The first of these
+ * that tells them apart decides: the longer side, the larger block, the flatter edge, the one that
+ * faces up, the one that faces right. Down is where gravity points, or -y without gravity. */
+static int goes_before(const bbm_model *m, int e, int f)
 {
-    return (fabs(p.x - q.x) > PARALLEL ? p.x - q.x : q.y - p.y) < 0;
+    const double *g = m->par.gravity, fall = hypot(g[0], g[1]);
+    const double down[2] = { fall > 0 ? g[0] / fall : 0, fall > 0 ? g[1] / fall : -1 };
+    const int of[2] = { e, f };
+    double key[2][5];
+
+    for (int k = 0; k < 2; k++) {
+        const bbm_direction p = m->edge[of[k]].along;
+        const double up = down[1] * p.x - down[0] * p.y;    /* of the outward normal (p.y, -p.x) */
+        key[k][0] = log(m->edge[m->edge[of[k]].side].span) / STRAIGHT;
+        key[k][1] = log(reach_of(m, of[k])->girth) / STRAIGHT;
+        key[k][2] = fabs(up) / PARALLEL;
+        key[k][3] = up / PARALLEL;
+        key[k][4] = -(down[0] * p.x + down[1] * p.y) / PARALLEL;
+    }
+    for (int a = 0; a < 5; a++)
+        if (fabs(key[0][a] - key[1][a]) > 1)
+            return key[0][a] > key[1][a];
+    return e < f;
 }
 
 /* Whether the sides of edge c and e face each other, by more than 120 degrees. */
@@ -455,11 +472,10 @@ static int face_each_other(const bbm_model *m, int c, int e)
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
  * the shorter side do: then no point comes or goes while it slides on the longer one. Of equal
  * sides, and in statics, where nothing slides far, those of the finer side do: a coarse one would
- * not feel it between its points. At a tie those of the upper one do. Deviation: with `faces` = 0
- * corners alone touch, and a block of many elements sags between them. */
+ * not feel it between its points. At a tie those of c do if e goes before it. Deviation: with
+ * `faces` = 0 corners alone touch, and a block of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
-    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
     const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
 
     if (!m->par.faces || !face_each_other(m, c, e))
@@ -468,7 +484,7 @@ int bbm_carries(const bbm_model *m, int c, int e)
     const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
     if ((alike || bbm_is_static(m)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
-    return alike ? faces_up(q, p) : mine->span < other->span;
+    return alike ? goes_before(m, e, c) : mine->span < other->span;
 }
 
 /* The edges that may stand for one: itself, or all of its straight side. */
@@ -583,7 +599,7 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
  * three such places.
  * On one straight side (NEXT): p gives way if P lies before the end of the other edge.
  * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one
- * whose edge faces up.
+ * whose edge goes before the other.
  * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
  * was closed and the corners may pass each other in the step. */
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
@@ -606,7 +622,7 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
             && (here || there || most > slip_between(m, p.corner, Q, t));
-    return here != there ? there : !faces_up(t, u);
+    return here != there ? there : !goes_before(m, p.edge, q.edge);
 }
 
 /* Finds where the corners of two blocks lie flush, with a side of each on one of the other: there
@@ -838,18 +854,12 @@ static int admits(const bbm_model *m, const bbm_contact *c)
             || is_on_edge(m, c, 1)) && can_enter(m, c->corner, c->edge, turn, PARALLEL);
 }
 
-/* The sine by which a line is steep; one that rises to the right passes for flatter. */
-static double steepness(bbm_direction p)
-{
-    return fabs(p.y) - ((p.x > 0) == (p.y > 0) ? PARALLEL : 0);
-}
-
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
  * crosses last. A P that leaves over r has been outside if it was less than the rounding of the
  * corners behind it, unless the sides face each other.
  * What was closed keeps its line until P crosses the other one. Of two lines crossed at the same
- * time the one counts that was closed at the start of the step, or else the flatter one. */
+ * time the one counts that was closed at the start of the step, or else that goes before. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
@@ -866,7 +876,7 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
         return 0;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
-    return steepness(m->edge[r->edge].along) < steepness(m->edge[c->edge].along) && admits(m, r);
+    return goes_before(m, r->edge, c->edge) && admits(m, r);
 }
 
 /* Whether an open contact, though crossed, may not close. */

@@ -428,20 +428,22 @@ END_TEST
 
 /* ------------------------------------------------------------------------------- entrance lines */
 
-/* The flatter of two lines counts; of two as steep, up to a hundredth, the one that rises to the
- * right. */
+/* The flatter of the lines p and q of a wedge counts, whose outward normals are p - 90 degrees and
+ * q + 90 degrees; of two as steep the one that faces up, or to the right. */
 static double line_that_counts(double p, double q)
 {
-    if (fabs(fabs(sin(p)) - fabs(sin(q))) > 0.01)
-        return fabs(sin(p)) < fabs(sin(q)) ? p : q;
-    return sin(2 * p) > 0 ? p : q;
+    const double flatter = fabs(cos(p)) - fabs(cos(q)), up = -cos(p) - cos(q), right = sin(p) + sin(q);
+
+    if (fabs(flatter) > 0.01)
+        return flatter > 0 ? p : q;
+    return (fabs(up) > 0.01 ? up : right) > 0 ? p : q;
 }
 
 /* A tip that moves from the direction a through the tip of a wedge of 100 degrees crosses all
  * lines of both at once. If it is 40 degrees wide it can come in at both sides of the wedge, which
  * lie at a + 50 and a - 50; if it is 80 and lies to the right, at one side of each, at a + 50 and
- * a - 60. Of these two lines one counts, in whatever order the blocks are, and whichever of them
- * moves; at a + 50 and a - 60 the one that it crosses at the smaller angle, for it leaves the
+ * a - 60. Of these two lines one counts, in whatever order the blocks are, whichever of them moves
+ * and wherever gravity points, which is here too small to move anything; at a + 50 and a - 60 the one that it crosses at the smaller angle, for it leaves the
  * rounding of that one last. */
 START_TEST(of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle)
 {
@@ -451,11 +453,14 @@ START_TEST(of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle)
     for (int k = 0; k < 5 * 72; k++) {
         const double a = radians(5 * (k / 5)) + shifts[k % 5], wide = radians(50);
         const double way = 0.01 * (other_moves ? -1 : 1);
+        const double g = radians(k % 3 * 40);               /* without gravity, or turned by g  */
         const double expected = askew ? a + radians(50)
-                                      : line_that_counts(a + radians(50), a - radians(50));
+                                      : g + line_that_counts(a + radians(50) - g, a - radians(50) - g);
         const double at[2][2] = { { 0, 0 }, { 0.01 * cos(a), 0.01 * sin(a) } };
         bbm_model *m = weightless_blocks();
         int e[2], n;
+        m->par.gravity[0] = g > 0 ? 1e-9 * sin(g) : 0;
+        m->par.gravity[1] = g > 0 ? -1e-9 * cos(g) : 0;
         for (int b = 0; b < 2; b++) {
             const int tip = b ^ first;
             e[tip] = tip ? add_wedge(m, b, at[1], a - radians(askew ? 60 : 20), a + radians(20))

@@ -379,6 +379,29 @@ START_TEST(of_two_equal_sides_the_grid_points_of_the_finer_one_touch)
 }
 END_TEST
 
+/* Two blocks flush at two corners, the second taller, or at one corner, the second longer but with
+ * less boundary: at each there is one contact, on the second one's edge, at all angles and in
+ * either order. Between blocks so unlike nothing asks what is up. */
+START_TEST(of_two_corners_at_one_place_that_of_the_smaller_block_touches)
+{
+    const int longer = _i / 2, second = 1 - _i % 2;
+
+    for (int k = 0; k < COUNT(ANGLES); k++) {
+        rectangle r[2] = { { 3, -6, 1, 1, .angle = ANGLES[k] }, { 3, -5, 1, 1.5, .angle = ANGLES[k] } };
+        bbm_model *m = weightless_blocks();
+        if (longer)
+            r[1] = (rectangle){ 3, -5, 1.5, 0.4, .angle = ANGLES[k] };
+        add_rectangle(m, 0, ROCK, r[second ? 0 : 1]);
+        add_rectangle(m, 1, ROCK, r[second ? 1 : 0]);
+        detect(m);
+        ck_assert_int_eq(m->contacts, 2);
+        for (int c = 0; c < m->contacts; c++)
+            ck_assert_int_eq(corner_block(m, &m->contact[c]), 1 - second);
+        release(m);
+    }
+}
+END_TEST
+
 /* A coarse block of 0.9 m, or 0.4 m, on a base with a grid point each 25 cm: three of them, or one,
  * touch between its corners, in statics; else its corners alone. */
 START_TEST(in_statics_the_grid_points_of_the_finer_side_touch)
@@ -724,6 +747,7 @@ Suite *detection_suite(void)
         { the_list_of_contacts_does_not_depend_on_the_order_of_the_blocks, COUNT(ANGLES) });
     add_case(s, "grid points",
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
+        { of_two_corners_at_one_place_that_of_the_smaller_block_touches, 4 },
         { in_statics_the_grid_points_of_the_finer_side_touch, 4 },
         { of_two_equal_sides_the_grid_points_of_the_finer_one_touch, 3 * COUNT(ANGLES) },
         { of_two_sides_the_grid_points_of_the_shorter_one_touch, 2 },

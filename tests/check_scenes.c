@@ -148,8 +148,6 @@ static void check_twin(int i, int rule)
     scene_trial t = { .status = BBM_OK };
 
     make(i, TWIN_SEEDS, &s);
-    if (rule == RULE_FRAME && scene_has_ties(&s))
-        return;
     if (rule == RULE_FAR)
         scene_try_twin(&s, RULE_ORDER, &t);
     scene_try_twin(&s, rule, &t);

@@ -436,12 +436,6 @@ void scene_in_units(test_scene *s, double L, double M, double T)
     }
 }
 
-/* Corners exactly on corners, sides that lie on each other: what faces up decides, so that the frame matters. */
-int scene_has_ties(const test_scene *s)
-{
-    return s->kind == SCENE_STACK || s->kind == SCENE_WALL || s->kind == SCENE_CORNERS_MEET;
-}
-
 static void turn_vector(const double d[2], double v[2])
 {
     const double x = d[0] * v[0] - d[1] * v[1], y = d[1] * v[0] + d[0] * v[1];

@@ -72,7 +72,6 @@ bbm_status scene_build(const test_scene *s, bbm_model **m);     /* ready for bbm
 /* The same scene otherwise. */
 void scene_in_units(test_scene *s, double L, double M, double T);       /* units that are so much smaller        */
 void scene_in_frame(test_scene *s, double angle, const double shift[2]);
-int scene_has_ties(const test_scene *s);                        /* decided by what faces up                     */
 void scene_shuffle(test_scene *s, int place[]);                 /* block k becomes number place[k]              */
 void scene_add_far_stone(test_scene *s);                        /* the last block                               */
 

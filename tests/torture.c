@@ -83,8 +83,7 @@ static void run_scene(const test_scene *s, const wish *w, tally *t)
     }
     scene_try(s, w->verbose, &f);
     for (int rule = RULE_BITS; rule < RULES; rule++)
-        if (rule != RULE_FRAME || !scene_has_ties(s))
-            scene_try_twin(s, rule, &f);
+        scene_try_twin(s, rule, &f);
     report(s, &f, t);
     add_to(t, s, &f);
 }
