@@ -220,10 +220,10 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         *c = m->beyond->jump_of[k];
         const bbm_account *of = account_of(m, m->edge[c->corner].element);
         const double came = approach(step, c);
-        const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
-        bbm_spring v[2];
+        bbm_spring v[2], from_end[2];
         bbm_contact_vectors(m, c, 0, v);
-        c->anchor = -v[1].d / hypot(P3->x - P2->x, P3->y - P2->y);
+        bbm_contact_vectors(m, c, 1, from_end);
+        c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
         const double asked = !has_closed(c) ? 0 : E < 0 ? m->h * normal_velocity(m, c, m->element)
                            : E * sqrt(of->asked) * fmax(0, -came);
         c->rest = v[0].d + (of->jumps > 0) * asked;

@@ -532,6 +532,35 @@ START_TEST(what_hits_a_corner_of_two_triangles_does_so_in_a_mirror_too)
 }
 END_TEST
 
+/* A cap that a support drags over a wall of two quadrilaterals: the side on which it slides ends in a node of both, and where
+ * their bond has opened the shear of the jump counts from the middle. In the mirror image that side runs the other way. */
+START_TEST(what_a_support_drags_over_two_elements_goes_the_same_way_in_a_mirror)
+{
+    bbm_model *m[2];
+    int e[2];
+
+    for (int k = 0; k < 2; k++) {
+        m[k] = new_blocks();
+        m[k]->beyond->bonding = BBM_MOMENT;
+        m[k]->par.friction = 35;
+        m[k]->par.dt = 1e-3;
+        add_table(m[k], 0);
+        add_rectangle(m[k], 1, ROCK, (rectangle){ .x = k ? -1 : 0, .y = 0, .w = 1, .h = 3, .nx = 2 });
+        e[k] = add_rectangle(m[k], 2, ROCK, (rectangle){ .x = k ? -0.85 : 0.05, .y = 3, .w = 0.8, .h = 0.4 });
+        for (int v = 2; v < 4; v++)
+            bbm_fix_node(m[k], vertex_of(m[k], e[k], v)->node, BBM_X, 0, 0);
+        prepare(m[k]);
+        for (int v = 2; v < 4; v++)
+            bbm_move_support(m[k], vertex_of(m[k], e[k], v)->node, k ? -6e-5 : 6e-5, 0);
+        run_steps(m[k], 1);
+    }
+    for (int a = 0; a < 3; a++)
+        ck_near(m[0]->element[e[0]].V[a], (a == 1 ? 1 : -1) * m[1]->element[e[1]].V[a], 0.06, 1e-8);
+    release(m[0]);
+    release(m[1]);
+}
+END_TEST
+
 /* Triangles lie on triangles, whose sides end elsewhere: each contact presses up to five elements. Were the bonds of these
  * left out of Kc there, so would be what the contact has between them, and it would take 32 iterations for 12. */
 START_TEST(triangles_in_contact_take_few_iterations)
@@ -802,6 +831,7 @@ Suite *beyond_suite(void)
         { a_contact_between_two_quadrilaterals_presses_both_alike, 2 },
         { a_contact_below_both_kinds_presses_all_their_elements_alike, 2 },
         { what_hits_a_corner_of_two_triangles_does_so_in_a_mirror_too, 1 },
+        { what_a_support_drags_over_two_elements_goes_the_same_way_in_a_mirror, 1 },
         { triangles_in_contact_take_few_iterations, 1 },
         { a_block_of_quadrilaterals_presses_an_equal_one_below_it_alike_on_both_sides, COUNT(PILES) },
         { the_submatrices_of_a_contact_between_two_quadrilaterals_are_derivatives_of_its_energy, 2 });
