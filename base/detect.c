@@ -526,14 +526,28 @@ static int is_near(const bbm_model *m, int corner, int e)
         || find_closed(m, corner, e, SIDE);
 }
 
-/* Whether the pair may not touch. What was closed may. A corner that is still outside may turn
- * before it does, as when a side falls flat on an edge. */
+/* Whether fixed points hold every corner of an element. */
+int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
+{
+    int held = 0;
+
+    for (int v = e->first; v < e->first + e->n; v++)
+        held += m->node[m->vertex[v].node].held == BBM_XY;
+    return held == e->n;
+}
+
+/* Whether the pair may not touch. What was closed may, but two elements that are held all round
+ * never do: their contacts would carry rounding alone. A corner that is still outside may turn
+ * before it touches, as when a side falls flat on an edge. */
 static int is_hidden(const bbm_model *m, pair p)
 {
     const reach *of = m->scratch->reach;
     const double turns = of[m->edge[p.corner].element].turn + of[m->edge[p.edge].element].turn;
     const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
+    if (bbm_is_held_all_round(m, &m->element[m->edge[p.corner].element])
+        && bbm_is_held_all_round(m, &m->element[m->edge[p.edge].element]))
+        return 1;
     return !find_closed(m, p.corner, p.edge, ITSELF)
         && (is_covered(m, p.corner, p.edge) || !can_enter(m, p.corner, p.edge, 0, angle));
 }

@@ -155,7 +155,6 @@ void       bbm_substitute(const bbm_factor *f, int from, int to, double *x);
 /* interpolation.c */
 void       bbm_slopes(const double D[6], double Q[4][4]);
 bbm_linear bbm_interpolation(const bbm_element *e, const bbm_vertex vertex[], int a);
-int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);
 bbm_status bbm_lay_out_coarse(bbm_model *m);
 void       bbm_interpolate_elements(bbm_model *m);
 

@@ -196,6 +196,10 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
 {
     begin_bodies(m);
     for (int i = 0; i < m->elements; i++) {
+        double W[6] = { 0 };
+        bbm_gravity_submatrix(&m->element[i], m->acceleration, W);
+        if (m->K->body[i] < 0)                              /* its supports bear its weight     */
+            m->beyond->balance[m->beyond->body[i]].forces += 2 * hypot(W[0], W[1]);
         const double turn[6] = { [2] = -bbm_tension_stiffness(m, i) * m->D[6 * i + 2] };
         add_force(m, i, &m->load[6 * i], 1, 0);
         add_force(m, i, turn, 1, 0);

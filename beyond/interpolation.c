@@ -81,16 +81,6 @@ bbm_linear bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a)
     return (bbm_linear){ 1.0 / e->n + gx * (e->x - x) + gy * (e->y - y), gx, gy };
 }
 
-/* Whether fixed points hold every corner of an element. */
-int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
-{
-    int held = 0;
-
-    for (int v = e->first; v < e->first + e->n; v++)
-        held += m->node[m->vertex[v].node].held == BBM_XY;
-    return held == e->n;
-}
-
 /* Whether an element has modes: a quadrilateral bonded in its middles, in a model of many, and no
  * part of a single row, which bends by the moments of its bonds alone. */
 static int has_modes(const bbm_model *m, const bbm_element *e)

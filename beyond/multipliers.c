@@ -26,47 +26,12 @@ void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
     }
 }
 
-/* Whether a gap is that of a fixed point. */
-static int holds(const bbm_gap *g) { return g->j < 0 && !g->elastic; }
-
-/* An element that is held all round cannot move: its fixed points, among n gaps g, begin with its
- * weight. Each has a share w = a + b X + c Y of it, with (X, Y) from the barycentre to the point,
- * and
- *     sum w = 1,  sum w X = sum w Y = 0. */
-static void take_weight(const bbm_model *m, bbm_gap *g, int n)
-{
-    double W[6] = { 0 }, S = 0, Sx = 0, Sy = 0, Sxx = 0, Sxy = 0, Syy = 0;
-
-    bbm_gravity_submatrix(&m->element[g->i], m->acceleration, W);
-    for (int k = 0; k < n; k++) {
-        const double one = holds(&g[k]), X = one * g[k].Ti[1][2], Y = -one * g[k].Ti[0][2];
-        S += one, Sx += X, Sy += Y, Sxx += X * X, Sxy += X * Y, Syy += Y * Y;
-    }
-    const double a = Sxx * Syy - Sxy * Sxy, b = Sxy * Sy - Sx * Syy, c = Sx * Sxy - Sxx * Sy;
-    for (int k = 0; k < n; k++)
-        for (int r = 0; r < 2 && holds(&g[k]); r++)
-            g[k].own.f[r] = W[r] * (a + b * g[k].Ti[1][2] - c * g[k].Ti[0][2])
-                          / (S * a + Sx * b + Sy * c);
-}
-
 /* f of the last step in statics, also in its steps from rest; 0 in dynamics. */
 void bbm_start_multipliers(bbm_model *m)
 {
-    const bbm_gap *end = m->gap + m->gaps;
-    const int rests = isinf(m->par.dt);
-    int n;
-
-    for (bbm_gap *g = m->gap; g < end; g += n) {
-        int carries = 0;
-        for (n = 0; g + n < end && g[n].i == g->i; n++)
-            for (int r = 0; r < 2; r++) {
-                g[n].own.f[r] = rests ? g[n].own.f_before[r] : 0;
-                carries |= g[n].own.f[r] != 0;
-            }
-        if (rests && !carries && m->beyond->multiplier_rounds > 0
-            && bbm_is_held_all_round(m, &m->element[g->i]))
-            take_weight(m, g, n);
-    }
+    for (int k = 0; k < m->gaps; k++)
+        for (int r = 0; r < 2; r++)
+            m->gap[k].own.f[r] = isinf(m->par.dt) ? m->gap[k].own.f_before[r] : 0;
     m->beyond->round = 0;
 }
 

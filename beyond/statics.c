@@ -23,11 +23,13 @@
  *              left: about 1e-5 rad of free turning
  * STRIDE [-]   how far blocks may part, against the smaller one's size, in a step from rest and
  *              in the static step from there: contacts and directions are those of its start
+ * LEAP [-]     the same of a static step from where the model is: elastic bodies may flatten
  * FAR [-]      how far they have parted in all when that is no elastic way
  * SHORT [-]    the shortest step against a swing on a contact spring
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
+#define LEAP 0.2
 #define FAR 0.02
 #define SHORT 1e-3
 #define DRIFT 0.9
@@ -173,14 +175,14 @@ static double find_most_parted(const bbm_model *from, const bbm_model *to, const
     return most;
 }
 
-/* Refuses a static step in which blocks part by more than their size, and any that goes further
- * than `reach`. */
+/* Refuses a static step in which blocks part by a good part of their size, for its contacts are
+ * those of its start, and any step that goes further than `reach`. */
 bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end)
 {
     bbm_contact worst = { .edge = -1 };
     const double most = find_most_parted(m, end, m->scratch->contact, m->scratch->contacts, &worst);
 
-    if (most <= (bbm_is_static(m) ? fmin(1, m->beyond->reach) : m->beyond->reach))
+    if (most <= (bbm_is_static(m) ? fmin(LEAP, m->beyond->reach) : m->beyond->reach))
         return BBM_OK;
     return bbm_fail(m, BBM_STEP_TOO_LONG, "step %d: blocks %d and %d part by %.2g of their size",
                     m->info.step + 1, m->edge[worst.corner].block, m->edge[worst.edge].block, most);

@@ -132,6 +132,17 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
     return add(m, edge, (bbm_edge_load){ .level = level - m->origin[1], .density = density });
 }
 
+/* An element that is held all round cannot move: its supports bear its weight from the start, and
+ * it is no load. Deviation: springs of alpha sink under it, by more the larger the element is. */
+static void release_held(bbm_model *m)
+{
+    const double up[2] = { -m->acceleration[0], -m->acceleration[1] };
+
+    for (int i = 0; i < m->elements; i++)
+        if (bbm_is_held_all_round(m, &m->element[i]))
+            bbm_gravity_submatrix(&m->element[i], up, &m->load[6 * i]);
+}
+
 /* Adds what lies on edges to the loads of the step, forces by (43), and what presses with the D of
  * bbm_set_middle; to K its `sinks`, and the stiffness of tension, see stability.c. */
 void bbm_gather_edge_loads(bbm_model *m)
@@ -155,6 +166,7 @@ void bbm_gather_edge_loads(bbm_model *m)
             F[k] += N[k];
         bbm_matrix_add(m->K, v->element, v->element, K);
     }
+    release_held(m);
     for (int i = 0; i < m->elements; i++)
         m->K->D[m->K->place[i]][2][2] += bbm_tension_stiffness(m, i);
 }
@@ -232,6 +244,18 @@ static double *force_of(const bbm_model *m, int node)
     return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].force;
 }
 
+/* Adds the weight of an element that is held all round to the forces of its supports. Each has the
+ * share that its corner has in the value at the barycentre of what is linear. */
+static void add_weight(const bbm_model *m, const bbm_element *e)
+{
+    const bbm_vertex *v = &m->vertex[e->first];
+    double W[6] = { 0 };
+
+    bbm_gravity_submatrix(e, m->acceleration, W);
+    for (int k = 0; k < 2 * e->n; k++)
+        force_of(m, v[k / 2].node)[k % 2] -= bbm_interpolation(e, v, k / 2).f * W[k % 2];
+}
+
 /* The forces of the supports on their nodes, of the solution, and in a step their work at each
  * element: a node may lie in several bodies. The gap of an edge is the mean of those of its ends,
  * (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
@@ -244,6 +268,9 @@ void bbm_find_reactions(bbm_model *m)
         m->beyond->account[i].held *= share == 0;
     for (int n = 0; n < m->nodes; n++)
         memset(force_of(m, n), 0, 2 * sizeof *force_of(m, n));
+    for (int i = 0; i < m->elements && !m->beyond->jump_of; i++)
+        if (bbm_is_held_all_round(m, &m->element[i]))
+            add_weight(m, &m->element[i]);
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         double d[2];

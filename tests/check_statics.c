@@ -283,6 +283,35 @@ START_TEST(a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_for
 }
 END_TEST
 
+/* A stone on a fixed base is shaken, in dynamics. A base of any weight stays where it is; its supports bear that. */
+START_TEST(what_a_fixed_block_weighs_moves_nothing)
+{
+    const double heavy[] = { 1, 1e3, 1e9 };
+    double v[3] = { 0 };
+
+    for (int k = 0; k < 3; k++) {
+        bbm_model *m = new_blocks();
+        m->par.dt = 1e-3;
+        m->par.friction = 10;
+        measure_scene(m, MEASURES[0], heavy[k], 0, (double[]){ 0, -GRAVITY });
+        m->beyond->shake[0] = 3;
+        m->beyond->shake_omega = 20;
+        add_rectangle(m, 0, BASE, (rectangle){ .x = -300, .y = -200, .w = 601, .h = 200, .fixed = 1 });
+        const int e = add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 1 });
+        run_steps(m, 60);
+        double borne = 0;
+        for (int n = 0; n < 4; n++)
+            borne += m->beyond->support[n].force[1];
+        ck_relative(borne, 601.0 * 200 * 2500 * GRAVITY * heavy[k], 2e-5);  /* a stone is 1e-5 of it */
+        ck_near(m->vertex[0].v, 0, 1, 1e-6);
+        v[k] = m->element[e].V[0];
+        ck_near(v[k], v[0], 0.1, 1e-4);      /* a light base gives way under the stone */
+        release(m);
+    }
+    ck_assert_double_gt(fabs(v[0]), 0.01);
+}
+END_TEST
+
 /* A stone far from the ends of its slope of 30 degrees, where the digits of a position make up to 1
  * % of its weight; and far from the origin. Friction of 0.02 degrees is 8e-4 of its weight. */
 START_TEST(a_small_stone_slides_below_the_slope_anywhere_on_a_base_of_any_weight)
@@ -312,7 +341,8 @@ static int push_from_nowhere(const bbm_model *m, void *context)
     const push *p = context;
     const double side = p->row == 2 ? sqrt(m->element[0].A0) : 1;
 
-    m->F[p->row] += p->part * side * hypot(m->load[0], m->load[1]);
+    m->F[p->row] += p->part * side * bbm_mass_per_area(&m->element[0])
+                  * m->element[0].A0 * hypot(m->acceleration[0], m->acceleration[1]);
     return 0;
 }
 
@@ -378,7 +408,9 @@ START_TEST(what_contacts_have_against_their_laws_is_refused_in_statics_and_noted
     m->par.friction = 60;
     measure_scene(m, MEASURES[0], 1, 0, (double[]){ GRAVITY * 0.5, -GRAVITY });
     set_springs(m, 1e10, 4e9);              /* the last digit of a metre is 1e-10 of the weight */
-    add_rectangle(m, 0, BASE, (rectangle){ .x = -3, .y = -1, .w = 7, .h = 1, .fixed = 1 });
+    const int base = add_rectangle(m, 0, BASE, (rectangle){ .x = -3, .y = -1, .w = 7, .h = 1 });
+    for (int v = 0; v < 3; v++)             /* two that are held all round would not touch */
+        bbm_fix_node(m, vertex_of(m, base, v)->node, BBM_XY, 0, 0);
     add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 1 });
     add_rectangle(m, 2, ROCK, (rectangle){ .x = 2, .y = 1e-12, .w = 1, .h = 1, .fixed = 1 });
     const double W = 2500 * hypot(0.5, 1) * GRAVITY;
@@ -565,6 +597,7 @@ Suite *statics_suite(void)
     add_case(s, "measures",
         { a_pile_stands_to_97_percent_of_its_limit_and_falls_at_105_turned_and_in_other_units,
           2 * COUNT(MEASURES) },
+        { what_a_fixed_block_weighs_moves_nothing, 1 },
         { what_a_base_weighs_changes_no_limit_and_no_force, 24 },
         { a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_form, 6 },
         { what_is_held_has_no_inertia_in_steps_from_rest, 4 },

@@ -312,7 +312,8 @@ void scene_remember(const bbm_model *m, scene_memory *before)
     }
 }
 
-/* Of the weight, on the way of the barycentres; `size` counts all parts as positive. */
+/* Of the weight, on the way of the barycentres; `size` counts all parts as positive. That of what is held all round is its
+ * supports', which do as much work the other way. */
 double scene_work(const bbm_model *m, const scene_memory *before, double *size)
 {
     const double *g = m->par.gravity;
@@ -323,8 +324,8 @@ double scene_work(const bbm_model *m, const scene_memory *before, double *size)
         const bbm_element *e = &m->element[i];
         place(m, e, x);
         const double w = mass(e) * (g[0] * (x[0] - before[i].x[0]) + g[1] * (x[1] - before[i].x[1]));
-        work += w;
-        *size += fabs(w);
+        work += bbm_is_held_all_round(m, e) ? 0 : w;
+        *size += bbm_is_held_all_round(m, e) ? 0 : fabs(w);
     }
     return work;
 }
