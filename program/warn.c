@@ -70,15 +70,19 @@ typedef struct {
 
 /* next: edge; group: of blocks that touch; piece: of elements that are bonded; met: pairs that are
  * close; alike: pairs of meshes of one material with a side in common; ledges: pairs that
- * touch, with corners less apart than they are rounded by. */
+ * touch, with corners less apart than they are rounded by; rough: those with too few digits. */
 typedef struct {
     const model *p;
     body *body;
     bbm_box *box;
-    int *next, *group, *piece, met, alike, ledges;
+    int *next, *group, *piece, met, alike, ledges, rough;
 } bodies;
 
 #define CLOSE 0.01
+/* Rounding of a place, of its distance from the origin; what may be made of it, of a weight, see
+ * base/open_close.c. */
+#define DIGITS 1e-15
+#define ROUGH 1e-3
 
 static void measure(bodies *s)
 {
@@ -170,6 +174,13 @@ static void compare(bodies *s, const char *path, int one, int two)
     const int i = one > two ? one : two, j = one + two - i;
     body *a = &s->body[i], *b = &s->body[j], *of = group_of(s, i), *to = group_of(s, j);
     const double size = fmin(a->size, b->size), far = CLOSE * size;
+    const body *small = a->size < b->size ? a : b;
+    const bbm_model *m = s->p->m;
+    const bbm_vertex *at = bbm_start_of(m, small->edge);
+    const bbm_material *of_small = &m->element[at->element].material;
+    const double weight = of_small->density * of_small->thickness * size * size
+                        * hypot(m->par.gravity[0], m->par.gravity[1]);
+    const double digits = m->par.p_n * DIGITS * (hypot(at->x, at->y) + a->size + b->size);
     int count[3] = { 0 };
 
     const double gap = fmin(find_gap(s, a, b, far, count), find_gap(s, b, a, far, count));
@@ -181,10 +192,13 @@ static void compare(bodies *s, const char *path, int one, int two)
         if (count[2] > 0 && s->ledges++ == 0)
             warn(path, "corners of blocks '%.60s' and '%.60s' are less apart than they are rounded "
                  "by, and no obstacle; `contact round 0` is sharp", s->p->block[j], s->p->block[i]);
+        if (small->free && weight > 0 && digits > ROUGH * weight && s->rough++ == 0)
+            warn(path, "positions have too few digits for kn: their rounding moves the forces of "
+                 "block '%.60s' by %.1g of its weight, beside a block so large; a smaller kn helps",
+                 s->p->block[small - s->body], digits / weight);
     } else if (gap < fmin(far, a->gap)) {
         a->gap = gap, a->near = j;
     }
-    const bbm_model *m = s->p->m;
     const bbm_material *r = &m->element[m->edge[a->edge].element].material,
                        *q = &m->element[m->edge[b->edge].element].material;
     if (count[0] > 4 && count[1] > 3 && a->elements > 1 && b->elements > 1 && a->free && b->free

@@ -602,6 +602,8 @@ static const struct { const char *text, *said; } doubtful[] = {
       "shorter cells or parallelograms do not\n" },
     { CELLS("0", "3.5", "8", "0", "4.5", "8") "bond at vertices\n", NULL }, { CELLS("-1", "3", "7", "1", "5", "9"), NULL },
     { CELLS("0", "3.9", "8", "0", "4.1", "8"), NULL },
+    { PEBBLE "contact friction 40 kn 3e11\n", "positions have too few digits for kn: their rounding moves the forces of block 'b'" },
+    { PEBBLE "contact friction 40 kn 1e11\n", NULL },
     { PEBBLE "contact friction 29.995 kn 1e12\n", "of the forces on a block: "
       "positions have no more digits; a smaller kn or softer bolts help\n" },
     /* before and after its hit nothing bears on a block */
