@@ -61,6 +61,7 @@ typedef struct bbm_reach {      /* of a block, with the index of its first eleme
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
     double depth_now;           /* m        the same of the solution, or before it if deeper    */
     double travel;              /* m        how far its vertices may move in this step          */
+    double came;                /* m        the same of the step before                         */
     double girth;               /* m        its boundary at the start                           */
     int    edges;               /* of it                                                        */
     double turn;                /* rad      of an element: how far it may turn in this step     */
@@ -356,13 +357,15 @@ static double rounding_between(const bbm_model *m, int P, int e)
 }
 
 /* How deep a corner may lie behind an edge near its end and still be at the surface: by the
- * rounding and the depth of contacts. So deep it is where it has come past the end. */
+ * rounding and the depth of contacts. So deep it is where it comes past the end, or has done so in
+ * the step before, which may have been longer. */
 static double surface_depth(const bbm_model *m, int c, int e)
 {
     const double deep = contact_depth(m, c, end_near(m, c, e)) + rounding_between(m, c, e);
-    const double travel = reach_of(m, c)->travel + reach_of(m, e)->travel;
+    const reach *i = reach_of(m, c), *j = reach_of(m, e);
+    const double way = fmax(i->travel, i->came) + fmax(j->travel, j->came);
 
-    return -project(m, c, e).beyond <= deep + travel ? deep : 0;
+    return -project(m, c, e).beyond <= deep + way ? deep : 0;
 }
 
 /* How deep a vertex that comes to an edge may lie behind it at the start of a step: as deep as
@@ -962,8 +965,10 @@ void bbm_keep_contacts(bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = 0;
     bbm_note_depths(m);
-    for (int i = 0; i < m->elements; i++)
+    for (int i = 0; i < m->elements; i++) {
         w->reach[i].depth = w->reach[i].depth_now;
+        w->reach[i].came = w->reach[i].travel;
+    }
     for (bbm_contact *c = w->contact, *first = c, *end = c + w->contacts; c < end; c++) {
         first = first->corner == c->corner ? first : c;
         for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)

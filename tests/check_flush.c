@@ -115,8 +115,10 @@ static bbm_status move_body(const scene *s, int whole, motion *end)
     middle_of(m, e, x);
     put_place(s, s->v, m->element[e].V);
     m->element[e].V[2] = s->mirrored ? -s->spin : s->spin;
-    for (int k = 0; k < s->steps && !status; k++)
+    for (int k = 0; k < 2 * s->steps && !status; k++) {    /* a step that is cut may be much shorter */
+        m->par.dt = (k % 2 ? 0.02 : 0.98) * s->dt;
         status = bbm_step(m);
+    }
     const bbm_element *b = &m->element[e];
     middle_of(m, e, y);
     get_place(s, (double[]){ y[0] - x[0], y[1] - x[1] }, end->x);
