@@ -30,7 +30,8 @@ typedef struct {                /* energy.c: of an element, and of the component
                                 /*          at the start, and in the solution in hand           */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
     double pressed;             /* N m      sum f.X of what presses on element i, see stability.c */
-    double held;                /* J        work of the supports of element i, in a part of one */
+    double held[2];             /* J        work of the supports of element i, in a part of a   */
+                                /*          step, and in the jump at its end                    */
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */

@@ -141,7 +141,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         const double lever = hypot(m->element[i].x, m->element[i].y);
         of->gain += sum_of(energy_of(end, i, 1)) - before;
         of->there += before + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
-        add_work(of, b->account[i].held);
+        add_work(of, b->account[i].held[0] + b->account[i].held[1]);
         for (int a = 0; a < 6; a++)
             add_work(of, load[a] * m->D[6 * i + a]);
     }

@@ -308,7 +308,7 @@ static void find_work(bbm_model *m)
             double way = -g->d0[a];
             for (int k = 0; k < 6; k++)
                 way += m->h * g->Ti[a][k] * m->element[g->i].V[k];
-            m->beyond->account[g->i].held -= (g->W[a][0] * d[0] + g->W[a][1] * d[1]) * way;
+            m->beyond->account[g->i].held[1] -= (g->W[a][0] * d[0] + g->W[a][1] * d[1]) * way;
         }
     }
 }

@@ -265,7 +265,8 @@ void bbm_find_reactions(bbm_model *m)
     const double share = m->beyond->jump_of ? 0 : m->beyond->share;
 
     for (int i = 0; i < m->elements; i++)
-        m->beyond->account[i].held *= share == 0;
+        for (int k = m->beyond->jump_of != NULL; k < 2; k++)
+            m->beyond->account[i].held[k] = 0;
     for (int n = 0; n < m->nodes; n++)
         memset(force_of(m, n), 0, 2 * sizeof *force_of(m, n));
     for (int i = 0; i < m->elements && !m->beyond->jump_of; i++)
@@ -281,7 +282,7 @@ void bbm_find_reactions(bbm_model *m)
             const double half = (g->own.f[a] + g->W[a][0] * d[0] + g->W[a][1] * d[1]) / 2;
             force_of(m, g->node[0])[a] -= half;
             force_of(m, g->node[1])[a] -= g->elastic ? -half : half;
-            m->beyond->account[g->i].held -= share * half
+            m->beyond->account[g->i].held[0] -= share * half
                 * (s[g->node[0]].moved[a] + (g->elastic ? -1 : 1) * s[g->node[1]].moved[a]);
         }
     }

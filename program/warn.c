@@ -30,7 +30,8 @@ static void warn_of_loads(const model *p, const char *path)
     for (int k = 0; k <= p->stages; k++) {
         const model_stage *s = &p->stage[k];
         const double *g = s->par.gravity;
-        const int weighs = g[0] != 0 || g[1] != 0, rises = weighs && g[1] >= 0;
+        const int weighs = g[0] != 0 || g[1] != 0;
+        const int rises = weighs && g[1] >= 0 && g[0] * g[1] == 0;  /* a model may be turned */
         int held = s->edge_loads > 0;
         load |= weighs || held;
         for (int n = 0; n < m->nodes; n++) {

@@ -574,6 +574,8 @@ static const struct { const char *text, *said; } doubtful[] = {
     { STONE "block t rock 5.001 1 6 1 6 2 5.001 2\n" REST, "between blocks 'stone' and 't' there is a gap of 0.001 m (1 of 1)\n" },
     { STONE "block t rock 5.02 1 6 1 6 2 5.02 2\n" REST, NULL }, { STONE "block t rock 5 1 6 1 6 2 5 2\n" REST, NULL },
     { STONE "dynamic dt 0.01 steps 2\ncontact friction 30\n", "nothing loads the model; " },
+    { STONE "gravity 6 8\ndynamic dt 0.01 steps 2\ncontact friction 30\n", NULL },
+    { STONE "gravity 9.81 0\ndynamic dt 0.01 steps 2\ncontact friction 30\n", "gravity is not downward; " },
     { STONE "gravity 0 9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n", "gravity is not downward; " },
     { STONE REST "stage up\ngravity 0 9.81\nend\nstage on\nend\n", "model: warning: stage up: gravity is not downward; " },
     { STONE REST "stage oops remove base\nend\n", "model: warning: stage oops: nothing is fixed: under gravity all blocks fall" },
@@ -1021,6 +1023,19 @@ START_TEST(what_is_repeated_is_what_stands_there_so_often)
 }
 END_TEST
 
+/* A fixed block of 6.7 mm is moved against a row of three others on a floor, all of lead at a small gravity. The jump at the
+ * end of a step is tried more than once; only the work of the last try counts. */
+START_TEST(the_work_of_supports_in_a_jump_that_is_tried_again_counts_once)
+{
+    ck_assert_int_eq(run_text("again", "material rock E 5e9 nu 0 density 2e6 thickness 6.7e-3\nlet a 6.7e-3\n"
+        "block push rock $(-2*a) $(a/100) -$(a) $(a/100) -$(a) $(a) $(-2*a) $(a)\nfixblock push\nfix set push x by 9.3e-5 y by 0\n"
+        "block floor rock $(-3*a) -$(a) $(12*a) -$(a) $(12*a) 0 $(-3*a) 0\nfixblock floor\n"
+        "block b rock $(a) 0 $(2*a) 0 $(2*a) $(a) $(a) $(a)\nblock c rock 0 0 $(a) 0 $(a) $(0.75*a) 0 $(0.75*a)\n"
+        "block d rock -$(a) 0 0 0 0 $(0.8*a) -$(a) $(0.8*a)\ngravity 0 -6.5e-3\npcg tolerance 1e-12\n"
+        "contact kn 7e8 ks 4e8 friction 0\ndynamic dt 0.08 steps 13\n"), 0);
+}
+END_TEST
+
 START_TEST(a_check_draws_and_computes_nothing)
 {
     ck_assert_int_eq(shell("rm -rf out/model/arch_; %s/bbm --check cases/models/arch.model -o "
@@ -1438,6 +1453,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, what_is_repeated_is_what_stands_there_so_often);
     tcase_add_test(t, rounds_add_up_numbers_and_sets_and_keep_numbers_by_name);
     tcase_add_loop_test(t, a_pin_lets_turn_and_carries_what_a_hinge_does, 0, 2);
+    tcase_add_test(t, the_work_of_supports_in_a_jump_that_is_tried_again_counts_once);
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
 }
