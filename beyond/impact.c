@@ -43,11 +43,14 @@
  *               hits give back is right to 1e-3. A hundred times as much, and rounding in bonds
  *               costs momentum
  * EARLY [-]     of a step: what would hit so soon hits with the others
- * GAIN [-]      energy that a jump may make, against what was there: rounding */
+ * GAIN [-]      energy that a jump may make, against what was there: rounding
+ * WORKED [-]    the same where no hit asks for anything: the work of supports that move is right to
+ *               second order in the step */
 #define STIFF 1e5
 #define RIGID 1e4
 #define EARLY 1e-2
 #define GAIN 1e-9
+#define WORKED 1e-7
 
 /* The normal velocity of P1, where elements move as those of `of`. */
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
@@ -356,6 +359,7 @@ static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model
 static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 {
     bbm_account *of = m->beyond->account;
+    const double most = m->beyond->restitution < 0 ? WORKED : GAIN;
     bbm_status status = BBM_OK;
     int again = 1;
 
@@ -369,7 +373,7 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
         again = 0;
         for (bbm_account *a = of; a < of + m->elements; a++) {
             const double less = a->asked - ldexp(a->gain / a->there, tries);
-            const int fits = !status && (a->jumps < 0 || a->gain <= GAIN * a->there);
+            const int fits = !status && (a->jumps < 0 || a->gain <= most * a->there);
             if (fits || a->jumps == 0 || a->jumps == -2)
                 continue;
             a->jumps = a->jumps < 0 ? -2 : a->asked > 0 ? 1 : -1;
