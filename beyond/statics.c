@@ -333,8 +333,9 @@ static bbm_status settle(bbm_model *m)
     return status;
 }
 
-/* A static step that failed is tried otherwise; a dynamic step whose contacts do not settle because
- * the solution goes too far says that. */
+/* A static step that failed is tried otherwise, but not if a support moves: in steps from rest it
+ * does so at once, and what it pushes stops anywhere where friction holds it. A dynamic step whose
+ * contacts do not settle because the solution goes too far says that. */
 bbm_status bbm_try_otherwise(bbm_model *m, bbm_status status)
 {
     if (!bbm_is_static(m))
@@ -342,5 +343,12 @@ bbm_status bbm_try_otherwise(bbm_model *m, bbm_status status)
              ? BBM_STEP_TOO_LONG : status;
     const int lost = status == BBM_NOT_FINITE
                   || (status >= BBM_NOT_POSITIVE_DEFINITE && status <= BBM_TOO_SOFT);
-    return lost && m->scratch->contacts > 0 ? settle(m) : status;
+    if (!lost || m->scratch->contacts == 0)
+        return status;
+    for (int n = 0; n < 2 * m->nodes; n++)
+        if (m->beyond->support[n / 2].moved[n % 2] != 0)
+            return bbm_fail(m, BBM_OPEN_CLOSE, "step %d: a support moves, and what slides before "
+                            "it depends on its way; try dynamics with velocity_factor 0 and a ramp",
+                            m->info.step + 1);
+    return settle(m);
 }

@@ -1036,6 +1036,21 @@ START_TEST(the_work_of_supports_in_a_jump_that_is_tried_again_counts_once)
 }
 END_TEST
 
+/* A wall pushes a block along a floor: the force is W tan(30). A second block far off lets the iteration fail; in steps from
+ * rest the first one would come to lie with a seventh of that, which is an equilibrium, too. */
+START_TEST(statics_does_not_guess_what_a_support_pushes)
+{
+    ck_assert_int_eq(run_printed("pushed", ROCK "block wall rock -1 0 0 0 0 1 -1 1\nblock floor rock -3 -1 5 -1 5 0 -3 0\n"
+        "block b rock 0 0 0.5 0 0.5 0.5 0 0.5\n%sfixblock wall\nfixblock floor\nfix set wall x by 1e-3\ngravity 0 -9.81\n"
+        "contact friction 30\njoint wall b friction 0\nstatic steps 4\nmonitor K joint wall b\n",
+        _i ? "block far rock 3 0 4 0 4 1 3 1\n" : ""), _i);
+    if (_i)
+        check_text("out/model/pushed.err", "a support moves, and what slides before it depends on its way; try dynamics");
+    else
+        ck_relative(cell("pushed", "history.csv", "4,", "K_fx"), -0.25 * 2500 * 9.81 / sqrt(3), 1e-4);
+}
+END_TEST
+
 START_TEST(a_check_draws_and_computes_nothing)
 {
     ck_assert_int_eq(shell("rm -rf out/model/arch_; %s/bbm --check cases/models/arch.model -o "
@@ -1454,6 +1469,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, rounds_add_up_numbers_and_sets_and_keep_numbers_by_name);
     tcase_add_loop_test(t, a_pin_lets_turn_and_carries_what_a_hinge_does, 0, 2);
     tcase_add_test(t, the_work_of_supports_in_a_jump_that_is_tried_again_counts_once);
+    tcase_add_loop_test(t, statics_does_not_guess_what_a_support_pushes, 0, 2);
     tcase_add_test(t, a_check_draws_and_computes_nothing);
     tcase_add_test(t, the_example_of_the_document_runs_when_it_is_pasted);
 }
