@@ -134,8 +134,8 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
 
 /* Adds what lies on edges to the loads of the step, forces by (43), and what presses with the D of
  * bbm_set_middle; to K its `sinks`, and the stiffness of tension, see stability.c. An element that
- * is held all round is no load, for its supports bear its weight from the start. Deviation: springs
- * of alpha sink under it, by more the larger the element is. */
+ * is held all round is no load, for its supports bear its weight from the start. Deviation: the
+ * springs of (29) sink under it, by more the larger the element is; the core keeps to them. */
 void bbm_gather_edge_loads(bbm_model *m)
 {
     const double up[2] = { -m->acceleration[0], -m->acceleration[1] };
@@ -238,8 +238,9 @@ static double *force_of(const bbm_model *m, int node)
     return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].force;
 }
 
-/* Adds the weight of an element that is held all round to the forces of its supports. Each has the
- * share that its corner has in the value at the barycentre of what is linear. */
+/* Adds the weight of an element that is held all round to the forces of its supports. The share of
+ * a support is that of its corner in the value of a linear function at the barycentre: so the
+ * moments of all of them are that of the weight. */
 static void add_weight(const bbm_model *m, const bbm_element *e)
 {
     const bbm_vertex *v = &m->vertex[e->first];

@@ -443,8 +443,8 @@ static double line_that_counts(double p, double q)
  * lines of both at once. If it is 40 degrees wide it can come in at both sides of the wedge, which
  * lie at a + 50 and a - 50; if it is 80 and lies to the right, at one side of each, at a + 50 and
  * a - 60. Of these two lines one counts, in whatever order the blocks are, whichever of them moves
- * and wherever gravity points, which is here too small to move anything; at a + 50 and a - 60 the one that it crosses at the smaller angle, for it leaves the
- * rounding of that one last. */
+ * and wherever gravity points, which is here too small to move anything; at a + 50 and a - 60 the
+ * one that it crosses at the smaller angle, for it leaves the rounding of that one last. */
 START_TEST(of_two_lines_crossed_at_the_same_time_one_counts_at_any_angle)
 {
     const int askew = _i / 4, first = _i / 2 % 2, other_moves = _i % 2;
