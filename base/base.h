@@ -267,10 +267,10 @@ struct bbm_hooks {
 
 static inline int bbm_is_static(const bbm_model *m) { return isinf(m->h); }
 
-/* Whether element i has inertia: not in statics, nor in its steps from rest if it is held. */
+/* Whether element i has inertia: not in statics, nor if a hook says that it is held all round. */
 static inline int bbm_has_inertia(const bbm_model *m, int i)
 {
-    return !bbm_is_static(m) && !(isinf(m->par.dt) && m->K->body[i] < 0);
+    return !bbm_is_static(m) && m->K->body[i] >= 0;
 }
 
 /* How points move in the present step; NULL: the paper's way. */

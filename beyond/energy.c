@@ -57,7 +57,7 @@ static bbm_energy energy_of(const bbm_model *m, int i, int when)
     const double share = e->middle ? now.A / e->A0 : 1;
     const double elastic = of->thickness * e->A0 * share * share / (2 * of->E)
          * (s[0] * s[0] + s[1] * s[1] - 2 * of->nu * s[0] * s[1] + 2 * (1 + of->nu) * s[2] * s[2]);
-    return (bbm_energy){ bbm_inertia_form(&now, V) / 2, elastic,
+    return (bbm_energy){ bbm_has_inertia(m, i) ? bbm_inertia_form(&now, V) / 2 : 0, elastic,
                          m->beyond->account[i].springs[when] };
 }
 

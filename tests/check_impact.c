@@ -299,6 +299,40 @@ START_TEST(a_jump_by_a_support_that_moves_is_not_tried_again)
 }
 END_TEST
 
+/* A large belt that drags a stone goes with its supports, to what a soft one gives way, whatever it weighs. Its inertia
+ * counts neither in its way nor in the energies. */
+START_TEST(a_belt_of_any_weight_goes_with_its_supports)
+{
+    const double heavy[] = { 1, 1e4, 1e8 };
+    double u[COUNT(heavy)];
+
+    for (int h = 0; h < COUNT(heavy); h++) {
+        bbm_model *m = new_blocks();
+        bbm_energy energy;
+        m->par.dt = 5e-3;
+        m->par.friction = 20;
+        m->material[BASE].density *= heavy[h];
+        add_rectangle(m, 0, BASE, (rectangle){ .x = -400, .y = -200, .w = 801, .h = 200, .fixed = 1 });
+        add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 1 });
+        prepare(m);
+        for (int k = 1; k <= 100; k++) {
+            for (int n = 0; n < 4; n++)
+                bbm_move_support(m, n, 1e-3 * k, 2e-3 * k);
+            run_steps(m, 1);
+            for (int v = 0; v < 4; v++) {
+                ck_near(m->vertex[v].u, 1e-3 * k, 1, 1e-6);
+                ck_near(m->vertex[v].v, 2e-3 * k, 1, 1e-6);
+            }
+        }
+        bbm_energies(m, &energy);
+        ck_relative(energy.kinetic, DENSITY / 2 * (0.2 * 0.2 + 0.4 * 0.4), 1e-3);
+        u[h] = m->vertex[4].u;
+        ck_near(u[h], u[0], 0.1, 1e-4);
+        release(m);
+    }
+}
+END_TEST
+
 /* A block of 2.5 t that moves at 2 m/s is held at its corners, from the start or after five steps: it stands, and its
  * supports bear its weight. What springs of alpha let go on is 1 %. */
 START_TEST(what_is_held_on_its_way_stands)
@@ -348,8 +382,9 @@ END_TEST
 
 /* x or y = 0.1 sin(w t): the force that moves a block is its mass times the acceleration, in the
  * middle of the step. Right to second order in w dt = 0.005. The work, which begins with a jump, is
- * right to a tenth of w dt. When the support stops, so does the block, to 1e-5 of its velocity: the
- * elements give way as in a hit. */
+ * right to a tenth of w dt of the largest kinetic energy. A corner is free, for what is held all
+ * round has no inertia. When the support stops, so does the block, to 1e-3 of its velocity: its
+ * free corner swings. */
 START_TEST(a_support_that_swings_pulls_with_mass_times_acceleration)
 {
     const double w = 5, dt = 1e-3, most = 0.1 * DENSITY * w * w;
@@ -358,14 +393,15 @@ START_TEST(a_support_that_swings_pulls_with_mass_times_acceleration)
     m->par.gravity[1] = 0;
     m->par.dt = dt;
     add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1, .fixed = 1 });
+    m->node[2].held = 0;
     ck_ok(bbm_prepare(m), m);
     for (int k = 1; k <= 1000; k++)
         ck_near(pull_to(m, _i, 0.1 * sin(w * k * dt)), -most * sin(w * (k - 0.5) * dt), most,
                 k < 5 ? INFINITY : 1e-3);
-    ck_relative(m->beyond->work, DENSITY / 2 * pow(m->element[0].V[_i], 2), 5e-4);
+    ck_near(m->beyond->work, DENSITY / 2 * pow(m->element[0].V[_i], 2), DENSITY / 2 * pow(0.1 * w, 2), 5e-4);
     const double V = m->element[0].V[_i];
     (void)pull_to(m, _i, 0.1 * sin(w * 1000 * dt));
-    ck_near(m->element[0].V[_i], 0, V, 1e-5);
+    ck_near(m->element[0].V[_i], 0, V, 1e-3);
 }
 END_TEST
 
@@ -432,6 +468,7 @@ Suite *impact_suite(void)
         { blocks_that_hit_keep_their_momentum, 6 },
         { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 4 },
         { a_jump_by_a_support_that_moves_is_not_tried_again, 1 },
+        { a_belt_of_any_weight_goes_with_its_supports, 1 },
         { what_is_held_on_its_way_stands, 2 },
         { what_a_support_moves_evenly_moves_evenly, 2 },
         { a_support_that_swings_pulls_with_mass_times_acceleration, 2 },
