@@ -83,6 +83,7 @@ struct bbm_beyond {
     bbm_bonding  bonding;       /* bending.c                                                    */
     bbm_rotation rotation;      /* rotation.c                                                   */
     double cohesion, tension;   /* Pa       joints.c: of unbroken joints                        */
+    int joints_hold;            /* 1: they bear anything, as long as they are unbroken          */
     int multiplier_rounds;      /* multipliers.c: further solutions of a static step; 0: paper  */
     int round;                  /* of them, in this step                                        */
     double shake[2];            /* m/s^2    acceleration of the base: shake sin(shake_omega t)  */

@@ -17,6 +17,9 @@
 #define PARALLEL 1e-2
 #define SAME 1e-6
 
+/* N. Of a joint that bears anything. */
+#define ANY 1e100
+
 /* The end of an edge, or of its whole straight side: the corner that starts it, or ends it. */
 static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
 {
@@ -85,9 +88,11 @@ void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
             joint = b->joint[k];
     if (c->trial.touches)
         c->area = joint_area(m, c->corner, c->edge);
+    const double shear = or_else(joint.cohesion, b->cohesion) * c->area;
+    const double tension = or_else(joint.tension, b->tension) * c->area;
+    const double more = b->joints_hold && shear + tension > 0 ? ANY : 0;
     c->strength = (bbm_strength){ bbm_tangent(or_else(joint.friction, m->par.friction)),
-                                  or_else(joint.cohesion, b->cohesion) * c->area,
-                                  or_else(joint.tension, b->tension) * c->area };
+                                  shear + more, tension + more };
 }
 
 /* Once all has settled in statics: breaks the joints that slide against their cohesion, and asks

@@ -2,7 +2,8 @@
 
 #include "run.h"
 
-/* A quasi-static step without shaking. */
+/* A quasi-static step without shaking. In the first half of them no joint breaks: inertia still
+ * bears the weight there, and a load may act on a joint alone. */
 static bbm_status settle(run *r)
 {
     bbm_model *m = r->p->m;
@@ -11,8 +12,10 @@ static bbm_status settle(run *r)
     const double shake[2] = { now[0], now[1] }, scale = r->p->shake;
 
     m->par.velocity_factor = now[0] = now[1] = r->p->shake = 0;
+    m->beyond->joints_hold = 2 * r->settling > r->p->settle;
     const bbm_status status = bbm_step(m);
     m->par = par;
+    m->beyond->joints_hold = 0;
     memcpy(now, shake, sizeof shake);
     r->p->shake = scale;
     r->settling -= !status;

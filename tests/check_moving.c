@@ -237,6 +237,26 @@ START_TEST(a_stack_leans_as_far_as_its_centres_of_mass_allow)
 }
 END_TEST
 
+/* A block is pulled up at its foot by its weight and f times the tensile strength of its joint. At first inertia bears
+ * the weight, and all of the pull acts on the joint. But the settled state decides. */
+START_TEST(a_joint_that_holds_the_settled_state_does_not_break_on_the_way)
+{
+    const double f = _i % 2 ? 1.03 : 0.97, side = _i / 2 ? 10 : 1, strength = 2e4 * side * side;
+    FILE *file = fopen("out/model/moving.model", "w");
+
+    ck_assert_ptr_nonnull(file);
+    fprintf(file, "material rock E 1e10 nu 0.25 density 2500\nblock table rock 0 -1 20 -1 20 0 0 0\n"
+                  "fixblock table\nblock b0 rock 5 0 %g 0 %g %g 5 %g\ngravity 0 -9.81\n"
+                  "contact friction 20\njoint b0 table cohesion 1e7 tension %g\n"
+                  "load box 5 0 %g 0 of b0 0 %.15g\ndynamic dt 0.001 steps 100 settle 200\n"
+                  "monitor foot at 5 0 of b0\n",
+            5 + side, 5 + side, side / 2, side / 2, 2e4 * side, 5 + side,
+            2500 * 9.81 * side * side / 2 + f * strength);
+    run_moving(file);
+    ck_assert_int_eq(cell("moving", "history.csv", "100,", "foot_v") < 1e-6 * side, f < 1);
+}
+END_TEST
+
 /* A block 1 m wide, R half its diagonal, a its slope, let go at rest, turned by th0 < a about a lower
  * corner: th'' = -p^2 sin(a - th), p^2 = 3 g/(4 R). With sin((a - th)/2) = s cosh(u), s =
  * sin((a - th0)/2), the time to the first impact is, by Simpson's rule,
@@ -406,6 +426,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_shaken_block_slips_once_in_each_period, 0, 8);
     tcase_add_loop_test(t, a_block_follows_a_record_as_newmark_has_it, 0, 4);
     tcase_add_loop_test(t, a_stack_leans_as_far_as_its_centres_of_mass_allow, 0, 4);
+    tcase_add_loop_test(t, a_joint_that_holds_the_settled_state_does_not_break_on_the_way, 0, 4);
     tcase_add_loop_test(t, a_block_rocks_back_in_its_time, 0, 12);
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
     tcase_add_loop_test(t, a_bolt_that_turns_keeps_angular_momentum_and_energy, 0, 2);
