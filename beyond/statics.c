@@ -219,11 +219,13 @@ static bbm_status blame(bbm_model *m, const bbm_model *from, const bbm_contact *
 static bbm_status try_statics(bbm_model *m)
 {
     const int most = m->par.pcg.iterations, few = 6 * m->elements + 100, done = m->info.iterations;
+    const int hold = m->beyond->joints_hold;
 
     m->h = INFINITY;
     m->par.pcg.iterations = few < most ? few : most;
-    m->info.iterations = 0;
+    m->info.iterations = m->beyond->joints_hold = 0;
     const bbm_status status = bbm_try_step(m);
+    m->beyond->joints_hold = hold;
     m->par.pcg.iterations = most;
     m->info.iterations += done;
     return status;
@@ -231,6 +233,7 @@ static bbm_status try_statics(bbm_model *m)
 
 /* Steps from rest, each as long as it settles without that blocks part far in it, until statics
  * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
+ * Joints hold until forces balance with what holds them: at first inertia bears the weight.
  * A length that failed, or after which statics did, is not tried again for some steps. Lengths
  * begin from the time in which the lightest element that is not held swings on a contact spring. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
@@ -238,7 +241,9 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1, least = INFINITY;
     bbm_contact worst = { .edge = -1 };
     bbm_status status = BBM_OPEN_CLOSE;
+    bbm_beyond *b = m->beyond;
 
+    b->joints_hold = b->joints > 0 || b->cohesion > 0 || b->tension > 0;
     for (int i = 0; i < m->elements; i++)
         if (m->K->body[i] >= 0)
             least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
@@ -250,11 +255,13 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         const int settles = !status;
         if (settles) {
             parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
-            lacks = m->beyond->lack;
+            lacks = b->lack;
             if (parted > FAR)
                 return blame(m, from, &worst);
-            const int balances = lacks <= BBM_BALANCED && m->beyond->overload <= 1;
-            status = balances ? BBM_OK : h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
+            const int balances = lacks <= BBM_BALANCED && b->overload <= 1;
+            status = balances && !b->joints_hold ? BBM_OK
+                   : balances || h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
+            b->joints_hold &= !balances;
         }
         if (!status || status == BBM_NO_MEMORY || status == BBM_STOPPED)
             return status;
@@ -316,6 +323,7 @@ static bbm_status settle(bbm_model *m)
         m->par = from.par;
         m->info.t = from.info.t;
         m->beyond->reach = INFINITY;
+        m->beyond->joints_hold = 0;
         if (!status)
             m->message[0] = '\0';
         else {

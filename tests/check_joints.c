@@ -134,6 +134,24 @@ START_TEST(one_static_step_finds_whether_a_joint_holds)
 }
 END_TEST
 
+/* Without friction and cohesion statics finds the same joint by steps from rest. At first inertia bears the weight of 2.5 t
+ * in these, and all of the pull at the foot acts on the joint. */
+START_TEST(a_static_joint_is_judged_when_its_weight_has_come)
+{
+    const double pulls = (_i % 2 ? 1.01 : 0.99) * 3000 * 2 + 2 * DENSITY * GRAVITY;
+    bbm_model *m = joined(0, 0);
+
+    m->par.gravity[1] = -GRAVITY;
+    m->par.friction = m->beyond->cohesion = 0;
+    set_springs(m, _i / 2 ? 5e11 : 5e9, 0.4 * m->par.p_n);
+    for (int c = 0; c < 2; c++)
+        ck_ok(bbm_add_load(m, vertex_of(m, 1, c)->node, 0, pulls / 2), m);
+    m->par.dt = INFINITY;
+    m->par.steps = 1;
+    ck_assert_int_eq(bbm_step(m), _i % 2 ? BBM_NO_EQUILIBRIUM : BBM_OK);
+}
+END_TEST
+
 /* Sheared off under a thrust of 1 kN. Then a push above the friction, though below the cohesion,
  * moves it on, and a pull of a hundredth of the strength lifts it. */
 START_TEST(a_joint_that_broke_has_no_strength_left)
@@ -310,6 +328,7 @@ Suite *joints_suite(void)
         { a_joint_breaks_at_its_tensile_strength_whatever_its_shear_strength, 4 },
         { a_joint_slips_at_its_cohesion_and_friction, 4 },
         { one_static_step_finds_whether_a_joint_holds, 2 },
+        { a_static_joint_is_judged_when_its_weight_has_come, 4 },
         { a_joint_that_broke_has_no_strength_left, 1 },
         { the_areas_of_a_joints_contacts_add_up_to_its_own, COUNT(PIECES) * COUNT(SEATS) },
         { blocks_that_come_to_touch_have_no_tensile_strength, 1 },
