@@ -263,12 +263,16 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
 }
 
 /* The directions in which the edge of a quadrilateral from vertex v on is held: those of both its
- * ends. Held at its vertices, such an edge locks like a bond. */
+ * ends. Held at its vertices, such an edge locks like a bond; but not that of an element without
+ * bonds, which never bends. */
 static int held_edge(const bbm_model *m, const bbm_element *e, int v)
 {
     const int next = m->vertex[bbm_next_vertex(e, v)].node;
+    int bonded = 0;
 
-    return m->beyond->bonding == BBM_VERTICES || e->n != 4
+    for (int k = e->first; k < e->first + e->n; k++)
+        bonded |= m->vertex[k].edge < 0;
+    return m->beyond->bonding == BBM_VERTICES || e->n != 4 || !bonded
          ? 0 : m->node[m->vertex[v].node].held & m->node[next].held;
 }
 

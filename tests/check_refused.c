@@ -312,9 +312,9 @@ START_TEST(an_edge_holds_a_body_if_it_has_a_moment)
 {
     bbm_model *m = new_rock();
 
-    add_rows(m, 0, 0, 0, 1, 1, 1, 1, 0.3);
+    add_rows(m, 0, 0, 0, 1, 1, 2, 1, 0.3);
     ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
-    ck_ok(bbm_fix_node(m, 2, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, 3, BBM_XY, 0, 0), m);
     m->beyond->bonding = _i == 1 ? BBM_VERTICES : BBM_MOMENT;
     m->hook->list_gaps = _i == 2 ? list_middles : m->hook->list_gaps;
     ck_ok(bbm_prepare(m), m);
