@@ -45,6 +45,8 @@
 #define SMALL 500
 /* Of c, against |z|/|q| in these norms (Sleijpen, van der Vorst, Numer. Algorithms 10, 1995). */
 #define LEAST 0.7
+/* Of the residual that rounding left, what the second iteration leaves. */
+#define AGAIN 1e-6
 
 /* y += u v^T x for the rows in hand. Returns the number of terms. */
 static int add_terms(const bbm_matrix *K, const double *x, double *y)
@@ -113,9 +115,10 @@ static void precondition(const bbm_matrix *K, const bbm_factor *f, const double 
 
 /* ------------------------------------------------------------------------------- the iteration */
 
-/* The iteration of the head. On entry x = 0, r = F. d: room for three vectors; `last` is z0.r. */
-static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, const bbm_pcg *pcg,
-                          bbm_pcg_info *info)
+/* The iteration of the head, from x and r = F - K x on. d: room for three vectors; `last` is z0.r.
+ * `stop` is a length of r, or 0: the tolerance times the first. */
+static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, double *stop,
+                          const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     double *r = K->r, *z = K->u, *p = K->p, *q = K->q, *z0 = d + 6 * K->n, *v = z0 + 6 * K->n;
     bbm_status status = BBM_OK;
@@ -124,8 +127,8 @@ static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, const b
     bbm_combine(K, z, 0, z, z0);
     bbm_combine(K, z, 0, z, p);
     double rz = bbm_dot_rows(K, r, z), last = rz;
-    const double stop = pcg->tolerance * sqrt(rz);
-    while (!(rz <= stop * stop) && !(status = bbm_count_iteration(rz, pcg, info))) {
+    *stop = fmax(*stop, (*stop > 0 ? AGAIN : pcg->tolerance) * sqrt(rz));
+    while (!(rz <= *stop * *stop) && !(status = bbm_count_iteration(rz, pcg, info))) {
         bbm_multiply(K, p, q);
         const double a = last / bbm_dot_rows(K, z0, q);
         bbm_combine(K, K->x, a, p, K->x);
@@ -156,14 +159,18 @@ static bbm_status solve(bbm_matrix *K, const bbm_pcg *wanted, bbm_pcg_info *info
     const int rows = K->to - K->from, few = 6 * rows + 100;
     bbm_pcg pcg = *wanted;
     bbm_factor f = { 0 };
-    double *d = malloc(18 * (size_t)K->n * sizeof *d);
+    double *d = malloc(24 * (size_t)K->n * sizeof *d), *F = d + 18 * K->n, stop = 0;
 
     if (!d)
         return BBM_NO_MEMORY;
+    bbm_combine(K, K->r, 0, K->r, F);
     bbm_status status = rows <= (K->extra ? SMALL / 2 : SMALL) ? factor(K, &f) : BBM_OK;
     pcg.iterations = f.A && few < pcg.iterations ? few : pcg.iterations;
-    if (!status)
-        status = iterate(K, &f, d, &pcg, info);
+    for (int again = 0; again < 2 && !status; again++) {
+        status = iterate(K, &f, d, &stop, &pcg, info);
+        bbm_multiply(K, K->x, K->q);
+        bbm_combine(K, F, -1, K->q, K->r);
+    }
     bbm_factor_free(&f);
     free(d);
     return status;
