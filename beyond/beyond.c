@@ -133,9 +133,9 @@ static bbm_status move(bbm_model *m)
         return status;
     bbm_store_multipliers(m);
     bbm_keep_cracks(m);
-    bbm_stop_supports(m);
     memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);
     memcpy(m->vertex, end.vertex, (size_t)m->vertices * sizeof *m->vertex);
+    bbm_stop_supports(m);
     return BBM_OK;
 }
 

@@ -30,7 +30,8 @@
  * slides jams it may not settle; then it is done without friction.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
- * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0.
+ * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0; if it has
+ * begun to move, r1.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -89,13 +90,14 @@ static bbm_account *account_of(const bbm_model *m, int i)
     return &m->beyond->account[m->K->component[i]];
 }
 
-/* The velocity of a support at the end of the step. One that stands has none. */
+/* The velocity of a support at the end of the step. One that stands has none, and one that stood
+ * before moves evenly. */
 static double support_velocity(const bbm_model *m, int node, int a)
 {
     const bbm_support *s = &m->beyond->support[node];
     const double r = m->beyond->share * s->moved[a] / m->h;
 
-    return r == 0 || m->beyond->h_before == 0 ? r
+    return r == 0 || s->rate[a] == 0 || m->beyond->h_before == 0 ? r
          : r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
 }
 

@@ -208,6 +208,28 @@ bbm_status bbm_move_support(bbm_model *m, int node, double u, double v)
     return BBM_OK;
 }
 
+/* What is held all round has the mean velocity of its supports in the step, from start to end. */
+static void take_along(bbm_model *m)
+{
+    const double f = m->beyond->share / m->h;
+
+    for (int i = 0; i < m->elements; i++) {
+        bbm_element *e = &m->element[i];
+        if (!bbm_is_held_all_round(m, e))
+            continue;
+        memset(e->V, 0, sizeof e->V);
+        for (int k = 0; k < e->n; k++) {
+            const bbm_linear of = bbm_interpolation(e, &m->vertex[e->first], k);
+            const double *moved = m->beyond->support[m->vertex[e->first + k].node].moved;
+            const double u = f * moved[0], v = f * moved[1];
+            const double V[6] = { of.f * u, of.f * v, (of.fx * v - of.fy * u) / 2,
+                                  of.fx * u, of.fy * v, of.fy * u + of.fx * v };
+            for (int a = 0; a < 6; a++)
+                e->V[a] += V[a];
+        }
+    }
+}
+
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
  * way is left. The velocity with which a node comes that is held from now on counts as that of its
  * support so far. */
@@ -230,6 +252,7 @@ void bbm_place_supports(bbm_model *m)
         }
         s->held = m->node[n].held;
     }
+    take_along(m);
 }
 
 /* The force of a support on its node, in the step or in the jump. */
@@ -289,6 +312,7 @@ void bbm_stop_supports(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;
 
+    take_along(m);
     for (int i = 0; i < m->elements; i++)
         b->account[i].pressed = 0;
     for (int l = 0; l < b->edge_loads; l++) {
