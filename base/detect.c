@@ -55,6 +55,8 @@
 #define TIE 1e-9
 #define ROUND 2e-3
 
+static const double STILL[2];   /* turns of the sides of a corner: none */
+
 typedef struct bbm_pair { int corner, edge, dropped; } pair;    /* what may touch               */
 
 typedef struct bbm_reach {      /* of a block, with the index of its first element              */
@@ -261,6 +263,18 @@ static double slip_between(const bbm_model *m, int P, int Q, bbm_direction t)
     return fabs((u[0] - v[0]) * t.x + (u[1] - v[1]) * t.y);
 }
 
+/* By how much an edge turns by D. */
+static double turn_of(const bbm_model *m, int e)
+{
+    const bbm_direction t = m->edge[e].along;
+    double u[2], v[2];
+
+    move_point(m, m->edge[e].a, u);
+    move_point(m, m->edge[e].b, v);
+    const double x = v[0] - u[0], y = v[1] - u[1];
+    return atan2(t.x * y - t.y * x, t.length + t.x * x + t.y * y);
+}
+
 /* Whether the solution moves further than the detection has foreseen. */
 int bbm_moved_too_far(const bbm_model *m)
 {
@@ -268,8 +282,8 @@ int bbm_moved_too_far(const bbm_model *m)
 
     for (int e = 0; e < m->edges && !too_far; e++) {
         const int i = m->edge[e].element;
-        too_far = way_of(m, e) > reach_of(m, e)->travel
-               || fabs(m->D[6 * i + 2]) > m->scratch->reach[i].turn;
+        const double turn = fmax(fabs(m->D[6 * i + 2]), fabs(turn_of(m, e)));
+        too_far = way_of(m, e) > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn;
     }
     return too_far;
 }
@@ -287,7 +301,8 @@ static double foresee(bbm_model *m)
         of->turn = 2 * fabs(m->D[6 * i + 2]) + PARALLEL / 2;
     }
     for (int e = 0; e < m->edges; e++) {
-        reach *b = reach_of(m, e);
+        reach *b = reach_of(m, e), *own = &m->scratch->reach[m->edge[e].element];
+        own->turn = fmax(own->turn, 2 * fabs(turn_of(m, e)) + PARALLEL / 2);
         b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + rounding_of(m, e) / 2);
         most = fmax(most, b->travel);
     }
@@ -420,23 +435,28 @@ static int is_covered(const bbm_model *m, int corner, int e)
     return cover != e && 2 * from < m->edge[side].along.length;
 }
 
+static bbm_direction turned(bbm_direction t, double r)
+{
+    return (bbm_direction){ t.x * cos(r) - t.y * sin(r), t.y * cos(r) + t.x * sin(r), t.length };
+}
+
 /* Whether a corner can enter over an edge. Neither of its two sides points into the edge by more
- * than an angle, after its block has turned by r against that of the edge, and the block is convex
+ * than an angle, after they have turned by r[0] and r[1] against it, and the block is convex
  * there. Either end of a side may be as deep as closed contacts are. A grid point inside a straight
  * side may come to lie in a hollow, where that side bends, and so may a corner in a side of two
  * blocks that slide past each other. */
-static int can_enter(const bbm_model *m, int corner, int e, double r, double angle)
+static int can_enter(const bbm_model *m, int corner, int e, const double r[2], double angle)
 {
     const int Q = end_near(m, corner, e);
-    const bbm_direction t = m->edge[e].along, p = m->edge[side_at(m, corner, 0, Q)].along;
+    const bbm_direction p = m->edge[side_at(m, corner, 0, Q)].along, t = m->edge[e].along;
     const bbm_direction q = m->edge[side_at(m, corner, 1, Q)].along;
-    const bbm_direction s = { t.x * cos(r) + t.y * sin(r), t.y * cos(r) - t.x * sin(r), 1 };
     const double dip = 2 * fmin(reach_of(m, corner)->depth_now, reach_of(m, e)->depth_now);
+    const double arrives = cross(t, turned(p, r[0])), leaves = cross(turned(q, r[1]), t);
 
     if (!is_corner(m, corner) || m->edge[corner].slides)
-        return fmin(cross(q, s), cross(s, p)) >= -BENT;
-    return cross(q, s) >= -angle - dip / fmin(q.length, t.length)
-        && cross(s, p) >= -angle - dip / fmin(p.length, t.length) && cross(p, q) > -PARALLEL;
+        return fmin(arrives, leaves) >= -BENT;
+    return leaves >= -angle - dip / fmin(q.length, t.length)
+        && arrives >= -angle - dip / fmin(p.length, t.length) && cross(p, q) > -PARALLEL;
 }
 
 /* Whether edge e goes before f where either could be the edge of a contact. The first of these
@@ -545,14 +565,16 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
 static int is_hidden(const bbm_model *m, pair p)
 {
     const reach *of = m->scratch->reach;
-    const double turns = of[m->edge[p.corner].element].turn + of[m->edge[p.edge].element].turn;
+    const int sides[2] = { m->edge[m->edge[p.corner].before].element, m->edge[p.corner].element };
+    const double turns = fmax(of[sides[0]].turn, of[sides[1]].turn)
+                       + of[m->edge[p.edge].element].turn;
     const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
     if (bbm_is_held_all_round(m, &m->element[m->edge[p.corner].element])
         && bbm_is_held_all_round(m, &m->element[m->edge[p.edge].element]))
         return 1;
     return !find_closed(m, p.corner, p.edge, ITSELF)
-        && (is_covered(m, p.corner, p.edge) || !can_enter(m, p.corner, p.edge, 0, angle));
+        && (is_covered(m, p.corner, p.edge) || !can_enter(m, p.corner, p.edge, STILL, angle));
 }
 
 /* Adds a corner and an edge to the pairs, if they are near. */
@@ -723,7 +745,7 @@ static int is_on_ledge(const bbm_model *m, const bbm_contact *c)
 
     return c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
         && project(m, c->corner, other).d > -rounding_between(m, c->corner, c->edge)
-        && can_enter(m, c->corner, other, 0, PARALLEL);
+        && can_enter(m, c->corner, other, STILL, PARALLEL);
 }
 
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
@@ -737,7 +759,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
-        if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, 0, PARALLEL))
+        if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, STILL, PARALLEL))
             return 1;
         lines++;
     }
@@ -857,18 +879,25 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
     return (1 - t) * s - t * c->trial.past[0] >= 0 && (1 - t) * (l - s) - t * c->trial.past[1] >= 0;
 }
 
-/* Whether P may come in over its line, if it crosses it: as it is turned at the end of the step,
- * and not from behind the edge. Nor where its projection is beyond the end of the edge at the start
+/* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step, and
+ * not from behind the edge. Nor where its projection is beyond the end of the edge at the start
  * of the step, as it crosses the line and at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
+    const int Q = end_near(m, c->corner, c->edge);
     const double turn = m->D[6 * c->element[0] + 2] - m->D[6 * c->element[1] + 2];
+    double r[2] = { turn, turn };
     const bbm_trial *t = &c->trial;
 
+    for (int which = 0; which < 2; which++) {
+        const double own = turn_of(m, side_at(m, c->corner, which, Q)) - turn_of(m, c->edge);
+        r[which] = fabs(own) < BENT ? own : turn;
+    }
     if (!t->was_closed && !c->inside && t->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
     return (t->was_closed || !t->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
-            || is_on_edge(m, c, 1)) && can_enter(m, c->corner, c->edge, turn, PARALLEL);
+            || is_on_edge(m, c, 1))
+        && can_enter(m, c->corner, c->edge, r, PARALLEL);
 }
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside

@@ -149,11 +149,14 @@ START_TEST(the_sweep_finds_the_pairs_that_comparing_all_with_all_finds)
     bbm_model *m = random_blocks(o, seed, PLACES[_i / 2]);
     double way[BLOCKS];
 
-    for (int b = 0; b < BLOCKS; b++)
+    double angle[BLOCKS];               /* elements of one block would turn its sides */
+    for (int b = 0; b < BLOCKS; b++) {
         way[b] = disp * (b == 17 ? 1 : fabs(random_number(&seed)));
+        angle[b] = PI * random_number(&seed);
+    }
     for (int e = 0; e < m->elements; e++) {
-        const double angle = PI * random_number(&seed), v = way[m->element[e].block] / m->par.dt;
-        set_velocity(m, e, v * cos(angle), v * sin(angle));
+        const int b = m->element[e].block;
+        set_velocity(m, e, way[b] / m->par.dt * cos(angle[b]), way[b] / m->par.dt * sin(angle[b]));
     }
     detect(m);
     check_list(m, o, way);
