@@ -903,7 +903,7 @@ static int admits(const bbm_model *m, const bbm_contact *c)
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
  * crosses last. A P that leaves over r has been outside if it was less than the rounding of the
- * corners behind it, unless the sides face each other.
+ * corners behind it. A P that comes in on the edge is inside, wherever an end Q of it lies.
  * What was closed keeps its line until P crosses the other one. Of two lines crossed at the same
  * time the one counts that was closed at the start of the step, or else that goes before. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
@@ -915,9 +915,11 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
         return 1;
     if (are_parallel(m, c->edge, r->edge, 1))
         return r->d_n < 0 && is_on_edge(m, r, 1) && (!is_on_edge(m, c, 1) || r->edge < c->edge);
+    if (r->d_n >= 0 && r->corner != c->corner && is_on_edge(m, c, fmin(1, crossed_at(m, c)))
+        && is_on_edge(m, c, 1))
+        return 0;
     if (r->d_n >= 0)
-        return over_r >= (c->trial.was_closed || face_each_other(m, c->edge, r->edge) ? 0
-                          : -rounding_between(m, c->corner, c->edge));
+        return over_r >= (c->trial.was_closed ? 0 : -rounding_between(m, c->corner, c->edge));
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
