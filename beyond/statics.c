@@ -10,8 +10,8 @@
  * par.velocity_factor = 0. Inertia, 2 M/h^2, holds each block where it is, and the shorter h is the
  * less do contacts feel of each other. Where it settles h grows, and the model creeps towards the
  * equilibrium with what slides sliding. As soon as a static step from there finds it, near by, that
- * is the end: it stands. If two blocks part by more than FAR, they have done so in the attempt: it
- * falls, and these are named. Else nothing was found, which is said as well; and the model is what
+ * is the end: it stands. If two blocks part by more than FAR, they have done so in the attempt, and
+ * if forces come no nearer to balance, it falls, and these are named. Else nothing was found, which is said as well; and the model is what
  * it was.
  */
 #include <stdlib.h>
@@ -25,12 +25,15 @@
  *              in the static step from there: contacts and directions are those of its start
  * LEAP [-]     the same of a static step from where the model is: elastic bodies may flatten
  * FAR [-]      how far they have parted in all when that is no elastic way
+ * SLOWS [-]    nor if forces lack less of balance than this share of what they did at half the way:
+ *              elastic bodies come to rest so, and what falls does not
  * SHORT [-]    the shortest step against a swing on a contact spring
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
 #define LEAP 0.2
 #define FAR 0.02
+#define SLOWS 0.9
 #define SHORT 1e-3
 #define DRIFT 0.9
 
@@ -239,6 +242,7 @@ static bbm_status try_statics(bbm_model *m)
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1, least = INFINITY;
+    double far = FAR, before = INFINITY;            /* what forces lacked at half of that way */
     bbm_contact worst = { .edge = -1 };
     bbm_status status = BBM_OPEN_CLOSE;
     bbm_beyond *b = m->beyond;
@@ -256,8 +260,13 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         if (settles) {
             parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
             lacks = b->lack;
-            if (parted > FAR)
+            before = parted <= far / 2 ? lacks : before;
+            if (parted > far && lacks > SLOWS * before)
                 return blame(m, from, &worst);
+            if (parted > far) {
+                far *= 2;
+                before = lacks;
+            }
             const int balances = lacks <= BBM_BALANCED && b->overload <= 1;
             status = balances && !b->joints_hold ? BBM_OK
                    : balances || h > tried ? try_statics(m) : BBM_OPEN_CLOSE;

@@ -283,6 +283,49 @@ START_TEST(a_ladder_on_a_base_of_any_weight_needs_the_friction_of_the_closed_for
 }
 END_TEST
 
+/* A block of 2 m x 1 m with a round lower side, R = 10 m, is pressed on a base until a half of it would touch by Hertz. Its
+ * top is held along x. In one static step no corner of the round side ends deeper in the base than twice the deepest that
+ * is closed: what has come in bears, though it was far at the start and its sides pointed the other way. */
+START_TEST(a_round_side_that_flattens_bears_at_all_its_corners)
+{
+    const int columns[] = { 4, 8, 12, 16 }, nx = columns[_i % 4], ny = _i / 4 % 3 + 1;
+    const double a = 0.5, R = 10;
+    bbm_model *m = new_blocks();
+
+    m->beyond->bonding = BBM_MOMENT;
+    m->beyond->multiplier_rounds = 2;
+    m->par.dt = INFINITY;
+    m->par.steps = 1;
+    m->par.pcg.tolerance = 1e-10;
+    m->par.gravity[1] = 0;
+    m->par.friction = _i < 12 ? 0 : 30;
+    m->material[ROCK].E = 1e9;
+    m->material[ROCK].nu = 0;
+    set_springs(m, 5e10, 2e10);
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -1.5, .y = -1, .w = 3, .h = 1, .fixed = 1 });
+    const int first = m->nodes;
+    for (int j = 0; j <= ny; j++)
+        for (int i = 0; i <= nx; i++) {
+            const double x = 2.0 * i / nx - 1, t = (double)j / ny;
+            ck_ok(bbm_add_node(m, x, t + (1 - t) * x * x / (2 * R), NULL), m);
+        }
+    for (int k = 0; k < nx * ny; k++) {
+        const int n = first + k % nx + k / nx * (nx + 1);
+        ck_ok(bbm_add_element(m, 1, ROCK, 4, (int[]){ n, n + 1, n + nx + 2, n + nx + 1 }, NULL), m);
+    }
+    for (int i = 0; i <= nx; i++) {
+        ck_ok(bbm_fix_node(m, m->nodes - 1 - i, BBM_X, 0, 0), m);
+        ck_ok(bbm_add_load(m, m->nodes - 1 - i, 0, -PI * a * a * 1e9 / (4 * R) / (nx + 1)), m);
+    }
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    for (int i = 0; i <= nx; i++) {
+        const bbm_result P = result_at(m, first + i);
+        ck_assert_double_gt(m->node[first + i].y + P.v, -2 * m->info.penetration - 1e-6);
+    }
+}
+END_TEST
+
 /* A stone on a fixed base is shaken, in dynamics. A base of any weight stays where it is; its supports bear that. */
 START_TEST(what_a_fixed_block_weighs_moves_nothing)
 {
@@ -593,6 +636,7 @@ Suite *statics_suite(void)
     add_case(s, "statics",
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { what_is_taut_sags_as_its_tension_says_and_stays_taut, 4 },
+        { a_round_side_that_flattens_bears_at_all_its_corners, 24 },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 });
     add_case(s, "measures",
         { a_pile_stands_to_97_percent_of_its_limit_and_falls_at_105_turned_and_in_other_units,
