@@ -237,10 +237,9 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
             for (int i = 0; i < j; i++)
                 memcpy(link[n++], (int [2]){ c->element[i], c->element[j] }, sizeof *link);
     }
-    for (int g = 0; g < m->gaps; g++) {
-        memcpy(link[n], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);
-        n += m->gap[g].j >= 0;
-    }
+    for (int g = 0; g < m->gaps; g++)
+        if (m->gap[g].j >= 0)
+            memcpy(link[n++], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);
     const int same = m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0;
     if (same || bbm_matrix_new(m->elements, n, link, &K)) {
         free(link);

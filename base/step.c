@@ -337,10 +337,9 @@ bbm_status bbm_run(bbm_model *m)
         if (m->par.tolerance > 0 && m->info.change <= m->par.tolerance)
             return BBM_OK;
     } while (++step < m->par.steps);
-    if (m->par.tolerance > 0)
-        return bbm_fail(m, BBM_STEPS_EXHAUSTED, "change %.2g after step %d, expected %.2g",
-                        m->info.change, m->info.step, m->par.tolerance);
-    return BBM_OK;
+    return m->par.tolerance == 0 ? BBM_OK
+         : bbm_fail(m, BBM_STEPS_EXHAUSTED, "change %.2g after step %d, expected %.2g",
+                    m->info.change, m->info.step, m->par.tolerance);
 }
 
 /* ------------------------------------------------------------------ results, section 4 */
