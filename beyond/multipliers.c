@@ -60,7 +60,6 @@ bbm_pass bbm_take_over(bbm_model *m)
 /* At the end of a step. */
 void bbm_store_multipliers(bbm_model *m)
 {
-    for (int k = 0; k < m->gaps; k++)
-        for (int r = 0; r < 2; r++)
-            m->gap[k].own.f_before[r] = m->gap[k].own.f[r];
+    for (int k = 0; k < 2 * m->gaps; k++)
+        m->gap[k / 2].own.f_before[k % 2] = m->gap[k / 2].own.f[k % 2];
 }
