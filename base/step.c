@@ -206,7 +206,7 @@ static bbm_status open_close(bbm_model *m, bbm_pass *pass)
 /* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
 static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
 {
-    const bbm_motion *motion = m->hook->end_motion ? m->hook->end_motion(m) : NULL;
+    const bbm_motion *motion = m->hook->motion ? m->hook->motion(m, 1) : NULL;
     const bbm_element start = *e;
     double E[3][3], u[2];
 

@@ -164,7 +164,6 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .motion = bbm_find_motion,
-        .end_motion = bbm_find_end_motion,
         .before_solution = before_solution,
         .renew = renew,
         .move = move,

@@ -169,8 +169,7 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end);
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
 /* rotation.c */
-const bbm_motion *bbm_find_motion(const bbm_model *m);
-const bbm_motion *bbm_find_end_motion(const bbm_model *m);
+const bbm_motion *bbm_find_motion(const bbm_model *m, int ends);
 void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);

@@ -796,7 +796,7 @@ START_TEST(linear_displacements_of_the_corners_are_those_of_the_element)
     const int n = 3 + _i % 3;
     double sum[6] = { 0 }, T[2][6], P[6][2], Q[4][4], at[2];
     bbm_model *m = beyond_model();
-    bbm_middle middle = { .motion = _i < 3 ? NULL : bbm_find_motion(m) };
+    bbm_middle middle = { .motion = _i < 3 ? NULL : bbm_motion_of(m) };
     bbm_vertex v[5];
     bbm_element e;
 
