@@ -250,7 +250,7 @@ struct bbm_hooks {
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
-    void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
+    void (*assembled)(bbm_model *m);                        /* K and F, Eq. (5)                 */
     /* --- open-close --- */
     int (*partner)(const bbm_model *m, int v);              /* that shares its corner; v: none  */
     void (*vectors)(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2]);

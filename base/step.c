@@ -142,6 +142,8 @@ void bbm_assemble(bbm_model *m)
     for (; g < m->gaps; g++)                        /* fixed points */
         assemble_gap(m, &m->gap[g]);
     bbm_assemble_contacts(m);
+    if (m->hook->assembled)
+        m->hook->assembled(m);
     m->info.seconds[BBM_ASSEMBLE] += (double)(clock() - start) / CLOCKS_PER_SEC;
 }
 
@@ -183,8 +185,6 @@ bbm_status bbm_detect(bbm_model *m, int *holds)
 /* Solves K D = F, Eq. (5), section 4, and counts the work. */
 static bbm_status solve(bbm_model *m)
 {
-    if (m->hook->before_solution)
-        m->hook->before_solution(m);
     if (m->monitor && m->monitor(m, m->monitor_context))
         return bbm_fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
     const bbm_status status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);

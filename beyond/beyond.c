@@ -107,7 +107,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return next;
 }
 
-static void before_solution(bbm_model *m)
+static void assembled(bbm_model *m)
 {
     bbm_stiffen(m);
     bbm_interpolate_elements(m);
@@ -164,7 +164,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .motion = bbm_find_motion,
-        .before_solution = before_solution,
+        .assembled = assembled,
         .renew = renew,
         .move = move,
         .failed = bbm_say_cracks,

@@ -7,7 +7,13 @@
 #ifndef BBM_BEYOND_H
 #define BBM_BEYOND_H
 
+#include <float.h>
+
 #include "../base/base.h"
+
+/* [-] of a position or a displacement: some dozens of its last digit. What a spring makes of it may
+ * be left, and so may its work. */
+#define BBM_ROUNDING (64 * DBL_EPSILON)
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */
 

@@ -256,7 +256,6 @@ static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *en
     start_contacts(m, step);
     while (!status && pass == BBM_PASS_AGAIN) {
         bbm_assemble(m);
-        m->hook->before_solution(m);
         status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
         pass = bbm_open_close(m);
     }
