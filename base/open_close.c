@@ -213,7 +213,7 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
         return bbm_normal_force(m, c->d_n - c->rest);
-    if (c->trial.next_state == BBM_OPEN && c->N < 0)
+    if (c->trial.next_state == BBM_OPEN)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }

@@ -152,18 +152,15 @@ bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **out)
     bbm_matrix *K = calloc(1, sizeof *K);
     bbm_status status = K ? graph_new(&g, n, links, link) : BBM_NO_MEMORY;
 
-    if (!status)
-        status = allocate(K, &g);
+    status = status ? status : allocate(K, &g);
     if (!status) {
         reverse_cuthill_mckee(&g, K->caller, K->place);
         lay_out_rows(K, &g);
-    } else {
+    } else
         bbm_matrix_free(K);
-        K = NULL;
-    }
     free(g.first);
     free(g.end);
-    *out = K;
+    *out = status ? NULL : K;
     return status;
 }
 

@@ -273,23 +273,22 @@ static bbm_status update(bbm_model *m)
 bbm_status bbm_try_step(bbm_model *m)
 {
     bbm_status status = bbm_begin_step(m);
-    bbm_pass pass = BBM_PASS_DONE;
-    int holds = 1;
+    bbm_pass pass = BBM_PASS_AGAIN;
+    int holds = 0;
 
     if (!status)
         status = bbm_detect(m, &holds);             /* 3.7: which contacts may close            */
-    do {
+    while (!status && !holds) {
         do {
-            if (!status && pass != BBM_PASS_SAME_K)
+            if (pass != BBM_PASS_SAME_K)
                 bbm_assemble(m);                    /* K, F: 3.1 to 3.8                         */
-            if (!status)
-                status = solve(m);                  /* K D = F: section 4                       */
+            status = solve(m);                      /* K D = F: section 4                       */
             if (!status)
                 status = open_close(m, &pass);      /* 3.7: do the contacts fit the solution?   */
         } while (!status && pass != BBM_PASS_DONE);
         if (!status)
             status = bbm_detect(m, &holds);         /* too far for the list of contacts?        */
-    } while (!status && !holds);
+    }
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 

@@ -82,7 +82,6 @@ static bbm_status listed(bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         m->K->body[i] = bbm_is_held_all_round(m, &m->element[i]) ? -1 : m->beyond->body[i];
     bbm_set_middle(m);
-    bbm_list_gaps(m);
     bbm_start_multipliers(m);
     const bbm_status status = bbm_check_passed(m);
     return status ? status : bbm_check_supports(m);
@@ -99,7 +98,6 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
         return next;
     if (bbm_settle_loads(m) > 0 || bbm_middle_is_off(m)) {
         bbm_set_middle(m);
-        bbm_list_gaps(m);
         return BBM_PASS_AGAIN;
     }
     if (next == BBM_PASS_DONE && (next = bbm_break_joints(m)) == BBM_PASS_DONE)

@@ -123,7 +123,8 @@ const bbm_motion *bbm_find_motion(const bbm_model *m, int ends)
     return m->beyond->rotation == BBM_EXACT && !linear ? &exact_motion : NULL;
 }
 
-/* Takes the vectors of the step in the middle of D; not exact: at its start. */
+/* Takes the vectors of the step in the middle of D, and lists the gaps with them; not exact: at its
+ * start. */
 void bbm_set_middle(bbm_model *m)
 {
     const bbm_motion *motion = bbm_motion_of(m);
@@ -134,6 +135,7 @@ void bbm_set_middle(bbm_model *m)
         memcpy(middle->D, &m->D[6 * i], sizeof middle->D);
         m->element[i].middle = motion ? middle : NULL;
     }
+    bbm_list_gaps(m);
 }
 
 /* By how much the turn of element i is another one than that of its T_m. */
