@@ -41,20 +41,8 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
     c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
-/* The elements of a contact: i and j, and those that share P1, P2 or P3 with them. */
-static void find_elements(const bbm_model *m, bbm_contact *c)
-{
-    const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
-
-    c->element[0] = m->edge[c->corner].element;
-    c->element[1] = m->edge[c->edge].element;
-    c->parts = 2;
-    for (int k = 0; k < 3; k++)
-        if (bbm_partner_of(m, P[k]) != P[k])
-            c->element[c->parts++] = m->vertex[bbm_partner_of(m, P[k])].element;
-}
-
-/* A contact begins the step with the state of its last step. It begins open if P1 has left it past
+/* A contact begins the step with the state of its last step. Its elements are i and j, and those
+ * that share P1, P2 or P3 with them. It begins open if P1 has left it past
  * the end of the edge. Its strength is the model's friction angle, or what a hook says. If it is
  * open or its edge is another one, its anchor is placed anew.
  *
@@ -63,9 +51,15 @@ static void find_elements(const bbm_model *m, bbm_contact *c)
  * which one. An unbroken joint is closed in any case. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
+    const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
     int lines = 0;
 
-    find_elements(m, c);
+    c->element[0] = m->edge[c->corner].element;
+    c->element[1] = m->edge[c->edge].element;
+    c->parts = 2;
+    for (int k = 0; k < 3; k++)
+        if (bbm_partner_of(m, P[k]) != P[k])
+            c->element[c->parts++] = m->vertex[bbm_partner_of(m, P[k])].element;
     for (int k = 0; k < 4; k++)
         lines += c->trial.entrance[k] >= 0;
     c->trial.time_left = 1;
