@@ -442,6 +442,7 @@ void       bbm_list_gaps(bbm_model *m);
 void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W);
 void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
+void       bbm_assemble_gap(bbm_model *m, const bbm_gap *g);
 void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
 void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[]);
 bbm_status bbm_begin_step(bbm_model *m);

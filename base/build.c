@@ -24,13 +24,12 @@
 bbm_status bbm_model_new(bbm_model **out)
 {
     struct { bbm_model model; bbm_hooks hook; } *both = calloc(1, sizeof *both);
-    bbm_model *m = both ? &both->model : NULL;
 
-    *out = m;
-    if (!m)
+    *out = both ? &both->model : NULL;
+    if (!both)
         return BBM_NO_MEMORY;
-    m->hook = &both->hook;
-    m->par = (bbm_parameters){
+    both->model.hook = &both->hook;
+    both->model.par = (bbm_parameters){
         .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
         .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 },
     };
@@ -164,10 +163,9 @@ bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double
     if (!isfinite(u) || !isfinite(v))
         return REFUSE(m, BBM_NOT_FINITE, "the wall point of fixed node %d", node);
     m->node[node].held |= directions;
-    if (directions & BBM_X)
-        m->node[node].wall[0] = u;
-    if (directions & BBM_Y)
-        m->node[node].wall[1] = v;
+    for (int a = 0; a < 2; a++)
+        if (directions & 1 << a)
+            m->node[node].wall[a] = a ? v : u;
     return BBM_OK;
 }
 

@@ -115,7 +115,7 @@ static void assemble_element(bbm_model *m, int i)
         m->F[6 * i + a] += s.F[a];
 }
 
-static void assemble_gap(bbm_model *m, const bbm_gap *g)
+void bbm_assemble_gap(bbm_model *m, const bbm_gap *g)
 {
     bbm_submatrices s = { .Fi = { 0 } };
 
@@ -137,10 +137,10 @@ void bbm_assemble(bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         assemble_element(m, i);
     for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds */
-        assemble_gap(m, &m->gap[g]);
+        bbm_assemble_gap(m, &m->gap[g]);
     bbm_matrix_measure(m->K, m->F);
     for (; g < m->gaps; g++)                        /* fixed points */
-        assemble_gap(m, &m->gap[g]);
+        bbm_assemble_gap(m, &m->gap[g]);
     bbm_assemble_contacts(m);
     if (m->hook->assembled)
         m->hook->assembled(m);
