@@ -115,10 +115,9 @@ static void measure_open(const bbm_model *m, bbm_contact *c)
         (bbm_motion_of(m) ? bbm_end_distances : vector_distances)(m, c, end, from[end]);
     c->anchor = 0;
     c->trial.time_left = 1;
-    c->trial.past[0] = from[0][1];
+    c->d_s = c->trial.past[0] = from[0][1];
     c->trial.past[1] = -from[1][1];
     c->d_n = from[0][0];
-    c->d_s = from[0][1];
     c->N = c->T = 0;
 }
 
@@ -305,8 +304,7 @@ bbm_pass bbm_open_close(bbm_model *m)
  * the anchor moved. A joint that has opened, or slid against a shear strength, is broken. */
 void bbm_store_contacts(bbm_model *m)
 {
-    m->info.contacts = 0;
-    m->info.penetration = 0;
+    m->info.penetration = m->info.contacts = 0;
     bbm_keep_contacts(m);
     for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
         const double strength = bbm_shear_strength(&c->strength, c->N);

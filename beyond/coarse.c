@@ -184,8 +184,6 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *
     }
 }
 
-static int node_of(int number) { return number < 0 ? -1 - number : number; }
-
 /* mode, corners, modes and held of each row, and node in the caller's numbers. */
 static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, const int *node,
                              const int *middles, coarse_space *c)
@@ -204,7 +202,8 @@ static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, c
         r->corners = from[1] - from[0];
         r->modes = middles && middles[K->caller[i]] ? 2 : 0;
         for (int k = from[0]; k < from[1]; k++)
-            *corner++ = (coarse_corner){ .node = node_of(node[k]), .held = node[k] < 0 };
+            *corner++ = node[k] < 0 ? (coarse_corner){ .node = -1 - node[k], .held = 1 }
+                                    : (coarse_corner){ .node = node[k] };
         for (int k = 0; k < r->modes; k++)
             *corner++ = (coarse_corner){ .node = r->mode + k };
         r[1].mode = r->mode + r->modes;
@@ -255,9 +254,6 @@ static void coarse_free(void *extra)
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place, const int *middles)
 {
-    for (int k = 0; k < first[K->n]; k++)
-        if (node_of(node[k]) >= nodes)
-            return BBM_BAD_INDEX;
     coarse_free(K->extra);
     K->extra = NULL;
     K->free_extra = coarse_free;

@@ -117,8 +117,7 @@ static const bbm_motion exact_motion = { find_point, move, turn };
  * static step by itself is linear. */
 const bbm_motion *bbm_find_motion(const bbm_model *m, int ends)
 {
-    const int alone = m->par.steps == 1 && m->info.step == 0;
-    const int linear = bbm_is_static(m) && (!ends || alone);
+    const int linear = bbm_is_static(m) && (!ends || (m->par.steps == 1 && m->info.step == 0));
 
     return m->beyond->rotation == BBM_EXACT && !linear ? &exact_motion : NULL;
 }
