@@ -32,31 +32,28 @@
  * barycentre, and the barycentre for the second moments: far from (0, 0) nothing cancels then. */
 void bbm_element_geometry(bbm_element *e, const bbm_vertex v[])
 {
-    double A = 0, mx = 0, my = 0, sxx = 0, syy = 0, sxy = 0;
+    double mx = 0, my = 0;
 
+    e->A = e->Sxx = e->Syy = e->Sxy = 0;
     for (int a = 0; a < e->n; a++) {
         const int b = (a + 1) % e->n;
         const double xa = v[a].x - v[0].x, ya = v[a].y - v[0].y;
         const double xb = v[b].x - v[0].x, yb = v[b].y - v[0].y;
         const double c = xa * yb - xb * ya;
-        A += c / 2;
+        e->A += c / 2;
         mx += c / 6 * (xa + xb);
         my += c / 6 * (ya + yb);
     }
-    e->A = A;
-    e->x = v[0].x + mx / A;
-    e->y = v[0].y + my / A;
+    e->x = v[0].x + mx / e->A;
+    e->y = v[0].y + my / e->A;
     for (int a = 0; a < e->n; a++) {
         const int b = (a + 1) % e->n;
         const double xa = v[a].x - e->x, ya = v[a].y - e->y, xb = v[b].x - e->x, yb = v[b].y - e->y;
         const double c = xa * yb - xb * ya;
-        sxx += c / 12 * (xa * xa + xa * xb + xb * xb);
-        syy += c / 12 * (ya * ya + ya * yb + yb * yb);
-        sxy += c / 24 * (xa * yb + 2 * xa * ya + 2 * xb * yb + xb * ya);
+        e->Sxx += c / 12 * (xa * xa + xa * xb + xb * xb);
+        e->Syy += c / 12 * (ya * ya + ya * yb + yb * yb);
+        e->Sxy += c / 24 * (xa * yb + 2 * xa * ya + 2 * xb * yb + xb * ya);
     }
-    e->Sxx = sxx;
-    e->Syy = syy;
-    e->Sxy = sxy;
 }
 
 /* Displacement mode matrix: u(x, y) = T D, Eq. (1), (2), (3). */

@@ -113,12 +113,11 @@ void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
 /* The length of a spring: d0 + e.D_i + g.D_j, Eq. (57), (61). row: which D each vector has. */
 double bbm_length_of(const bbm_spring *v, int parts, const int row[], const double *D)
 {
-    const double *e = v->v[0], *g = v->v[1], *Di = &D[6 * row[0]], *Dj = &D[6 * row[1]];
     double length = v->d;
 
     for (int a = 0; a < 6; a++) {
-        double sum = e[a] * Di[a] + g[a] * Dj[a];
-        for (int k = 2; k < parts; k++)
+        double sum = 0;
+        for (int k = 0; k < parts; k++)
             sum += v->v[k][a] * D[6 * row[k] + a];
         length += sum;
     }

@@ -240,7 +240,9 @@ struct bbm_hooks {
     bbm_status (*check)(bbm_model *m);                      /* of a prepared model              */
     /* --- a step begins --- */
     bbm_status (*begin)(bbm_model *m);                      /* may change m->acceleration       */
-    const bbm_motion *(*motion)(const bbm_model *m);        /* of the step; NULL: u = T D       */
+    const bbm_motion *(*motion)(const bbm_model *m, int ends);      /* of the step, or of points */
+                                                            /* and stress as they end it; NULL: */
+                                                            /* u = T D                          */
     bbm_status (*find_pairs)(bbm_model *m, double search);  /* bbm_add_pair for all near pairs  */
     void (*strength)(const bbm_model *m, bbm_contact *c);   /* sets c->strength, and c->area of */
                                                             /* one that touches at the start    */
@@ -248,7 +250,7 @@ struct bbm_hooks {
     /* --- K D = F --- */
     void (*load)(bbm_model *m);                             /* adds to m->load                  */
     void (*list_gaps)(bbm_model *m);                        /* in place of bonds, fixed points  */
-    void (*before_solution)(bbm_model *m);                  /* K and F are assembled            */
+    void (*assembled)(bbm_model *m);                        /* K and F, Eq. (5)                 */
     /* --- open-close --- */
     int (*partner)(const bbm_model *m, int v);              /* that shares its corner; v: none  */
     void (*vectors)(const bbm_model *m, const bbm_contact *c, double anchor, bbm_spring v[2]);
@@ -258,8 +260,6 @@ struct bbm_hooks {
     bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */
-    const bbm_motion *(*end_motion)(const bbm_model *m);    /* of points and stress then; NULL: */
-                                                            /* u = T D                          */
     bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */
 };
 
@@ -276,7 +276,7 @@ static inline int bbm_has_inertia(const bbm_model *m, int i)
 /* How points move in the present step; NULL: the paper's way. */
 static inline const bbm_motion *bbm_motion_of(const bbm_model *m)
 {
-    return m->hook->motion ? m->hook->motion(m) : NULL;
+    return m->hook->motion ? m->hook->motion(m, 0) : NULL;
 }
 
 static inline int bbm_next_vertex(const bbm_element *e, int v)
@@ -442,6 +442,7 @@ void       bbm_list_gaps(bbm_model *m);
 void       bbm_list_bond(bbm_model *m, const bbm_bond *b);
 void       bbm_list_fixed_point(bbm_model *m, int v, const bbm_node *W);
 void       bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s); /* j < 0: wall  */
+void       bbm_assemble_gap(bbm_model *m, const bbm_gap *g);
 void       bbm_assemble(bbm_model *m);                          /* K and F, Eq. (5)             */
 void       bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[]);
 bbm_status bbm_begin_step(bbm_model *m);

@@ -24,13 +24,12 @@
 bbm_status bbm_model_new(bbm_model **out)
 {
     struct { bbm_model model; bbm_hooks hook; } *both = calloc(1, sizeof *both);
-    bbm_model *m = both ? &both->model : NULL;
 
-    *out = m;
-    if (!m)
+    *out = both ? &both->model : NULL;
+    if (!both)
         return BBM_NO_MEMORY;
-    m->hook = &both->hook;
-    m->par = (bbm_parameters){
+    both->model.hook = &both->hook;
+    both->model.par = (bbm_parameters){
         .dt = INFINITY, .steps = 1, .alpha = 100, .p_n = 1e9, .p_s = 4e8, .faces = 1,
         .pcg = { .omega = 1, .tolerance = 1e-10, .iterations = 100000 },
     };
@@ -99,24 +98,20 @@ bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index)
 /* A model with an error takes none. */
 static int is_node(const bbm_model *m, int n) { return n >= 0 && n < m->nodes && !m->status; }
 
-/* The signed area of a polygon, and whether the polygon is degenerate: the areas of the triangles
- * at vertex 0, without their signs, are compared with the square of the longest distance from
- * there. */
-static double polygon_area(const bbm_model *m, int n, const int node[], int *flat)
+/* The signed area of a polygon; 0 if it is nothing against the square of the longest distance from
+ * vertex 0. */
+static double polygon_area(const bbm_model *m, int n, const int node[])
 {
     const bbm_node *o = &m->node[node[0]];
-    double area = 0, fan = 0, reach2 = 0;
+    double area = 0, reach2 = 0;
 
     for (int i = 1; i < n; i++) {
         const bbm_node *a = &m->node[node[i]], *b = &m->node[node[(i + 1) % n]];
         const double ax = a->x - o->x, ay = a->y - o->y;
-        const double c = (ax * (b->y - o->y) - (b->x - o->x) * ay) / 2;
-        area += c;
-        fan += fabs(c);
+        area += (ax * (b->y - o->y) - (b->x - o->x) * ay) / 2;
         reach2 = fmax(reach2, ax * ax + ay * ay);
     }
-    *flat = fan <= FLAT * reach2;
-    return area;
+    return fabs(area) > FLAT * reach2 ? area : 0;
 }
 
 /* Adds the polygon through the nodes, either way round, as an element of a block. */
@@ -124,7 +119,6 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
                            int *index)
 {
     const int e = m->elements, first = m->vertices;
-    int flat;
 
     if (material < 0 || material >= m->materials)
         return REFUSE(m, BBM_BAD_INDEX, "element %d has material %d of %d", e, material,
@@ -136,11 +130,11 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
     for (int i = 0; i < n; i++)
         if (!is_node(m, node[i]))
             return REFUSE(m, BBM_BAD_INDEX, "element %d has node %d of %d", e, node[i], m->nodes);
-    const double area = polygon_area(m, n, node, &flat);
-    if (flat)
-        return REFUSE(m, BBM_BAD_ELEMENT, "element %d has no area, %g m^2", e, area);
-    if (!m->status && m->hook->check_polygon && m->hook->check_polygon(m, n, node))
+    if (m->hook->check_polygon && m->hook->check_polygon(m, n, node))
         return m->status = BBM_SELF_CROSSING;
+    const double area = polygon_area(m, n, node);
+    if (area == 0)
+        return REFUSE(m, BBM_BAD_ELEMENT, "element %d has no area", e);
     if (e == 0) {
         const double grid = FAR * sqrt(fabs(area));
         m->origin[0] = grid * rint(m->node[node[0]].x / grid);
@@ -169,10 +163,9 @@ bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double
     if (!isfinite(u) || !isfinite(v))
         return REFUSE(m, BBM_NOT_FINITE, "the wall point of fixed node %d", node);
     m->node[node].held |= directions;
-    if (directions & BBM_X)
-        m->node[node].wall[0] = u;
-    if (directions & BBM_Y)
-        m->node[node].wall[1] = v;
+    for (int a = 0; a < 2; a++)
+        if (directions & 1 << a)
+            m->node[node].wall[a] = a ? v : u;
     return BBM_OK;
 }
 

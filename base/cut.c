@@ -100,8 +100,7 @@ int bbm_is_spent(const bbm_model *m)
     return m->info.passes >= SOLUTIONS || m->info.iterations / ITERATIONS >= m->par.pcg.iterations;
 }
 
-/* What went wrong in a solution, or in the open-close iteration, becomes a sentence with numbers.
- * */
+/* What went wrong in a solution, or in the open-close iteration, as a sentence with numbers. */
 bbm_status bbm_say_what_failed(bbm_model *m, bbm_status status)
 {
     const bbm_pcg_info *i = &m->info.pcg;

@@ -41,10 +41,18 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
     c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
-/* The elements of a contact: i and j, and those that share P1, P2 or P3 with them. */
-static void find_elements(const bbm_model *m, bbm_contact *c)
+/* A contact begins the step with the state of its last step. Its elements are i and j, and those
+ * that share P1, P2 or P3 with them. It begins open if P1 has left it past
+ * the end of the edge. Its strength is the model's friction angle, or what a hook says. If it is
+ * open or its edge is another one, its anchor is placed anew.
+ *
+ * One that touches when the run begins is closed: what lies flush is under load. In dynamics it
+ * stays open where P1 can come in over more than one line of a corner, for its way will show over
+ * which one. An unbroken joint is closed in any case. */
+static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
+    int lines = 0;
 
     c->element[0] = m->edge[c->corner].element;
     c->element[1] = m->edge[c->edge].element;
@@ -52,26 +60,8 @@ static void find_elements(const bbm_model *m, bbm_contact *c)
     for (int k = 0; k < 3; k++)
         if (bbm_partner_of(m, P[k]) != P[k])
             c->element[c->parts++] = m->vertex[bbm_partner_of(m, P[k])].element;
-}
-
-/* Whether a contact that touches when the run begins is closed: what lies flush is under load. In
- * dynamics it stays open where P1 can come in over more than one line of a corner, for its way will
- * show over which one. An unbroken joint is closed in any case. */
-static int starts_closed(const bbm_model *m, const bbm_contact *c)
-{
-    int lines = 0;
-
     for (int k = 0; k < 4; k++)
         lines += c->trial.entrance[k] >= 0;
-    return lines == 0 || bbm_is_strong(c) || isinf(m->par.dt);
-}
-
-/* A contact begins the step with the state of its last step. It begins open if P1 has left it past
- * the end of the edge. Its strength is the model's friction angle, or what a hook says. If it is
- * open or its edge is another one, its anchor is placed anew. */
-static void begin_contact(const bbm_model *m, bbm_contact *c)
-{
-    find_elements(m, c);
     c->trial.time_left = 1;
     c->trial.closings = 0;
     c->trial.N_of_friction = c->N;
@@ -81,7 +71,7 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     if (m->hook->strength)
         m->hook->strength(m, c);
     if (c->trial.touches && !c->trial.has_left)
-        c->state = starts_closed(m, c) ? BBM_LOCK : BBM_OPEN;
+        c->state = lines == 0 || bbm_is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
     if (!c->trial.carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);
@@ -125,10 +115,9 @@ static void measure_open(const bbm_model *m, bbm_contact *c)
         (bbm_motion_of(m) ? bbm_end_distances : vector_distances)(m, c, end, from[end]);
     c->anchor = 0;
     c->trial.time_left = 1;
-    c->trial.past[0] = from[0][1];
+    c->d_s = c->trial.past[0] = from[0][1];
     c->trial.past[1] = -from[1][1];
     c->d_n = from[0][0];
-    c->d_s = from[0][1];
     c->N = c->T = 0;
 }
 
@@ -217,7 +206,7 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
 {
     if (c->state == BBM_OPEN)
         return bbm_normal_force(m, c->d_n - c->rest);
-    if (c->trial.next_state == BBM_OPEN && c->N < 0)
+    if (c->trial.next_state == BBM_OPEN)
         return -c->N;
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
@@ -310,33 +299,25 @@ bbm_pass bbm_open_close(bbm_model *m)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* When the model has moved: the anchor of a sliding contact follows, so that a shear spring would
- * carry the friction force. It has slid by as much as the anchor moved. A joint that has opened, or
- * slid against a shear strength, is broken. */
-static void store_contact(bbm_model *m, bbm_contact *c)
-{
-    const double strength = bbm_shear_strength(&c->strength, c->N);
-
-    c->T = bbm_shear_force(c);
-    if (c->state == BBM_SLIDE)
-        c->slip += fabs(c->d_s - c->T / m->par.p_s);
-    if (c->state == BBM_SLIDE || c->trial.time_left < 1)
-        place_anchor(m, c, c->T);
-    if (c->state == BBM_OPEN || (c->state == BBM_SLIDE && strength > 0))
-        c->area = 0;
-    c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->trial.was_closed || c->inside);
-    if (c->state != BBM_OPEN) {
-        m->info.contacts++;
-        m->info.penetration = fmax(m->info.penetration, -c->d_n);
-    }
-}
-
-/* Ends the step: its contacts become those of the model, which has moved. */
+/* Ends the step: its contacts become those of the model, which has moved. The anchor of a sliding
+ * contact follows, so that a shear spring would carry the friction force. It has slid by as much as
+ * the anchor moved. A joint that has opened, or slid against a shear strength, is broken. */
 void bbm_store_contacts(bbm_model *m)
 {
-    m->info.contacts = 0;
-    m->info.penetration = 0;
+    m->info.penetration = m->info.contacts = 0;
     bbm_keep_contacts(m);
-    for (int k = 0; k < m->contacts; k++)
-        store_contact(m, &m->contact[k]);
+    for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+        const double strength = bbm_shear_strength(&c->strength, c->N);
+        c->T = bbm_shear_force(c);
+        if (c->state == BBM_SLIDE)
+            c->slip += fabs(c->d_s - c->T / m->par.p_s);
+        if (c->state == BBM_SLIDE || c->trial.time_left < 1)
+            place_anchor(m, c, c->T);
+        if (c->state == BBM_OPEN || (c->state == BBM_SLIDE && strength > 0))
+            c->area = 0;
+        c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->trial.was_closed || c->inside);
+        m->info.contacts += c->state != BBM_OPEN;
+        if (c->state != BBM_OPEN)
+            m->info.penetration = fmax(m->info.penetration, -c->d_n);
+    }
 }

@@ -19,7 +19,6 @@
 #include "base.h"
 
 typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */
-    int n;
     int *first, (*end)[2];      /* [n+1]  of i: end[first[i] .. first[i+1]-1][1], ascending     */
     int *level;                 /* [n]    distance from the start of the search, -1: not found  */
 } graph;
@@ -35,7 +34,6 @@ int bbm_compare_pairs(const void *a, const void *b)
 /* Sorts both ends of all links by the row and then by the neighbour, and drops what comes twice. */
 static bbm_status graph_new(graph *g, int n, int links, int (*link)[2])
 {
-    g->n = n;
     g->first = calloc(2 * (size_t)n + 1, sizeof *g->first);
     g->end = calloc(2 * (size_t)links + 1, sizeof *g->end);
     if (!g->first || !g->end)
@@ -87,29 +85,29 @@ static int breadth_first(graph *g, int start, int *order)
 
 /* place[i] of row i: all components one after the other, then the whole order reversed. A component
  * begins with the row that a search finds last, for it lies at an end. `order`: scratch. */
-static void reverse_cuthill_mckee(graph *g, int order[], int place[])
+static void reverse_cuthill_mckee(graph *g, int n, int order[], int place[])
 {
     int done = 0;
 
-    for (int i = 0; i < g->n; i++)
+    for (int i = 0; i < n; i++)
         if (g->level[i] < 0) {
             const int count = breadth_first(g, i, place);
             for (int k = 0; k < count; k++)
                 g->level[place[k]] = -1;
             done += breadth_first(g, place[count - 1], order + done);
         }
-    for (int i = 0; i < g->n; i++)
-        place[order[i]] = g->n - 1 - i;
+    for (int i = 0; i < n; i++)
+        place[order[i]] = n - 1 - i;
 }
 
 /* ----------------------------------------------------------------------------------- the matrix */
 
 /* All arrays of one type are one piece of memory. */
-static bbm_status allocate(bbm_matrix *K, const graph *g)
+static bbm_status allocate(bbm_matrix *K, int rows, const graph *g)
 {
-    const size_t n = (size_t)g->n, blocks = (size_t)g->first[n] / 2;
+    const size_t n = (size_t)rows, blocks = (size_t)g->first[n] / 2;
 
-    K->n = g->n;
+    K->n = rows;
     K->place = calloc(6 * (n + 1) + blocks, sizeof *K->place);
     K->D = calloc(2 * n + blocks, sizeof *K->D);
     K->x = calloc(37 * n, sizeof *K->x);
@@ -152,18 +150,15 @@ bbm_status bbm_matrix_new(int n, int links, int (*link)[2], bbm_matrix **out)
     bbm_matrix *K = calloc(1, sizeof *K);
     bbm_status status = K ? graph_new(&g, n, links, link) : BBM_NO_MEMORY;
 
-    if (!status)
-        status = allocate(K, &g);
+    status = status ? status : allocate(K, n, &g);
     if (!status) {
-        reverse_cuthill_mckee(&g, K->caller, K->place);
+        reverse_cuthill_mckee(&g, n, K->caller, K->place);
         lay_out_rows(K, &g);
-    } else {
+    } else
         bbm_matrix_free(K);
-        K = NULL;
-    }
     free(g.first);
     free(g.end);
-    *out = K;
+    *out = status ? NULL : K;
     return status;
 }
 
@@ -237,10 +232,9 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
             for (int i = 0; i < j; i++)
                 memcpy(link[n++], (int [2]){ c->element[i], c->element[j] }, sizeof *link);
     }
-    for (int g = 0; g < m->gaps; g++) {
-        memcpy(link[n], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);
-        n += m->gap[g].j >= 0;
-    }
+    for (int g = 0; g < m->gaps; g++)
+        if (m->gap[g].j >= 0)
+            memcpy(link[n++], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);
     const int same = m->K && n == m->links && memcmp(link, m->link, (size_t)n * sizeof *link) == 0;
     if (same || bbm_matrix_new(m->elements, n, link, &K)) {
         free(link);

@@ -115,7 +115,7 @@ static void assemble_element(bbm_model *m, int i)
         m->F[6 * i + a] += s.F[a];
 }
 
-static void assemble_gap(bbm_model *m, const bbm_gap *g)
+void bbm_assemble_gap(bbm_model *m, const bbm_gap *g)
 {
     bbm_submatrices s = { .Fi = { 0 } };
 
@@ -137,11 +137,13 @@ void bbm_assemble(bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         assemble_element(m, i);
     for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds */
-        assemble_gap(m, &m->gap[g]);
+        bbm_assemble_gap(m, &m->gap[g]);
     bbm_matrix_measure(m->K, m->F);
     for (; g < m->gaps; g++)                        /* fixed points */
-        assemble_gap(m, &m->gap[g]);
+        bbm_assemble_gap(m, &m->gap[g]);
     bbm_assemble_contacts(m);
+    if (m->hook->assembled)
+        m->hook->assembled(m);
     m->info.seconds[BBM_ASSEMBLE] += (double)(clock() - start) / CLOCKS_PER_SEC;
 }
 
@@ -183,8 +185,6 @@ bbm_status bbm_detect(bbm_model *m, int *holds)
 /* Solves K D = F, Eq. (5), section 4, and counts the work. */
 static bbm_status solve(bbm_model *m)
 {
-    if (m->hook->before_solution)
-        m->hook->before_solution(m);
     if (m->monitor && m->monitor(m, m->monitor_context))
         return bbm_fail(m, BBM_STOPPED, "step %d", m->info.step + 1);
     const bbm_status status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
@@ -206,7 +206,7 @@ static bbm_status open_close(bbm_model *m, bbm_pass *pass)
 /* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
 static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
 {
-    const bbm_motion *motion = m->hook->end_motion ? m->hook->end_motion(m) : NULL;
+    const bbm_motion *motion = m->hook->motion ? m->hook->motion(m, 1) : NULL;
     const bbm_element start = *e;
     double E[3][3], u[2];
 
@@ -273,23 +273,22 @@ static bbm_status update(bbm_model *m)
 bbm_status bbm_try_step(bbm_model *m)
 {
     bbm_status status = bbm_begin_step(m);
-    bbm_pass pass = BBM_PASS_DONE;
-    int holds = 1;
+    bbm_pass pass = BBM_PASS_AGAIN;
+    int holds = 0;
 
     if (!status)
         status = bbm_detect(m, &holds);             /* 3.7: which contacts may close            */
-    do {
+    while (!status && !holds) {
         do {
-            if (!status && pass != BBM_PASS_SAME_K)
+            if (pass != BBM_PASS_SAME_K)
                 bbm_assemble(m);                    /* K, F: 3.1 to 3.8                         */
-            if (!status)
-                status = solve(m);                  /* K D = F: section 4                       */
+            status = solve(m);                      /* K D = F: section 4                       */
             if (!status)
                 status = open_close(m, &pass);      /* 3.7: do the contacts fit the solution?   */
         } while (!status && pass != BBM_PASS_DONE);
         if (!status)
             status = bbm_detect(m, &holds);         /* too far for the list of contacts?        */
-    } while (!status && !holds);
+    }
     return status ? status : update(m);             /* positions, stresses, velocities          */
 }
 
@@ -337,10 +336,9 @@ bbm_status bbm_run(bbm_model *m)
         if (m->par.tolerance > 0 && m->info.change <= m->par.tolerance)
             return BBM_OK;
     } while (++step < m->par.steps);
-    if (m->par.tolerance > 0)
-        return bbm_fail(m, BBM_STEPS_EXHAUSTED, "change %.2g after step %d, expected %.2g",
-                        m->info.change, m->info.step, m->par.tolerance);
-    return BBM_OK;
+    return m->par.tolerance == 0 ? BBM_OK
+         : bbm_fail(m, BBM_STEPS_EXHAUSTED, "change %.2g after step %d, expected %.2g",
+                    m->info.change, m->info.step, m->par.tolerance);
 }
 
 /* ------------------------------------------------------------------ results, section 4 */

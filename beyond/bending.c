@@ -346,7 +346,7 @@ static void list_held_node(bbm_model *m, int v)
     } while (w != v);
     own.held &= m->element[i].n == 4 ? 0 : ~alone.held;
     bbm_list_fixed_point(m, v, &own);
-    if (!alone.held || quadrilaterals == 0 || corners < 2 || m->beyond->bonding == BBM_VERTICES
+    if (!alone.held || quadrilaterals == 0 || m->beyond->bonding == BBM_VERTICES
         || (m->beyond->bond_tension > 0 && !bbm_is_static(m))
         || (m->is_prepared && m->beyond->best[m->vertex[v].node] > 0)) {
         bbm_list_fixed_point(m, v, &alone);

@@ -39,11 +39,9 @@ static bbm_status check(bbm_model *m)
     const bbm_status cracks = bbm_lay_out_cracks(m);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
-    if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account || !b->body
-        || !b->balance)
-        return BBM_NO_MEMORY;
-    if (cracks)
-        return cracks;
+    if (cracks || !b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account
+        || !b->body || !b->balance)
+        return cracks ? cracks : BBM_NO_MEMORY;
     for (int l = 0; l < b->edge_loads; l++) {
         const bbm_vertex *a = &m->vertex[b->edge_load[l].a];
         if (a->edge < 0)
@@ -79,16 +77,13 @@ static bbm_status begin(bbm_model *m)
  * and in statics if all bodies are held. A new K has no room for the terms of friction yet. */
 static bbm_status listed(bbm_model *m)
 {
-    bbm_status status = BBM_OK;
-
-    if (!m->K->term && !(status = bbm_lay_out_coarse(m)))
-        status = bbm_lay_out_sliding(m);
+    if (!m->K->term && (bbm_lay_out_coarse(m) || bbm_lay_out_sliding(m)))
+        return BBM_NO_MEMORY;
     for (int i = 0; i < m->elements; i++)
         m->K->body[i] = bbm_is_held_all_round(m, &m->element[i]) ? -1 : m->beyond->body[i];
     bbm_set_middle(m);
-    bbm_list_gaps(m);
     bbm_start_multipliers(m);
-    status = status ? status : bbm_check_passed(m);
+    const bbm_status status = bbm_check_passed(m);
     return status ? status : bbm_check_supports(m);
 }
 
@@ -103,7 +98,6 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
         return next;
     if (bbm_settle_loads(m) > 0 || bbm_middle_is_off(m)) {
         bbm_set_middle(m);
-        bbm_list_gaps(m);
         return BBM_PASS_AGAIN;
     }
     if (next == BBM_PASS_DONE && (next = bbm_break_joints(m)) == BBM_PASS_DONE)
@@ -111,7 +105,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     return next;
 }
 
-static void before_solution(bbm_model *m)
+static void assembled(bbm_model *m)
 {
     bbm_stiffen(m);
     bbm_interpolate_elements(m);
@@ -144,10 +138,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
     const bbm_status status = bbm_model_new(out);
     bbm_model *m = *out;
 
-    if (status)
-        return status;
-    m->beyond = calloc(1, sizeof *m->beyond);
-    if (!m->beyond) {
+    if (status || !(m->beyond = calloc(1, sizeof *m->beyond))) {
         bbm_model_free(m);
         *out = NULL;
         return BBM_NO_MEMORY;
@@ -171,8 +162,7 @@ bbm_status bbm_beyond_new(bbm_model **out)
         .load = bbm_gather_edge_loads,
         .list_gaps = bbm_list_edge_gaps,
         .motion = bbm_find_motion,
-        .end_motion = bbm_find_end_motion,
-        .before_solution = before_solution,
+        .assembled = assembled,
         .renew = renew,
         .move = move,
         .failed = bbm_say_cracks,

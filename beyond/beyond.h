@@ -7,7 +7,13 @@
 #ifndef BBM_BEYOND_H
 #define BBM_BEYOND_H
 
+#include <float.h>
+
 #include "../base/base.h"
+
+/* [-] of a position or a displacement: some dozens of its last digit. What a spring makes of it may
+ * be left, and so may its work. */
+#define BBM_ROUNDING (64 * DBL_EPSILON)
 
 typedef enum { BBM_EXACT, BBM_LINEAR } bbm_rotation;    /* x + R(r0) (1 + e) X; the paper's T D */
 
@@ -170,8 +176,7 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end);
 double     bbm_inertia_form(const bbm_element *e, const double V[6]);   /* int u.M u dA, u = T V */
 
 /* rotation.c */
-const bbm_motion *bbm_find_motion(const bbm_model *m);
-const bbm_motion *bbm_find_end_motion(const bbm_model *m);
+const bbm_motion *bbm_find_motion(const bbm_model *m, int ends);
 void       bbm_turn_tensor(double s[3], double r);
 void       bbm_set_middle(bbm_model *m);
 int        bbm_middle_is_off(const bbm_model *m);

@@ -184,19 +184,13 @@ static void number_nodes(const bbm_matrix *K, coarse_space *c, const long long *
     }
 }
 
-static int node_of(int number) { return number < 0 ? -1 - number : number; }
-
 /* mode, corners, modes and held of each row, and node in the caller's numbers. */
 static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, const int *node,
                              const int *middles, coarse_space *c)
 {
-    size_t corners = (size_t)first[K->n];
-
-    for (int i = 0; i < K->n && middles; i++)
-        corners += middles[i] ? 2 : 0;
     c->nodes = nodes;
     c->row = calloc((size_t)K->n + 1, sizeof *c->row);
-    c->corner = calloc(corners, sizeof *c->corner);
+    c->corner = calloc((size_t)(first[K->n] + (middles ? 2 * K->n : 0)), sizeof *c->corner);
     if (!c->row || !c->corner)
         return BBM_NO_MEMORY;
     c->row->mode = nodes;
@@ -208,7 +202,8 @@ static bbm_status list_nodes(const bbm_matrix *K, int nodes, const int *first, c
         r->corners = from[1] - from[0];
         r->modes = middles && middles[K->caller[i]] ? 2 : 0;
         for (int k = from[0]; k < from[1]; k++)
-            *corner++ = (coarse_corner){ .node = node_of(node[k]), .held = node[k] < 0 };
+            *corner++ = node[k] < 0 ? (coarse_corner){ .node = -1 - node[k], .held = 1 }
+                                    : (coarse_corner){ .node = node[k] };
         for (int k = 0; k < r->modes; k++)
             *corner++ = (coarse_corner){ .node = r->mode + k };
         r[1].mode = r->mode + r->modes;
@@ -259,9 +254,6 @@ static void coarse_free(void *extra)
 bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const int *node,
                              const long long *place, const int *middles)
 {
-    for (int k = 0; k < first[K->n]; k++)
-        if (node_of(node[k]) >= nodes)
-            return BBM_BAD_INDEX;
     coarse_free(K->extra);
     K->extra = NULL;
     K->free_extra = coarse_free;
@@ -326,24 +318,19 @@ static void take_block(double B[6][6], double Q[4][4], double W[6][6])
     }
 }
 
-/* Y = B P, by columns. */
-static void multiply(double B[6][6], const bbm_linear *P, double Y[2][6])
+/* Kc += P^T B P + its transpose, the first P that of the corner i and the other that of j. If these
+ * are the same, the sum is symmetric and is added once. Pivots are measured by such sums. */
+static void add_block(const bbm_factor *Kc, const coarse_corner *i, double B[6][6],
+                      const coarse_corner *j)
 {
+    double Y[2][6], sum[2][2] = { { 0 } };
+
     for (int a = 0; a < 6; a++) {
         double row[2] = { 0 };
-        add_to_node(P, B[a], row);
+        add_to_node(&j->P, B[a], row);
         Y[0][a] = row[0];
         Y[1][a] = row[1];
     }
-}
-
-/* Kc += P^T Y + its transpose, P that of the corner i and Y that of j. If these are the same, the
- * sum is symmetric and is added once. Pivots are measured by such sums. */
-static void add_block(const bbm_factor *Kc, const coarse_corner *i, double Y[2][6],
-                      const coarse_corner *j)
-{
-    double sum[2][2] = { { 0 } };
-
     for (int k = 0; k < 2; k++)
         add_to_node(&i->P, Y[k], sum[k]);
     for (int k = 0; k < 4; k++) {
@@ -370,19 +357,15 @@ static void add_pair(const bbm_factor *Kc, const coarse_row *i, const coarse_row
                      double B[6][6], double own_i[6][6], double own_j[6][6])
 {
     const double way[2] = { j->at[0] - i->at[0], j->at[1] - i->at[1] };
-    double Y[2][6], transposed[6][6];
+    double transposed[6][6];
     int mode[2];
     const int share = find_share(i, j, mode);
 
-    for (int b = 0; b < j->corners && share & WHOLE; b++) {
-        multiply(B, &j->corner[b].P, Y);
+    for (int b = 0; b < j->corners && share & WHOLE; b++)
         for (int a = 0; a < i->corners; a++)
-            add_block(Kc, &i->corner[a], Y, &j->corner[b]);
-    }
-    if (share & ACROSS) {
-        multiply(B, &j->corner[mode[1]].P, Y);
-        add_block(Kc, &i->corner[mode[0]], Y, &j->corner[mode[1]]);
-    }
+            add_block(Kc, &i->corner[a], B, &j->corner[b]);
+    if (share & ACROSS)
+        add_block(Kc, &i->corner[mode[0]], B, &j->corner[mode[1]]);
     if (share & WHOLE)
         return;
     for (int a = 0; a < 36; a++)
@@ -396,7 +379,6 @@ static void add_pair(const bbm_factor *Kc, const coarse_row *i, const coarse_row
 static void add_modes(const bbm_factor *Kc, const coarse_row *r, double B[6][6])
 {
     const coarse_corner *of = r->corner;
-    double Y[2][6];
 
     for (int k = 0; k < r->modes; k++) {
         const bbm_linear *up[2] = { &of[1 + k].P, &of[2 + k].P };
@@ -405,8 +387,7 @@ static void add_modes(const bbm_factor *Kc, const coarse_row *r, double B[6][6])
         mode->P.f = (up[0]->f + up[1]->f - down[0]->f - down[1]->f) / 2;
         mode->P.fx = (up[0]->fx + up[1]->fx - down[0]->fx - down[1]->fx) / 2;
         mode->P.fy = (up[0]->fy + up[1]->fy - down[0]->fy - down[1]->fy) / 2;
-        multiply(B, &mode->P, Y);
-        add_block(Kc, mode, Y, mode);
+        add_block(Kc, mode, B, mode);
     }
 }
 
@@ -414,13 +395,10 @@ static void add_modes(const bbm_factor *Kc, const coarse_row *r, double B[6][6])
 static void add_element(const bbm_factor *Kc, const coarse_row *r, double own[6][6])
 {
     const coarse_corner *of = r->corner;
-    double Y[2][6];
 
-    for (int b = 0; b < r->corners; b++) {
-        multiply(own, &of[b].P, Y);
+    for (int b = 0; b < r->corners; b++)
         for (int a = 0; a <= b; a++)
-            add_block(Kc, &of[a], Y, &of[b]);
-    }
+            add_block(Kc, &of[a], own, &of[b]);
     for (int k = 0; k < 32 && r->modes; k++) {
         const int p = 2 * of[k / 8].node + k % 2, q = 2 * of[k / 2 % 4].node + k % 2;
         if (p >= q)

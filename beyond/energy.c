@@ -14,17 +14,13 @@
  * on purpose; with `rotation` BBM_LINEAR, the paper's way, a block that turns swells and gains
  * energy by that. There the balance is left alone, or only told.
  */
-#include <float.h>
 #include <string.h>
 
 #include "beyond.h"
 
 /* GAIN [-]      a step that makes more than this share of what is there, in all its parts together,
- *               is wrong: it is what the solution and the vectors of the step may be off
- * ROUNDING [-]  of positions, in which forces do work: some dozens of the last digit of a
- *               coordinate */
+ *               is wrong: it is what the solution and the vectors of the step may be off */
 #define GAIN 1e-5
-#define ROUNDING (64 * DBL_EPSILON)
 
 /* int u.M u dA of a field u = T V, for Eq. (11). */
 double bbm_inertia_form(const bbm_element *e, const double V[6])
@@ -140,7 +136,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         const double before = sum_of(energy_of(m, i, 0));
         const double lever = hypot(m->element[i].x, m->element[i].y);
         of->gain += sum_of(energy_of(end, i, 1)) - before;
-        of->there += before + ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
+        of->there += before + BBM_ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
         add_work(of, b->account[i].held[0] + b->account[i].held[1]);
         for (int a = 0; a < 6; a++)
             add_work(of, load[a] * m->D[6 * i + a]);
@@ -148,7 +144,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P = bbm_start_of(m, c->corner);
-        b->account[m->K->component[P->element]].gain -= ROUNDING * fabs(c->N)
+        b->account[m->K->component[P->element]].gain -= BBM_ROUNDING * fabs(c->N)
                                                               * hypot(P->x, P->y);
     }
     for (int c = 0; c < m->elements && (bbm_is_static(m) || m->par.velocity_factor < 1); c++)

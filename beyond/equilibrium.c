@@ -17,14 +17,10 @@
  * The springs of bonds pull at both their ends, which are a gap apart where a step begins with open
  * bonds. Their forces cancel, but for that lever: it is taken along, and is no force of the body.
  */
-#include <float.h>
-
 #include "beyond.h"
 
 /* IN_MOTION [-]  what may be left in dynamics: a step makes no more of its energy, see energy.c
  * NO_FORCE [N]   in any unit: the solver has such a force in place of 0
- * ROUNDING [-]   of a displacement: some dozens of its last digit. What a spring makes of it may be
- *                left, too
  * INSIDE [-]     of the force by which the component is solved, of the forces inside a body, and of
  *                what would bring a support to its place at once: the solution is no more exact,
  *                and a body may bear nothing else
@@ -32,7 +28,6 @@
  *                nothing. The solver knows the forces from before the break to 1e-10 */
 #define IN_MOTION 1e-5
 #define NO_FORCE 1e-60
-#define ROUNDING (64 * DBL_EPSILON)
 #define INSIDE 1e-10
 #define UNLOADED 1e-9
 
@@ -81,7 +76,7 @@ static double add_force(bbm_model *m, int i, const double F[6], int counts, doub
     b->force[1] += F[1];
     b->moment += F[2] / turns + X * F[1] - Y * F[0];
     b->forces += counts * fmax(hypot(F[0], F[1]), pair);
-    b->rounding += counts * ROUNDING * k * (fabs(D[0]) + fabs(D[1]) + fabs(D[2]) * b->size);
+    b->rounding += counts * BBM_ROUNDING * k * (fabs(D[0]) + fabs(D[1]) + fabs(D[2]) * b->size);
     return F[2] / turns + (X + b->x) * F[1] - (Y + b->y) * F[0];
 }
 
@@ -131,7 +126,7 @@ static double breach_of(const bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P = bbm_start_of(m, c->corner);
     const double size = hypot(P->x, P->y) + m->edge[c->edge].along.length;
-    const double digits = c->state == BBM_OPEN ? ROUNDING * size : 0;
+    const double digits = c->state == BBM_OPEN ? BBM_ROUNDING * size : 0;
     const double N = bbm_normal_force(m, c->d_n + digits - c->rest);
     const double T = fabs(bbm_shear_force(c)) - bbm_shear_strength(&c->strength, c->N);
 

@@ -144,15 +144,13 @@ void bbm_stiffen(bbm_model *m)
     for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
         const double stiffer = fmax(1, rigidity(m, g->i) / (g->elastic ? 1 : m->par.alpha)) - 1;
         bbm_gap more = *g;
-        bbm_submatrices s = { .Fi = { 0 } };
         const int holds = g->j < 0 || g->W[0][0] + g->W[1][1] < 0;      /* a node: bending.c */
         if (stiffer == 0 || holds || m->element[g->i].block != m->element[g->j].block)
             continue;
         memset(more.d0, 0, sizeof more.d0);
         for (int a = 0; a < 4; a++)
             more.W[a / 2][a % 2] *= stiffer;
-        bbm_bonding_submatrices(&more, &s);
-        bbm_add_submatrices(m, g->i, g->j, &s);
+        bbm_assemble_gap(m, &more);
     }
 }
 
@@ -258,7 +256,6 @@ static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *en
     start_contacts(m, step);
     while (!status && pass == BBM_PASS_AGAIN) {
         bbm_assemble(m);
-        m->hook->before_solution(m);
         status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
         pass = bbm_open_close(m);
     }

@@ -81,17 +81,6 @@ bbm_linear bbm_interpolation(const bbm_element *e, const bbm_vertex v[], int a)
     return (bbm_linear){ 1.0 / e->n + gx * (e->x - x) + gy * (e->y - y), gx, gy };
 }
 
-/* Whether an element has modes: a quadrilateral bonded in its middles, in a model of many, and no
- * part of a single row, which bends by the moments of its bonds alone. */
-static int has_modes(const bbm_model *m, const bbm_element *e)
-{
-    const bbm_vertex *v = &m->vertex[e->first];
-
-    return e->n == 4 && m->beyond->bonding != BBM_VERTICES
-        && m->bonds > MANY_BONDS * m->elements
-        && (v[0].edge < 0 || v[2].edge < 0) && (v[1].edge < 0 || v[3].edge < 0);
-}
-
 /* Where each vertex lies: in its component of K, and in a square round this, which is halved again
  * and again, left and right and then below and above. From its first bit on, what place[v] is more
  * than BBM_PLACES times the component says in which half. */
@@ -119,7 +108,9 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
  * is to them a stiff block that only SSOR moves. Where nothing is bonded, there would be as many
  * coarse unknowns as there are others; an element held at every corner hardly moves; in short steps
  * inertia holds every element by itself, and SSOR alone needs no more iterations than a wave, of
- * speed sqrt(E/density), needs to cross some elements. SSOR is faster for all three. */
+ * speed sqrt(E/density), needs to cross some elements. SSOR is faster for all three. An element has
+ * modes if it is a quadrilateral bonded in its middles, in a model of many, and no part of a single
+ * row, which bends by the moments of its bonds alone. */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
@@ -156,14 +147,16 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
     }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
+        const bbm_vertex *at = &m->vertex[e->first];
         const int in = worth[m->K->component[i]] && !bbm_is_held_all_round(m, e);
         for (int k = 0; k < in * e->n; k++) {
-            const int at = number[bbm_root_of(up, e->first + k)];
-            const int is_held = held[at] || m->node[m->vertex[e->first + k].node].held;
-            node[first[i] + k] = is_held ? -1 - at : at;
+            const int of = number[bbm_root_of(up, e->first + k)];
+            node[first[i] + k] = held[of] || m->node[at[k].node].held ? -1 - of : of;
         }
         first[i + 1] = first[i] + in * e->n;
-        middles[i] = in && has_modes(m, e);
+        middles[i] = in && e->n == 4 && m->beyond->bonding != BBM_VERTICES
+                  && m->bonds > MANY_BONDS * m->elements
+                  && (at[0].edge < 0 || at[2].edge < 0) && (at[1].edge < 0 || at[3].edge < 0);
     }
     const bbm_status status = bbm_matrix_coarse(m->K, nodes, first, node, place, middles);
     free(up);

@@ -29,9 +29,8 @@ void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
 /* f of the last step in statics, also in its steps from rest; 0 in dynamics. */
 void bbm_start_multipliers(bbm_model *m)
 {
-    for (int k = 0; k < m->gaps; k++)
-        for (int r = 0; r < 2; r++)
-            m->gap[k].own.f[r] = isinf(m->par.dt) ? m->gap[k].own.f_before[r] : 0;
+    for (int k = 0; k < 2 * m->gaps; k++)
+        m->gap[k / 2].own.f[k % 2] = isinf(m->par.dt) ? m->gap[k / 2].own.f_before[k % 2] : 0;
     m->beyond->round = 0;
 }
 
@@ -60,7 +59,6 @@ bbm_pass bbm_take_over(bbm_model *m)
 /* At the end of a step. */
 void bbm_store_multipliers(bbm_model *m)
 {
-    for (int k = 0; k < m->gaps; k++)
-        for (int r = 0; r < 2; r++)
-            m->gap[k].own.f_before[r] = m->gap[k].own.f[r];
+    for (int k = 0; k < 2 * m->gaps; k++)
+        m->gap[k / 2].own.f_before[k % 2] = m->gap[k / 2].own.f[k % 2];
 }

@@ -81,27 +81,21 @@ static double curve_of(const bbm_model *m, const bbm_contact *c)
                  Y + u[1] - Dj[1] / 2 - cosine * (Y + y) + sine * x);
 }
 
-/* An element that turns while a corner of it, or one at an edge of it, goes a way that is too far
- * off the straight one; or -1. */
-static int curving_element(const bbm_model *m)
-{
-    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
-
-    for (; c < end && bbm_motion_of(m); c++)
-        if (c->state == BBM_OPEN && curve_of(m, c) > CURVE * bbm_size_at(m, c))
-            return c->element[fabs(m->D[6 * c->element[0] + 2])
-                              <= fabs(m->D[6 * c->element[1] + 2])];
-    return -1;
-}
-
-/* Whether the solution turns and strains no element too far; a comparison with NaN is false. */
+/* Whether the solution turns and strains no element too far, and none turns while a corner of it,
+ * or one at an edge of it, goes a way that is too far off the straight one; a comparison with NaN
+ * is false. */
 bbm_status bbm_check_solution(bbm_model *m)
 {
+    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     const int linear = m->par.steps == 1 && m->scratch->contacts == 0;
     const double most = !bbm_is_static(m) ? FAR_STRAIN : linear ? LINEAR : 1;
     const double turn = bbm_is_static(m) ? INFINITY : FAR_TURN;
-    int far = curving_element(m);
+    int far = -1;
 
+    for (; c < end && far < 0 && bbm_motion_of(m); c++)
+        if (c->state == BBM_OPEN && curve_of(m, c) > CURVE * bbm_size_at(m, c))
+            far = c->element[fabs(m->D[6 * c->element[0] + 2])
+                             <= fabs(m->D[6 * c->element[1] + 2])];
     for (int i = 0; i < m->elements; i++)
         for (int a = 2; a < 6; a++)
             if (!(fabs(m->D[6 * i + a]) < (a == 2 ? turn : most)))

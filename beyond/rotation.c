@@ -112,22 +112,18 @@ static void turn(const bbm_element *start, bbm_element *e, const bbm_vertex vert
 
 static const bbm_motion exact_motion = { find_point, move, turn };
 
-/* How points move in the step in hand: by the exact rotation, or by the paper's T D. */
-const bbm_motion *bbm_find_motion(const bbm_model *m)
+/* How points move in the step in hand: by the exact rotation, or by the paper's T D. Statics has
+ * T D, but elements end its steps by the exact rotation, or they would swell by r^2/2 in each. One
+ * static step by itself is linear. */
+const bbm_motion *bbm_find_motion(const bbm_model *m, int ends)
 {
-    return m->beyond->rotation == BBM_EXACT && !bbm_is_static(m) ? &exact_motion : NULL;
-}
-
-/* How elements end it: in statics by the exact rotation, too, or they would swell by r^2/2 in each
- * step. One static step by itself is linear. */
-const bbm_motion *bbm_find_end_motion(const bbm_model *m)
-{
-    const int linear = bbm_is_static(m) && m->par.steps == 1 && m->info.step == 0;
+    const int linear = bbm_is_static(m) && (!ends || (m->par.steps == 1 && m->info.step == 0));
 
     return m->beyond->rotation == BBM_EXACT && !linear ? &exact_motion : NULL;
 }
 
-/* Takes the vectors of the step in the middle of D; not exact: at its start. */
+/* Takes the vectors of the step in the middle of D, and lists the gaps with them; not exact: at its
+ * start. */
 void bbm_set_middle(bbm_model *m)
 {
     const bbm_motion *motion = bbm_motion_of(m);
@@ -138,6 +134,7 @@ void bbm_set_middle(bbm_model *m)
         memcpy(middle->D, &m->D[6 * i], sizeof middle->D);
         m->element[i].middle = motion ? middle : NULL;
     }
+    bbm_list_gaps(m);
 }
 
 /* By how much the turn of element i is another one than that of its T_m. */

@@ -57,7 +57,6 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
         memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
         bbm_set_middle(m);
         bbm_assemble(m);
-        m->hook->before_solution(m);
         memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
         status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
     }

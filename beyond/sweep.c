@@ -78,21 +78,8 @@ int bbm_next_meeting(int n, const bbm_box *b, int *i, int *j)
     return 0;
 }
 
-/* The corner of one box and the edge of another block's box, if it lies in it. */
-static bbm_status compare(bbm_model *m, int corner, const bbm_box *e)
-{
-    const bbm_vertex *P = bbm_start_of(m, corner);
-
-    if (m->edge[e->of].first == m->edge[corner].first || P->x < e->low[X] || P->x > e->high[X]
-        || P->y < e->low[Y] || P->y > e->high[Y])
-        return BBM_OK;
-    if (bbm_depth_passed(m, corner, e->of) > 0) {
-        m->beyond->passed[0] = corner;
-        m->beyond->passed[1] = e->of;
-    }
-    return bbm_add_pair(m, corner, e->of);
-}
-
+/* Adds the corner of each box with the edge of another block's box in which it lies, and notes one
+ * that has passed. */
 bbm_status bbm_find_near_pairs(bbm_model *m, double search)
 {
     bbm_box *b = malloc(((size_t)m->edges + 1) * sizeof *b);
@@ -107,8 +94,19 @@ bbm_status bbm_find_near_pairs(bbm_model *m, double search)
     if (!status)
         bbm_sort_boxes(m->edges, b);
     for (int i = 0, j = 0; !status && bbm_next_meeting(m->edges, b, &i, &j);)
-        for (int k = 0; k < 2 && !status; k++)
-            status = compare(m, b[k ? j : i].of, &b[k ? i : j]);
+        for (int k = 0; k < 2 && !status; k++) {
+            const bbm_box *e = &b[k ? i : j];
+            const int corner = b[k ? j : i].of;
+            const bbm_vertex *P = bbm_start_of(m, corner);
+            if (m->edge[e->of].first == m->edge[corner].first || P->x < e->low[X]
+                || P->x > e->high[X] || P->y < e->low[Y] || P->y > e->high[Y])
+                continue;
+            if (bbm_depth_passed(m, corner, e->of) > 0) {
+                m->beyond->passed[0] = corner;
+                m->beyond->passed[1] = e->of;
+            }
+            status = bbm_add_pair(m, corner, e->of);
+        }
     free(b);
     return status;
 }

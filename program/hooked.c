@@ -106,7 +106,7 @@ static void find_gap(const bbm_model *m, const scene_bolt *b, bbm_gap *g)
     const bbm_element *i = &m->element[P.element], *j = &m->element[Q.element];
     bbm_direction n;
     const double force = model_bolt_force(m, b, &n), L = n.length,
-                 across = b->rest == 0 ? b->k : bbm_find_motion(m) ? 0 : fmax(0, force) / L;
+                 across = b->rest == 0 ? b->k : bbm_motion_of(m) ? 0 : fmax(0, force) / L;
     double c = 1, d[2];
 
     bbm_bonding_gap(i, &P, j, &Q, 0, g);
@@ -176,7 +176,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     const model *p = hooked_of(m)->p;
 
     next = hooked_of(m)->renew(m, next);
-    for (int q = 0; q < p->parts && next == BBM_PASS_DONE && bbm_find_motion(m); q++) {
+    for (int q = 0; q < p->parts && next == BBM_PASS_DONE && bbm_motion_of(m); q++) {
         const bbm_gap *g = &m->gap[m->gaps - p->parts + q];
         const scene_bolt part = part_of(p, q);
         bbm_gap now = *g;

@@ -67,7 +67,7 @@ static const struct { bbm_status status; int n, node[MOST]; } POLYGONS[] = {
     { BBM_BAD_ELEMENT, 3, { 0, 1, 2 } },                      /* a line */
     { BBM_BAD_ELEMENT, 3, { 6, 6, 6 } },                      /* a point */
     { BBM_BAD_ELEMENT, 3, { 0, 6, 0 } },
-    { BBM_BAD_ELEMENT, 4, { 0, 6, 18, 12 } },
+    { BBM_SELF_CROSSING, 4, { 0, 6, 18, 12 } },            /* there and back */
     { BBM_BAD_ELEMENT, 3, { 0, 2, 25 } },                     /* as flat as rounding */
     { BBM_BAD_ELEMENT, 3, { 0, 10, 27 } },
     { BBM_BAD_ELEMENT, 3, { 0, 5, 27 } },                     /* long, with one short side */
@@ -190,7 +190,7 @@ static const struct { bbm_status status; const char *named; } WRONG_CALLS[] = {
     { BBM_NOT_FINITE, "nodes 1, 2" },
     { BBM_BAD_ELEMENT, "element 1 has 2 vertices" },
     { BBM_BAD_INDEX, "element 1 has block -1, expected 0 or more" },
-    { BBM_BAD_ELEMENT, "element 1 has no area, 0 m^2" },
+    { BBM_BAD_ELEMENT, "element 1 has no area" },
 };
 
 /* After it, correct calls of every kind return the same status and change nothing. */
