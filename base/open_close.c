@@ -42,9 +42,9 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
 }
 
 /* A contact begins the step with the state of its last step. Its elements are i and j, and those
- * that share P1, P2 or P3 with them. It begins open if P1 has left it past
- * the end of the edge. Its strength is the model's friction angle, or what a hook says. If it is
- * open or its edge is another one, its anchor is placed anew.
+ * that share P1, P2 or P3 with them. It begins open if P1 has left it past the end of the edge. Its
+ * strength is the model's friction angle, or what a hook says. If it is open or its edge is another
+ * one, its anchor is placed anew.
  *
  * One that touches when the run begins is closed: what lies flush is under load. In dynamics it
  * stays open where P1 can come in over more than one line of a corner, for its way will show over

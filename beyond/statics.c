@@ -11,8 +11,8 @@
  * less do contacts feel of each other. Where it settles h grows, and the model creeps towards the
  * equilibrium with what slides sliding. As soon as a static step from there finds it, near by, that
  * is the end: it stands. If two blocks part by more than FAR, they have done so in the attempt, and
- * if forces come no nearer to balance, it falls, and these are named. Else nothing was found, which is said as well; and the model is what
- * it was.
+ * if forces come no nearer to balance, it falls, and these are named. Else nothing was found, which
+ * is said as well; and the model is what it was.
  */
 #include <stdlib.h>
 #include <string.h>
