@@ -879,8 +879,8 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
     return (1 - t) * s - t * c->trial.past[0] >= 0 && (1 - t) * (l - s) - t * c->trial.past[1] >= 0;
 }
 
-/* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step, and
- * not from behind the edge. Nor where its projection is beyond the end of the edge at the start
+/* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step,
+ * and not from behind the edge. Nor where its projection is beyond the end of the edge at the start
  * of the step, as it crosses the line and at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {

@@ -142,17 +142,20 @@ static double bond_energy(const bbm_model *m, const bbm_bond *bond)
     return edge_energy(bond_stiffness(m, i, j), hinged(m, i) || hinged(m, j), M, p, q);
 }
 
-/* Elements of which all nodes are held. */
+/* Elements of which all nodes are held: at their vertices, if they do not bend, as without bonds. */
 static double held_energy(const bbm_model *m, const bbm_element *e)
 {
     const double k = m->par.alpha * shear_modulus(&e->material) * e->material.thickness;
     double sum = 0, M[2][2];
+    int bonds = 0;
 
+    for (int b = 0; b < m->bonds; b++)
+        bonds += &m->element[m->bond[b].i] == e || &m->element[m->bond[b].j] == e;
     for (int a = 0; a < e->n; a++) {
         const bbm_vertex *P = corner(m, e, a), *R = corner(m, e, a + 1);
         const bbm_node *W = &m->node[P->node], *X = &m->node[R->node];
         const double p[2] = { P->u - W->wall[0], P->v - W->wall[1] }, q[2] = { R->u - X->wall[0], R->v - X->wall[1] };
-        if (!hinged(m, e)) {
+        if (!hinged(m, e) || bonds == 0) {
             sum += W->held ? k / 2 * (p[0] * p[0] + p[1] * p[1]) : 0;
         } else if (W->held && X->held) {
             side_moment(m, e, a, M);
