@@ -258,7 +258,7 @@ void bbm_place_supports(bbm_model *m)
 /* The force of a support on its node, in the step or in the jump. */
 static double *force_of(const bbm_model *m, int node)
 {
-    return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].force;
+    return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].step;
 }
 
 /* Adds the weight of an element that is held all round to the forces of its supports. The share of
@@ -325,7 +325,7 @@ void bbm_stop_supports(bbm_model *m)
             bbm_support *s = &b->support[n];
             s->rate[a] = bbm_is_static(m) ? 0 : b->share * s->moved[a] / m->h;
             s->moved[a] -= b->share * s->moved[a];
-            s->force[a] += s->jump[a];
+            s->force[a] = s->step[a] + s->jump[a];
         }
     b->h_before = m->h;
     b->left -= m->h / m->par.dt;

@@ -576,6 +576,28 @@ START_TEST(a_static_step_that_fails_leaves_the_model_as_it_was)
 }
 END_TEST
 
+/* Blocks that slide would part, which is refused: the forces of the supports stay those of the last step that was done,
+ * not of a solution that was refused. */
+START_TEST(a_solution_that_is_refused_leaves_no_reactions)
+{
+    bbm_model *m = new_blocks();
+    double was[4];
+
+    m->par.friction = 10;
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -10, .y = -1, .w = 20, .h = 1, .fixed = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 1 });
+    prepare(m);
+    run_steps(m, 3);
+    for (int n = 0; n < 4; n++)
+        was[n] = m->beyond->support[n].force[0];
+    m->node[vertex_of(m, e, 1)->node].load[0] = 1e5;
+    m->beyond->reach = 0;
+    ck_assert_int_eq(bbm_step(m), BBM_STEP_TOO_LONG);
+    for (int n = 0; n < 4; n++)
+        ck_assert(m->beyond->support[n].force[0] == was[n]);
+}
+END_TEST
+
 /* Three by four bricks at six tilts, 31 to 54 degrees. Sooner or later friction would wedge
  * one in. */
 START_TEST(a_contact_that_no_friction_holds_opens)
@@ -637,7 +659,8 @@ Suite *statics_suite(void)
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { what_is_taut_sags_as_its_tension_says_and_stays_taut, 4 },
         { a_round_side_that_flattens_bears_at_all_its_corners, 24 },
-        { a_static_step_that_fails_leaves_the_model_as_it_was, 2 });
+        { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
+        { a_solution_that_is_refused_leaves_no_reactions, 1 });
     add_case(s, "measures",
         { a_pile_stands_to_97_percent_of_its_limit_and_falls_at_105_turned_and_in_other_units,
           2 * COUNT(MEASURES) },
