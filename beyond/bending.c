@@ -267,13 +267,14 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
  * bonds, which never bends. */
 static int held_edge(const bbm_model *m, const bbm_element *e, int v)
 {
-    const int next = m->vertex[bbm_next_vertex(e, v)].node;
+    const int n = m->vertex[v].node, next = m->vertex[bbm_next_vertex(e, v)].node;
+    const int caught = m->is_prepared ? m->beyond->support[n].caught | m->beyond->support[next].caught : 0;
     int bonded = 0;
 
     for (int k = e->first; k < e->first + e->n; k++)
         bonded |= m->vertex[k].edge < 0;
     return m->beyond->bonding == BBM_VERTICES || e->n != 4 || !bonded
-         ? 0 : m->node[m->vertex[v].node].held & m->node[next].held;
+         ? 0 : m->node[n].held & m->node[next].held & ~caught;
 }
 
 /* A bond of a quadrilateral is one of its whole edge, every other one is the paper's. In the
@@ -318,6 +319,16 @@ static int next_corner(const bbm_model *m, int v)
     return v;
 }
 
+/* The node of a vertex. One that was caught on its way holds each where it was then. */
+static bbm_node wall_of(const bbm_model *m, int v)
+{
+    bbm_node W = m->node[m->vertex[v].node];
+
+    for (int a = 0; a < 2 && m->beyond->off; a++)
+        W.wall[a] += m->beyond->off[v][a];
+    return W;
+}
+
 /* Lists the part of vertex v in what holds its node, in the directions in which no edge is held
  * there. To hold every corner would clamp quadrilaterals, for where they bend their corners part.
  * So the mean d of the n corners is held. With their gaps d_i to the wall and K the sum of their
@@ -332,7 +343,7 @@ static int next_corner(const bbm_model *m, int v)
 static void list_held_node(bbm_model *m, int v)
 {
     const int i = m->vertex[v].element;
-    bbm_node alone = m->node[m->vertex[v].node], own = alone;
+    bbm_node alone = wall_of(m, v), own = alone;
     int corners = 0, quadrilaterals = 0, w = v;
     double K = 0;
 
@@ -360,8 +371,11 @@ static void list_held_node(bbm_model *m, int v)
             continue;
         bbm_gap *g = bbm_add_gap(m, i, j);
         bbm_bonding_gap(&m->element[i], &m->vertex[v], &m->element[j], &m->vertex[w], 0, g);
-        g->W[0][0] = alone.held & BBM_X ? -k / corners : 0;
-        g->W[1][1] = alone.held & BBM_Y ? -k / corners : 0;
+        const bbm_node other = wall_of(m, w);
+        for (int a = 0; a < 2; a++) {
+            g->d0[a] += other.wall[a] - alone.wall[a];
+            g->W[a][a] = alone.held & 1 << a ? -k / corners : 0;
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 static void free_prepared(bbm_beyond *b)
 {
     void *const array[] = { b->middle, b->end_element, b->end_vertex, b->support, b->account,
-                            b->body, b->balance, b->crack, b->best, b->broke };
+                            b->body, b->off, b->balance, b->crack, b->best, b->broke };
 
     for (int k = 0; k < LENGTH(array); k++)
         free(array[k]);
@@ -33,13 +33,14 @@ static bbm_status check(bbm_model *m)
     b->end_element = calloc(n, sizeof *b->end_element);
     b->end_vertex = calloc((size_t)m->vertices, sizeof *b->end_vertex);
     b->support = calloc((size_t)m->nodes, sizeof *b->support);
+    b->off = calloc((size_t)m->vertices, sizeof *b->off);
     b->account = calloc(n, sizeof *b->account);
     b->body = calloc(2 * n, sizeof *b->body);
     b->balance = calloc(n, sizeof *b->balance);
     const bbm_status cracks = bbm_lay_out_cracks(m);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
-    if (cracks || !b->middle || !b->end_element || !b->end_vertex || !b->support || !b->account
+    if (cracks || !b->middle || !b->end_element || !b->end_vertex || !b->support || !b->off || !b->account
         || !b->body || !b->balance)
         return cracks ? cracks : BBM_NO_MEMORY;
     for (int l = 0; l < b->edge_loads; l++) {

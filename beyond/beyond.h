@@ -28,7 +28,8 @@ typedef struct {                /* surroundings.c, of a node                    
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
     double step[2], jump[2];    /* N        its force in the step in hand; in its jump, impact.c */
-    int    held;                /* directions in which the last step held it                    */
+    int    held, caught;        /* directions in which the last step held it; and in which it   */
+                                /*          was free in a step before                           */
 } bbm_support;
 
 typedef struct {                /* energy.c: of an element, and of the component of this number */
@@ -101,6 +102,7 @@ struct bbm_beyond {
     int joints;
     bbm_joint *joint;           /* [joints]                                                     */
     bbm_support *support;       /* [nodes]                                                      */
+    double (*off)[2];           /* [vertices] m     from its node, when that was caught         */
     double left, share;         /* -        of dt that is left to do, and of it the part that   */
                                 /*          is in hand                                          */
     double h_before;            /* s        the last step                                       */

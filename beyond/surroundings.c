@@ -230,6 +230,44 @@ static void take_along(bbm_model *m)
     }
 }
 
+/* From now on a node holds each of its corners where that is, with the force that the node had. */
+static void catch_node(bbm_model *m, int n, int directions)
+{
+    bbm_support *s = &m->beyond->support[n];
+    const int *corner = m->adjacent + m->adjacent_first[n];
+    const int corners = m->adjacent_first[n + 1] - m->adjacent_first[n];
+    double k = 0;
+
+    s->caught |= directions;
+    for (int c = 0; c < corners; c++)
+        k += bbm_fixed_stiffness(m->par.alpha, &m->element[m->vertex[corner[c]].element]);
+    for (int c = 0; c < 2 * corners; c++) {
+        const bbm_vertex *P = &m->vertex[corner[c / 2]];
+        const int a = c % 2;
+        if (directions & 1 << a)
+            m->beyond->off[corner[c / 2]][a] = (a ? P->v : P->u) - m->node[n].wall[a]
+                                             + s->moved[a] + s->force[a] / k;
+    }
+}
+
+/* Catches the nodes that are held from now on. When one is let go in dynamics, those of
+ * quadrilaterals, too: nodes hold their sides together, and to hold corners instead at their old
+ * place would make energy. */
+static void catch_nodes(bbm_model *m)
+{
+    int let_go = 0;
+
+    for (int n = 0; n < m->nodes && !bbm_is_static(m); n++)
+        let_go |= m->beyond->support[n].held & ~m->node[n].held;
+    for (int v = 0; v < m->vertices && m->info.step > 0; v++) {
+        const int n = m->vertex[v].node, anew = m->node[n].held & ~m->beyond->support[n].held;
+        if (anew)
+            catch_node(m, n, anew);
+        else if (let_go && m->element[m->vertex[v].element].n == 4)
+            catch_node(m, n, m->node[n].held);
+    }
+}
+
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
  * way is left. The velocity with which a node comes that is held from now on counts as that of its
  * support so far. */
@@ -237,6 +275,7 @@ void bbm_place_supports(bbm_model *m)
 {
     const double left = 1 - m->beyond->share;
 
+    catch_nodes(m);
     for (int n = 0; n < m->nodes; n++) {
         bbm_support *s = &m->beyond->support[n];
         const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];

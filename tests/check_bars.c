@@ -432,6 +432,43 @@ START_TEST(a_support_with_reaction_0_changes_no_hit)
 }
 END_TEST
 
+/* A grid at rest under its weight on its lower side: to hold another node there, or at the top, changes nothing, in statics
+ * and in dynamics. Nor does it make energy to let one go. With triangles, quadrilaterals, and these bonded at vertices. */
+START_TEST(a_node_that_is_held_or_let_go_on_the_way_makes_nothing)
+{
+    const bbm_material material = { 1e8, 0.25, 2500, 1 };
+    const int is_static = _i % 2, at = _i / 2 % 3, kind = _i / 6;
+    grid g = { .lx = 2, .ly = 1, .nx = 2, .ny = 2, .triangles = kind == 0 };
+    bbm_model *m = new_model(&material);
+    double was[9][2];
+
+    m->beyond->bonding = kind == 1 ? BBM_MOMENT : BBM_VERTICES;
+    m->beyond->multiplier_rounds = 2 * is_static;
+    m->par.gravity[1] = -9.81;
+    m->par.alpha = is_static ? 100 : 1000;
+    m->par.dt = is_static ? INFINITY : 1e-3;
+    m->par.velocity_factor = 0;
+    add_grid(m, &g, 0);
+    for (int i = 0; i <= g.nx; i++)
+        bbm_fix_node(m, node_at(&g, i, 0), BBM_XY, 0, 0);
+    ck_ok(bbm_prepare(m), m);
+    run_steps(m, is_static ? 3 : 600);
+    for (int n = 0; n < 9; n++)
+        was[n][0] = result_at(m, n).u, was[n][1] = result_at(m, n).v;
+    m->par.velocity_factor = 1;
+    const int n = node_at(&g, at == 1, at == 2 ? 0 : at + 1);
+    if (at < 2)
+        bbm_fix_node(m, n, BBM_XY, was[n][0], was[n][1]);
+    else
+        m->node[n].held = BBM_Y;
+    for (int k = 2 * m->bonds; k < m->gaps; k++)
+        m->gap[k].own = (bbm_multiplier){ 0 };              /* gaps of fixed points are others then */
+    run_steps(m, 20);
+    for (int k = 0; k < 9 && at < 2; k++)
+        ck_near(hypot(result_at(m, k).u - was[k][0], result_at(m, k).v - was[k][1]), 0, fabs(was[8][1]), 1e-4);
+}
+END_TEST
+
 /* A beam of 10 x 1, held along 0.5 of its lower side at the left, with 1 kN at its right. By finer
  * and finer triangles its end sinks by 5.69e-4 with 32 rows, by as much less than 5.79e-4 as half
  * the difference to 16 rows says. A foot that could not turn would make it 4e-4, one node alone no
@@ -549,6 +586,7 @@ Suite *bars_suite(void)
         { the_support_in_the_middle_of_two_spans_carries_what_theory_says, 2 },
         { a_support_with_reaction_0_changes_no_hit, 1 },
         { two_held_nodes_side_by_side_hold_the_line_between_them, 3 },
+        { a_node_that_is_held_or_let_go_on_the_way_makes_nothing, 18 },
         { a_mesh_of_both_kinds_sinks_alike_however_often_its_multipliers_take_over, 2 });
     return s;
 }
