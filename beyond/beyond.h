@@ -43,6 +43,7 @@ typedef struct {                /* energy.c: of an element, and of the component
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */
     double mass;                /* kg       in a hit: what is free to move                      */
+    int moves;                  /* something has inertia                                        */
 } bbm_account;
 
 typedef struct {                /* equilibrium.c: of a body, at its first element               */

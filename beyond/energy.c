@@ -119,8 +119,8 @@ static void add_work(bbm_account *a, double work)
 
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
  * touch, are near or are bonded. The force of a contact works along what rounding leaves of its
- * length, too: that is no gain. In statics, and where velocities are not kept, nothing is
- * there. */
+ * length, too: that is no gain. Where nothing has inertia, as in statics, and where velocities are
+ * not kept, nothing is there. */
 void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
     const bbm_beyond *b = m->beyond;
@@ -129,12 +129,13 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     bbm_list_gaps(&now);
     bbm_note_springs(&now, 1);
     for (int c = 0; c < m->elements; c++)
-        b->account[c].gain = b->account[c].there = b->account[c].work = 0;
+        b->account[c].gain = b->account[c].there = b->account[c].work = b->account[c].moves = 0;
     for (int i = 0; i < m->elements; i++) {
         bbm_account *of = &b->account[m->K->component[i]];
         const double *F = &m->F[6 * i], *load = &m->load[6 * i];
         const double before = sum_of(energy_of(m, i, 0));
         const double lever = hypot(m->element[i].x, m->element[i].y);
+        of->moves |= bbm_has_inertia(m, i);
         of->gain += sum_of(energy_of(end, i, 1)) - before;
         of->there += before + BBM_ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
         add_work(of, b->account[i].held[0] + b->account[i].held[1]);
@@ -147,8 +148,9 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         b->account[m->K->component[P->element]].gain -= BBM_ROUNDING * fabs(c->N)
                                                               * hypot(P->x, P->y);
     }
-    for (int c = 0; c < m->elements && (bbm_is_static(m) || m->par.velocity_factor < 1); c++)
-        b->account[c].gain = b->account[c].there = 0;
+    for (int c = 0; c < m->elements; c++)
+        if (!b->account[c].moves || m->par.velocity_factor < 1)
+            b->account[c].gain = b->account[c].there = 0;
 }
 
 /* The energy that the part of a step from m to `end` makes beyond the work of its loads, for each
