@@ -505,7 +505,7 @@ int bbm_carries(const bbm_model *m, int c, int e)
         return 0;
     const double ratio = mine->spacing / other->spacing;
     const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
-    if ((alike || bbm_is_static(m)) && fabs(ratio - 1) > STRAIGHT)
+    if ((alike || isinf(m->par.dt)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
     return alike ? goes_before(m, e, c) : mine->span < other->span;
 }

@@ -257,6 +257,20 @@ START_TEST(a_joint_that_holds_the_settled_state_does_not_break_on_the_way)
 }
 END_TEST
 
+/* A block of one cell on a base of four, pulled off in statics by f times what its joint holds. Corners of the block and a
+ * grid point of the base share the joint. In steps from rest, too: in dynamics the corners alone would, and then all three
+ * had an area of 1.5 times that of the joint. */
+START_TEST(a_static_joint_has_its_area_once_on_a_finer_base)
+{
+    const double f[] = { 0.7, 1.03, 1.4 };
+
+    ck_assert_int_eq(run_printed("pulled", "material a E 7e9 nu 0.25 density 2500\nmaterial b E 2e9 nu 0.25 density 2500\n"
+                                 "grid G a -2 -1 2 0 4 2\ngrid B b -1 0 1 0.5 1 1 triangles\nfix set G.bottom\n"
+                                 "contact friction 20 cohesion 1e5 tension 5e4\nstatic\nload set B.top 0 %.15g\n",
+                                 f[_i] * 1e5), _i > 0);
+}
+END_TEST
+
 /* A block 1 m wide, R half its diagonal, a its slope, let go at rest, turned by th0 < a about a lower
  * corner: th'' = -p^2 sin(a - th), p^2 = 3 g/(4 R). With sin((a - th)/2) = s cosh(u), s =
  * sin((a - th0)/2), the time to the first impact is, by Simpson's rule,
@@ -426,6 +440,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_shaken_block_slips_once_in_each_period, 0, 8);
     tcase_add_loop_test(t, a_block_follows_a_record_as_newmark_has_it, 0, 4);
     tcase_add_loop_test(t, a_stack_leans_as_far_as_its_centres_of_mass_allow, 0, 4);
+    tcase_add_loop_test(t, a_static_joint_has_its_area_once_on_a_finer_base, 0, 3);
     tcase_add_loop_test(t, a_joint_that_holds_the_settled_state_does_not_break_on_the_way, 0, 4);
     tcase_add_loop_test(t, a_block_rocks_back_in_its_time, 0, 12);
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
