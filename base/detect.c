@@ -965,14 +965,14 @@ void bbm_note_depths(bbm_model *m)
 }
 
 /* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
- * as r, with its forces. */
+ * as r, with its forces. But not if r has forces of its own. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
     const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
     const int edge = r->edge;
 
-    if (c->state == BBM_OPEN || f.beyond <= touch || g.beyond > touch
+    if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || g.beyond > touch
         || f.beyond > reach_of(m, c->corner)->travel + reach_of(m, c->edge)->travel
         || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first)
         return;

@@ -271,6 +271,18 @@ START_TEST(a_static_joint_has_its_area_once_on_a_finer_base)
 }
 END_TEST
 
+/* A block whose corner stands at the seam of two bases, and moves by micrometres from one to the other in a static step in
+ * which both bear it. The tables have the forces of both: together with those of a block beside it they are its weight. */
+START_TEST(at_a_seam_both_contacts_of_a_corner_keep_their_forces)
+{
+    ck_assert_int_eq(run_text("seam", "material a E 1e9 nu 0 density 2500\nmaterial b E 5e8 nu 0 density 2500\n"
+                              "grid L a -2 -1 0 0 2 1 quads\ngrid R b 0 -1 2 0 2 1 crossed\ngrid B b -1 0 0 0.5 1 1\n"
+                              "grid C b -2 0 -1 1 2 1\nfix set L.bottom\nfix set R.bottom\ncontact friction 15\n"
+                              "gravity 0 -9.81\nstatic\nmonitor J joint B *\n"), 0);
+    ck_relative(cell("seam", "history.csv", "1,", "J_fy"), 2500 * 9.81 / 2, 1e-6);
+}
+END_TEST
+
 /* A block 1 m wide, R half its diagonal, a its slope, let go at rest, turned by th0 < a about a lower
  * corner: th'' = -p^2 sin(a - th), p^2 = 3 g/(4 R). With sin((a - th)/2) = s cosh(u), s =
  * sin((a - th0)/2), the time to the first impact is, by Simpson's rule,
@@ -441,6 +453,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_block_follows_a_record_as_newmark_has_it, 0, 4);
     tcase_add_loop_test(t, a_stack_leans_as_far_as_its_centres_of_mass_allow, 0, 4);
     tcase_add_loop_test(t, a_static_joint_has_its_area_once_on_a_finer_base, 0, 3);
+    tcase_add_test(t, at_a_seam_both_contacts_of_a_corner_keep_their_forces);
     tcase_add_loop_test(t, a_joint_that_holds_the_settled_state_does_not_break_on_the_way, 0, 4);
     tcase_add_loop_test(t, a_block_rocks_back_in_its_time, 0, 12);
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
