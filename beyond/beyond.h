@@ -239,6 +239,8 @@ double     bbm_settle_loads(bbm_model *m);
 bbm_status bbm_move_support(bbm_model *m, int node, double u, double v);    /* m, in all        */
 void       bbm_place_supports(bbm_model *m);
 void       bbm_find_reactions(bbm_model *m);
+void       bbm_follow_supports(const bbm_model *m, bbm_element *e,
+                               double (*velocity)(const bbm_model *m, int node, int direction));
 void       bbm_stop_supports(bbm_model *m);
 void       bbm_set_plane_strain(bbm_model *m);          /* of the elements that are there       */
 

@@ -15,12 +15,13 @@
  * shape. K h^2/2 alone would do so in long steps only. So where there is a hit with a restitution
  * Young's modulus counts as at least so large that bodies move as rigid ones, in the step and in
  * the jump. What the hit gives back depends neither on dt nor on the mesh then, and leaves no body
- * vibrating. A held point counts from h/2 w, w the velocity of its support. A closed contact counts
- * from h/2 v, v the velocity that is asked for: 0; or, if it has closed in this step, -E times the
- * normal velocity with which it came. The open-close iteration finds which contacts stay closed and
- * which slide. It judges the forces of the step and of the jump together, for they act in the same
- * time: F takes back the contact forces of the step, and the jump finds them anew. In between two
- * bodies all this is push and pull, so that momentum stays.
+ * vibrating. A held point counts from h/2 w, w the velocity of its support, and so does what is held
+ * all round. A closed contact counts from h/2 v, v the velocity that is asked for: 0; or, if it has
+ * closed in this step, -E times the normal velocity with which it came; or, without a restitution,
+ * the one that it has. The open-close iteration finds which contacts stay closed and which slide.
+ * It judges the forces of the step and of the jump together, for they act in the same time: F takes
+ * back the contact forces of the step, and the jump finds them anew. In between two bodies all this
+ * is push and pull, so that momentum stays.
  *
  * A contact that has closed, or that the jump opens, has had its impulse: its spring starts
  * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
@@ -65,7 +66,13 @@ static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bb
     return velocity;
 }
 
-static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && !c->trial.was_closed; }
+/* An unbroken joint does not hit. */
+static int may_hit(const bbm_contact *c)
+{
+    return !c->trial.was_closed && !(c->trial.touches && bbm_is_strong(c));
+}
+
+static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && may_hit(c); }
 
 /* h/2 times the normal velocity with which P1 came. It has changed evenly until P1 hit, after the
  * share t of the step and the way d0. */
@@ -111,7 +118,7 @@ static void find_hits(const bbm_model *m)
         m->beyond->account[i].mass = m->beyond->account[i].jumps = 0;
     for (; c < m->scratch->contact + m->scratch->contacts && m->beyond->restitution >= 0; c++)
         account_of(m, m->edge[c->corner].element)->jumps |=
-            has_closed(c) || (c->trial.closings > 0 && !c->trial.was_closed);
+            may_hit(c) && (c->state != BBM_OPEN || c->trial.closings > 0);
     for (int i = 0; i < m->elements; i++)
         if (account_of(m, i)->jumps && mobility(m, i) > 0)
             account_of(m, i)->mass += 1 / mobility(m, i);
@@ -178,6 +185,8 @@ static void start_elements(bbm_model *m, const bbm_model *end)
         *e = end->element[i];
         e->middle = NULL;
         bbm_element_geometry(e, &m->vertex[e->first]);
+        if (m->K->body[i] < 0)
+            bbm_follow_supports(m, e, support_velocity);
         const double s = rigidity(end, i);
         e->material.E *= s;
         least = fmin(least, s);
@@ -227,8 +236,8 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
-        const double asked = !has_closed(c) ? 0 : E < 0 ? m->h * normal_velocity(m, c, m->element)
-                           : E * sqrt(of->asked) * fmax(0, -came);
+        const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
+                           : has_closed(c) ? E * sqrt(of->asked) * fmax(0, -came) : 0;
         c->rest = v[0].d + (of->jumps > 0) * asked;
         if (c->state == BBM_OPEN || of->jumps == 0) {
             c->state = BBM_OPEN;

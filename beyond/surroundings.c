@@ -208,26 +208,34 @@ bbm_status bbm_move_support(bbm_model *m, int node, double u, double v)
     return BBM_OK;
 }
 
-/* What is held all round has the mean velocity of its supports in the step, from start to end. */
+/* What is held all round has the velocity of its supports: V of element e by that of each node in
+ * each direction. */
+void bbm_follow_supports(const bbm_model *m, bbm_element *e,
+                         double (*velocity)(const bbm_model *m, int node, int direction))
+{
+    memset(e->V, 0, sizeof e->V);
+    for (int k = 0; k < e->n; k++) {
+        const bbm_linear of = bbm_interpolation(e, &m->vertex[e->first], k);
+        const int node = m->vertex[e->first + k].node;
+        const double u = velocity(m, node, 0), v = velocity(m, node, 1);
+        const double V[6] = { of.f * u, of.f * v, (of.fx * v - of.fy * u) / 2,
+                              of.fx * u, of.fy * v, of.fy * u + of.fx * v };
+        for (int a = 0; a < 6; a++)
+            e->V[a] += V[a];
+    }
+}
+
+/* Over the whole step. */
+static double mean_velocity(const bbm_model *m, int node, int a)
+{
+    return m->beyond->share * m->beyond->support[node].moved[a] / m->h;
+}
+
 static void take_along(bbm_model *m)
 {
-    const double f = m->beyond->share / m->h;
-
-    for (int i = 0; i < m->elements; i++) {
-        bbm_element *e = &m->element[i];
-        if (!bbm_is_held_all_round(m, e))
-            continue;
-        memset(e->V, 0, sizeof e->V);
-        for (int k = 0; k < e->n; k++) {
-            const bbm_linear of = bbm_interpolation(e, &m->vertex[e->first], k);
-            const double *moved = m->beyond->support[m->vertex[e->first + k].node].moved;
-            const double u = f * moved[0], v = f * moved[1];
-            const double V[6] = { of.f * u, of.f * v, (of.fx * v - of.fy * u) / 2,
-                                  of.fx * u, of.fy * v, of.fy * u + of.fx * v };
-            for (int a = 0; a < 6; a++)
-                e->V[a] += V[a];
-        }
-    }
+    for (int i = 0; i < m->elements; i++)
+        if (bbm_is_held_all_round(m, &m->element[i]))
+            bbm_follow_supports(m, &m->element[i], mean_velocity);
 }
 
 /* From now on a node holds each of its corners where that is, with the force that the node had. */

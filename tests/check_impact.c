@@ -353,6 +353,81 @@ START_TEST(a_piston_that_starts_hits_with_its_velocity)
 }
 END_TEST
 
+/* Without a restitution springs throw a block back, from a floor that moves along as from one at rest. Positions are sums
+ * of ways, and what rounding makes of the moment of the hit is a thousandth. */
+START_TEST(a_block_bounces_from_a_floor_that_moves_as_from_one_at_rest)
+{
+    const double velocity[] = { 0, 1e-8, 1 };
+    double back[COUNT(velocity)];
+
+    for (int k = 0; k < COUNT(velocity); k++) {
+        bbm_model *m = new_blocks();
+        m->par.dt = _i ? 2e-4 : 1e-3;
+        m->par.friction = 0;
+        set_springs(m, 1e8, 4e7);
+        add_rectangle(m, 0, BASE, (rectangle){ .x = -5, .y = -2, .w = 10, .h = 2, .fixed = 1 });
+        add_rectangle(m, 1, ROCK, (rectangle){ .y = 1e-3, .w = 1, .h = 0.4 });
+        ck_ok(bbm_prepare(m), m);
+        set_velocity(m, 1, 0, -1);
+        for (int step = 1; step <= 0.02 / m->par.dt; step++)
+            (void)pull_to(m, 0, velocity[k] * m->par.dt * step);
+        back[k] = m->element[1].V[1];
+        ck_near(back[k], back[0], 1, 2e-3);
+        release(m);
+    }
+    ck_assert_double_gt(back[0], 0.5);
+}
+END_TEST
+
+/* A block hangs by a joint from a fixed one. The joint touches from the start and is no hit, whatever hits give back. */
+START_TEST(an_unbroken_joint_does_not_hit)
+{
+    bbm_model *m = hard_blocks(0.5, 30);
+
+    m->par.dt = 1e-3;
+    m->beyond->tension = m->beyond->cohesion = 1e12;
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -1, .w = 3, .h = 1, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .y = -1, .w = 1, .h = 1 });
+    ck_ok(bbm_prepare(m), m);
+    run_steps(m, 100);
+    ck_near(m->vertex[4].v, 0, 1, 1e-4);
+}
+END_TEST
+
+/* A paddle turns at 1 rad/s, each corner on its circle, and hits a block, which gives back all. How stiff the paddle is
+ * counts neither for the block nor for the work. */
+START_TEST(a_paddle_of_any_stiffness_turns_and_hits_alike)
+{
+    const double E[] = { 1e10, 1e12, 1e14 }, dt = 0.01;
+    double hit[COUNT(E)];
+
+    for (int k = 0; k < COUNT(E); k++) {
+        bbm_model *m = hard_blocks(1, 0);
+        m->par.dt = dt;
+        m->par.gravity[1] = 0;
+        m->material[BASE].E = E[k];
+        m->material[ROCK].E = 1e10;
+        add_rectangle(m, 0, BASE, (rectangle){ .y = -0.1, .w = 2, .h = 0.2, .fixed = 1 });
+        if (_i)
+            add_rectangle(m, 1, ROCK, (rectangle){ .x = 1, .y = 0.5, .w = 1, .h = 1 });
+        ck_ok(bbm_prepare(m), m);
+        for (int step = 1; step <= 60; step++) {
+            const double c = cos(dt * step) - 1, s = sin(dt * step);
+            for (int n = 0; n < 4; n++)
+                bbm_move_support(m, n, c * m->node[n].x - s * m->node[n].y, s * m->node[n].x + c * m->node[n].y);
+            run_steps(m, 1);
+        }
+        bbm_energy energy;
+        bbm_energies(m, &energy);
+        hit[k] = energy.kinetic;
+        ck_near(m->beyond->work, hit[k], _i ? hit[k] : 1, 1e-2);
+        ck_near(hit[k], hit[0], fmax(hit[0], 1), 1e-3);
+        release(m);
+    }
+    ck_assert(!_i || hit[0] > 100);
+}
+END_TEST
+
 /* A block of 2.5 t that moves at 2 m/s is held at its corners, from the start or after five steps: it stands, and its
  * supports bear its weight. What springs of alpha let go on is 1 %. */
 START_TEST(what_is_held_on_its_way_stands)
@@ -490,6 +565,9 @@ Suite *impact_suite(void)
         { a_jump_by_a_support_that_moves_is_not_tried_again, 1 },
         { a_belt_of_any_weight_goes_with_its_supports, 1 },
         { a_piston_that_starts_hits_with_its_velocity, 1 },
+        { a_block_bounces_from_a_floor_that_moves_as_from_one_at_rest, 2 },
+        { an_unbroken_joint_does_not_hit, 1 },
+        { a_paddle_of_any_stiffness_turns_and_hits_alike, 2 },
         { what_is_held_on_its_way_stands, 2 },
         { what_a_support_moves_evenly_moves_evenly, 2 },
         { a_support_that_swings_pulls_with_mass_times_acceleration, 2 },
