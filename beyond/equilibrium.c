@@ -134,18 +134,25 @@ static double breach_of(const bbm_model *m, const bbm_contact *c)
          : bbm_is_blocked(m, c) ? 0 : N;
 }
 
-/* Adds the forces of a contact, and what they break of its law by more than the solver's error. */
+/* Adds the forces of a contact, and what they break of its law by more than the solver's error. How
+ * far either side moves has rounding for both. */
 static void add_contact(bbm_model *m, const bbm_contact *c)
 {
     const double solved = fmax(0, c->trial.force_tolerance - c->trial.digits);
     const double breach = fmax(0, breach_of(m, c) - solved);
-    double F[BBM_PARTS][6] = { { 0 } };
+    double F[BBM_PARTS][6] = { { 0 } }, way = 0;
 
     if (c->state != BBM_OPEN)
         bbm_contact_forces(m, c, F);
+    for (int k = 0; k < c->parts && c->state != BBM_OPEN; k++) {
+        const double *D = &m->D[6 * c->element[k]];
+        way = fmax(way, fabs(D[0]) + fabs(D[1]) + fabs(D[2]) * sqrt(m->element[c->element[k]].A));
+    }
     for (int k = 0; k < c->parts; k++) {
-        add_force(m, c->element[k], F[k], 1, c->state == BBM_OPEN ? 0 : m->par.p_n);
+        bbm_balance *b = &m->beyond->balance[m->beyond->body[c->element[k]]];
+        add_force(m, c->element[k], F[k], 1, 0);
         add_breach(m, c->element[k], breach);
+        b->rounding += BBM_ROUNDING * m->par.p_n * way;
     }
 }
 

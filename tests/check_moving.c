@@ -271,6 +271,17 @@ START_TEST(a_static_joint_has_its_area_once_on_a_finer_base)
 }
 END_TEST
 
+/* A piston comes to a corner at the very end of a step: what rounding makes of the moment is no force that lacks balance. */
+START_TEST(a_piston_that_arrives_as_a_step_ends_is_no_failure)
+{
+    const double E[] = { 1e9, 1e10, 1e11, 1e12 };
+
+    ck_assert_int_eq(run_printed("arrives", "material r E %g nu 0.2 density 2500\nblock P r -2 -1 0 -1 0 1 -2 1\n"
+                                 "block b r 0.05 0 0.55 -0.3 0.85 0.2 0.35 0.5\nfixblock P\nfix set P x by 0.3 y by 0\n"
+                                 "dynamic dt 0.01 steps 30\n", E[_i]), 0);
+}
+END_TEST
+
 /* A block whose corner stands at the seam of two bases, and moves by micrometres from one to the other in a static step in
  * which both bear it. The tables have the forces of both: together with those of a block beside it they are its weight. */
 START_TEST(at_a_seam_both_contacts_of_a_corner_keep_their_forces)
@@ -453,6 +464,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_block_follows_a_record_as_newmark_has_it, 0, 4);
     tcase_add_loop_test(t, a_stack_leans_as_far_as_its_centres_of_mass_allow, 0, 4);
     tcase_add_loop_test(t, a_static_joint_has_its_area_once_on_a_finer_base, 0, 3);
+    tcase_add_loop_test(t, a_piston_that_arrives_as_a_step_ends_is_no_failure, 0, 4);
     tcase_add_test(t, at_a_seam_both_contacts_of_a_corner_keep_their_forces);
     tcase_add_loop_test(t, a_joint_that_holds_the_settled_state_does_not_break_on_the_way, 0, 4);
     tcase_add_loop_test(t, a_block_rocks_back_in_its_time, 0, 12);
