@@ -819,7 +819,8 @@ static int blame_free(model_reader *r)
     for (int e = 0; e < m->edges; e++)
         for (int f = 0; f < m->edges && m->edge[e].element == loose; f++) {
             const int other = m->edge[f].element;
-            const double d = fmin(model_distance(m, e, f), model_distance(m, f, e));
+            const double d = fmin(model_distance(m, f, e), fmin(model_distance(m, e, f),
+                                                       model_distance(m, m->edge[e].after, f)));
             if (m->K->component[other] == body || d >= gap)
                 continue;
             gap = d;
