@@ -65,7 +65,8 @@ static void gather_loads(bbm_model *m)
 {
     memset(m->load, 0, 6 * (size_t)m->elements * sizeof *m->load);
     for (int i = 0; i < m->elements; i++) {
-        bbm_gravity_submatrix(&m->element[i], m->acceleration, &m->load[6 * i]);
+        if (m->K->body[i] >= 0)                     /* supports bear what they hold all round   */
+            bbm_gravity_submatrix(&m->element[i], m->acceleration, &m->load[6 * i]);
         bbm_volume_submatrix(&m->element[i], m->element[i].f, &m->load[6 * i]);
     }
     for (int v = 0; v < m->vertices; v++) {

@@ -75,7 +75,9 @@ static bbm_status begin(bbm_model *m)
 }
 
 /* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
- * and in statics if all bodies are held. A new K has no room for the terms of friction yet. */
+ * and in statics if all bodies are held. A new K has no room for the terms of friction yet. What is
+ * held all round has neither weight nor inertia in (5). Deviation: under these the springs of (29)
+ * give way, by more the larger it is; the core keeps to them. */
 static bbm_status listed(bbm_model *m)
 {
     if (!m->K->term && (bbm_lay_out_coarse(m) || bbm_lay_out_sliding(m)))

@@ -133,12 +133,9 @@ bbm_status bbm_add_water(bbm_model *m, int edge, double level, double density)
 }
 
 /* Adds what lies on edges to the loads of the step, forces by (43), and what presses with the D of
- * bbm_set_middle; to K its `sinks`, and the stiffness of tension, see stability.c. An element that
- * is held all round is no load, for its supports bear its weight from the start. Deviation: the
- * springs of (29) sink under it, by more the larger the element is; the core keeps to them. */
+ * bbm_set_middle; to K its `sinks`, and the stiffness of tension, see stability.c. */
 void bbm_gather_edge_loads(bbm_model *m)
 {
-    const double up[2] = { -m->acceleration[0], -m->acceleration[1] };
     bbm_beyond *b = m->beyond;
 
     for (int l = 0; l < b->edge_loads; l++) {
@@ -158,11 +155,8 @@ void bbm_gather_edge_loads(bbm_model *m)
             F[k] += N[k];
         bbm_matrix_add(m->K, v->element, v->element, K);
     }
-    for (int i = 0; i < m->elements; i++) {
+    for (int i = 0; i < m->elements; i++)
         m->K->D[m->K->place[i]][2][2] += bbm_tension_stiffness(m, i);
-        if (bbm_is_held_all_round(m, &m->element[i]))
-            bbm_gravity_submatrix(&m->element[i], up, &m->load[6 * i]);
-    }
 }
 
 /* Puts what presses at the solution in the place of what was taken for it among the loads. Returns
