@@ -96,7 +96,7 @@ static void put_results(FILE *f, const model *p, const bbm_model *m, int files)
         put_numbers(f, 2, nodes ? (double[]){ m->node[n].x, m->node[n].y } : p->centre[k]);
         double all[FIELD_ROWS];
         if (nodes)
-            field_all_of_node(m, n, part, all);
+            field_all_of_node(m, n, part, 1, all);
         for (const field *q = field_table; q->name; q++)
             if (q->files & files)
                 put_numbers(f, 1, nodes ? &all[q - field_table]
