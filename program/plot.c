@@ -264,12 +264,16 @@ static void draw_ticks(plot *p, const plot_axis *a, plot_box b, int upright, int
         }
 }
 
-/* Grid or tick strokes, frame and labels around box b. */
+/* The axes get their place around box b: grid or tick strokes, frame and labels. */
 static void draw_axes(plot *p, plot_box b, int grid)
 {
     const double x = b.x - 22 - widest_tick(&p->y), y = b.y + b.h / 2;
     char turned[120];
 
+    p->x.from = b.x;
+    p->x.to = b.x + b.w;
+    p->y.from = b.y + b.h;
+    p->y.to = b.y;
     spread_ticks(&p->x);
     draw_ticks(p, &p->x, b, 0, grid);
     draw_ticks(p, &p->y, b, 1, grid);
@@ -278,14 +282,6 @@ static void draw_axes(plot *p, plot_box b, int grid)
     snprintf(turned, sizeof turned, "text-anchor=\"middle\" transform=\"rotate(-90 %.2f %.2f)\"",
              x, y);
     plot_text(p, x, y, turned, p->y.label);
-}
-
-static void place_axes(plot *p, plot_box b)
-{
-    p->x.from = b.x;
-    p->x.to = b.x + b.w;
-    p->y.from = b.y + b.h;
-    p->y.to = b.y;
 }
 
 /* The unit is that of the larger extent, not of the distance from the origin. */
@@ -298,7 +294,6 @@ void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
         scale_axis(a, &q[k], k ? y : x, fmax(x[1] - x[0], y[1] - y[0]));
         a->step = plot_nice((x[1] - x[0]) * a->scale * 60 / b.w);
     }
-    place_axes(p, b);
     draw_axes(p, b, 0);
 }
 
@@ -396,7 +391,6 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
     const double left = 40 + widest_tick(&p->y), top = c->title ? 40 : 16;
     plot_box b = { box.x + left, box.y + top, box.w - left - 24, 0 };
     b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&(plot){ 0 }, (plot_legend){ .room = b.w }, c);
-    place_axes(p, b);
     draw_axes(p, b, 1);
     plot_title(p, b.x + b.w / 2, b.y - 14, c->title);
     for (int k = 0; k < c->count; k++) {
