@@ -468,29 +468,22 @@ int model_fix(model_reader *r)
            || model_blame(r, "nothing is fixed there in that direction, expected a support");
 }
 
-/* The number of vertices at a library node. */
-static int adjacent(const bbm_model *m, int node)
-{
-    return m->adjacent_first[node + 1] - m->adjacent_first[node];
-}
-
 /* Each node of the file has the same share, and of that each element there. */
 int model_load_nodes(model_reader *r)
 {
     bbm_model *m = r->p->m;
+    const int *n = r->chosen_node, *first = m->adjacent_first;
     double f[2];
 
     if (!where(r, 0) || !model_numbers(r, 2, f))
         return 0;
     for (int k = 0, end; k < r->chosen; k = end) {
         int all = 0;
-        for (end = k;
-             end < r->chosen && r->p->node[r->chosen_node[end]] == r->p->node[r->chosen_node[k]];
-             end++)
-            all += adjacent(m, r->chosen_node[end]);
+        for (end = k; end < r->chosen && r->p->node[n[end]] == r->p->node[n[k]]; end++)
+            all += first[n[end] + 1] - first[n[end]];
         for (int c = k; c < end; c++) {
-            const double share = (double)adjacent(m, r->chosen_node[c]) / all / r->file_nodes;
-            bbm_add_load(m, r->chosen_node[c], share * f[0], share * f[1]);
+            const double share = (double)(first[n[c] + 1] - first[n[c]]) / all / r->file_nodes;
+            bbm_add_load(m, n[c], share * f[0], share * f[1]);
         }
     }
     return m->status ? model_blame(r, "loads too large to add up, expected finite ones") : 1;
