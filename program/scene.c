@@ -77,7 +77,8 @@ typedef struct {                        /* a block                              
 typedef struct {                        /* what the functions below draw with                     */
     plot         p;
     int          thrust;                /* it is drawn                                            */
-    double       left, top, over, w, h; /* of the panel, pixels; over: above its frame            */
+    plot_box     panel;                 /* pixels                                                 */
+    double       over, w, h;            /* around it too; over: above it                          */
     const scene *s;
     const bbm_model *m;
     int          bodies, held, whole;   /* whether any is held; is free, of one element           */
@@ -900,18 +901,21 @@ static int find_colours(film *f)
     return 1;
 }
 
-/* Opens a page for a panel and, below it, the colours of a field; draws title and legend. */
+/* Opens a page for a panel and, below it, the colours of a field; draws title, legend and axes. What
+ * follows until end_panel is cut off at the panel. Lines have no round ends: a block that is gone
+ * is one point, which would be a dot. */
 static int open_page(film *f, const char *path)
 {
-    if (f->s->field && !find_colours(f))
+    if (!begin_film(f) || (f->s->field && !find_colours(f)))
         return 0;
-    f->top = f->s->title ? 36 : 0;
+    const double top = f->s->title ? 36 : 0;
     f->over = is_timed(f) ? OVER : 14;
     measure(f);
     const double width = fmax(f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
-    const double bottom = f->top + f->h + (has_colours(f->s->field) ? BAR : 0);
+    const double bottom = top + f->h + (has_colours(f->s->field) ? BAR : 0);
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
-    f->left = (width - f->w) / 2;
+    f->panel = (plot_box){ (width - f->w) / 2 + LEFT, top + f->over, f->w - LEFT - RIGHT,
+                           f->h - f->over - UNDER };
     plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8);
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
              "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
@@ -925,40 +929,30 @@ static int open_page(film *f, const char *path)
     plot_put(&f->p, "</defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
     draw_legend(f, MARGIN, bottom + PLOT_ROW / 2.0, width - 2 * MARGIN);
+    plot_draw_frame(&f->p, f->panel, f->window[0], f->window[1]);
+    plot_put(&f->p, "<clipPath id=\"panel0\">");
+    plot_rectangle(&f->p, f->panel, "");
+    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel0)\" stroke-linejoin=\"round\">\n");
     return 1;
 }
 
-/* The frame of a panel with its axes; what follows until end_panel is cut off at it. Lines have no
- * round ends: a block that is gone is one point, which would be a dot. */
-static plot_box begin_panel(film *f)
-{
-    const plot_box b = { f->left + LEFT, f->top + f->over, f->w - LEFT - RIGHT,
-                         f->h - f->over - UNDER };
-
-    plot_draw_frame(&f->p, b, f->window[0], f->window[1]);
-    plot_put(&f->p, "<clipPath id=\"panel0\">");
-    plot_rectangle(&f->p, b, "");
-    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel0)\" stroke-linejoin=\"round\">\n");
-    return b;
-}
-
-static void end_panel(film *f, plot_box b)
+static void end_panel(film *f)
 {
     plot_put(&f->p, "</g>\n");
-    plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
+    plot_rectangle(&f->p, f->panel, "fill=\"none\" stroke=\"#333333\"");
 }
 
-/* Below the panel, b, over its width. */
-static void draw_colours(film *f, plot_box b)
+/* Below the panel, over its width. */
+static void draw_colours(film *f)
 {
-    const plot_box bar = { f->left + LEFT, b.y + b.h + UNDER + 4, b.x + b.w - f->left - LEFT, 16 };
+    const plot_box b = f->panel, bar = { b.x, b.y + b.h + UNDER + 4, b.w, 16 };
 
     if (has_colours(f->s->field))
         plot_draw_bar(&f->p, bar, &f->bar, f->range);
 }
 
 /* What stands over the blocks of a panel; the time begins at the same place in each frame. */
-static void draw_state(film *f, plot_box b, int frame)
+static void draw_state(film *f, int frame)
 {
     char time[60];
 
@@ -967,7 +961,8 @@ static void draw_state(film *f, plot_box b, int frame)
     if (f->thrust)
         draw_thrust(f, frame);
     snprintf(time, sizeof time, "t = %.6g s", f->s->frame[frame].time);
-    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", is_timed(f) ? time : NULL);
+    plot_text(&f->p, f->panel.x + f->panel.w / 2 - 32, f->panel.y - 12, "",
+              is_timed(f) ? time : NULL);
 }
 
 /* A group that is visible from half an interval before its frame to half an interval behind it, the
@@ -1012,21 +1007,20 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 
     if (s->frames > 1)
         f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
-    int done = begin_film(&f) && open_page(&f, path);
+    int done = open_page(&f, path);
     if (done) {
-        const plot_box b = begin_panel(&f);
         draw_blocks(&f, 0, 1);
-        end_panel(&f, b);
-        draw_colours(&f, b);
+        end_panel(&f);
+        draw_colours(&f);
         for (int k = 0; k < s->frames && f.seconds > 0; k++) {
             begin_turn(&f, k);
-            draw_state(&f, b, k);
+            draw_state(&f, k);
             plot_put(&f.p, "</g>\n");
         }
         if (f.seconds > 0)
             put_script(&f);
         else
-            draw_state(&f, b, 0);
+            draw_state(&f, 0);
         done = plot_close(&f.p);
     }
     end_film(&f);
@@ -1153,9 +1147,8 @@ static void draw_lines(film *f, int frame, const char *stroke, writer *put)
  * are. */
 static int draw_map(film *f, const char *path)
 {
-    if (!begin_film(f) || !open_page(f, path))
+    if (!open_page(f, path))
         return 0;
-    const plot_box b = begin_panel(f);
     draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
     if (has_colours(f->s->field))
         draw_bands(f, 1);
@@ -1163,9 +1156,9 @@ static int draw_map(film *f, const char *path)
     draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
                put_elements);
     draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
-    end_panel(f, b);
-    draw_state(f, b, 1);
-    draw_colours(f, b);
+    end_panel(f);
+    draw_state(f, 1);
+    draw_colours(f);
     return plot_close(&f->p);
 }
 
