@@ -308,14 +308,17 @@ static void put_vtk(FILE *f, const write_results *w)
     }
 }
 
-/* The closed contacts as points, with the forces on the corner's block. */
+/* The closed contacts as points, with the forces on the corner's block. Where a stage has begun,
+ * they are not as many as in the last step. */
 static void put_vtk_contacts(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
-    const int n = m->info.contacts;
-    const bbm_contact *end = n ? m->contact + m->contacts : m->contact;
+    const bbm_contact *end = m->contact + m->contacts;
     double force[2];
+    int n = 0;
 
+    for (const bbm_contact *c = m->contact; c < end; c++)
+        n += c->state != BBM_OPEN;
     put_head(f, w, "POLYDATA", n);
     for (const bbm_contact *c = m->contact; c < end; c++)
         if (c->state != BBM_OPEN)
