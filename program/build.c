@@ -826,8 +826,9 @@ static int blame_free(model_reader *r)
                       r->p->block[m->element[loose].block], near);
 }
 
-/* The supports of a block that is held at all its nodes hold what is bonded to it as well. */
-static int check_cracks(model_reader *r)
+/* The supports of a block that is held at all its nodes hold what is bonded to it as well. What takes
+ * part in the steps is hooked in; statics must be held. */
+int model_finish(model_reader *r)
 {
     const bbm_model *m = r->p->m;
 
@@ -838,19 +839,9 @@ static int check_cracks(model_reader *r)
                               "one of which is held at the nodes of both, expected supports at "
                               "other nodes", r->p->block[i->block], r->p->block[j->block]);
     }
-    return 1;
-}
-
-/* What takes part in the steps is hooked in; statics must be held. */
-int model_finish(model_reader *r)
-{
-    model *p = r->p;
-    const int fits = check_cracks(r) && model_hook(r);
-    const bbm_status status = !fits || p->dynamic ? BBM_OK : bbm_begin_statics(p->m);
-
+    const int hooked = model_hook(r);
+    const bbm_status status = !hooked || r->p->dynamic ? BBM_OK : bbm_begin_statics(r->p->m);
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);
-    if (status)
-        return model_refused(r, status);
-    return !p->status;
+    return status ? model_refused(r, status) : hooked;
 }
