@@ -31,10 +31,9 @@ static int fail(write_results *w, const char *path, const char *why)
 /* In the folder, until the next one; form: a name, with %06d where the number of the step is. */
 static const char *path_of(write_results *w, const char *form)
 {
-    char name[300];
+    const int n = snprintf(w->path, sizeof w->path, "%s/", w->folder);
 
-    snprintf(name, sizeof name, form, w->step);
-    snprintf(w->path, sizeof w->path, "%s/%s", w->folder, name);
+    snprintf(w->path + n, sizeof w->path - (size_t)n, form, w->step);
     return w->path;
 }
 
@@ -602,9 +601,8 @@ static int open_folder(write_results *w)
 
 int write_check(write_results *w)
 {
-    if (!open_folder(w))
-        return 0;
-    draw_now(w, "model.svg");
+    if (open_folder(w))
+        draw_now(w, "model.svg");
     return leave_folder(w);
 }
 
