@@ -46,11 +46,9 @@ static int read_node(model_reader *r)
 static const char *next_path(model_reader *r)
 {
     const char *word = model_word(r), *slash = strrchr(r->whole.file, '/');
+    const int folder = slash && word && *word != '/' ? (int)(slash + 1 - r->whole.file) : 0;
 
-    if (!word)
-        return NULL;
-    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->whole.file) : 0;
-    return model_print(r, "%.*s%s", folder, r->whole.file, word);
+    return word ? model_print(r, "%.*s%s", folder, r->whole.file, word) : NULL;
 }
 
 static int read_mesh(model_reader *r)
