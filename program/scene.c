@@ -200,20 +200,6 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
     return finite;
 }
 
-static void put_contact_forces(scene_frame *f, const bbm_model *m)
-{
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k];
-        const bbm_edge *corner = &m->edge[c->corner];
-        double force[2];
-        field_contact_force(m, c, c->N, c->T, force);
-        if (c->state != BBM_OPEN)
-            f->force[f->forces++] = (scene_force){ f->at[corner->a], { force[0], force[1] }, c->N,
-                                                   c->N < 0 ? PULLED : (int)c->state,
-                                                   { corner->block, m->edge[c->edge].block } };
-    }
-}
-
 void scene_record(scene *s, const bbm_model *m)
 {
     scene_frame f = { .time = m->info.t, .call = s->calls++ };
@@ -228,8 +214,16 @@ void scene_record(scene *s, const bbm_model *m)
         drop_frame(&f);
         return;
     }
-    if (!s->field)
-        put_contact_forces(&f, m);
+    for (int k = 0; k < m->contacts && !s->field; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const bbm_edge *corner = &m->edge[c->corner];
+        double force[2];
+        field_contact_force(m, c, c->N, c->T, force);
+        if (c->state != BBM_OPEN)
+            f.force[f.forces++] = (scene_force){ f.at[corner->a], { force[0], force[1] }, c->N,
+                                                 c->N < 0 ? PULLED : (int)c->state,
+                                                 { corner->block, m->edge[c->edge].block } };
+    }
     thin_out(s);
     s->frame[s->frames++] = f;
 }
@@ -1080,29 +1074,16 @@ static int clip(const sample in[], int n, double level, double sign, sample out[
     return count;
 }
 
-/* The share of one triangle in the band from level[0] to level[1]. */
-static void put_share(film *f, const sample triangle[3], const double level[2])
-{
-    const double a = triangle[0].value, b = triangle[1].value, c = triangle[2].value;
-    sample above[4], band[5];
-
-    if (fmax(a, fmax(b, c)) < level[0] || fmin(a, fmin(b, c)) >= level[1])
-        return;
-    const int n = clip(above, clip(triangle, 3, level[0], 1, above), level[1], -1, band);
-    for (int i = 0; i < n && n >= 3; i++)
-        plot_point(&f->p, i ? " " : "M", band[i].x, band[i].y);
-    plot_put(&f->p, n >= 3 ? "z\n" : "");
-}
-
 static sample sample_of(const film *f, int frame, int v)
 {
     return (sample){ at(f, 1, v).x, at(f, 1, v).y, f->s->frame[frame].value[v] };
 }
 
-static void put_element_share(film *f, int frame, const bbm_element *e, const double level[2])
+/* The share of an element, triangle by triangle, in the band from level[0] to level[1]. */
+static void put_share(film *f, int frame, const bbm_element *e, const double level[2])
 {
     const int parts = e->n == 3 ? 1 : e->n, end = e->first + e->n;
-    sample t[3] = { { 0, 0, 0 } };
+    sample t[3] = { { 0, 0, 0 } }, above[4], band[5];
 
     for (int v = end - parts; v < end; v++) {           /* the mean point, or the third */
         const sample a = sample_of(f, frame, v);
@@ -1111,7 +1092,13 @@ static void put_element_share(film *f, int frame, const bbm_element *e, const do
     for (int v = e->first; v < e->first + parts; v++) {
         t[0] = sample_of(f, frame, v);
         t[1] = sample_of(f, frame, bbm_next_vertex(e, v));
-        put_share(f, t, level);
+        const double a = t[0].value, b = t[1].value, c = t[2].value;
+        if (fmax(a, fmax(b, c)) < level[0] || fmin(a, fmin(b, c)) >= level[1])
+            continue;
+        const int n = clip(above, clip(t, 3, level[0], 1, above), level[1], -1, band);
+        for (int i = 0; i < n && n >= 3; i++)
+            plot_point(&f->p, i ? " " : "M", band[i].x, band[i].y);
+        plot_put(&f->p, n >= 3 ? "z\n" : "");
     }
 }
 
@@ -1129,7 +1116,7 @@ static void draw_bands(film *f, int frame)
                  fill.text, fill.text);
         for (const bbm_element *e = f->m->element; e < f->m->element + f->m->elements; e++)
             if (!f->body[e->block].held)
-                put_element_share(f, frame, e, level);
+                put_share(f, frame, e, level);
         plot_put(&f->p, "\"/>\n");
     }
 }
