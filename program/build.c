@@ -826,8 +826,8 @@ static int blame_free(model_reader *r)
                       r->p->block[m->element[loose].block], near);
 }
 
-/* The supports of a block that is held at all its nodes hold what is bonded to it as well. What takes
- * part in the steps is hooked in; statics must be held. */
+/* The supports of a block that is held at all its nodes hold what is bonded to it as well. What
+ * takes part in the steps is hooked in; statics must be held. */
 int model_finish(model_reader *r)
 {
     const bbm_model *m = r->p->m;

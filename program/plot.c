@@ -301,8 +301,8 @@ void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 
 static int is_shown(const plot_series *s, int i) { return isfinite(s->x[i]) && isfinite(s->y[i]); }
 
-/* A series without values, or a band that is much higher than what it holds, leaves the axes as those
- * before it made them. */
+/* A series without values, or a band that is much higher than what it holds, leaves the axes as
+ * those before it made them. */
 static void chart_axes(plot *p, plot_box box, const plot_chart *c)
 {
     double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };

@@ -895,9 +895,9 @@ static int find_colours(film *f)
     return 1;
 }
 
-/* Opens a page for a panel and, below it, the colours of a field; draws title, legend and axes. What
- * follows until end_panel is cut off at the panel. Lines have no round ends: a block that is gone
- * is one point, which would be a dot. */
+/* Opens a page for a panel and, below it, the colours of a field; draws title, legend and axes.
+ * What follows until end_panel is cut off at the panel. Lines have no round ends: a block that is
+ * gone is one point, which would be a dot. */
 static int open_page(film *f, const char *path)
 {
     if (!begin_film(f) || (f->s->field && !find_colours(f)))
@@ -959,19 +959,6 @@ static void draw_state(film *f, int frame)
               is_timed(f) ? time : NULL);
 }
 
-/* A group that is visible from half an interval before its frame to half an interval behind it, the
- * last one to the end; at first the first. */
-static void begin_turn(film *f, int frame)
-{
-    const int last = f->s->frames - 1, intervals = value_count(f) - 1;
-
-    plot_put(&f->p, "<g%s><animate attributeName=\"visibility\" calcMode=\"discrete\" "
-             "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
-             "keyTimes=\"0;%.5f;%.5f\"/>\n",
-             frame ? " visibility=\"hidden\"" : "", f->seconds, fmax(0, (frame - 0.5) / intervals),
-             frame == last ? 1 : (frame + 0.5) / intervals);
-}
-
 /* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
  * first and the last, the bar goes to where it is pressed and follows the pointer, and the film
  * fills the window. Where scripts do not run, it plays. */
@@ -995,9 +982,12 @@ static void put_script(film *f)
              "    if (to !== undefined) go(to), e.preventDefault();\n};\n</script>\n");
 }
 
+/* The state of a frame is a group that is visible from half an interval before it to half an
+ * interval behind it, the last one to the end; at first the first. */
 int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 {
     film f = { .s = s, .m = m };
+    const int intervals = value_count(&f) - 1;
 
     if (s->frames > 1)
         f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
@@ -1007,7 +997,11 @@ int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
         end_panel(&f);
         draw_colours(&f);
         for (int k = 0; k < s->frames && f.seconds > 0; k++) {
-            begin_turn(&f, k);
+            plot_put(&f.p, "<g%s><animate attributeName=\"visibility\" calcMode=\"discrete\" "
+                     "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
+                     "keyTimes=\"0;%.5f;%.5f\"/>\n", k ? " visibility=\"hidden\"" : "",
+                     f.seconds, fmax(0, (k - 0.5) / intervals),
+                     k == s->frames - 1 ? 1 : (k + 0.5) / intervals);
             draw_state(&f, k);
             plot_put(&f.p, "</g>\n");
         }
@@ -1132,23 +1126,6 @@ static void draw_lines(film *f, int frame, const char *stroke, writer *put)
 
 /* Below all the boundaries where they were; bands, the lines of the mesh, the boundaries where they
  * are. */
-static int draw_map(film *f, const char *path)
-{
-    if (!open_page(f, path))
-        return 0;
-    draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
-    if (has_colours(f->s->field))
-        draw_bands(f, 1);
-    draw_blocks(f, 1, 0);
-    draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
-               put_elements);
-    draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
-    end_panel(f);
-    draw_state(f, 1);
-    draw_colours(f);
-    return plot_close(&f->p);
-}
-
 int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
 {
     scene_frame state[2] = { { .time = m->info.t }, { .time = m->info.t } };
@@ -1168,7 +1145,20 @@ int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
         s.scale = s.scale == 0 && done ? find_scale(&s, m) : fmax(0, s.scale);
         fill_frame(&state[1], m, shown, nodal, (double[]){ 1, s.scale });
         state[0].lines = 0;                     /* an outline: nothing presses on it */
-        done = done && draw_map(&f, path);
+        done = done && open_page(&f, path);
+    }
+    if (done) {
+        draw_lines(&f, 0, "stroke=\"#666666\"", put_outline);
+        if (nodal)
+            draw_bands(&f, 1);
+        draw_blocks(&f, 1, 0);
+        draw_lines(&f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
+                   put_elements);
+        draw_lines(&f, 1, "stroke=\"#000000\"", put_outline);
+        end_panel(&f);
+        draw_state(&f, 1);
+        draw_colours(&f);
+        done = plot_close(&f.p);
     }
     end_film(&f);
     drop_frame(&state[0]);
