@@ -468,29 +468,22 @@ int model_fix(model_reader *r)
            || model_blame(r, "nothing is fixed there in that direction, expected a support");
 }
 
-/* The number of vertices at a library node. */
-static int adjacent(const bbm_model *m, int node)
-{
-    return m->adjacent_first[node + 1] - m->adjacent_first[node];
-}
-
 /* Each node of the file has the same share, and of that each element there. */
 int model_load_nodes(model_reader *r)
 {
     bbm_model *m = r->p->m;
+    const int *n = r->chosen_node, *first = m->adjacent_first;
     double f[2];
 
     if (!where(r, 0) || !model_numbers(r, 2, f))
         return 0;
     for (int k = 0, end; k < r->chosen; k = end) {
         int all = 0;
-        for (end = k;
-             end < r->chosen && r->p->node[r->chosen_node[end]] == r->p->node[r->chosen_node[k]];
-             end++)
-            all += adjacent(m, r->chosen_node[end]);
+        for (end = k; end < r->chosen && r->p->node[n[end]] == r->p->node[n[k]]; end++)
+            all += first[n[end] + 1] - first[n[end]];
         for (int c = k; c < end; c++) {
-            const double share = (double)adjacent(m, r->chosen_node[c]) / all / r->file_nodes;
-            bbm_add_load(m, r->chosen_node[c], share * f[0], share * f[1]);
+            const double share = (double)(first[n[c] + 1] - first[n[c]]) / all / r->file_nodes;
+            bbm_add_load(m, n[c], share * f[0], share * f[1]);
         }
     }
     return m->status ? model_blame(r, "loads too large to add up, expected finite ones") : 1;
@@ -834,8 +827,9 @@ static int blame_free(model_reader *r)
                       r->p->block[m->element[loose].block], near);
 }
 
-/* The supports of a block that is held at all its nodes hold what is bonded to it as well. */
-static int check_cracks(model_reader *r)
+/* The supports of a block that is held at all its nodes hold what is bonded to it as well. What
+ * takes part in the steps is hooked in; statics must be held. */
+int model_finish(model_reader *r)
 {
     const bbm_model *m = r->p->m;
 
@@ -846,19 +840,9 @@ static int check_cracks(model_reader *r)
                               "one of which is held at the nodes of both, expected supports at "
                               "other nodes", r->p->block[i->block], r->p->block[j->block]);
     }
-    return 1;
-}
-
-/* What takes part in the steps is hooked in; statics must be held. */
-int model_finish(model_reader *r)
-{
-    model *p = r->p;
-    const int fits = check_cracks(r) && model_hook(r);
-    const bbm_status status = !fits || p->dynamic ? BBM_OK : bbm_begin_statics(p->m);
-
+    const int hooked = model_hook(r);
+    const bbm_status status = !hooked || r->p->dynamic ? BBM_OK : bbm_begin_statics(r->p->m);
     if (status == BBM_FREE_TO_MOVE)
         return blame_free(r);
-    if (status)
-        return model_refused(r, status);
-    return !p->status;
+    return status ? model_refused(r, status) : hooked;
 }

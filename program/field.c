@@ -105,8 +105,7 @@ static void fit_stress(const bbm_model *m, int node, int block, double s[3])
         s[k] = G[0][3 + k] / G[0][0];
 }
 
-/* All that field_of_node knows; with `fits` the plane fit, else the stress in its place. */
-static void list_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS])
+void field_all_of_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS])
 {
     const int first = m->adjacent_first[node], end = m->adjacent_first[node + 1];
     double motion[4] = { 0 };
@@ -125,16 +124,11 @@ static void list_node(const bbm_model *m, int node, int block, int fits, double 
     list_values(&r, motion, fit, all);
 }
 
-void field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS])
-{
-    list_node(m, node, block, 1, all);
-}
-
 double field_of_node(const field *f, const bbm_model *m, int node, int block)
 {
     double all[FIELD_ROWS];
 
-    list_node(m, node, block, f->files == FIELD_NODES, all);
+    field_all_of_node(m, node, block, f->files == FIELD_NODES, all);
     return all[f - field_table];
 }
 

@@ -38,7 +38,8 @@ const field *field_find(const char *name);                      /* NULL: there i
 double field_of_element(const field *f, const bbm_model *m, int element);
 /* That of the mean displacement, stress and motion of the elements of a block that meet there. */
 double field_of_node(const field *f, const bbm_model *m, int node, int block);    /* -1: all */
-void   field_all_of_node(const bbm_model *m, int node, int block, double all[FIELD_ROWS]);
+/* All values of the table; `fits`: with the plane fit, which takes time; else stress for it. */
+void   field_all_of_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS]);
 
 /* The force of a contact that carries N and T on the corner's block, as a vector. */
 void field_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2]);

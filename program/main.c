@@ -393,22 +393,16 @@ static int read_and_run(const arguments *a, clock_t start)
 
 /* A stream that is closed (2>&-) leaves its number to the next file, a table: an empty file takes
  * it, which cannot be written. */
-static void fill_streams(void)
+int main(int argc, char *argv[])
 {
+    const clock_t start = clock();
     FILE *f = fopen("/dev/null", "r");
+    arguments a;
 
     while (f && fileno(f) < 3)
         f = fopen("/dev/null", "r");
     if (f)
         fclose(f);
-}
-
-int main(int argc, char *argv[])
-{
-    const clock_t start = clock();
-    arguments a;
-
-    fill_streams();
 #ifdef SIGXFSZ
     signal(SIGPIPE, SIG_IGN);     /* a pipe or a disk that takes no more is an error like another */
     signal(SIGXFSZ, SIG_IGN);

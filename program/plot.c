@@ -264,12 +264,16 @@ static void draw_ticks(plot *p, const plot_axis *a, plot_box b, int upright, int
         }
 }
 
-/* Grid or tick strokes, frame and labels around box b. */
+/* The axes get their place around box b: grid or tick strokes, frame and labels. */
 static void draw_axes(plot *p, plot_box b, int grid)
 {
     const double x = b.x - 22 - widest_tick(&p->y), y = b.y + b.h / 2;
     char turned[120];
 
+    p->x.from = b.x;
+    p->x.to = b.x + b.w;
+    p->y.from = b.y + b.h;
+    p->y.to = b.y;
     spread_ticks(&p->x);
     draw_ticks(p, &p->x, b, 0, grid);
     draw_ticks(p, &p->y, b, 1, grid);
@@ -278,14 +282,6 @@ static void draw_axes(plot *p, plot_box b, int grid)
     snprintf(turned, sizeof turned, "text-anchor=\"middle\" transform=\"rotate(-90 %.2f %.2f)\"",
              x, y);
     plot_text(p, x, y, turned, p->y.label);
-}
-
-static void place_axes(plot *p, plot_box b)
-{
-    p->x.from = b.x;
-    p->x.to = b.x + b.w;
-    p->y.from = b.y + b.h;
-    p->y.to = b.y;
 }
 
 /* The unit is that of the larger extent, not of the distance from the origin. */
@@ -298,7 +294,6 @@ void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
         scale_axis(a, &q[k], k ? y : x, fmax(x[1] - x[0], y[1] - y[0]));
         a->step = plot_nice((x[1] - x[0]) * a->scale * 60 / b.w);
     }
-    place_axes(p, b);
     draw_axes(p, b, 0);
 }
 
@@ -306,15 +301,8 @@ void plot_draw_frame(plot *p, plot_box b, const double x[2], const double y[2])
 
 static int is_shown(const plot_series *s, int i) { return isfinite(s->x[i]) && isfinite(s->y[i]); }
 
-/* Whether a series, of a range of y, leaves the axes as those before it made them. */
-static int is_left_out(const plot_series *s, const double own[2], const double before[2])
-{
-    const double height = own[1] - own[0], inside = before[1] - before[0];
-
-    return height < 0 || (s->style == PLOT_BAND && own[0] <= before[0] && own[1] >= before[1]
-                          && inside < height / HIGHER && inside > height * FLAT);
-}
-
+/* A series without values, or a band that is much higher than what it holds, leaves the axes as
+ * those before it made them. */
 static void chart_axes(plot *p, plot_box box, const plot_chart *c)
 {
     double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
@@ -324,7 +312,11 @@ static void chart_axes(plot *p, plot_box box, const plot_chart *c)
         for (int i = 0; i < s->n; i++)
             if (!isinf(s->x[i]) && !isinf(s->y[i]))     /* of a gap, x */
                 plot_widen(own, s->x[i], s->y[i]);
-        for (int k = 0, out = is_left_out(s, own[1], range[1]); k < 2 && !out; k++)
+        const double height = own[1][1] - own[1][0], inside = range[1][1] - range[1][0];
+        const int out = height < 0 || (s->style == PLOT_BAND && inside < height / HIGHER
+                                       && inside > height * FLAT && own[1][0] <= range[1][0]
+                                       && own[1][1] >= range[1][1]);
+        for (int k = 0; k < 2 && !out; k++)
             plot_widen(range, own[0][k], own[1][k]);
     }
     p->x = make_axis(&c->x, range[0], fmax(2, box.w / 90));
@@ -396,7 +388,6 @@ void plot_draw_chart(plot *p, plot_box box, const plot_chart *c)
     const double left = 40 + widest_tick(&p->y), top = c->title ? 40 : 16;
     plot_box b = { box.x + left, box.y + top, box.w - left - 24, 0 };
     b.h = box.h - top - 60 - PLOT_ROW * draw_legend(&(plot){ 0 }, (plot_legend){ .room = b.w }, c);
-    place_axes(p, b);
     draw_axes(p, b, 1);
     plot_title(p, b.x + b.w / 2, b.y - 14, c->title);
     for (int k = 0; k < c->count; k++) {
@@ -455,17 +446,9 @@ plot_colour plot_value_colour(const plot_axis *bar, double value)
     return result;
 }
 
-/* An arrow at the end of a bar, in the colour of its last band: there are values beyond. */
-static void put_beyond(plot *p, plot_box b, double side, const char *colour)
-{
-    const double x = side < 0 ? b.x : b.x + b.w;
-
-    plot_put(p, "<polygon class=\"beyond\" points=\"%.2f,%.2f %.2f,%.2f %.2f,%.2f\" fill=\"%s\" "
-             "stroke=\"#333333\"/>\n", x, b.y, x + side * b.h, b.y + b.h / 2, x, b.y + b.h, colour);
-}
-
-/* The bands side by side, an arrow where values lie beyond them, their levels as far as there is
- * room, below them what they measure and the extremes, to about a hundredth of a band. */
+/* The bands side by side, an arrow in the colour of the last one where values lie beyond it, their
+ * levels as far as there is room, below them what they measure and the extremes, to about a
+ * hundredth of a band. */
 void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range[2])
 {
     const int bands = plot_bands(bar);
@@ -480,9 +463,12 @@ void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range
         plot_rectangle(p, (plot_box){ b.x + k * w, b.y, w + (k < bands - 1), b.h }, text);
     }
     for (int k = 0; k < 2; k++) {
-        const double value = range[k] * bar->scale;
+        const double value = range[k] * bar->scale, x = k ? b.x + b.w : b.x;
         if (k ? value > bar->hi + 1e-6 * bar->step : value < bar->lo)
-            put_beyond(p, b, 2 * k - 1, plot_value_colour(bar, range[k]).text);
+            plot_put(p, "<polygon class=\"beyond\" points=\"%.2f,%.2f %.2f,%.2f %.2f,%.2f\" "
+                     "fill=\"%s\" stroke=\"#333333\"/>\n", x, b.y, k ? x + b.h : x - b.h,
+                     b.y + b.h / 2, x, b.y + b.h, plot_value_colour(bar, range[k]).text);
+        number_text(end[k], sizeof end[k], floor(value / unit + 0.5) * unit, unit);
     }
     plot_rectangle(p, b, "fill=\"none\" stroke=\"#333333\"");
     levels.from = b.x;
@@ -490,8 +476,6 @@ void plot_draw_bar(plot *p, plot_box b, const plot_axis *bar, const double range
     spread_ticks(&levels);
     for (int i = 0; next_tick(&levels, &i, &at, text); )
         plot_text(p, at, b.y + b.h + 18, "text-anchor=\"middle\"", text);
-    for (int k = 0; k < 2; k++)
-        number_text(end[k], sizeof end[k], floor(range[k] * bar->scale / unit + 0.5) * unit, unit);
     snprintf(whole, sizeof whole, "%s, from %s to %s", bar->label, end[0], end[1]);
     plot_text(p, b.x + b.w / 2, b.y + b.h + 40, "text-anchor=\"middle\"", whole);
 }

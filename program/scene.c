@@ -77,7 +77,8 @@ typedef struct {                        /* a block                              
 typedef struct {                        /* what the functions below draw with                     */
     plot         p;
     int          thrust;                /* it is drawn                                            */
-    double       left, top, over, w, h; /* of the panel, pixels; over: above its frame            */
+    plot_box     panel;                 /* pixels                                                 */
+    double       over, w, h;            /* around it too; over: above it                          */
     const scene *s;
     const bbm_model *m;
     int          bodies, held, whole;   /* whether any is held; is free, of one element           */
@@ -199,20 +200,6 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
     return finite;
 }
 
-static void put_contact_forces(scene_frame *f, const bbm_model *m)
-{
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k];
-        const bbm_edge *corner = &m->edge[c->corner];
-        double force[2];
-        field_contact_force(m, c, c->N, c->T, force);
-        if (c->state != BBM_OPEN)
-            f->force[f->forces++] = (scene_force){ f->at[corner->a], { force[0], force[1] }, c->N,
-                                                   c->N < 0 ? PULLED : (int)c->state,
-                                                   { corner->block, m->edge[c->edge].block } };
-    }
-}
-
 void scene_record(scene *s, const bbm_model *m)
 {
     scene_frame f = { .time = m->info.t, .call = s->calls++ };
@@ -227,8 +214,16 @@ void scene_record(scene *s, const bbm_model *m)
         drop_frame(&f);
         return;
     }
-    if (!s->field)
-        put_contact_forces(&f, m);
+    for (int k = 0; k < m->contacts && !s->field; k++) {
+        const bbm_contact *c = &m->contact[k];
+        const bbm_edge *corner = &m->edge[c->corner];
+        double force[2];
+        field_contact_force(m, c, c->N, c->T, force);
+        if (c->state != BBM_OPEN)
+            f.force[f.forces++] = (scene_force){ f.at[corner->a], { force[0], force[1] }, c->N,
+                                                 c->N < 0 ? PULLED : (int)c->state,
+                                                 { corner->block, m->edge[c->edge].block } };
+    }
     thin_out(s);
     s->frame[s->frames++] = f;
 }
@@ -900,18 +895,21 @@ static int find_colours(film *f)
     return 1;
 }
 
-/* Opens a page for a panel and, below it, the colours of a field; draws title and legend. */
+/* Opens a page for a panel and, below it, the colours of a field; draws title, legend and axes.
+ * What follows until end_panel is cut off at the panel. Lines have no round ends: a block that is
+ * gone is one point, which would be a dot. */
 static int open_page(film *f, const char *path)
 {
-    if (f->s->field && !find_colours(f))
+    if (!begin_film(f) || (f->s->field && !find_colours(f)))
         return 0;
-    f->top = f->s->title ? 36 : 0;
+    const double top = f->s->title ? 36 : 0;
     f->over = is_timed(f) ? OVER : 14;
     measure(f);
     const double width = fmax(f->w, 1.3 * plot_text_width(f->s->title) + MARGIN);
-    const double bottom = f->top + f->h + (has_colours(f->s->field) ? BAR : 0);
+    const double bottom = top + f->h + (has_colours(f->s->field) ? BAR : 0);
     const int rows = draw_legend(f, 0, 0, width - 2 * MARGIN);
-    f->left = (width - f->w) / 2;
+    f->panel = (plot_box){ (width - f->w) / 2 + LEFT, top + f->over, f->w - LEFT - RIGHT,
+                           f->h - f->over - UNDER };
     plot_open(&f->p, path, width, bottom + PLOT_ROW * rows + 8);
     plot_put(&f->p, "<defs><pattern id=\"held\" width=\"7\" height=\"7\" "
              "patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
@@ -925,40 +923,30 @@ static int open_page(film *f, const char *path)
     plot_put(&f->p, "</defs>\n");
     plot_title(&f->p, width / 2, 28, f->s->title);
     draw_legend(f, MARGIN, bottom + PLOT_ROW / 2.0, width - 2 * MARGIN);
+    plot_draw_frame(&f->p, f->panel, f->window[0], f->window[1]);
+    plot_put(&f->p, "<clipPath id=\"panel0\">");
+    plot_rectangle(&f->p, f->panel, "");
+    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel0)\" stroke-linejoin=\"round\">\n");
     return 1;
 }
 
-/* The frame of a panel with its axes; what follows until end_panel is cut off at it. Lines have no
- * round ends: a block that is gone is one point, which would be a dot. */
-static plot_box begin_panel(film *f)
-{
-    const plot_box b = { f->left + LEFT, f->top + f->over, f->w - LEFT - RIGHT,
-                         f->h - f->over - UNDER };
-
-    plot_draw_frame(&f->p, b, f->window[0], f->window[1]);
-    plot_put(&f->p, "<clipPath id=\"panel0\">");
-    plot_rectangle(&f->p, b, "");
-    plot_put(&f->p, "</clipPath>\n<g clip-path=\"url(#panel0)\" stroke-linejoin=\"round\">\n");
-    return b;
-}
-
-static void end_panel(film *f, plot_box b)
+static void end_panel(film *f)
 {
     plot_put(&f->p, "</g>\n");
-    plot_rectangle(&f->p, b, "fill=\"none\" stroke=\"#333333\"");
+    plot_rectangle(&f->p, f->panel, "fill=\"none\" stroke=\"#333333\"");
 }
 
-/* Below the panel, b, over its width. */
-static void draw_colours(film *f, plot_box b)
+/* Below the panel, over its width. */
+static void draw_colours(film *f)
 {
-    const plot_box bar = { f->left + LEFT, b.y + b.h + UNDER + 4, b.x + b.w - f->left - LEFT, 16 };
+    const plot_box b = f->panel, bar = { b.x, b.y + b.h + UNDER + 4, b.w, 16 };
 
     if (has_colours(f->s->field))
         plot_draw_bar(&f->p, bar, &f->bar, f->range);
 }
 
 /* What stands over the blocks of a panel; the time begins at the same place in each frame. */
-static void draw_state(film *f, plot_box b, int frame)
+static void draw_state(film *f, int frame)
 {
     char time[60];
 
@@ -967,20 +955,8 @@ static void draw_state(film *f, plot_box b, int frame)
     if (f->thrust)
         draw_thrust(f, frame);
     snprintf(time, sizeof time, "t = %.6g s", f->s->frame[frame].time);
-    plot_text(&f->p, b.x + b.w / 2 - 32, b.y - 12, "", is_timed(f) ? time : NULL);
-}
-
-/* A group that is visible from half an interval before its frame to half an interval behind it, the
- * last one to the end; at first the first. */
-static void begin_turn(film *f, int frame)
-{
-    const int last = f->s->frames - 1, intervals = value_count(f) - 1;
-
-    plot_put(&f->p, "<g%s><animate attributeName=\"visibility\" calcMode=\"discrete\" "
-             "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
-             "keyTimes=\"0;%.5f;%.5f\"/>\n",
-             frame ? " visibility=\"hidden\"" : "", f->seconds, fmax(0, (frame - 0.5) / intervals),
-             frame == last ? 1 : (frame + 0.5) / intervals);
+    plot_text(&f->p, f->panel.x + f->panel.w / 2 - 32, f->panel.y - 12, "",
+              is_timed(f) ? time : NULL);
 }
 
 /* A click or the space bar stops and plays, the arrow keys step by a frame, Home and End go to the
@@ -1006,27 +982,33 @@ static void put_script(film *f)
              "    if (to !== undefined) go(to), e.preventDefault();\n};\n</script>\n");
 }
 
+/* The state of a frame is a group that is visible from half an interval before it to half an
+ * interval behind it, the last one to the end; at first the first. */
 int scene_write_movie(const scene *s, const bbm_model *m, const char *path)
 {
     film f = { .s = s, .m = m };
+    const int intervals = value_count(&f) - 1;
 
     if (s->frames > 1)
         f.seconds = fmin(fmax(s->frame[s->frames - 1].time - s->frame[0].time, 6), 12);
-    int done = begin_film(&f) && open_page(&f, path);
+    int done = open_page(&f, path);
     if (done) {
-        const plot_box b = begin_panel(&f);
         draw_blocks(&f, 0, 1);
-        end_panel(&f, b);
-        draw_colours(&f, b);
+        end_panel(&f);
+        draw_colours(&f);
         for (int k = 0; k < s->frames && f.seconds > 0; k++) {
-            begin_turn(&f, k);
-            draw_state(&f, b, k);
+            plot_put(&f.p, "<g%s><animate attributeName=\"visibility\" calcMode=\"discrete\" "
+                     "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"hidden;visible;hidden\" "
+                     "keyTimes=\"0;%.5f;%.5f\"/>\n", k ? " visibility=\"hidden\"" : "",
+                     f.seconds, fmax(0, (k - 0.5) / intervals),
+                     k == s->frames - 1 ? 1 : (k + 0.5) / intervals);
+            draw_state(&f, k);
             plot_put(&f.p, "</g>\n");
         }
         if (f.seconds > 0)
             put_script(&f);
         else
-            draw_state(&f, b, 0);
+            draw_state(&f, 0);
         done = plot_close(&f.p);
     }
     end_film(&f);
@@ -1086,29 +1068,16 @@ static int clip(const sample in[], int n, double level, double sign, sample out[
     return count;
 }
 
-/* The share of one triangle in the band from level[0] to level[1]. */
-static void put_share(film *f, const sample triangle[3], const double level[2])
-{
-    const double a = triangle[0].value, b = triangle[1].value, c = triangle[2].value;
-    sample above[4], band[5];
-
-    if (fmax(a, fmax(b, c)) < level[0] || fmin(a, fmin(b, c)) >= level[1])
-        return;
-    const int n = clip(above, clip(triangle, 3, level[0], 1, above), level[1], -1, band);
-    for (int i = 0; i < n && n >= 3; i++)
-        plot_point(&f->p, i ? " " : "M", band[i].x, band[i].y);
-    plot_put(&f->p, n >= 3 ? "z\n" : "");
-}
-
 static sample sample_of(const film *f, int frame, int v)
 {
     return (sample){ at(f, 1, v).x, at(f, 1, v).y, f->s->frame[frame].value[v] };
 }
 
-static void put_element_share(film *f, int frame, const bbm_element *e, const double level[2])
+/* The share of an element, triangle by triangle, in the band from level[0] to level[1]. */
+static void put_share(film *f, int frame, const bbm_element *e, const double level[2])
 {
     const int parts = e->n == 3 ? 1 : e->n, end = e->first + e->n;
-    sample t[3] = { { 0, 0, 0 } };
+    sample t[3] = { { 0, 0, 0 } }, above[4], band[5];
 
     for (int v = end - parts; v < end; v++) {           /* the mean point, or the third */
         const sample a = sample_of(f, frame, v);
@@ -1117,7 +1086,13 @@ static void put_element_share(film *f, int frame, const bbm_element *e, const do
     for (int v = e->first; v < e->first + parts; v++) {
         t[0] = sample_of(f, frame, v);
         t[1] = sample_of(f, frame, bbm_next_vertex(e, v));
-        put_share(f, t, level);
+        const double a = t[0].value, b = t[1].value, c = t[2].value;
+        if (fmax(a, fmax(b, c)) < level[0] || fmin(a, fmin(b, c)) >= level[1])
+            continue;
+        const int n = clip(above, clip(t, 3, level[0], 1, above), level[1], -1, band);
+        for (int i = 0; i < n && n >= 3; i++)
+            plot_point(&f->p, i ? " " : "M", band[i].x, band[i].y);
+        plot_put(&f->p, n >= 3 ? "z\n" : "");
     }
 }
 
@@ -1135,7 +1110,7 @@ static void draw_bands(film *f, int frame)
                  fill.text, fill.text);
         for (const bbm_element *e = f->m->element; e < f->m->element + f->m->elements; e++)
             if (!f->body[e->block].held)
-                put_element_share(f, frame, e, level);
+                put_share(f, frame, e, level);
         plot_put(&f->p, "\"/>\n");
     }
 }
@@ -1151,24 +1126,6 @@ static void draw_lines(film *f, int frame, const char *stroke, writer *put)
 
 /* Below all the boundaries where they were; bands, the lines of the mesh, the boundaries where they
  * are. */
-static int draw_map(film *f, const char *path)
-{
-    if (!begin_film(f) || !open_page(f, path))
-        return 0;
-    const plot_box b = begin_panel(f);
-    draw_lines(f, 0, "stroke=\"#666666\"", put_outline);
-    if (has_colours(f->s->field))
-        draw_bands(f, 1);
-    draw_blocks(f, 1, 0);
-    draw_lines(f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
-               put_elements);
-    draw_lines(f, 1, "stroke=\"#000000\"", put_outline);
-    end_panel(f, b);
-    draw_state(f, b, 1);
-    draw_colours(f, b);
-    return plot_close(&f->p);
-}
-
 int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
 {
     scene_frame state[2] = { { .time = m->info.t }, { .time = m->info.t } };
@@ -1188,7 +1145,20 @@ int scene_write_map(const scene *choices, const bbm_model *m, const char *path)
         s.scale = s.scale == 0 && done ? find_scale(&s, m) : fmax(0, s.scale);
         fill_frame(&state[1], m, shown, nodal, (double[]){ 1, s.scale });
         state[0].lines = 0;                     /* an outline: nothing presses on it */
-        done = done && draw_map(&f, path);
+        done = done && open_page(&f, path);
+    }
+    if (done) {
+        draw_lines(&f, 0, "stroke=\"#666666\"", put_outline);
+        if (nodal)
+            draw_bands(&f, 1);
+        draw_blocks(&f, 1, 0);
+        draw_lines(&f, 1, "stroke=\"#000000\" stroke-width=\"0.4\" stroke-opacity=\"0.45\"",
+                   put_elements);
+        draw_lines(&f, 1, "stroke=\"#000000\"", put_outline);
+        end_panel(&f);
+        draw_state(&f, 1);
+        draw_colours(&f);
+        done = plot_close(&f.p);
     }
     end_film(&f);
     drop_frame(&state[0]);

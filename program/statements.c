@@ -46,11 +46,9 @@ static int read_node(model_reader *r)
 static const char *next_path(model_reader *r)
 {
     const char *word = model_word(r), *slash = strrchr(r->whole.file, '/');
+    const int folder = slash && word && *word != '/' ? (int)(slash + 1 - r->whole.file) : 0;
 
-    if (!word)
-        return NULL;
-    const int folder = slash && word[0] != '/' ? (int)(slash + 1 - r->whole.file) : 0;
-    return model_print(r, "%.*s%s", folder, r->whole.file, word);
+    return word ? model_print(r, "%.*s%s", folder, r->whole.file, word) : NULL;
 }
 
 static int read_mesh(model_reader *r)
@@ -598,26 +596,23 @@ static int read_phase(model_reader *r, int phase, int stage, int from)
 /* Some kinds stand in a stage, some once in it, and one of static and dynamic. */
 static int check_places(model_reader *r)
 {
-    model_place seen[LENGTH(kinds)] = { { 0 } };        /* the last of a kind; line 0: nowhere */
-    int in[LENGTH(kinds)] = { 0 };                      /* its stage */
-    const model_place *s = &seen[find_kind("static")], *d = &seen[find_kind("dynamic")];
+    const model_statement *seen[LENGTH(kinds)] = { NULL };      /* the last one of a kind */
 
     for (int k = 0; k < r->statements; k++) {
-        const model_statement *i = &r->statement[k];
+        const model_statement *i = &r->statement[k], *before = seen[i->kind];
         const int may = kinds[i->kind].may;
         if (i->stage && !(may & STAGED))
             return model_fail(r, i->at, "%s in a stage, expected load, traction, pressure, fix, "
                               "contact or gravity", i->name);
-        if (may & ONCE && seen[i->kind].line > 0 && in[i->kind] == i->stage)
+        if (may & ONCE && before && before->stage == i->stage)
             return model_fail(r, i->at, "%s for the second time, after line %d, expected it once",
-                              i->name, seen[i->kind].line);
-        seen[i->kind] = i->at;
-        in[i->kind] = i->stage;
+                              i->name, before->at.line);
+        seen[i->kind] = i;
     }
-    if (s->line && d->line)
-        return model_fail(r, s->line > d->line ? *s : *d,
-                          "static and dynamic, expected one of them");
-    return s->line || d->line
+    const model_statement *s = seen[find_kind("static")], *d = seen[find_kind("dynamic")];
+    if (s && d)
+        return model_fail(r, s > d ? s->at : d->at, "static and dynamic, expected one of them");
+    return s || d
            || model_fail(r, r->whole, "%sneither static nor dynamic, expected one of them, such "
                          "as: static, or: dynamic dt 1e-3 steps 1000",
                          r->statements ? "" : "the file has no statement, ");

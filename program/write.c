@@ -31,10 +31,9 @@ static int fail(write_results *w, const char *path, const char *why)
 /* In the folder, until the next one; form: a name, with %06d where the number of the step is. */
 static const char *path_of(write_results *w, const char *form)
 {
-    char name[300];
+    const int n = snprintf(w->path, sizeof w->path, "%s/", w->folder);
 
-    snprintf(name, sizeof name, form, w->step);
-    snprintf(w->path, sizeof w->path, "%s/%s", w->folder, name);
+    snprintf(w->path + n, sizeof w->path - (size_t)n, form, w->step);
     return w->path;
 }
 
@@ -96,7 +95,7 @@ static void put_results(FILE *f, const model *p, const bbm_model *m, int files)
         put_numbers(f, 2, nodes ? (double[]){ m->node[n].x, m->node[n].y } : p->centre[k]);
         double all[FIELD_ROWS];
         if (nodes)
-            field_all_of_node(m, n, part, all);
+            field_all_of_node(m, n, part, 1, all);
         for (const field *q = field_table; q->name; q++)
             if (q->files & files)
                 put_numbers(f, 1, nodes ? &all[q - field_table]
@@ -308,14 +307,17 @@ static void put_vtk(FILE *f, const write_results *w)
     }
 }
 
-/* The closed contacts as points, with the forces on the corner's block. */
+/* The closed contacts as points, with the forces on the corner's block. Where a stage has begun,
+ * they are not as many as in the last step. */
 static void put_vtk_contacts(FILE *f, const write_results *w)
 {
     const bbm_model *m = w->p->m;
-    const int n = m->info.contacts;
-    const bbm_contact *end = n ? m->contact + m->contacts : m->contact;
+    const bbm_contact *end = m->contact + m->contacts;
     double force[2];
+    int n = 0;
 
+    for (const bbm_contact *c = m->contact; c < end; c++)
+        n += c->state != BBM_OPEN;
     put_head(f, w, "POLYDATA", n);
     for (const bbm_contact *c = m->contact; c < end; c++)
         if (c->state != BBM_OPEN)
@@ -599,9 +601,8 @@ static int open_folder(write_results *w)
 
 int write_check(write_results *w)
 {
-    if (!open_folder(w))
-        return 0;
-    draw_now(w, "model.svg");
+    if (open_folder(w))
+        draw_now(w, "model.svg");
     return leave_folder(w);
 }
 

@@ -1397,6 +1397,17 @@ START_TEST(each_stage_is_said_when_it_begins_and_by_a_check)
 }
 END_TEST
 
+/* The contacts of what is removed end before a step that then fails: nothing holds e. */
+START_TEST(a_stage_that_fails_at_once_has_whole_files_of_contacts)
+{
+    ck_assert_int_eq(run_text("falls", COLUMN "block d rock 1.2 0 1.8 0 1.8 1 1.2 1\n"
+                              "block e rock 1.2 1 1.8 1 1.8 2 1.2 2\nstatic\noutput vtk\nstage off remove d\nend\n"), 1);
+    ck_assert_int_eq(shell("cd out/model/falls && n=$(sed -n 's/^POINT_DATA //p' contacts_000001.vtk) && "
+                           "test $n = $(sed 1d contacts.csv | wc -l) && test $n = "
+                           "$(sed '1,/^POINTS/d; /^VERTICES/,$d' contacts_000001.vtk | wc -l)"), 0);
+}
+END_TEST
+
 static const char *const bad_stages[][2] = {
     { "stage x\n", ":11: stage without its `end`" },
     { "stage x remove q\nend\n", ":11: unknown block 'q'" },
@@ -1501,6 +1512,7 @@ static void add_what_was_wrong_once(TCase *t)
     tcase_add_test(t, what_touched_nothing_goes_unnoticed);
     tcase_add_test(t, a_block_slides_from_where_it_was_when_friction_falls);
     tcase_add_test(t, each_stage_is_said_when_it_begins_and_by_a_check);
+    tcase_add_test(t, a_stage_that_fails_at_once_has_whole_files_of_contacts);
     tcase_add_loop_test(t, a_wrong_stage_is_refused_before_anything_runs, 0, COUNT(bad_stages));
 }
 
