@@ -278,14 +278,13 @@ static double turn_of(const bbm_model *m, int e)
 /* Whether the solution moves further than the detection has foreseen. */
 int bbm_moved_too_far(const bbm_model *m)
 {
-    int too_far = 0;
-
-    for (int e = 0; e < m->edges && !too_far; e++) {
+    for (int e = 0; e < m->edges; e++) {
         const int i = m->edge[e].element;
         const double turn = fmax(fabs(m->D[6 * i + 2]), fabs(turn_of(m, e)));
-        too_far = way_of(m, e) > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn;
+        if (way_of(m, e) > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn)
+            return 1;
     }
-    return too_far;
+    return 0;
 }
 
 /* How far the blocks may move: a tenth more than by the D in hand, and the depth of their contacts,
@@ -484,30 +483,24 @@ static int goes_before(const bbm_model *m, int e, int f)
     return e < f;
 }
 
-/* Whether the sides of edge c and e face each other, by more than 120 degrees. */
-static int face_each_other(const bbm_model *m, int c, int e)
-{
-    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
-
-    return m->edge[c].first != m->edge[e].first && hypot(p.x + q.x, p.y + q.y) <= 1;
-}
-
-/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
- * the shorter side do: then no point comes or goes while it slides on the longer one. Of equal
- * sides, and in statics, where nothing slides far, those of the finer side do: a coarse one would
- * not feel it between its points. At a tie those of c do if e goes before it. Deviation: with
- * `faces` = 0 corners alone touch, and a block of many elements sags between them. */
+/* Whether the grid points inside the straight side of c touch that of e, too (`faces`), where the
+ * two face each other by more than 120 degrees. Those of the shorter side do: then no point comes
+ * or goes while it slides on the longer one. Of equal sides, and in statics, where nothing slides
+ * far, those of the finer side do: a coarse one would not feel it between its points. At a tie
+ * those of c do if e goes before it. Deviation: with `faces` = 0 corners alone touch, and a block
+ * of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
+    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
 
-    if (!m->par.faces || !face_each_other(m, c, e))
+    if (!m->par.faces || mine->first == other->first || hypot(p.x + q.x, p.y + q.y) > 1)
         return 0;
     const double ratio = mine->spacing / other->spacing;
     const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
     if ((alike || bbm_is_static(m)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
-    return alike ? goes_before(m, e, c) : mine->span < other->span;
+    return goes_before(m, e, c);
 }
 
 /* The edges that may stand for one: itself, or all of its straight side. */
@@ -697,11 +690,10 @@ static void join_flush_corners(bbm_model *m)
 /* Whether another pair stands for this one. */
 static int is_duplicate(const bbm_model *m, pair p)
 {
-    int found = 0;
-
-    for (int way = 0; way < 6 && !found; way++)
-        found = gives_way(m, p, way / 3, (meeting)(way % 3));
-    return found;
+    for (int way = 0; way < 6; way++)
+        if (gives_way(m, p, way / 3, (meeting)(way % 3)))
+            return 1;
+    return 0;
 }
 
 /* Drops some of the pairs; all are judged on the full list. */
@@ -795,10 +787,10 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
         const bbm_direction in = m->edge[side_at(m, Q, 0, p.corner)].along;
         const bbm_direction out = m->edge[side_at(m, Q, 1, p.corner)].along;
-        const int meets = k % 2 == 0 ? cross(in, out) > -PARALLEL && is_corner(m, Q)
-                        : is_convex(m, Q) && !coincide(m, p.edge, other.edge);
+        const int convex = cross(in, out) > -PARALLEL;
+        const int meets = convex && (k % 2 == 0 || !coincide(m, p.edge, other.edge));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
-        c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge) || cross(in, out) > -PARALLEL;
+        c->trial.beyond_end &= convex || Q != end_near(m, p.corner, p.edge);
     }
     c->trial.has_left = has_left(m, c);
 }
