@@ -503,12 +503,9 @@ int bbm_carries(const bbm_model *m, int c, int e)
     return goes_before(m, e, c);
 }
 
-/* The edges that may stand for one: itself, or all of its straight side. */
-typedef enum { ITSELF, SIDE } family;
-
 /* The contact of the last step, closed or open inside, between `corner` and the edge, or else
- * another one of the edge's family, or NULL. */
-static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, family of)
+ * another edge of its straight side, or NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
 {
     const bbm_contact *found = NULL;
 
@@ -518,7 +515,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
             continue;
         if (c->edge == edge)
             return c;
-        if (of == SIDE && m->edge[c->edge].side == m->edge[edge].side)
+        if (m->edge[c->edge].side == m->edge[edge].side)
             found = c;
     }
     return found;
@@ -539,7 +536,7 @@ static int is_near(const bbm_model *m, int corner, int e)
         || -f.d > approach + fmax(deep, rounding_between(m, corner, e)))
         return 0;
     return f.beyond > touch_between(m, corner, e) || f.d >= -deep
-        || find_closed(m, corner, e, SIDE);
+        || find_closed(m, corner, e);
 }
 
 /* Whether fixed points hold every corner of an element. */
@@ -566,7 +563,7 @@ static int is_hidden(const bbm_model *m, pair p)
     if (bbm_is_held_all_round(m, &m->element[m->edge[p.corner].element])
         && bbm_is_held_all_round(m, &m->element[m->edge[p.edge].element]))
         return 1;
-    return !find_closed(m, p.corner, p.edge, ITSELF)
+    return !find_closed(m, p.corner, p.edge)
         && (is_covered(m, p.corner, p.edge) || !can_enter(m, p.corner, p.edge, STILL, angle));
 }
 
@@ -649,8 +646,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
         return end ? f.s >= t.length : g.s < u.length;
     const double beside = fabs(f.s - (end ? t.length : 0));
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
-    const int here = find_closed(m, p.corner, p.edge, ITSELF) != NULL;
-    const int there = find_closed(m, q.corner, q.edge, ITSELF) != NULL;
+    const int here = find_closed(m, p.corner, p.edge) != NULL;
+    const int there = find_closed(m, q.corner, q.edge) != NULL;
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
             && (here || there || most > slip_between(m, p.corner, Q, t));
@@ -717,12 +714,12 @@ static void drop_pairs(bbm_model *m, int (*is_dropped)(const bbm_model *m, pair 
  * if it is no longer in the list. */
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
-    const bbm_contact *old = find_closed(m, p.corner, p.edge, SIDE);
+    const bbm_contact *old = find_closed(m, p.corner, p.edge);
 
     for (int k = 0; k < 4 && !old; k++) {
         const pair q = meet(m, p, k / 2, k % 2 ? OTHER : FLUSH);
         if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
-            old = find_closed(m, q.corner, q.edge, ITSELF);
+            old = find_closed(m, q.corner, q.edge);
     }
     return old;
 }
