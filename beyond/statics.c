@@ -39,8 +39,8 @@
 
 /* ------------------------------------------------------------------------- what holds a body */
 
-/* G += T^T W/tr(W) T: what a gap to the wall feels of a rigid motion (u, v, r) of its body about the
- * barycentre of element o. */
+/* G += T^T W/tr(W) T: what a gap to the wall feels of a rigid motion (u, v, r) of its body about
+ * the barycentre of element o. */
 static void add_hold(const bbm_element *e, bbm_gap g, int o, double G[3][3])
 {
     const double trace = g.W[0][0] + g.W[1][1];
