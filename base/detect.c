@@ -278,14 +278,13 @@ static double turn_of(const bbm_model *m, int e)
 /* Whether the solution moves further than the detection has foreseen. */
 int bbm_moved_too_far(const bbm_model *m)
 {
-    int too_far = 0;
-
-    for (int e = 0; e < m->edges && !too_far; e++) {
+    for (int e = 0; e < m->edges; e++) {
         const int i = m->edge[e].element;
         const double turn = fmax(fabs(m->D[6 * i + 2]), fabs(turn_of(m, e)));
-        too_far = way_of(m, e) > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn;
+        if (way_of(m, e) > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn)
+            return 1;
     }
-    return too_far;
+    return 0;
 }
 
 /* How far the blocks may move: a tenth more than by the D in hand, and the depth of their contacts,
@@ -484,38 +483,29 @@ static int goes_before(const bbm_model *m, int e, int f)
     return e < f;
 }
 
-/* Whether the sides of edge c and e face each other, by more than 120 degrees. */
-static int face_each_other(const bbm_model *m, int c, int e)
-{
-    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
-
-    return m->edge[c].first != m->edge[e].first && hypot(p.x + q.x, p.y + q.y) <= 1;
-}
-
-/* Whether the grid points inside the straight side of c touch that of e, too (`faces`). Those of
- * the shorter side do: then no point comes or goes while it slides on the longer one. Of equal
- * sides, and in statics, where nothing slides far, those of the finer side do: a coarse one would
- * not feel it between its points. At a tie those of c do if e goes before it. Deviation: with
- * `faces` = 0 corners alone touch, and a block of many elements sags between them. */
+/* Whether the grid points inside the straight side of c touch that of e, too (`faces`), where the
+ * two face each other by more than 120 degrees. Those of the shorter side do: then no point comes
+ * or goes while it slides on the longer one. Of equal sides, and in statics, where nothing slides
+ * far, those of the finer side do: a coarse one would not feel it between its points. At a tie
+ * those of c do if e goes before it. Deviation: with `faces` = 0 corners alone touch, and a block
+ * of many elements sags between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
+    const bbm_direction p = m->edge[c].along, q = m->edge[e].along;
 
-    if (!m->par.faces || !face_each_other(m, c, e))
+    if (!m->par.faces || mine->first == other->first || hypot(p.x + q.x, p.y + q.y) > 1)
         return 0;
     const double ratio = mine->spacing / other->spacing;
     const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
     if ((alike || isinf(m->par.dt)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
-    return alike ? goes_before(m, e, c) : mine->span < other->span;
+    return goes_before(m, e, c);
 }
 
-/* The edges that may stand for one: itself, or all of its straight side. */
-typedef enum { ITSELF, SIDE } family;
-
 /* The contact of the last step, closed or open inside, between `corner` and the edge, or else
- * another one of the edge's family, or NULL. */
-static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, family of)
+ * another edge of its straight side, or NULL. */
+static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
 {
     const bbm_contact *found = NULL;
 
@@ -525,7 +515,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge, 
             continue;
         if (c->edge == edge)
             return c;
-        if (of == SIDE && m->edge[c->edge].side == m->edge[edge].side)
+        if (m->edge[c->edge].side == m->edge[edge].side)
             found = c;
     }
     return found;
@@ -546,7 +536,7 @@ static int is_near(const bbm_model *m, int corner, int e)
         || -f.d > approach + fmax(deep, rounding_between(m, corner, e)))
         return 0;
     return f.beyond > touch_between(m, corner, e) || f.d >= -deep
-        || find_closed(m, corner, e, SIDE);
+        || find_closed(m, corner, e);
 }
 
 /* Whether fixed points hold every corner of an element. */
@@ -573,7 +563,7 @@ static int is_hidden(const bbm_model *m, pair p)
     if (bbm_is_held_all_round(m, &m->element[m->edge[p.corner].element])
         && bbm_is_held_all_round(m, &m->element[m->edge[p.edge].element]))
         return 1;
-    return !find_closed(m, p.corner, p.edge, ITSELF)
+    return !find_closed(m, p.corner, p.edge)
         && (is_covered(m, p.corner, p.edge) || !can_enter(m, p.corner, p.edge, STILL, angle));
 }
 
@@ -656,8 +646,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
         return end ? f.s >= t.length : g.s < u.length;
     const double beside = fabs(f.s - (end ? t.length : 0));
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
-    const int here = find_closed(m, p.corner, p.edge, ITSELF) != NULL;
-    const int there = find_closed(m, q.corner, q.edge, ITSELF) != NULL;
+    const int here = find_closed(m, p.corner, p.edge) != NULL;
+    const int there = find_closed(m, q.corner, q.edge) != NULL;
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
             && (here || there || most > slip_between(m, p.corner, Q, t));
@@ -697,11 +687,10 @@ static void join_flush_corners(bbm_model *m)
 /* Whether another pair stands for this one. */
 static int is_duplicate(const bbm_model *m, pair p)
 {
-    int found = 0;
-
-    for (int way = 0; way < 6 && !found; way++)
-        found = gives_way(m, p, way / 3, (meeting)(way % 3));
-    return found;
+    for (int way = 0; way < 6; way++)
+        if (gives_way(m, p, way / 3, (meeting)(way % 3)))
+            return 1;
+    return 0;
 }
 
 /* Drops some of the pairs; all are judged on the full list. */
@@ -725,12 +714,12 @@ static void drop_pairs(bbm_model *m, int (*is_dropped)(const bbm_model *m, pair 
  * if it is no longer in the list. */
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
-    const bbm_contact *old = find_closed(m, p.corner, p.edge, SIDE);
+    const bbm_contact *old = find_closed(m, p.corner, p.edge);
 
     for (int k = 0; k < 4 && !old; k++) {
         const pair q = meet(m, p, k / 2, k % 2 ? OTHER : FLUSH);
         if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
-            old = find_closed(m, q.corner, q.edge, ITSELF);
+            old = find_closed(m, q.corner, q.edge);
     }
     return old;
 }
@@ -795,10 +784,10 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
         const bbm_direction in = m->edge[side_at(m, Q, 0, p.corner)].along;
         const bbm_direction out = m->edge[side_at(m, Q, 1, p.corner)].along;
-        const int meets = k % 2 == 0 ? cross(in, out) > -PARALLEL && is_corner(m, Q)
-                        : is_convex(m, Q) && !coincide(m, p.edge, other.edge);
+        const int convex = cross(in, out) > -PARALLEL;
+        const int meets = convex && (k % 2 == 0 || !coincide(m, p.edge, other.edge));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
-        c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge) || cross(in, out) > -PARALLEL;
+        c->trial.beyond_end &= convex || Q != end_near(m, p.corner, p.edge);
     }
     c->trial.has_left = has_left(m, c);
 }
@@ -981,8 +970,6 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
     r->d_n = g.d;
     r->rest = bbm_rest_of(m, g.d, r->N);
     r->trial.time_left = 0;                                 /* the anchor is placed anew        */
-    reach_of(m, edge)->depth = fmax(reach_of(m, edge)->depth, -g.d);
-    reach_of(m, c->corner)->depth = fmax(reach_of(m, c->corner)->depth, -g.d);
     bbm_forget(c);
 }
 
@@ -993,17 +980,17 @@ void bbm_keep_contacts(bbm_model *m)
     bbm_contact *last = m->contact;
 
     find_directions(m);
+    for (bbm_contact *c = w->contact, *first = c, *end = c + w->contacts; c < end; c++) {
+        first = first->corner == c->corner ? first : c;
+        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
+            hand_over(m, c, r);
+    }
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = 0;
     bbm_note_depths(m);
     for (int i = 0; i < m->elements; i++) {
         w->reach[i].depth = w->reach[i].depth_now;
         w->reach[i].came = w->reach[i].travel;
-    }
-    for (bbm_contact *c = w->contact, *first = c, *end = c + w->contacts; c < end; c++) {
-        first = first->corner == c->corner ? first : c;
-        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
-            hand_over(m, c, r);
     }
     m->contact = w->contact;
     m->contacts = w->contacts;

@@ -376,20 +376,8 @@ static bbm_status part_contacts(bbm_model *m, const int shares[], int n)
     return status;
 }
 
-/* The detection begins anew, body by body. */
-static bbm_status renew_detection(bbm_model *m)
-{
-    for (int e = 0; e < m->edges; e++)
-        m->edge[e].block = m->beyond->body[m->edge[e].element];
-    bbm_detect_free(m->scratch);
-    const bbm_status status = bbm_detect_new(m);
-    for (int e = 0; e < m->edges; e++)
-        m->edge[e].block = m->element[m->edge[e].element].block;
-    return status;
-}
-
 /* What has broken in the last step is a boundary, and what has come off is a body. Without memory
- * for that the model has to be prepared anew. */
+ * for that the model has to be prepared anew. The detection begins anew, body by body. */
 static bbm_status part_bodies(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
@@ -420,7 +408,12 @@ static bbm_status part_bodies(bbm_model *m)
             (size_t)(m->gaps - 2 * kept) * sizeof *m->gap);
     m->bonds = kept;
     y->parts = 0;
-    bbm_status status = renew_detection(m);
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].block = y->body[m->edge[e].element];
+    bbm_detect_free(m->scratch);
+    bbm_status status = bbm_detect_new(m);
+    for (int e = 0; e < m->edges; e++)
+        m->edge[e].block = m->element[m->edge[e].element].block;
     if (!status)
         status = part_contacts(m, shares, n);
     free(shares);

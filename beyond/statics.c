@@ -39,15 +39,15 @@
 
 /* ------------------------------------------------------------------------- what holds a body */
 
-/* G += T^T W/tr(W) T: what a gap to the wall feels of a rigid motion (u, v, r) of its body about a
- * point from which its element is at (X, Y). */
-static void add_hold(bbm_gap g, double X, double Y, double G[3][3])
+/* G += T^T W/tr(W) T: what a gap to the wall feels of a rigid motion (u, v, r) of its body about
+ * the barycentre of element o. */
+static void add_hold(const bbm_element *e, bbm_gap g, int o, double G[3][3])
 {
     const double trace = g.W[0][0] + g.W[1][1];
 
     for (int r = 0; r < 2; r++)
-        g.Ti[r][2] += g.Ti[r][1] * X - g.Ti[r][0] * Y;
-    for (int k = 0; k < 36 && trace > 0; k++) {
+        g.Ti[r][2] += g.Ti[r][1] * (e[g.i].x - e[o].x) - g.Ti[r][0] * (e[g.i].y - e[o].y);
+    for (int k = 0; k < 36 && trace > 0 && g.j < 0; k++) {
         const int a = k / 12, b = k / 4 % 3, r = k / 2 % 2, s = k % 2;
         G[a][b] += g.Ti[r][a] * g.W[r][s] / trace * g.Ti[s][b];
     }
@@ -78,12 +78,11 @@ static int is_regular(double G[3][3])
 /* Whether the wall holds the body of element i by itself; body[] has a number for each element. */
 int bbm_is_held(const bbm_model *m, const int body[], int i)
 {
-    const bbm_element *e = m->element;
     double G[3][3] = { { 0 } };
 
     for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
-        if (g->j < 0 && body[g->i] == body[i])
-            add_hold(*g, e[g->i].x - e[i].x, e[g->i].y - e[i].y, G);
+        if (body[g->i] == body[i])
+            add_hold(m->element, *g, i, G);
     return is_regular(G);
 }
 
@@ -101,11 +100,8 @@ bbm_status bbm_check_supports(bbm_model *m)
         return BBM_NO_MEMORY;
     for (int i = m->elements - 1; i >= 0; i--)
         of[body[i]].first = i;
-    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
-        const int o = of[body[g->i]].first;
-        if (g->j < 0)
-            add_hold(*g, e[g->i].x - e[o].x, e[g->i].y - e[o].y, of[body[g->i]].G);
-    }
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
+        add_hold(e, *g, of[body[g->i]].first, of[body[g->i]].G);
     for (int l = 0; l < m->beyond->edge_loads; l++) {
         const bbm_edge_load *load = &m->beyond->edge_load[l];
         const int c = body[m->vertex[load->a].element];

@@ -52,30 +52,23 @@ static double weight_of(const bbm_model *m, const bbm_edge_load *water)
 static void press(const bbm_model *m, const bbm_edge_load *load, int r, const double D[6],
                   double N[6], double sinks[6][6], double turns[6][6])
 {
-    const bbm_vertex *a = &m->vertex[load->a];
-    const bbm_element *e = &m->element[a->element];
-    const bbm_vertex *b = &m->vertex[bbm_next_vertex(e, load->a)];
-    const double weight = weight_of(m, load);
-    const double end = bbm_is_static(m) ? r : 0.5;
-    double Ta[2][6], Tb[2][6], am[2], bm[2], from = 0, to = 1;
-    double depth[2] = { load->level - a->y, load->level - b->y };
+    const bbm_element *e = &m->element[m->vertex[load->a].element];
+    const int end_of[2] = { load->a, bbm_next_vertex(e, load->a) };
+    const double weight = weight_of(m, load), end = bbm_is_static(m) ? r : 0.5;
+    const double whole = weight > 0 && e->middle ? 1 / cos(e->middle->D[2] / 2) : 1;
+    const double middle = load->level - e->y - D[1] / 2;
+    double U[2][2][6], x[2][2], depth[2], from = 0, to = 1;     /* T at the two ends, and there */
 
-    bbm_step_point(e, a->x, a->y, Ta, am);
-    bbm_step_point(e, b->x, b->y, Tb, bm);
-    for (int k = 0; k < 6; k++) {
-        depth[0] -= end * Ta[1][k] * D[k];
-        depth[1] -= end * Tb[1][k] * D[k];
+    for (int i = 0; i < 2; i++) {
+        const bbm_vertex *P = &m->vertex[end_of[i]];
+        bbm_step_point(e, P->x, P->y, U[i], x[i]);
+        depth[i] = load->level - P->y;
+        for (int k = 0; k < 6; k++)
+            depth[i] -= end * U[i][1][k] * D[k];
+        depth[i] = middle + whole * (depth[i] - middle);
     }
-    if (weight > 0 && e->middle) {
-        const double whole = 1 / cos(e->middle->D[2] / 2), middle = load->level - e->y - D[1] / 2;
-        depth[0] = middle + whole * (depth[0] - middle);
-        depth[1] = middle + whole * (depth[1] - middle);
-        for (int i = 0; i < 2; i++) {
-            am[i] *= whole;
-            bm[i] *= whole;
-        }
-    }
-    const double n = r ? bm[0] - am[0] : am[1] - bm[1], at = depth[0] / (depth[0] - depth[1]);
+    const double n = whole * (r ? x[1][0] - x[0][0] : x[0][1] - x[1][1]);
+    const double at = depth[0] / (depth[0] - depth[1]);
     if (weight > 0 && depth[0] < 0)
         from = depth[1] > 0 ? at : 1;
     if (weight > 0 && depth[1] < 0)
@@ -86,16 +79,15 @@ static void press(const bbm_model *m, const bbm_edge_load *load, int r, const do
         s = from + (to - from) * s;
         share *= to - from;
         const double p = load->pressure + weight * ((1 - s) * depth[0] + s * depth[1]);
-        for (int k = 0; k < 6; k++) {
-            T[0][k] = (1 - s) * Ta[0][k] + s * Tb[0][k];
-            T[1][k] = (1 - s) * Ta[1][k] + s * Tb[1][k];
+        for (int k = 0; k < 12; k++)
+            T[k / 6][k % 6] = (1 - s) * U[0][k / 6][k % 6] + s * U[1][k / 6][k % 6];
+        for (int k = 0; k < 6; k++)
             N[k] += share * p * n * T[r][k];
-        }
         for (int k = 0; k < 36; k++) {
             const int i = k / 6, j = k % 6;
             const double sideways = weight * n * T[0][i] * T[1][j];
-            const double turning = p * ((Tb[1][j] - Ta[1][j]) * T[0][i]
-                                        - (Tb[0][j] - Ta[0][j]) * T[1][i]);
+            const double turning = p * ((U[1][1][j] - U[0][1][j]) * T[0][i]
+                                        - (U[1][0][j] - U[0][0][j]) * T[1][i]);
             const double half = share * (r ? turning : sideways) / 2;
             sinks[i][j] += r * end * share * weight * n * T[1][i] * T[1][j];
             turns[i][j] += half;
@@ -360,7 +352,6 @@ void bbm_stop_supports(bbm_model *m)
         const bbm_edge_load *load = &b->edge_load[l];
         b->account[m->vertex[load->a].element].pressed += load->N[3] + load->N[4];
     }
-
     for (int n = 0; n < m->nodes; n++)
         for (int a = 0; a < 2; a++) {
             bbm_support *s = &b->support[n];
