@@ -218,13 +218,11 @@ static bbm_status blame(bbm_model *m, const bbm_model *from, const bbm_contact *
 static bbm_status try_statics(bbm_model *m)
 {
     const int most = m->par.pcg.iterations, few = 6 * m->elements + 100, done = m->info.iterations;
-    const int hold = m->beyond->joints_hold;
 
     m->h = INFINITY;
     m->par.pcg.iterations = few < most ? few : most;
-    m->info.iterations = m->beyond->joints_hold = 0;
+    m->info.iterations = 0;
     const bbm_status status = bbm_try_step(m);
-    m->beyond->joints_hold = hold;
     m->par.pcg.iterations = most;
     m->info.iterations += done;
     return status;
@@ -243,7 +241,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     bbm_status status = BBM_OPEN_CLOSE;
     bbm_beyond *b = m->beyond;
 
-    b->joints_hold = b->joints > 0 || b->cohesion > 0 || b->tension > 0;
+    int hold = b->joints > 0 || b->cohesion > 0 || b->tension > 0;
     for (int i = 0; i < m->elements; i++)
         if (m->K->body[i] >= 0)
             least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
@@ -251,7 +249,9 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     double h = swing;
     while (h > SHORT * swing && !bbm_is_spent(m)) {
         m->h = h;
+        b->joints_hold = hold;
         status = bbm_try_step(m);
+        b->joints_hold = 0;
         const int settles = !status;
         if (settles) {
             parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
@@ -264,9 +264,9 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
                 before = lacks;
             }
             const int balances = lacks <= BBM_BALANCED && b->overload <= 1;
-            status = balances && !b->joints_hold ? BBM_OK
+            status = balances && !hold ? BBM_OK
                    : balances || h > tried ? try_statics(m) : BBM_OPEN_CLOSE;
-            b->joints_hold &= !balances;
+            hold &= !balances;
         }
         if (!status || status == BBM_NO_MEMORY || status == BBM_STOPPED)
             return status;
@@ -328,7 +328,6 @@ static bbm_status settle(bbm_model *m)
         m->par = from.par;
         m->info.t = from.info.t;
         m->beyond->reach = INFINITY;
-        m->beyond->joints_hold = 0;
         if (!status)
             m->message[0] = '\0';
         else {
