@@ -244,22 +244,18 @@ static void catch_node(bbm_model *m, int n, int directions)
     }
 }
 
-/* Catches the nodes that are held from now on. When one is let go in dynamics, those of
- * quadrilaterals, too: nodes hold their sides together, and to hold corners instead at their old
- * place would make energy. */
+/* Catches the nodes that are held from now on. When one is let go in dynamics, all: nodes hold the
+ * sides of quadrilaterals together, and to hold corners instead at their old place would make
+ * energy. */
 static void catch_nodes(bbm_model *m)
 {
+    const bbm_support *s = m->beyond->support;
     int let_go = 0;
 
     for (int n = 0; n < m->nodes && !bbm_is_static(m); n++)
-        let_go |= m->beyond->support[n].held & ~m->node[n].held;
-    for (int v = 0; v < m->vertices && m->info.step > 0; v++) {
-        const int n = m->vertex[v].node, anew = m->node[n].held & ~m->beyond->support[n].held;
-        if (anew)
-            catch_node(m, n, anew);
-        else if (let_go && m->element[m->vertex[v].element].n == 4)
-            catch_node(m, n, m->node[n].held);
-    }
+        let_go |= s[n].held & ~m->node[n].held;
+    for (int n = 0; n < m->nodes && m->info.step > 0; n++)
+        catch_node(m, n, let_go ? m->node[n].held : m->node[n].held & ~s[n].held);
 }
 
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
