@@ -244,33 +244,25 @@ static void catch_node(bbm_model *m, int n, int directions)
     }
 }
 
-/* Catches the nodes that are held from now on. When one is let go in dynamics, all: nodes hold the
- * sides of quadrilaterals together, and to hold corners instead at their old place would make
- * energy. */
-static void catch_nodes(bbm_model *m)
-{
-    const bbm_support *s = m->beyond->support;
-    int let_go = 0;
-
-    for (int n = 0; n < m->nodes && !bbm_is_static(m); n++)
-        let_go |= s[n].held & ~m->node[n].held;
-    for (int n = 0; n < m->nodes && m->info.step > 0; n++)
-        catch_node(m, n, let_go ? m->node[n].held : m->node[n].held & ~s[n].held);
-}
-
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
  * way is left. The velocity with which a node comes that is held from now on counts as that of its
- * support so far. */
+ * support so far. Such nodes are caught. When one is let go in dynamics, all are: nodes hold the
+ * sides of quadrilaterals together, and to hold corners instead at their old place would make
+ * energy. */
 void bbm_place_supports(bbm_model *m)
 {
     const double left = 1 - m->beyond->share;
+    int let_go = 0;
 
-    catch_nodes(m);
+    for (int n = 0; n < m->nodes && !bbm_is_static(m); n++)
+        let_go |= m->beyond->support[n].held & ~m->node[n].held;
     for (int n = 0; n < m->nodes; n++) {
         bbm_support *s = &m->beyond->support[n];
         const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
         const bbm_element *e = &m->element[P->element];
         const int anew = m->node[n].held & ~s->held;
+        if (m->info.step > 0)
+            catch_node(m, n, let_go ? m->node[n].held : anew);
         double v[2];
         bbm_displacement(e, e->V, P->x, P->y, v);
         for (int a = 0; a < 2; a++) {
@@ -290,21 +282,10 @@ static double *force_of(const bbm_model *m, int node)
     return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].step;
 }
 
-/* Adds the weight of an element that is held all round to the forces of its supports. The share of
- * a support is that of its corner in the value of a linear function at the barycentre: so the
- * moments of all of them are that of the weight. */
-static void add_weight(const bbm_model *m, const bbm_element *e)
-{
-    const bbm_vertex *v = &m->vertex[e->first];
-    double W[6] = { 0 };
-
-    bbm_gravity_submatrix(e, m->acceleration, W);
-    for (int k = 0; k < 2 * e->n; k++)
-        force_of(m, v[k / 2].node)[k % 2] -= bbm_interpolation(e, v, k / 2).f * W[k % 2];
-}
-
 /* The forces of the supports on their nodes, of the solution, and in a step their work at each
- * element: a node may lie in several bodies. The gap of an edge is the mean of those of its ends,
+ * element: a node may lie in several bodies. What is held all round adds its weight, which is no part
+ * of (5): a corner bears its share in the value of a linear function at the barycentre, so that the
+ * moments of all are that of the weight. The gap of an edge is the mean of those of its ends,
  * (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
 void bbm_find_reactions(bbm_model *m)
 {
@@ -316,9 +297,15 @@ void bbm_find_reactions(bbm_model *m)
             m->beyond->account[i].held[k] = 0;
     for (int n = 0; n < m->nodes; n++)
         memset(force_of(m, n), 0, 2 * sizeof *force_of(m, n));
-    for (int i = 0; i < m->elements && !m->beyond->jump_of; i++)
-        if (bbm_is_held_all_round(m, &m->element[i]))
-            add_weight(m, &m->element[i]);
+    for (int v = 0; v < m->vertices && !m->beyond->jump_of; v++) {
+        const int i = m->vertex[v].element;
+        const bbm_element *e = &m->element[i];
+        double W[6] = { 0 };
+        bbm_gravity_submatrix(e, m->acceleration, W);
+        for (int a = 0; a < 2 && m->K->body[i] < 0; a++)
+            force_of(m, m->vertex[v].node)[a] -=
+                bbm_interpolation(e, &m->vertex[e->first], v - e->first).f * W[a];
+    }
     for (int k = 0; k < m->gaps; k++) {
         bbm_gap *g = &m->gap[k];
         double d[2];
