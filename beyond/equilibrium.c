@@ -140,33 +140,18 @@ static void add_contact(bbm_model *m, const bbm_contact *c)
 {
     const double solved = fmax(0, c->trial.force_tolerance - c->trial.digits);
     const double breach = fmax(0, breach_of(m, c) - solved);
-    double F[BBM_PARTS][6] = { { 0 } }, way = 0;
+    const double k = c->state == BBM_OPEN ? 0 : m->par.p_n;
+    double F[BBM_PARTS][6] = { { 0 } };
 
     if (c->state != BBM_OPEN)
         bbm_contact_forces(m, c, F);
-    for (int k = 0; k < c->parts && c->state != BBM_OPEN; k++) {
-        const double *D = &m->D[6 * c->element[k]];
-        way = fmax(way, fabs(D[0]) + fabs(D[1]) + fabs(D[2]) * sqrt(m->element[c->element[k]].A));
+    for (int i = 0; i < c->parts; i++) {
+        const int e = c->element[i];
+        const double *D = &m->D[6 * c->element[i == 0]];    /* of the other side                */
+        add_force(m, e, F[i], 1, k);
+        add_breach(m, e, breach);
+        m->beyond->balance[m->beyond->body[e]].rounding += BBM_ROUNDING * k * hypot(D[0], D[1]);
     }
-    for (int k = 0; k < c->parts; k++) {
-        bbm_balance *b = &m->beyond->balance[m->beyond->body[c->element[k]]];
-        add_force(m, c->element[k], F[k], 1, 0);
-        add_breach(m, c->element[k], breach);
-        b->rounding += BBM_ROUNDING * m->par.p_n * way;
-    }
-}
-
-/* Adds the inertia of an element, both sides of (16), (17). */
-static void add_inertia(bbm_model *m, int i)
-{
-    bbm_submatrix s = { { { 0 } }, { 0 } };
-    double F[6] = { 0 };
-
-    bbm_inertia_submatrix(&m->element[i], m->h, &s);
-    for (int a = 0; a < 36; a++)
-        F[a / 6] -= s.K[a / 6][a % 6] * m->D[6 * i + a % 6];
-    add_force(m, i, s.F, 1, 0);
-    add_force(m, i, F, 1, 0);
 }
 
 /* Of the forces on a body the share that is left, and that which breaks laws. */
@@ -211,9 +196,16 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
     for (int k = 0; k < m->scratch->contacts; k++)
         add_contact(m, &m->scratch->contact[k]);
     m->beyond->lack = fmax(lack_of(worst_of(m, lack_of)), breach_share(worst_of(m, breach_share)));
-    for (int i = 0; i < m->elements; i++)
+    for (int i = 0; i < m->elements; i++) {
+        bbm_submatrix s = { { { 0 } }, { 0 } };             /* inertia, both sides of (16), (17) */
+        double F[6] = { 0 };
         if (bbm_has_inertia(m, i))
-            add_inertia(m, i);
+            bbm_inertia_submatrix(&m->element[i], m->h, &s);
+        for (int a = 0; a < 36; a++)
+            F[a / 6] -= s.K[a / 6][a % 6] * m->D[6 * i + a % 6];
+        add_force(m, i, s.F, 1, 0);
+        add_force(m, i, F, 1, 0);
+    }
     const bbm_balance *worst = worst_of(m, lack_of), *broken = worst_of(m, breach_share);
     const double lack = lack_of(worst), breach = breach_share(broken);
     if (lack > (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
