@@ -970,6 +970,8 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
     r->d_n = g.d;
     r->rest = bbm_rest_of(m, g.d, r->N);
     r->trial.time_left = 0;                                 /* the anchor is placed anew        */
+    reach_of(m, edge)->depth = fmax(reach_of(m, edge)->depth, -g.d);
+    reach_of(m, c->corner)->depth = fmax(reach_of(m, c->corner)->depth, -g.d);
     bbm_forget(c);
 }
 
@@ -980,17 +982,17 @@ void bbm_keep_contacts(bbm_model *m)
     bbm_contact *last = m->contact;
 
     find_directions(m);
-    for (bbm_contact *c = w->contact, *first = c, *end = c + w->contacts; c < end; c++) {
-        first = first->corner == c->corner ? first : c;
-        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
-            hand_over(m, c, r);
-    }
     for (int i = 0; i < m->elements; i++)
         w->reach[i].depth = 0;
     bbm_note_depths(m);
     for (int i = 0; i < m->elements; i++) {
         w->reach[i].depth = w->reach[i].depth_now;
         w->reach[i].came = w->reach[i].travel;
+    }
+    for (bbm_contact *c = w->contact, *first = c, *end = c + w->contacts; c < end; c++) {
+        first = first->corner == c->corner ? first : c;
+        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
+            hand_over(m, c, r);
     }
     m->contact = w->contact;
     m->contacts = w->contacts;
