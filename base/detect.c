@@ -116,20 +116,6 @@ static void find_directions(bbm_model *m)
     }
 }
 
-/* Links each edge with the one that starts where it ends. The walk goes round that node from
- * element to element, over the bonds, as far as they go. */
-static void link_edges(bbm_model *m)
-{
-    for (int e = 0; e < m->edges; e++) {
-        int v = m->edge[e].b;
-        while (m->vertex[v].edge < 0)
-            v = -1 - m->vertex[v].edge;
-        const int after = m->edge[e].after = m->vertex[v].edge;
-        m->edge[after].before = m->edge[after].joined[0] = e;
-        m->edge[after].joined[1] = after;
-    }
-}
-
 /* Direction and length of an edge at the start. */
 static bbm_direction starting(const bbm_model *m, int e)
 {
@@ -203,7 +189,13 @@ bbm_status bbm_detect_new(bbm_model *m)
     if (!w->reach || !w->pair)
         return BBM_NO_MEMORY;
     number_blocks(m);
-    link_edges(m);
+    for (int e = 0; e < m->edges; e++) {        /* the next one: round the node where e ends,    */
+        int v = m->edge[e].b;                   /* from element to element over the bonds        */
+        while (m->vertex[v].edge < 0)
+            v = -1 - m->vertex[v].edge;
+        m->edge[e].after = m->vertex[v].edge;
+        m->edge[m->edge[e].after].before = e;
+    }
     find_directions(m);
     find_straight_sides(m);
     for (int e = 0; e < m->edges; e++) {
@@ -663,7 +655,7 @@ static void join_flush_corners(bbm_model *m)
         m->edge[e].joined[1] = e;
         m->edge[e].meets[0] = m->edge[e].meets[1] = m->edge[e].slides = 0;
     }
-    for (int k = 0; k < 2 * m->scratch->pairs && !bbm_is_static(m); k++) {
+    for (int k = 0; k < 2 * m->scratch->pairs; k++) {
         const pair p = m->scratch->pair[k / 2];
         const int P = p.corner, end = k % 2, Q = end ? m->edge[p.edge].after : p.edge;
         const int side = end ? P : m->edge[P].before;
@@ -724,24 +716,15 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     return old;
 }
 
-/* Whether P hangs on a ledge: on a covered face of a convex corner Q, by less than the rounding
- * behind the other face, over which it can enter. There P is at the surface, and the covered face
- * is not in the way. A joint with strength holds it all the same. */
-static int is_on_ledge(const bbm_model *m, const bbm_contact *c)
+/* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
+ * each other is open, or there is no such line and the projection is off the edge. A P that hangs
+ * on a ledge has left, too: on a covered face of a convex Q, by less than the rounding behind the
+ * other face, over which it can enter. There P is at the surface, and the covered face is not in
+ * the way. A joint with strength holds it all the same. */
+static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
     const int other = end ? Q : m->edge[Q].before, *meets = m->edge[Q].meets;
-
-    return c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
-        && project(m, c->corner, other).d > -rounding_between(m, c->corner, c->edge)
-        && can_enter(m, c->corner, other, STILL, PARALLEL);
-}
-
-/* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
- * each other is open, or there is no such line and the projection is off the edge. A P that hangs
- * on a ledge has left, too. */
-static int has_left(const bbm_model *m, const bbm_contact *c)
-{
     int lines = 0;
 
     for (int k = 0; k < 4; k++) {
@@ -752,7 +735,10 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
             return 1;
         lines++;
     }
-    return (c->trial.beyond_end && lines == 0) || is_on_ledge(m, c);
+    return (c->trial.beyond_end && lines == 0)
+        || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
+            && project(m, c->corner, other).d > -rounding_between(m, c->corner, c->edge)
+            && can_enter(m, c->corner, other, STILL, PARALLEL));
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
@@ -962,7 +948,6 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
     const int edge = r->edge;
 
     if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || g.beyond > touch
-        || f.beyond > reach_of(m, c->corner)->travel + reach_of(m, c->edge)->travel
         || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first)
         return;
     *r = *c;

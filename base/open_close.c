@@ -48,10 +48,13 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
  *
  * One that touches when the run begins is closed: what lies flush is under load. In dynamics it
  * stays open where P1 can come in over more than one line of a corner, for its way will show over
- * which one. An unbroken joint is closed in any case. */
+ * which one; in statics where another block lies flush there: at a seam the side that this covers
+ * holds nothing. An unbroken joint is closed in any case. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
+    const int end = 2 * bbm_way_along(m, c->corner, c->edge) > m->edge[c->edge].along.length;
+    const int seam = m->edge[end ? m->edge[c->edge].after : c->edge].joined[!end] != c->edge;
     int lines = 0;
 
     c->element[0] = m->edge[c->corner].element;
@@ -71,7 +74,8 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     if (m->hook->strength)
         m->hook->strength(m, c);
     if (c->trial.touches && !c->trial.has_left)
-        c->state = lines == 0 || bbm_is_strong(c) || isinf(m->par.dt) ? BBM_LOCK : BBM_OPEN;
+        c->state = lines == 0 || bbm_is_strong(c) || (isinf(m->par.dt) && !seam) ? BBM_LOCK
+                                                                                 : BBM_OPEN;
     if (!c->trial.carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);

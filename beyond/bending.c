@@ -268,7 +268,8 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
 static int held_edge(const bbm_model *m, const bbm_element *e, int v)
 {
     const int n = m->vertex[v].node, next = m->vertex[bbm_next_vertex(e, v)].node;
-    const int caught = m->is_prepared ? m->beyond->support[n].caught | m->beyond->support[next].caught : 0;
+    const bbm_support *s = m->beyond->support;
+    const int caught = m->is_prepared ? s[n].caught | s[next].caught : 0;
     int bonded = 0;
 
     for (int k = e->first; k < e->first + e->n; k++)
@@ -397,6 +398,9 @@ static void list_fixed(bbm_model *m, int v)
     for (int n = 0; n < 2; n++)
         bbm_fixed_gap(e, &m->vertex[ends[n]], &m->node[m->vertex[ends[n]].node], k, &end[n]);
     bond_moment(m, e, v, NULL, 0, M);
+    double turned[3] = { M[0][0], M[1][1], M[0][1] };
+    bbm_turn_tensor(turned, e->middle ? e->sum[2] : 0);
+    M[0][0] = turned[0], M[1][1] = turned[1], M[0][1] = M[1][0] = turned[2];
     list_edge(m, i, -1, end, edge, k, M);
 }
 

@@ -40,8 +40,8 @@ static bbm_status check(bbm_model *m)
     const bbm_status cracks = bbm_lay_out_cracks(m);
     for (int i = 0; i < m->elements; i++)
         m->element[i].middle = NULL;
-    if (cracks || !b->middle || !b->end_element || !b->end_vertex || !b->support || !b->off || !b->account
-        || !b->body || !b->balance)
+    if (cracks || !b->middle || !b->end_element || !b->end_vertex || !b->support || !b->off
+        || !b->account || !b->body || !b->balance)
         return cracks ? cracks : BBM_NO_MEMORY;
     for (int l = 0; l < b->edge_loads; l++) {
         const bbm_vertex *a = &m->vertex[b->edge_load[l].a];

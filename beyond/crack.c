@@ -176,20 +176,6 @@ static void find_traction(const bbm_model *m, int b, double s[3])
     s[2] = softens ? s[0] : ((S[0] + S[1]) / 2 + hypot((S[0] - S[1]) / 2, S[2])) / S[3];
 }
 
-/* How well a bond that is as new lies across the tension around it, and the best one at each of its
- * nodes. */
-static void find_across(const bbm_model *m, int b)
-{
-    bbm_crack *c = &m->beyond->crack[b];
-
-    find_traction(m, b, c->s);
-    c->across = c->tooth == 0 && c->s[0] > ACROSS * fabs(c->s[2]) ? c->s[0] / c->s[2] : 0;
-    for (int end = 0; end < 2; end++) {
-        double *best = &m->beyond->best[m->vertex[m->bond[b].p[end]].node];
-        *best = fmax(*best, c->across);
-    }
-}
-
 /* The load of a bond against its strength; more than 1: it breaks. */
 static double find_load(const bbm_model *m, int b)
 {
@@ -293,8 +279,15 @@ bbm_pass bbm_break_bonds(bbm_model *m)
         return BBM_PASS_DONE;
     if (!renew_pushes(m)) {
         memset(y->best, 0, (size_t)m->nodes * sizeof *y->best);
-        for (int b = 0; b < m->bonds; b++)
-            find_across(m, b);
+        for (int b = 0; b < m->bonds; b++) {    /* how well one that is as new lies across the   */
+            bbm_crack *c = &y->crack[b];        /* tension around it; the best at each node      */
+            find_traction(m, b, c->s);
+            c->across = c->tooth == 0 && c->s[0] > ACROSS * fabs(c->s[2]) ? c->s[0] / c->s[2] : 0;
+            for (int end = 0; end < 2; end++) {
+                double *best = &y->best[m->vertex[m->bond[b].p[end]].node];
+                *best = fmax(*best, c->across);
+            }
+        }
         for (int b = 0; b < m->bonds; b++)
             most = fmax(most, find_load(m, b));
         y->overload = most;

@@ -120,27 +120,21 @@ void bbm_contact_forces(const bbm_model *m, const bbm_contact *c, double F[BBM_P
         F[k / 6][k % 6] = c->N * v[0].v[k / 6][k % 6] - T * v[1].v[k / 6][k % 6];
 }
 
-/* The force by which a contact breaks its law. An open one may be as deep as rounding, of its place
- * and of the length of its edge. */
-static double breach_of(const bbm_model *m, const bbm_contact *c)
+/* Adds the forces of a contact, and what they break of its law by more than the solver's error. An
+ * open one may be as deep as rounding, of its place and of the length of its edge. How far either
+ * side moves has rounding for both. */
+static void add_contact(bbm_model *m, const bbm_contact *c)
 {
     const bbm_vertex *P = bbm_start_of(m, c->corner);
     const double size = hypot(P->x, P->y) + m->edge[c->edge].along.length;
     const double digits = c->state == BBM_OPEN ? BBM_ROUNDING * size : 0;
     const double N = bbm_normal_force(m, c->d_n + digits - c->rest);
     const double T = fabs(bbm_shear_force(c)) - bbm_shear_strength(&c->strength, c->N);
-
-    return c->state != BBM_OPEN ? fmax(fmax(fabs(N - c->N), T), -N - c->strength.tension)
-         : bbm_is_blocked(m, c) ? 0 : N;
-}
-
-/* Adds the forces of a contact, and what they break of its law by more than the solver's error. How
- * far either side moves has rounding for both. */
-static void add_contact(bbm_model *m, const bbm_contact *c)
-{
     const double solved = fmax(0, c->trial.force_tolerance - c->trial.digits);
-    const double breach = fmax(0, breach_of(m, c) - solved);
-    const double k = c->state == BBM_OPEN ? 0 : m->par.p_n;
+    const double all = c->state != BBM_OPEN
+                     ? fmax(fmax(fabs(N - c->N), T), -N - c->strength.tension)
+                     : bbm_is_blocked(m, c) ? 0 : N;
+    const double breach = fmax(0, all - solved), k = c->state == BBM_OPEN ? 0 : m->par.p_n;
     double F[BBM_PARTS][6] = { { 0 } };
 
     if (c->state != BBM_OPEN)

@@ -195,15 +195,19 @@ bbm_status bbm_move_support(bbm_model *m, int node, double u, double v)
 }
 
 /* What is held all round has the velocity of its supports: V of element e by that of each node in
- * each direction. */
+ * each direction; NULL: the mean one of the step. */
 void bbm_follow_supports(const bbm_model *m, bbm_element *e,
                          double (*velocity)(const bbm_model *m, int node, int direction))
 {
+    const double f = m->beyond->share / m->h;
+
     memset(e->V, 0, sizeof e->V);
     for (int k = 0; k < e->n; k++) {
         const bbm_linear of = bbm_interpolation(e, &m->vertex[e->first], k);
-        const int node = m->vertex[e->first + k].node;
-        const double u = velocity(m, node, 0), v = velocity(m, node, 1);
+        const int n = m->vertex[e->first + k].node;
+        const double *moved = m->beyond->support[n].moved;
+        const double u = velocity ? velocity(m, n, 0) : f * moved[0];
+        const double v = velocity ? velocity(m, n, 1) : f * moved[1];
         const double V[6] = { of.f * u, of.f * v, (of.fx * v - of.fy * u) / 2,
                               of.fx * u, of.fy * v, of.fy * u + of.fx * v };
         for (int a = 0; a < 6; a++)
@@ -211,58 +215,40 @@ void bbm_follow_supports(const bbm_model *m, bbm_element *e,
     }
 }
 
-/* Over the whole step. */
-static double mean_velocity(const bbm_model *m, int node, int a)
-{
-    return m->beyond->share * m->beyond->support[node].moved[a] / m->h;
-}
-
 static void take_along(bbm_model *m)
 {
     for (int i = 0; i < m->elements; i++)
         if (bbm_is_held_all_round(m, &m->element[i]))
-            bbm_follow_supports(m, &m->element[i], mean_velocity);
+            bbm_follow_supports(m, &m->element[i], NULL);
 }
 
-/* From now on a node holds each of its corners where that is, with the force that the node had. */
+/* A node is held from now on: it holds each of its corners where that is. */
 static void catch_node(bbm_model *m, int n, int directions)
 {
-    bbm_support *s = &m->beyond->support[n];
-    const int *corner = m->adjacent + m->adjacent_first[n];
-    const int corners = m->adjacent_first[n + 1] - m->adjacent_first[n];
-    double k = 0;
-
-    s->caught |= directions;
-    for (int c = 0; c < corners; c++)
-        k += bbm_fixed_stiffness(m->par.alpha, &m->element[m->vertex[corner[c]].element]);
-    for (int c = 0; c < 2 * corners; c++) {
-        const bbm_vertex *P = &m->vertex[corner[c / 2]];
+    m->beyond->support[n].caught |= directions;
+    for (int c = 2 * m->adjacent_first[n]; c < 2 * m->adjacent_first[n + 1]; c++) {
+        const bbm_vertex *P = &m->vertex[m->adjacent[c / 2]];
         const int a = c % 2;
         if (directions & 1 << a)
-            m->beyond->off[corner[c / 2]][a] = (a ? P->v : P->u) - m->node[n].wall[a]
-                                             + s->moved[a] + s->force[a] / k;
+            m->beyond->off[m->adjacent[c / 2]][a] = (a ? P->v : P->u) - m->node[n].wall[a]
+                                                  + m->beyond->support[n].moved[a];
     }
 }
 
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
  * way is left. The velocity with which a node comes that is held from now on counts as that of its
- * support so far. Such nodes are caught. When one is let go in dynamics, all are: nodes hold the
- * sides of quadrilaterals together, and to hold corners instead at their old place would make
- * energy. */
+ * support so far. Such nodes are caught. */
 void bbm_place_supports(bbm_model *m)
 {
     const double left = 1 - m->beyond->share;
-    int let_go = 0;
 
-    for (int n = 0; n < m->nodes && !bbm_is_static(m); n++)
-        let_go |= m->beyond->support[n].held & ~m->node[n].held;
     for (int n = 0; n < m->nodes; n++) {
         bbm_support *s = &m->beyond->support[n];
         const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
         const bbm_element *e = &m->element[P->element];
         const int anew = m->node[n].held & ~s->held;
         if (m->info.step > 0)
-            catch_node(m, n, let_go ? m->node[n].held : anew);
+            catch_node(m, n, anew);
         double v[2];
         bbm_displacement(e, e->V, P->x, P->y, v);
         for (int a = 0; a < 2; a++) {
@@ -283,10 +269,10 @@ static double *force_of(const bbm_model *m, int node)
 }
 
 /* The forces of the supports on their nodes, of the solution, and in a step their work at each
- * element: a node may lie in several bodies. What is held all round adds its weight, which is no part
- * of (5): a corner bears its share in the value of a linear function at the barycentre, so that the
- * moments of all are that of the weight. The gap of an edge is the mean of those of its ends,
- * (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
+ * element: a node may lie in several bodies. What is held all round adds its weight, which is no
+ * part of (5): a corner bears its share in the value of a linear function at the barycentre, so
+ * that the moments of all are that of the weight. The gap of an edge is the mean of those of its
+ * ends, (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
 void bbm_find_reactions(bbm_model *m)
 {
     const bbm_support *s = m->beyond->support;

@@ -310,10 +310,11 @@ static double sag(int joints)
     return v;
 }
 
-/* To 1 %: at the ends of its edges a triangle has contacts where the bonded one has springs. */
+/* To 1.2 %: at the ends of its edges a triangle has contacts where the bonded one has springs, and none where corners meet
+ * crosswise. */
 START_TEST(statics_finds_the_states_of_many_blocks_in_unbroken_joints)
 {
-    ck_relative(sag(1), sag(0), 0.01);
+    ck_relative(sag(1), sag(0), 0.012);
 }
 END_TEST
 
