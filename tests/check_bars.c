@@ -432,6 +432,26 @@ START_TEST(a_support_with_reaction_0_changes_no_hit)
 }
 END_TEST
 
+/* A single quadrilateral of 2 m x 1 m: one lower corner is held, the other moves 1 mm away. It stretches by that, for it has
+ * as many unknowns as these supports hold. */
+START_TEST(two_held_corners_of_one_quadrilateral_hold_its_length)
+{
+    const bbm_material material = { 1e10, 0, 2500, 1 };
+    grid g = { .lx = 2, .ly = 1, .nx = 1, .ny = 1 };
+    bbm_model *m = new_model(&material);
+
+    m->beyond->bonding = BBM_MOMENT;
+    m->beyond->multiplier_rounds = 2;
+    add_grid(m, &g, 0);
+    bbm_fix_node(m, 0, BBM_XY, 0, 0);
+    bbm_fix_node(m, 1, BBM_XY, 1e-3, 0);
+    run(m);
+    ck_relative(m->element[0].stress[0], 5e6, 1e-3);
+    ck_near(result_at(m, 0).u, 0, 1e-3, 1e-3);
+    ck_relative(result_at(m, 1).u, 1e-3, 1e-3);
+}
+END_TEST
+
 /* A cantilever of four squares is turned by its clamp, by 0, 40 or 80 degrees. Then a load across it bends it alike. */
 START_TEST(a_clamp_holds_against_turning_at_any_angle)
 {
@@ -622,6 +642,7 @@ Suite *bars_suite(void)
         { the_support_in_the_middle_of_two_spans_carries_what_theory_says, 2 },
         { a_support_with_reaction_0_changes_no_hit, 1 },
         { two_held_nodes_side_by_side_hold_the_line_between_them, 3 },
+        { two_held_corners_of_one_quadrilateral_hold_its_length, 1 },
         { a_clamp_holds_against_turning_at_any_angle, 1 },
         { a_node_that_is_held_or_let_go_on_the_way_makes_nothing, 18 },
         { a_mesh_of_both_kinds_sinks_alike_however_often_its_multipliers_take_over, 2 });

@@ -353,6 +353,57 @@ START_TEST(a_piston_that_starts_hits_with_its_velocity)
 }
 END_TEST
 
+/* A stone hits a boulder of 900 or 3600 times its mass, with friction and a restitution: what one loses the other has, to
+ * 1e-4 of what is exchanged. */
+START_TEST(a_light_stone_and_a_heavy_boulder_keep_their_momentum)
+{
+    const double size[] = { 0.1, 0.05 }, friction[] = { 10, 30, 45 }, angle[] = { 5, 20, 36 }, E[] = { 0.5, 1 };
+
+    for (int k = 0; k < 36; k++) {
+        const double b = size[k % 2], a = radians(angle[k / 2 % 3]), c = b / 2 * cos(a), s = b / 2 * sin(a);
+        const double y = c + s + 0.0105;
+        const double x[4][2] = { { s - c, y - c - s }, { c + s, y + s - c }, { c - s, y + c + s }, { -c - s, y + c - s } };
+        bbm_model *m = hard_blocks(E[k / 18], friction[k / 6 % 3]);
+        m->par.dt = 1e-3;
+        m->par.gravity[1] = 0;
+        m->par.alpha = 1000;
+        m->par.pcg.tolerance = 1e-10;
+        m->material[ROCK].E = 1e10;
+        set_springs(m, 5e11, 2e11);
+        add_rectangle(m, 0, ROCK, (rectangle){ .x = -1.5, .y = -3, .w = 3, .h = 3 });
+        add_polygon(m, 1, 4, x);
+        ck_ok(bbm_prepare(m), m);
+        set_velocity(m, 1, 2, -1);
+        run_steps(m, 12);
+        const double stone = DENSITY * b * b, boulder = DENSITY * 9;
+        const double px = stone * (m->element[1].V[0] - 2), py = stone * (m->element[1].V[1] + 1);
+        ck_near(boulder * m->element[0].V[0], -px, hypot(px, py), 1e-4);
+        ck_near(boulder * m->element[0].V[1], -py, hypot(px, py), 1e-4);
+        ck_assert_double_gt(py, 0);
+        release(m);
+    }
+}
+END_TEST
+
+/* A fixed block moves straight on by itself: nothing is there that could make energy. */
+START_TEST(a_lone_piston_makes_no_energy)
+{
+    for (int k = 0; k < 20; k++) {
+        bbm_model *m = hard_blocks(-1, 0);
+        m->par.dt = 3e-3;
+        m->par.alpha = 1000;
+        m->par.pcg.tolerance = 1e-10;
+        m->material[BASE].E = pow(10, 9 + 0.2 * k);
+        add_rectangle(m, 0, BASE, (rectangle){ .x = -2, .y = -1, .w = 2, .h = 2, .fixed = 1 });
+        ck_ok(bbm_prepare(m), m);
+        double at = 0;
+        for (int step = 0; step < 100; step++)
+            (void)pull_to(m, 0, at += (0.3 - at) / (100 - step));
+        release(m);
+    }
+}
+END_TEST
+
 /* Without a restitution springs throw a block back, from a floor that moves along as from one at rest. Positions are sums
  * of ways, and what rounding makes of the moment of the hit is a thousandth. */
 START_TEST(a_block_bounces_from_a_floor_that_moves_as_from_one_at_rest)
@@ -565,6 +616,8 @@ Suite *impact_suite(void)
         { a_jump_by_a_support_that_moves_is_not_tried_again, 1 },
         { a_belt_of_any_weight_goes_with_its_supports, 1 },
         { a_piston_that_starts_hits_with_its_velocity, 1 },
+        { a_light_stone_and_a_heavy_boulder_keep_their_momentum, 1 },
+        { a_lone_piston_makes_no_energy, 1 },
         { a_block_bounces_from_a_floor_that_moves_as_from_one_at_rest, 2 },
         { an_unbroken_joint_does_not_hit, 1 },
         { a_paddle_of_any_stiffness_turns_and_hits_alike, 2 },
