@@ -163,9 +163,10 @@ bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double
     if (!isfinite(u) || !isfinite(v))
         return REFUSE(m, BBM_NOT_FINITE, "the wall point of fixed node %d", node);
     m->node[node].held |= directions;
-    for (int a = 0; a < 2; a++)
-        if (directions & 1 << a)
-            m->node[node].wall[a] = a ? v : u;
+    if (directions & BBM_X)
+        m->node[node].wall[0] = u;
+    if (directions & BBM_Y)
+        m->node[node].wall[1] = v;
     return BBM_OK;
 }
 

@@ -258,8 +258,7 @@ START_TEST(a_joint_that_holds_the_settled_state_does_not_break_on_the_way)
 END_TEST
 
 /* A block of one cell on a base of four, pulled off in statics by f times what its joint holds. Corners of the block and a
- * grid point of the base share the joint. In steps from rest, too: in dynamics the corners alone would, and then all three
- * had an area of 1.5 times that of the joint. */
+ * grid point of the base share the joint, in steps from rest, too. In dynamics the corners alone share it. */
 START_TEST(a_static_joint_has_its_area_once_on_a_finer_base)
 {
     const double f[] = { 0.7, 1.03, 1.4 };
