@@ -56,14 +56,14 @@ static double end_of(int j) { return j == 0 ? 0 : fmin(1, (j - 0.5) / TEETH); }
 /* c of a tooth, in tension/w_c. */
 static double slope_of(int tooth) { return 1 / end_of(tooth) - 1; }
 
-/* What a bond has taken that begins a tooth, in tension w_c for each area: under each tooth before
- * it 1/2 c (w^2 - the last w^2), less what it stores now. */
+/* What a bond has taken that begins a tooth, in tension w_c for each area: where a tooth ends, c falls
+ * to that of the next one, and 1/2 c w^2 with it. */
 static double taken(int tooth)
 {
-    double sum = tooth == 0 ? 0 : -slope_of(tooth) * pow(end_of(tooth - 1), 2) / 2;
+    double sum = 0;
 
     for (int j = 1; j < tooth; j++)
-        sum += slope_of(j) * (pow(end_of(j), 2) - pow(end_of(j - 1), 2)) / 2;
+        sum += (slope_of(j) - slope_of(j + 1)) * pow(end_of(j), 2) / 2;
     return sum;
 }
 
@@ -314,13 +314,10 @@ bbm_pass bbm_break_bonds(bbm_model *m)
 static void add_places(bbm_model *m, double sign)
 {
     for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
-        double P[2], a[2], b[2];
-        bbm_point_at(m, m->edge[c->corner].a, P);
-        bbm_point_at(m, m->edge[c->edge].a, a);
-        bbm_point_at(m, m->edge[c->edge].b, b);
-        const double x = b[0] - a[0], y = b[1] - a[1], l = hypot(x, y);
-        c->rest += sign * ((P[0] - a[0]) * y - (P[1] - a[1]) * x) / l;
-        c->anchor += sign * ((P[0] - a[0]) * x + (P[1] - a[1]) * y) / (l * l);
+        bbm_spring v[2];
+        bbm_shared_vectors(m, c, 0, v);         /* d_n, and d_s from P3, which grows towards it */
+        c->rest += sign * v[0].d;
+        c->anchor -= sign * v[1].d / m->edge[c->edge].along.length;
     }
 }
 
