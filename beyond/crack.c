@@ -231,13 +231,12 @@ static int renew_pushes(bbm_model *m)
     for (int k = 0; k < 2 * m->bonds; k++) {
         const double area = find_normal(m, &m->bond[k / 2], 1, n);
         int *pushes = &y->crack[k / 2].pushes[k % 2];
-        if (y->crack[k / 2].tooth == 0)
-            continue;
         bbm_gap_length(m, &m->gap[k], d);
         const double p = stiffness(m, &m->bond[k / 2]) * (d[0] * n[0] + d[1] * n[1]) / area;
-        const int closed = *pushes ? p > -none : p > none;
-        changes |= closed != *pushes;
-        *pushes = closed;
+        if (y->crack[k / 2].tooth > 0 && (*pushes ? p <= -none : p > none)) {
+            *pushes = !*pushes;
+            changes++;
+        }
     }
     return changes;
 }

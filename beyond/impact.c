@@ -244,11 +244,8 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
             c->rest = -INFINITY;
         }
         c->strength = of->jumps < -1 ? (bbm_strength){ 0 } : c->strength;
-        c->trial.was_closed = 1;
-        c->trial.closings = 0;
-        c->trial.time_left = 1;
-        c->trial.d_n0 = 0;
-        memset(c->trial.entrance, -1, sizeof c->trial.entrance);
+        c->trial = (bbm_trial){ .was_closed = 1, .time_left = 1, .entrance = { -1, -1, -1, -1 },
+                                .N_of_friction = c->trial.N_of_friction };
     }
 }
 
