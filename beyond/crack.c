@@ -307,16 +307,15 @@ bbm_pass bbm_break_bonds(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ fragments */
 
-/* Where the corners of contacts lie, times a sign, is added to where they count from. Two elements
- * share a corner no more when a bond between them has broken, or begin to when another one has, and
- * it jumps. Contacts keep their forces. */
-static void add_places(bbm_model *m, double sign)
+/* Two elements share a corner no more when a bond between them has broken, or begin to when another
+ * one has, and it jumps. Contacts keep their forces: their springs count from where they have them. */
+static void place_contacts(bbm_model *m)
 {
     for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
         bbm_spring v[2];
-        bbm_shared_vectors(m, c, 0, v);         /* d_n, and d_s from P3, which grows towards it */
-        c->rest += sign * v[0].d;
-        c->anchor -= sign * v[1].d / m->edge[c->edge].along.length;
+        bbm_shared_vectors(m, c, 0, v);         /* d_n, and d_s from P3 */
+        c->rest = v[0].d + c->N / m->par.p_n;
+        c->anchor = (c->T / m->par.p_s - v[1].d) / m->edge[c->edge].along.length;
     }
 }
 
@@ -340,8 +339,7 @@ static bbm_status add_contact(bbm_model *m, bbm_contact c)
 }
 
 /* Of a contact k whose corner was shared with the vertex shares[k], and is no more, each of the two
- * corners gets half of the forces: a mirrored model would leave all of it to the other one. What
- * its rest and anchor count from is taken away by add_places. */
+ * corners gets half of the forces: a mirrored model would leave all of it to the other one. */
 static bbm_status part_contacts(bbm_model *m, const int shares[], int n)
 {
     bbm_status status = BBM_OK;
@@ -355,8 +353,6 @@ static bbm_status part_contacts(bbm_model *m, const int shares[], int n)
             continue;
         c->N /= 2;
         c->T /= 2;
-        c->rest /= 2;
-        c->anchor /= 2;
         c->area /= 2;
         bbm_contact half = *c;
         half.corner = other;
@@ -377,7 +373,6 @@ static bbm_status part_bodies(bbm_model *m)
         return BBM_NO_MEMORY;
     for (int k = 0; k < n; k++)
         shares[k] = bbm_find_partner(m, m->edge[m->contact[k].corner].a);
-    add_places(m, -1);
     for (int b = 0; b < m->bonds; b++) {
         const bbm_bond of = m->bond[b];
         const int side[2][2] = { { of.p[0], of.p[1] }, { of.q[1], of.q[0] } };
@@ -406,7 +401,7 @@ static bbm_status part_bodies(bbm_model *m)
     if (!status)
         status = part_contacts(m, shares, n);
     free(shares);
-    add_places(m, 1);
+    place_contacts(m);
     sort_contacts(m);
     m->is_prepared = !status;
     return status;
