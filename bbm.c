@@ -18,8 +18,6 @@
  * Statics is without inertia, Eq. (16), (17). `middle` is NULL in the paper. With it a hook takes T
  * at another moment of the step, and a reader of the paper may pass over it.
  */
-#include <string.h>
-
 #include "base/base.h"
 
 /* --------------------------------------------------------- 2.1 Displacement of an element */

@@ -28,8 +28,6 @@
  * K falls into components, which are solved one by one. The rows of the one in hand are `from` to
  * `to` - 1. base/solve.c does what stands around the iteration.
  */
-#include <string.h>
-
 #include "base/base.h"
 
 /* ----------------------------------------------------------------------------- products of blocks

@@ -2,8 +2,6 @@
  * edges that elements share (2.2) and makes the arrays that the steps need.
  */
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "base.h"
 

@@ -13,9 +13,6 @@
  * Components. Rows that no block joins, however indirectly, belong to different components. The
  * order puts the rows of a component one after the other.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "base.h"
 
 typedef struct {                /* who is a neighbour of whom, in the caller's numbers         */

@@ -16,8 +16,6 @@
  * longer on these. Therefore F is scaled to a largest entry near 1, and its zeros become
  * NEGLIGIBLE. That is too small to change a result, and its square is still far above 1e-308.
  */
-#include <string.h>
-
 #include "base.h"
 
 /* [-] in place of a zero of F, against its largest entry */

@@ -9,8 +9,6 @@
  * Statics is without inertia: each step is one iteration of Newton-Raphson on the geometry that the
  * last step left.
  */
-#include <string.h>
-
 #include "base.h"
 
 /* ------------------------------------------------------------------- assembly, Eq. (5) */

@@ -14,8 +14,6 @@
  * bends alike. A triangle does not bend: it is to a quadrilateral what the wall is. A fixed node is
  * the mean of its corners, as it is for loads.
  */
-#include <string.h>
-
 #include "beyond.h"
 
 /* ------------------------------------------------------------------------ the moment of an edge */

@@ -1,7 +1,4 @@
 /* beyond.c - a model with all that stands beside the paper: what is hooked in where. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* What belongs to the elements and nodes of a prepared model. */

@@ -52,9 +52,6 @@
  * left, some eps of what was summed up before it cancelled. They are struck out: the coarse space
  * is then a little smaller, and the preconditioner as positive definite as before.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* [-] against the hourglass, of E t. Measured, alpha = 10 to 1e5: with ten times as much iterations

@@ -33,9 +33,6 @@
  * take their place. A body has no contacts with itself, so that the springs above stay where a
  * crack ends inside. A corner that lies in another body, and that no contact has kept out, is taken
  * as one that has opened there: it may go out, and no deeper. */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* SAME [-]  loads that differ less are the same: symmetry, and the rounding of a solution

@@ -14,8 +14,6 @@
  * on purpose; with `rotation` BBM_LINEAR, the paper's way, a block that turns swells and gains
  * energy by that. There the balance is left alone, or only told.
  */
-#include <string.h>
-
 #include "beyond.h"
 
 /* GAIN [-]      a step that makes more than this share of what is there, in all its parts together,

@@ -9,9 +9,6 @@
  * not zero, nor is C_ik for the parent k of j. So the columns of row i are those of K in that row,
  * their parents, and so on up to i. They are few or many by the order of the rows.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* Of a pivot, against what it is measured by: rounding of what cancelled. */

@@ -34,9 +34,6 @@
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0; if it has
  * begun to move, r1.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* STIFF [-]     springs of contacts in the jump, against 2 m/h^2 of the heaviest element that is

@@ -17,9 +17,6 @@
  * are a = dg/ds, b = -dg/dt, which no nodes make. For them coarse.c gives each quadrilateral two
  * modes of its own.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* Elements that a wave crosses in a step, from which on two levels solve faster than one: measured,

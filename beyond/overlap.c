@@ -15,8 +15,6 @@
  * next step deeper in the block than contacts are and moves in, and no contact of the two blocks is
  * closed or has opened inside. That step is refused. The sweep asks for each corner near an edge.
  */
-#include <stdlib.h>
-
 #include "beyond.h"
 
 /* TOUCH [-]  overlaps up to this, in mean boundary edges of all blocks, are rounding of a model

@@ -25,8 +25,6 @@
  * each other, which are Newton's, an element ends each by the exact motion. With `rotation`
  * BBM_LINEAR, the paper's way, both are T D.
  */
-#include <string.h>
-
 #include "beyond.h"
 
 /* TURN [rad^2]  turn of an element times the error of that turn, times sqrt(alpha), below which T_m

@@ -34,9 +34,6 @@
  * Where there is none, it is given up: with M factored, after as many iterations as there are
  * unknowns and 100 more.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* Block rows up to which K without its terms is factored. Measured: walls that slide take 0.6 of

@@ -17,8 +17,6 @@
  * What tension has of it is in the K of every static step, but for sum f.X of what presses. Without
  * it a taut string turns too far in one step and back by more in the next.
  */
-#include <string.h>
-
 #include "beyond.h"
 
 /* NUDGED [-]  tolerance of the solution that looks for such a direction: one that is soft beside

@@ -10,8 +10,6 @@
  * boxes are less than half as long along x or y, against all that they lie in, that is the axis:
  * thin cells side by side, or what is piled up along a line that falls by four to one.
  */
-#include <stdlib.h>
-
 #include "beyond.h"
 
 enum { AXIS, X, Y };            /* coordinates: along the axis of the sweep, and the usual ones */
