@@ -324,38 +324,32 @@ static void sort_contacts(bbm_model *m)
         m->edge[m->contact[k].corner].contact = k;
 }
 
-static bbm_status add_contact(bbm_model *m, bbm_contact c)
+/* Room for more contacts. */
+static bbm_status widen_contacts(bbm_model *m, int more)
 {
-    bbm_contact *more = realloc(m->contact, ((size_t)m->contacts + 1) * sizeof *more);
+    bbm_contact *list = realloc(m->contact, (size_t)(m->contacts + more + 1) * sizeof *list);
 
-    if (!more)
-        return BBM_NO_MEMORY;
-    m->contact = more;
-    m->contact[m->contacts++] = c;
-    return BBM_OK;
+    m->contact = list ? list : m->contact;
+    return list ? BBM_OK : BBM_NO_MEMORY;
 }
 
 /* Of a contact k whose corner was shared with the vertex shares[k], and is no more, each of the two
  * corners gets half of the forces: a mirrored model would leave all of it to the other one. */
-static bbm_status part_contacts(bbm_model *m, const int shares[], int n)
+static void part_contacts(bbm_model *m, const int shares[], int n)
 {
-    bbm_status status = BBM_OK;
-
-    for (int k = 0; k < n && !status; k++) {
+    for (int k = 0; k < n; k++) {
         bbm_contact *c = &m->contact[k];
         int other = m->vertex[shares[k]].edge;
         while (other < 0)
             other = m->vertex[-1 - other].edge;
-        if (shares[k] == m->edge[c->corner].a || other == c->corner)
+        if (other == c->corner)
             continue;
         c->N /= 2;
         c->T /= 2;
         c->area /= 2;
-        bbm_contact half = *c;
-        half.corner = other;
-        status = add_contact(m, half);
+        m->contact[m->contacts] = *c;
+        m->contact[m->contacts++].corner = other;
     }
-    return status;
 }
 
 /* What has broken in the last step is a boundary, and what has come off is a body. Without memory
@@ -366,8 +360,8 @@ static bbm_status part_bodies(bbm_model *m)
     const int n = m->contacts;
     int kept = 0, *shares = malloc(((size_t)n + 1) * sizeof *shares);
 
-    if (!shares)
-        return BBM_NO_MEMORY;
+    if (!shares || widen_contacts(m, n))
+        return free(shares), BBM_NO_MEMORY;
     for (int k = 0; k < n; k++)
         shares[k] = bbm_find_partner(m, m->edge[m->contact[k].corner].a);
     for (int b = 0; b < m->bonds; b++) {
@@ -392,11 +386,10 @@ static bbm_status part_bodies(bbm_model *m)
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = y->body[m->edge[e].element];
     bbm_detect_free(m->scratch);
-    bbm_status status = bbm_detect_new(m);
+    const bbm_status status = bbm_detect_new(m);
     for (int e = 0; e < m->edges; e++)
         m->edge[e].block = m->element[m->edge[e].element].block;
-    if (!status)
-        status = part_contacts(m, shares, n);
+    part_contacts(m, shares, n);
     free(shares);
     place_contacts(m);
     sort_contacts(m);
@@ -447,8 +440,9 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
     while (!(status = bbm_find_near_pairs(m, search)) && y->broken > 0 && y->passed[0] >= 0) {
         bbm_contact c = { .corner = y->passed[0], .edge = y->passed[1], .inside = 1, .hit = 2 };
         (void)bbm_depth_behind(m, c.corner, c.edge, &c.edge);
-        if ((status = add_contact(m, c)))
-            return status;
+        if (widen_contacts(m, 1))
+            return BBM_NO_MEMORY;
+        m->contact[m->contacts++] = c;
         sort_contacts(m);
         y->caught++;
         y->passed[0] = -1;
