@@ -53,8 +53,8 @@ static double end_of(int j) { return j == 0 ? 0 : fmin(1, (j - 0.5) / TEETH); }
 /* c of a tooth, in tension/w_c. */
 static double slope_of(int tooth) { return 1 / end_of(tooth) - 1; }
 
-/* What a bond has taken that begins a tooth, in tension w_c for each area: where a tooth ends, c falls
- * to that of the next one, and 1/2 c w^2 with it. */
+/* What a bond has taken that begins a tooth, in tension w_c for each area: where a tooth ends, c
+ * falls to that of the next one, and 1/2 c w^2 with it. */
 static double taken(int tooth)
 {
     double sum = 0;
@@ -305,7 +305,8 @@ bbm_pass bbm_break_bonds(bbm_model *m)
 /* ------------------------------------------------------------------------------------ fragments */
 
 /* Two elements share a corner no more when a bond between them has broken, or begin to when another
- * one has, and it jumps. Contacts keep their forces: their springs count from where they have them. */
+ * one has, and it jumps. Contacts keep their forces: their springs count from where they carry
+ * these. */
 static void place_contacts(bbm_model *m)
 {
     for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
