@@ -24,15 +24,13 @@
  * low ledge stays on top: there it is at the surface of the next block. If both are crossed at the
  * same time, the one that was closed counts, or else the one that goes before the other.
  *
- * In dynamics two corners of A and B that lie flush are none for a third block: the boundary of the
- * one goes on as that of the other, and the faces between them are covered.
+ * Two corners of A and B that lie flush are none for a third block: the boundary of the one goes on
+ * as that of the other, and the faces between them are covered.
  *
  * Two lines that coincide are one contact, of P on Q's edge or of Q on P's. That one stays whose
  * projection is on its edge. At a tie it is the one that it was before, or else the one whose edge
  * goes before the other: by size, then as gravity points, the same in any order of the blocks.
  */
-#include <stdlib.h>
-
 #include "base.h"
 
 /* ------------------------------------------------------------------------------------ the data
@@ -875,12 +873,25 @@ static int admits(const bbm_model *m, const bbm_contact *c)
         && can_enter(m, c->corner, c->edge, r, PARALLEL);
 }
 
+/* Whether another block lies flush with an edge where the corner is, and covers it there. */
+static int is_covered_at(const bbm_model *m, const bbm_contact *c)
+{
+    const int Q = end_near(m, c->corner, c->edge);
+
+    return m->edge[Q].joined[Q == c->edge] != c->edge;
+}
+
+/* Whether a side of a corner lies along one of another block that ends there, too. */
+static int is_met(const bbm_model *m, int c) { return m->edge[c].meets[0] || m->edge[c].meets[1]; }
+
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
  * crosses last. A P that leaves over r has been outside if it was less than the rounding of the
  * corners behind it. A P that comes in on the edge is inside, wherever an end Q of it lies.
- * What was closed keeps its line until P crosses the other one. Of two lines crossed at the same
- * time the one counts that was closed at the start of the step, or else that goes before. */
+ * What was closed keeps its line until P crosses the other one. Of two lines that are not crossed
+ * the one counts that no block covers; and none does where a third block lies flush with both: P
+ * and Q are at the surface, and pass each other. Of two lines crossed at the same time the one
+ * counts that was closed at the start of the step, or else that goes before. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
@@ -897,6 +908,12 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
         return over_r >= (c->trial.was_closed ? 0 : -rounding_between(m, c->corner, c->edge));
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
+    if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {
+        if (is_covered_at(m, c) != is_covered_at(m, r))
+            return is_covered_at(m, c);
+        if (is_met(m, c->corner) && is_met(m, r->corner))
+            return 1;
+    }
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
     return goes_before(m, r->edge, c->edge) && admits(m, r);

@@ -12,8 +12,6 @@
  * Nothing moves before all contacts fit. If they never do, the step is done again as if it had not
  * been tried: in halves, or in statics in another way.
  */
-#include <string.h>
-
 #include "base.h"
 
 /* AGREE  [-]  forces agree if they differ by less than this share of N, or of the force by which
@@ -46,15 +44,12 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
  * strength is the model's friction angle, or what a hook says. If it is open or its edge is another
  * one, its anchor is placed anew.
  *
- * One that touches when the run begins is closed: what lies flush is under load. In dynamics it
- * stays open where P1 can come in over more than one line of a corner, for its way will show over
- * which one; in statics where another block lies flush there: at a seam the side that this covers
- * holds nothing. An unbroken joint is closed in any case. */
+ * One that touches when the run begins is closed: what lies flush is under load. It stays open where
+ * P1 can come in over more than one line of a corner, for its way will show over which one. An
+ * unbroken joint is closed in any case. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
-    const int end = 2 * bbm_way_along(m, c->corner, c->edge) > m->edge[c->edge].along.length;
-    const int seam = m->edge[end ? m->edge[c->edge].after : c->edge].joined[!end] != c->edge;
     int lines = 0;
 
     c->element[0] = m->edge[c->corner].element;
@@ -74,8 +69,7 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     if (m->hook->strength)
         m->hook->strength(m, c);
     if (c->trial.touches && !c->trial.has_left)
-        c->state = lines == 0 || bbm_is_strong(c) || (isinf(m->par.dt) && !seam) ? BBM_LOCK
-                                                                                 : BBM_OPEN;
+        c->state = lines == 0 || bbm_is_strong(c) ? BBM_LOCK : BBM_OPEN;
     if (!c->trial.carried || c->state == BBM_OPEN) {
         place_anchor(m, c, c->T);
         c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);

@@ -14,9 +14,6 @@
  * if forces come no nearer to balance, it falls, and these are named. Else nothing was found, which
  * is said as well; and the model is what it was.
  */
-#include <stdlib.h>
-#include <string.h>
-
 #include "beyond.h"
 
 /* LOOSE [-]    a pivot of the matrix of what holds a body is zero if less than this share of it is

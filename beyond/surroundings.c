@@ -23,8 +23,6 @@
  * (Timoshenko and Goodier, Theory of Elasticity, chapter 2), G stays, and out of the plane there is
  * szz = nu (sx + sy), with n = nu/(1 - nu): nu = n/(1 + n).
  */
-#include <string.h>
-
 #include "beyond.h"
 
 /* SETTLED [-]  of what presses on an edge, and of the water that its element displaces */
