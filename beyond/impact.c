@@ -149,7 +149,7 @@ void bbm_stiffen(bbm_model *m)
         const double stiffer = fmax(1, rigidity(m, g->i) / (g->elastic ? 1 : m->par.alpha)) - 1;
         bbm_gap more = *g;
         const int holds = g->j < 0 || g->W[0][0] + g->W[1][1] < 0;      /* a node: bending.c */
-        if (stiffer == 0 || holds || m->element[g->i].block != m->element[g->j].block)
+        if (stiffer == 0 || holds)
             continue;
         memset(more.d0, 0, sizeof more.d0);
         for (int a = 0; a < 4; a++)

@@ -173,8 +173,7 @@ blocks()
     for kn in 0 1e9; do
         beam 8 2 1000 0 "-v kn=$kn" | run
         tail -1 out/claims/summary.csv | awk -F, -v v=$(tail -1 out/claims/history.csv | cut -d, -f4) '{
-            printf "%s contacts: v(24,0) %.2f mm, %s\n", ($6 > 200 ? "over 200" : $6), 1000 * v,
-                ($3 > 3 ? "several solutions" : $3 " solution")
+            printf "%d contacts: v(24,0) %.2f mm, %d solution%s\n", $6, 1000 * v, $3, $3 > 1 ? "s" : ""
         }'
     done
 }
