@@ -173,7 +173,7 @@ blocks()
     for kn in 0 1e9; do
         beam 8 2 1000 0 "-v kn=$kn" | run
         tail -1 out/claims/summary.csv | awk -F, -v v=$(tail -1 out/claims/history.csv | cut -d, -f4) '{
-            printf "%d contacts: v(24,0) %.2f mm, %d solution%s\n", $6, 1000 * v, $3, $3 > 1 ? "s" : ""
+            printf "%d contacts: v(24,0) %.2f mm, %d solution%s\n", $6, 1000 * v, $3, ($3 > 1 ? "s" : "")
         }'
     done
 }

@@ -82,6 +82,19 @@ START_TEST(what_lies_on_a_table_when_it_is_hit_carries_on)
 }
 END_TEST
 
+/* A block begins on a table, and moves into it: it hits in the first step. */
+START_TEST(what_touches_from_the_start_hits)
+{
+    bbm_model *m = hard_blocks(0.5, 0);
+
+    add_table(m, 0);
+    add_rectangle(m, 1, ROCK, (rectangle){ -1, 0, 1, 1, .fixed = 0 });
+    set_velocity(m, 1, 0, -1);
+    run_steps(m, 1);
+    ck_near(m->element[1].V[1], 0.5, 1, 0.01);                  /* the promise */
+}
+END_TEST
+
 /* A block lies on a table, and another one hits it from above at 3 m/s. The springs below throw it up afterwards, by
  * up to the share of these 3 m/s that doc/09-limits.md tells. */
 START_TEST(what_is_hit_from_above_hops_as_the_document_says)
@@ -609,6 +622,7 @@ Suite *impact_suite(void)
         { a_block_rebounds_at_the_velocity_asked_for_whatever_the_step, 27 },
         { what_is_on_its_way_does_not_hit_with_another, 2 },
         { what_lies_on_a_table_when_it_is_hit_carries_on, 1 },
+        { what_touches_from_the_start_hits, 1 },
         { what_is_hit_from_above_hops_as_the_document_says, 1 },
         { what_a_hit_gives_back_depends_on_neither_the_step_nor_the_mesh, 4 },
         { both_corners_of_a_block_that_comes_down_all_but_flat_hit, 6 },

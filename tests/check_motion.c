@@ -269,6 +269,36 @@ END_TEST
 
 /* --------------------------------------------------------------------------------------------- bonded blocks spin */
 
+/* At the solution D the opening of a bond in the frame that turns with its edge is R^T (d0 + d), d the opening by D, of any two
+ * motions. Rounding. */
+START_TEST(the_opening_of_a_bond_turns_with_its_edge)
+{
+    const double D[2][6] = { { 0.1, -0.2, 0.35, 1e-2, 2e-2, -3e-2 }, { -0.3, 0.4, 0.15, -2e-2, 1e-2, 5e-2 } };
+    const double r = (D[0][2] + D[1][2]) / 2;
+    bbm_element e[2] = { { 0 } };
+    bbm_middle at[2] = { { 0 } };
+    bbm_gap g = { .d0 = { 0.02, -0.03 }, .W = { { 1, 0 }, { 0, 1 } } };
+
+    for (int k = 0; k < 12; k++) {
+        g.Ti[k / 6][k % 6] = 1 + 0.3 * sin(k + 1);
+        g.Tj[k / 6][k % 6] = 1 + 0.3 * cos(2 * k + 1);
+    }
+    for (int k = 0; k < 2; k++) {
+        memcpy(at[k].D, D[k], sizeof at[k].D);
+        e[k].middle = &at[k];
+    }
+    const bbm_gap was = g;
+    double d[2] = { was.d0[0], was.d0[1] }, turned[2] = { was.d0[0], was.d0[1] };
+    bbm_turn_opening(&e[0], &e[1], &g);
+    for (int k = 0; k < 12; k++) {
+        d[k / 6] += was.Ti[k / 6][k % 6] * D[0][k % 6] - was.Tj[k / 6][k % 6] * D[1][k % 6];
+        turned[k / 6] += g.Ti[k / 6][k % 6] * D[0][k % 6] - g.Tj[k / 6][k % 6] * D[1][k % 6];
+    }
+    ck_near(turned[0], cos(r) * d[0] + sin(r) * d[1], 1, 1e-14);
+    ck_near(turned[1], cos(r) * d[1] - sin(r) * d[0], 1, 1e-14);
+}
+END_TEST
+
 static const struct { double w; int triangles; bbm_bonding bonding; double alpha; } SPINS[] = {
     { 1, 0, BBM_MOMENT, 100 },  { 5, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 100 },   { 20, 0, BBM_MOMENT, 1e3 },
     { 5, 1, BBM_VERTICES, 1e3 }, { 20, 1, BBM_VERTICES, 100 }, { 20, 0, BBM_VERTICES, 1e3 },
@@ -622,6 +652,7 @@ Suite *motion_suite(void)
         { the_vectors_are_off_when_an_element_turns_further_than_they_did, 1 },
         { with_the_vectors_of_the_middle_the_springs_of_a_contact_have_their_exact_lengths, 1 },
         { the_springs_of_contacts_at_shared_corners_have_their_exact_lengths, 1 },
+        { the_opening_of_a_bond_turns_with_its_edge, 1 },
         { a_bonded_block_that_spins_keeps_its_energy, COUNT(SPINS) },
         { bonds_make_no_energy_in_steps_of_any_length, 12 },
         { the_balance_of_a_step_is_what_it_says, 3 },
