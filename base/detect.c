@@ -881,17 +881,23 @@ static int is_covered_at(const bbm_model *m, const bbm_contact *c)
     return m->edge[Q].joined[Q == c->edge] != c->edge;
 }
 
-/* Whether a side of a corner lies along one of another block that ends there, too. */
-static int is_met(const bbm_model *m, int c) { return m->edge[c].meets[0] || m->edge[c].meets[1]; }
+/* Whether a side of the corner lies along the edge, and along one that ends at the corner, too. */
+static int lies_along(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_edge *P = &m->edge[c->corner];
+
+    return (P->meets[0] || P->meets[1])
+        && (are_parallel(m, c->edge, P->before, -1) || are_parallel(m, c->edge, c->corner, -1));
+}
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
  * crosses last. A P that leaves over r has been outside if it was less than the rounding of the
  * corners behind it. A P that comes in on the edge is inside, wherever an end Q of it lies.
  * What was closed keeps its line until P crosses the other one. Of two lines that are not crossed
- * the one counts that no block covers; and none does where a third block lies flush with both: P
- * and Q are at the surface, and pass each other. Of two lines crossed at the same time the one
- * counts that was closed at the start of the step, or else that goes before. */
+ * the one counts that no block covers, and neither does where each lies along a side of its corner:
+ * P and Q pass each other at the surface. Of two lines crossed at the same time the one counts that
+ * was closed at the start of the step, or else that goes before. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c);
@@ -911,7 +917,7 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {
         if (is_covered_at(m, c) != is_covered_at(m, r))
             return is_covered_at(m, c);
-        if (is_met(m, c->corner) && is_met(m, r->corner))
+        if (lies_along(m, c) && lies_along(m, r))
             return 1;
     }
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
