@@ -407,16 +407,21 @@ START_TEST(a_small_stone_slides_below_the_slope_anywhere_on_a_base_of_any_weight
 END_TEST
 
 /* Adds to the equations of the first element a part of its weight, or of that times its side, as a
- * force or a moment that no load, contact or support has. */
+ * force down to the right or a moment that no load, contact or support has. */
 typedef struct { int row; double part; } push;
 
 static int push_from_nowhere(const bbm_model *m, void *context)
 {
     const push *p = context;
-    const double side = p->row == 2 ? sqrt(m->element[0].A0) : 1;
+    const double weight = bbm_mass_per_area(&m->element[0]) * m->element[0].A0
+                        * hypot(m->acceleration[0], m->acceleration[1]);
 
-    m->F[p->row] += p->part * side * bbm_mass_per_area(&m->element[0])
-                  * m->element[0].A0 * hypot(m->acceleration[0], m->acceleration[1]);
+    if (p->row == 2)
+        m->F[2] += p->part * weight * sqrt(m->element[0].A0);
+    else {
+        m->F[0] += p->part * weight * sqrt(0.5);
+        m->F[1] -= p->part * weight * sqrt(0.5);
+    }
     return 0;
 }
 
