@@ -740,7 +740,7 @@ static void mesh_of_blocks(bbm_model *m, int bonded, int held)
 {
     bbm_add_material(m, &(bbm_material){ 1e10, 0.2, 2500, 1 }, NULL);
     for (int i = 0; i < 8; i++)
-        bbm_add_node(m, i / 2, i % 2, NULL);
+        bbm_add_node(m, 2 * (i / 2), 2 * (i % 2), NULL);
     for (int i = 0; i < 3; i++) {
         const int node[4] = { 2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1 };
         bbm_add_element(m, bonded ? 0 : i, 0, 4, node, NULL);
@@ -755,8 +755,8 @@ static void mesh_of_blocks(bbm_model *m, int bonded, int held)
 START_TEST(one_level_is_used_where_two_do_not_pay)
 {
     static const struct { int bonded, held; double dt; int two; } table[] = {
-        { 1, 0, 1e-2, 1 }, { 1, 0, 1.8e-3, 1 }, { 1, 0, 1.2e-3, 0 },
-        { 1, 0, 1e-4, 0 }, { 0, 0, 1e-2, 0 },   { 1, 1, 1e-2, 0 },
+        { 1, 0, 2e-2, 1 }, { 1, 0, 3.6e-3, 1 }, { 1, 0, 2.4e-3, 0 },
+        { 1, 0, 2e-4, 0 }, { 0, 0, 2e-2, 0 },   { 1, 1, 2e-2, 0 },
     };
     bbm_model *m[2];
 
