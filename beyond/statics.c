@@ -24,13 +24,16 @@
  * FAR [-]      how far they have parted in all when that is no elastic way
  * SLOWS [-]    nor if forces lack less of balance than this share of what they did at half the way:
  *              elastic bodies come to rest so, and what falls does not
- * SHORT [-]    the shortest step against a swing on a contact spring
+ * LONG [-]     the first step from rest that is tried, against a swing on a contact spring: as in
+ *              slow dynamics contacts then close under the whole load, and little slides before
+ * SHORT [-]    the shortest step
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
 #define LEAP 0.2
 #define FAR 0.02
 #define SLOWS 0.9
+#define LONG 1000
 #define SHORT 1e-3
 #define DRIFT 0.9
 
@@ -228,8 +231,8 @@ static bbm_status try_statics(bbm_model *m)
 /* Steps from rest, each as long as it settles without that blocks part far in it, until statics
  * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
  * Joints hold until forces balance with what holds them: at first inertia bears the weight.
- * A length that failed, or after which statics did, is not tried again for some steps. Lengths
- * begin from the time in which the lightest element that is not held swings on a contact spring. */
+ * A length that failed, or after which statics did, is not tried again for some steps. Lengths are
+ * measured by the time in which the lightest element that is not held swings on a contact spring. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1, least = INFINITY;
@@ -243,7 +246,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         if (m->K->body[i] >= 0)
             least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
     const double swing = sqrt(2 * least / m->par.p_n);
-    double h = swing;
+    double h = LONG * swing;
     while (h > SHORT * swing && !bbm_is_spent(m)) {
         m->h = h;
         b->joints_hold = hold;

@@ -357,6 +357,31 @@ START_TEST(a_seam_below_a_foot_holds_no_block_that_slides)
 }
 END_TEST
 
+/* Four bars lie round a core like a pinwheel, on a base, with friction of 40 degrees. They stand to a tilt of 0.75 by limit
+ * analysis, and so they do in slow dynamics. */
+START_TEST(a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit)
+{
+    static const rectangle bar[] = { { .x = 0, .y = 0, .w = 2, .h = 1 }, { .x = 2, .y = 0, .w = 1, .h = 2 },
+                                     { .x = 1, .y = 2, .w = 2, .h = 1 }, { .x = 0, .y = 1, .w = 1, .h = 2 },
+                                     { .x = 1, .y = 1, .w = 1, .h = 1 } };
+    bbm_model *m = new_blocks();
+
+    m->material[ROCK].E = 1e11;
+    m->par.dt = INFINITY;
+    m->par.steps = 1;
+    m->par.friction = 40;
+    m->par.gravity[0] = -GRAVITY * (0.44 + 0.02 * _i);
+    set_springs(m, 5e12, 2e12);
+    for (int k = 0; k < COUNT(bar); k++)
+        add_rectangle(m, k, ROCK, bar[k]);
+    add_rectangle(m, COUNT(bar), BASE, (rectangle){ .x = -3, .y = -1, .w = 9, .h = 1, .fixed = 1 });
+    ck_ok(bbm_prepare(m), m);
+    ck_ok(bbm_step(m), m);
+    for (int v = 0; v < m->vertices; v++)
+        ck_assert_double_lt(hypot(m->vertex[v].u, m->vertex[v].v), 1e-5);       /* of its elastic way */
+}
+END_TEST
+
 /* A stone on a fixed base is shaken, in dynamics. A base of any weight stays where it is; its supports bear that. */
 START_TEST(what_a_fixed_block_weighs_moves_nothing)
 {
@@ -696,6 +721,7 @@ Suite *statics_suite(void)
         { what_is_taut_sags_as_its_tension_says_and_stays_taut, 4 },
         { a_round_side_that_flattens_bears_at_all_its_corners, 24 },
         { a_seam_below_a_foot_holds_no_block_that_slides, 3 },
+        { a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit, 10 },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
         { a_solution_that_is_refused_leaves_no_reactions, 1 });
     add_case(s, "measures",
