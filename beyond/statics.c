@@ -33,7 +33,7 @@
 #define LEAP 0.2
 #define FAR 0.02
 #define SLOWS 0.9
-#define LONG 1000
+#define LONG 100
 #define SHORT 1e-3
 #define DRIFT 0.9
 
