@@ -149,7 +149,7 @@ void bbm_stiffen(bbm_model *m)
         const double stiffer = fmax(1, rigidity(m, g->i) / (g->elastic ? 1 : m->par.alpha)) - 1;
         bbm_gap more = *g;
         const int holds = g->j < 0 || g->W[0][0] + g->W[1][1] < 0;      /* a node: bending.c */
-        if (stiffer == 0 || holds)
+        if (stiffer == 0 || holds || m->beyond->body[g->i] != m->beyond->body[g->j])
             continue;
         memset(more.d0, 0, sizeof more.d0);
         for (int a = 0; a < 4; a++)

@@ -1321,6 +1321,17 @@ START_TEST(a_restitution_changes_no_lift_by_a_support)
 }
 END_TEST
 
+/* A block at rest that a bolt presses on the floor. Hits make bodies rigid, and no bolt: 2 kN more than the weight press. */
+START_TEST(a_bolt_pulls_alike_whether_hits_give_back_or_not)
+{
+    ck_assert_int_eq(run_text("pull", ROCK "block floor rock -5 -1 5 -1 5 0 -5 0\nfixblock floor\nblock a rock 0 0 1 0 1 1 0 1\n"
+        "gravity 0 -9.81\ncontact friction 30 restitution 0.5\nbolt at 0.5 0.5 of a at 0.5 -0.5 of floor stiffness 1e4 "
+        "pretension 2000\ndynamic dt 0.001 steps 300 velocity_factor 0.9\nmonitor p bolt 1\nmonitor f joint a floor\n"), 0);
+    ck_relative(cell("pull", "history.csv", "", "p_force"), 2000, 1e-3);
+    ck_relative(cell("pull", "history.csv", "", "f_normal"), 2000 + 2500 * 9.81, 1e-2);
+}
+END_TEST
+
 /* Freed, a beam that a bolt carries too sinks as one that was never held inside. */
 START_TEST(a_support_that_is_gone_leaves_no_force_to_a_bolt)
 {
@@ -1506,6 +1517,7 @@ static void add_what_was_wrong_once(TCase *t)
     tcase_add_test(t, a_support_of_a_stage_takes_the_whole_stage_for_its_way);
     tcase_add_loop_test(t, a_bolt_within_one_body_moves_it_nowhere, 0, 3);
     tcase_add_loop_test(t, what_bolts_hold_hangs_when_its_bond_breaks, 0, 3);
+    tcase_add_test(t, a_bolt_pulls_alike_whether_hits_give_back_or_not);
     tcase_add_loop_test(t, a_restitution_changes_no_lift_by_a_support, 0, 6);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     tcase_add_loop_test(t, an_arch_stands_without_its_formwork_to_its_limit, 0, 3);
