@@ -207,8 +207,7 @@ bbm_status bbm_detect_new(bbm_model *m)
 
 /* ----------------------------------------------------------- detection: how far blocks may move */
 
-/* Takes for D what the velocities and gravity foretell of the step; in statics the D of the last
- * step. */
+/* Takes for D what the velocities and gravity foretell of the step; in statics 0. */
 void bbm_foresee_step(bbm_model *m)
 {
     const double h = bbm_is_static(m) ? 0 : m->h, *g = m->acceleration;
@@ -217,7 +216,7 @@ void bbm_foresee_step(bbm_model *m)
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         for (int a = 0; a < 6; a++)
-            m->D[6 * i + a] = bbm_is_static(m) ? e->D[a] : e->V[a] * h + fall[a];
+            m->D[6 * i + a] = e->V[a] * h + fall[a];
         m->scratch->reach[i].travel = 0;
     }
     m->detections = 0;

@@ -107,6 +107,16 @@ START_TEST(what_is_moored_floats_as_deep_as_its_weight_and_lines_ask)
 }
 END_TEST
 
+/* A block rises by 0.4 m in the first of some static steps, and stays there. */
+START_TEST(what_floats_stays_where_the_first_of_some_static_steps_puts_it)
+{
+    ck_assert_int_eq(run_text("rises", "material m E 1e9 nu .2 density 100\nblock p m 0 0 2 0 2 1 0 1\ngravity 0 -9.81\n"
+        "water set p 0.5\nfix at 0 0 x\nstatic steps 5\nmonitor p set p\n"), 0);
+    ck_near(cell("rises", "history.csv", "1,", "p_v"), 0.4, 1, 1e-6);
+    ck_near(cell("rises", "history.csv", "5,", "p_v"), 0.4, 1, 1e-6);
+}
+END_TEST
+
 /* What the water alone holds upright has supports for the other ways. In its place it stays there. */
 START_TEST(what_floats_needs_supports_sideways_alone)
 {
@@ -1449,6 +1459,7 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_test(t, water_weighs_what_gravity_makes_of_it);
     tcase_add_test(t, water_presses_on_what_is_at_rest_as_in_statics);
     tcase_add_loop_test(t, what_is_moored_floats_as_deep_as_its_weight_and_lines_ask, 0, 12);
+    tcase_add_test(t, what_floats_stays_where_the_first_of_some_static_steps_puts_it);
     tcase_add_loop_test(t, what_floats_needs_supports_sideways_alone, 0, 3);
     tcase_add_test(t, what_turns_in_deep_water_rises_as_fast);
     tcase_add_test(t, what_swings_to_its_place_in_statics_stays_as_long);
