@@ -138,6 +138,13 @@ static void warn_of_pieces(const bodies *s, const char *path)
     }
 }
 
+static int is_convex(const bbm_model *m, int e)
+{
+    const bbm_direction in = m->edge[m->edge[e].before].along, out = m->edge[e].along;
+
+    return in.x * out.y > in.y * out.x;
+}
+
 /* The least distance, if it is below `far`, of a corner of block a from an edge of b that it faces.
  * Counts the corners that touch, those that are corners of both, and those nearly so. */
 static double find_gap(const bodies *s, const body *a, const body *b, double far, int count[3])
@@ -158,7 +165,8 @@ static double find_gap(const bodies *s, const body *a, const body *b, double far
                 least = fmin(least, d);
             const double apart = hypot(d, fmax(0, way));
             count[1] += d <= touch && way < touch;
-            count[2] += apart > touch && apart < fmin(bbm_rounding(m, e), bbm_rounding(m, f));
+            count[2] += apart > touch && is_convex(m, e) && is_convex(m, f)
+                     && apart < fmin(bbm_rounding(m, e), bbm_rounding(m, f));
         }
         count[0] += least <= touch;
         gap = fmin(gap, least);

@@ -559,6 +559,9 @@ static const struct { const char *text, *said; } doubtful[] = {
     { PAIR "contact friction 30\n", NULL }, { PAIR "contact kn 0\n", NULL }, { PAIR "joint b c\n", ":7: warning: this joint" },
     { SLABS("1.001", ""), "corners of blocks 'a' and 'b' are less apart than they are rounded by" },
     { SLABS("1.003", ""), NULL }, { SLABS("1.001", " round 0"), NULL },
+    /* beside a hollow of one block */
+    { ROCK "block base rock -4 -1 8 -1 8 0 0 0 0 2e-5 -4 2e-5\nfixblock base\nblock b rock 1e-6 0 1 0 1 1 1e-6 1\n"
+      "gravity 0 -9.81\ncontact friction 20 round 0.002\ndynamic dt 0.01 steps 1\n", NULL },
     { ROD "load set rod.right 0 1\noutput film\n", ":6: warning: statics has no film" },
     /* turns by P L^2/(2 E I): 0.05, 0.19 */
     { ROD "load set rod.right 0 1e6\n", NULL }, { ROD "load set rod.right 0 4e6\n", "elements turn by more than 0.1 rad "
