@@ -44,9 +44,9 @@ static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
  * strength is the model's friction angle, or what a hook says. If it is open or its edge is another
  * one, its anchor is placed anew.
  *
- * One that touches when the run begins is closed: what lies flush is under load. It stays open where
- * P1 can come in over more than one line of a corner, for its way will show over which one. An
- * unbroken joint is closed in any case. */
+ * One that touches when the run begins is closed: what lies flush is under load. It stays open
+ * where P1 can come in over more than one line of a corner, for its way will show over which one.
+ * An unbroken joint is closed in any case. */
 static void begin_contact(const bbm_model *m, bbm_contact *c)
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };

@@ -231,8 +231,8 @@ static bbm_status try_statics(bbm_model *m)
 /* Steps from rest, each as long as it settles without that blocks part far in it, until statics
  * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
  * Joints hold until forces balance with what holds them: at first inertia bears the weight.
- * A length that failed, or after which statics did, is not tried again for some steps. Lengths are
- * measured by the time in which the lightest element that is not held swings on a contact spring. */
+ * A length that failed, or after which statics did, is not tried again for some steps. Lengths
+ * count in the time in which the lightest element that is not held swings on a contact spring. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1, least = INFINITY;
