@@ -419,6 +419,34 @@ START_TEST(bodies_that_break_keep_momentum_and_make_no_energy)
 }
 END_TEST
 
+/* Two cells, bonded, lie on a smooth floor and are pulled apart, in dynamics. The floor bears each of the two fragments as
+ * it bore their half of the body; what the bond held swings, 2 % are seen. */
+START_TEST(fragments_lie_on_the_floor_as_the_body_did)
+{
+    const double weight = 2 * 2500 * GRAVITY;
+    bbm_model *m = new_blocks();
+
+    m->par.dt = 1e-3;
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -3, .y = -1, .w = 6, .h = 1, .fixed = 1 });
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ .x = -1, .w = 2, .h = 1, .nx = 2, .ny = 1 });
+    m->beyond->bond_tension = m->beyond->bond_cohesion = 1e6;
+    m->par.velocity_factor = 0;
+    run_steps(m, 200);
+    m->par.velocity_factor = 1;
+    m->beyond->bond_tension = m->beyond->bond_cohesion = 1e-3;
+    set_velocity(m, e, -1e-4, 0);
+    set_velocity(m, e + 1, 1e-4, 0);
+    for (int k = 0; k < 4; k++) {
+        double N = 0;
+        run_steps(m, 1);
+        for (int c = 0; c < m->contacts; c++)
+            N += m->contact[c].N;
+        ck_relative(N, weight, 0.05);
+    }
+    ck_assert_int_eq(m->beyond->broken, 1);
+}
+END_TEST
+
 /* Two squares that part have a node in common, by which a support moves both; or along y alone, and
  * each turns at its own rate. */
 START_TEST(a_support_that_moves_two_fragments_works_on_each)
@@ -536,6 +564,7 @@ Suite *crack_suite(void)
              { more_passes_with_breaks_than_the_bound_are_said, 1 });
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
              { a_support_that_moves_two_fragments_works_on_each, 2 },
+             { fragments_lie_on_the_floor_as_the_body_did, 1 },
              { a_crack_is_said_to_be_between_its_sides, 1 },
              { fragments_go_on_in_a_mirror_as_they_do, 2 },
              { the_same_bonds_break_in_any_order_units_and_direction, 2 });
