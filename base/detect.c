@@ -872,8 +872,9 @@ static int admits(const bbm_model *m, const bbm_contact *c)
         && can_enter(m, c->corner, c->edge, r, PARALLEL);
 }
 
-/* Whether another block lies flush with an edge where the corner is, and covers it there. */
-static int is_covered_at(const bbm_model *m, const bbm_contact *c)
+/* Whether another block lies flush with the end of the edge where the corner is. Unlike is_covered,
+ * also where the block of the corner lies on that other block. */
+static int ends_flush(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge);
 
@@ -914,8 +915,8 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
     if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {
-        if (is_covered_at(m, c) != is_covered_at(m, r))
-            return is_covered_at(m, c);
+        if (ends_flush(m, c) != ends_flush(m, r))
+            return ends_flush(m, c);
         if (lies_along(m, c) && lies_along(m, r))
             return 1;
     }
