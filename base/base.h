@@ -81,6 +81,7 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    next;                /* another edge of the block, in a ring of all                  */
     int    meets[2];            /* of its start: another block covers the edge that ends or     */
                                 /*          starts there, its corner not farther than rounding  */
+    int    is_inner;            /* of its start: inside one straight side of two held blocks    */
     int    slides;              /* of its start: a block that lies flush slides along it in     */
                                 /*          the step by more than contacts are deep             */
     int    joined[2];           /* of its start: the edges that end and start there, but of a   */
@@ -409,6 +410,7 @@ int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_rounding(const bbm_model *m, int corner);       /* m                            */
 double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m                    */
+int        bbm_is_at_corner(const bbm_model *m, const bbm_contact *c);
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
 void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */

@@ -401,14 +401,15 @@ static int are_parallel(const bbm_model *m, int e, int f, int way)
 /* The edge that ends at a corner c (0) or starts there (1), as another corner Q meets it: its own,
  * or the one that goes on from it in a block that lies flush and covers its own. Not where a side
  * of Q lies along the other side of c: there Q passes c, or does not, by their rounding. Nor where
- * one lies along the side that would go on: the block of Q then covers that side. */
+ * one lies along the side that would go on: the block of Q then covers that side. But what is held
+ * is one side whatever lies on it. */
 static int side_at(const bbm_model *m, int c, int which, int Q)
 {
     const int own[2] = { m->edge[c].before, c }, joined = m->edge[c].joined[which];
     const int at[2] = { own[!which], joined };
     int alone = joined == own[which] || m->edge[joined].first == m->edge[Q].first;
 
-    for (int k = 0; k < 4 && !alone; k++)
+    for (int k = 0; k < 4 && !alone && !m->edge[c].is_inner; k++)
         alone = are_parallel(m, at[k / 2], k % 2 ? m->edge[Q].before : Q, -1);
     return alone ? own[which] : joined;
 }
@@ -553,7 +554,8 @@ static int is_hidden(const bbm_model *m, pair p)
         && bbm_is_held_all_round(m, &m->element[m->edge[p.edge].element]))
         return 1;
     return !find_closed(m, p.corner, p.edge)
-        && (is_covered(m, p.corner, p.edge) || !can_enter(m, p.corner, p.edge, STILL, angle));
+        && (m->edge[p.corner].is_inner || is_covered(m, p.corner, p.edge)
+            || !can_enter(m, p.corner, p.edge, STILL, angle));
 }
 
 /* Adds a corner and an edge to the pairs, if they are near. */
@@ -643,6 +645,18 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     return here != there ? there : !goes_before(m, p.edge, q.edge);
 }
 
+/* Whether a side of Q goes straight on in one of P, and both blocks are held all round: for others
+ * that is one side, and P and Q are no corners. */
+static int are_one_side(const bbm_model *m, int P, int Q, int end)
+{
+    const bbm_direction in = m->edge[m->edge[end ? P : Q].before].along;
+    const bbm_direction out = m->edge[end ? Q : P].along;
+
+    return bbm_is_held_all_round(m, &m->element[m->edge[P].element])
+        && bbm_is_held_all_round(m, &m->element[m->edge[Q].element])
+        && hypot(out.x - in.x, out.y - in.y) < STRAIGHT;
+}
+
 /* Finds where the corners of two blocks lie flush, with a side of each on one of the other: there
  * the boundary of one goes on as that of the other. */
 static void join_flush_corners(bbm_model *m)
@@ -650,7 +664,8 @@ static void join_flush_corners(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         m->edge[e].joined[0] = m->edge[e].before;
         m->edge[e].joined[1] = e;
-        m->edge[e].meets[0] = m->edge[e].meets[1] = m->edge[e].slides = 0;
+        m->edge[e].meets[0] = m->edge[e].meets[1] = 0;
+        m->edge[e].slides = m->edge[e].is_inner = 0;
     }
     for (int k = 0; k < 2 * m->scratch->pairs; k++) {
         const pair p = m->scratch->pair[k / 2];
@@ -665,6 +680,9 @@ static void join_flush_corners(bbm_model *m)
         m->edge[Q].meets[!end] = m->edge[P].meets[end] = 1;
         if (apart > contact_depth(m, P, Q))
             continue;
+        const int inner = apart <= touch_between(m, P, Q) && are_one_side(m, P, Q, end);
+        m->edge[P].is_inner |= inner;
+        m->edge[Q].is_inner |= inner;
         const int slides = slip_between(m, P, Q, t) > contact_depth(m, P, Q);
         m->edge[P].slides |= slides;
         m->edge[Q].slides |= slides;
@@ -775,6 +793,27 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->trial.has_left = has_left(m, c);
 }
 
+/* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
+ * as r, with its forces. But not if r has forces of its own. */
+static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
+{
+    const double touch = touch_between(m, c->corner, c->edge);
+    const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
+    const int edge = r->edge;
+
+    if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || g.beyond > touch
+        || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first)
+        return;
+    *r = *c;
+    r->edge = edge;
+    r->d_n = g.d;
+    r->rest = bbm_rest_of(m, g.d, r->N);
+    r->anchor = (g.s + r->T / m->par.p_s) / m->edge[edge].along.length;
+    reach_of(m, edge)->depth = fmax(reach_of(m, edge)->depth, -g.d);
+    reach_of(m, c->corner)->depth = fmax(reach_of(m, c->corner)->depth, -g.d);
+    bbm_forget(c);
+}
+
 /* Lists the contacts that may be closed in this step, from the present positions and the contacts
  * of the last step, which stay as they are. `same`: the list of this step had these pairs already,
  * and is as it was. */
@@ -784,6 +823,11 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
     const int is_listed = m->detections++ > 0;
 
     find_directions(m);
+    for (bbm_contact *c = m->contact, *first = c, *end = c + m->contacts; c < end; c++) {
+        first = first->corner == c->corner ? first : c;
+        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
+            hand_over(m, c, r);
+    }
     for (int e = 0; e < m->edges; e++)
         m->edge[e].contact = m->contacts;
     for (int k = m->contacts - 1; k >= 0; k--)
@@ -925,6 +969,19 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     return goes_before(m, r->edge, c->edge) && admits(m, r);
 }
 
+/* Whether P crosses another line of a corner than that of c, so that one of them counts. */
+int bbm_is_at_corner(const bbm_model *m, const bbm_contact *c)
+{
+    const bbm_contact *list = m->scratch->contact;
+    int crossed = 0;
+
+    for (int k = 0; k < 4; k++) {
+        const int r = c->trial.entrance[k];
+        crossed |= r >= 0 && list[r].d_n < 0 && !are_parallel(m, c->edge, list[r].edge, 1);
+    }
+    return crossed && c->state == BBM_OPEN;
+}
+
 /* Whether an open contact, though crossed, may not close. */
 int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 {
@@ -962,27 +1019,6 @@ void bbm_note_depths(bbm_model *m)
     }
 }
 
-/* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
- * as r, with its forces. But not if r has forces of its own. */
-static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
-{
-    const double touch = touch_between(m, c->corner, c->edge);
-    const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
-    const int edge = r->edge;
-
-    if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || g.beyond > touch
-        || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first)
-        return;
-    *r = *c;
-    r->edge = edge;
-    r->d_n = g.d;
-    r->rest = bbm_rest_of(m, g.d, r->N);
-    r->trial.time_left = 0;                                 /* the anchor is placed anew        */
-    reach_of(m, edge)->depth = fmax(reach_of(m, edge)->depth, -g.d);
-    reach_of(m, c->corner)->depth = fmax(reach_of(m, c->corner)->depth, -g.d);
-    bbm_forget(c);
-}
-
 /* The list of the step becomes that of the model, which has moved. */
 void bbm_keep_contacts(bbm_model *m)
 {
@@ -996,11 +1032,6 @@ void bbm_keep_contacts(bbm_model *m)
     for (int i = 0; i < m->elements; i++) {
         w->reach[i].depth = w->reach[i].depth_now;
         w->reach[i].came = w->reach[i].travel;
-    }
-    for (bbm_contact *c = w->contact, *first = c, *end = c + w->contacts; c < end; c++) {
-        first = first->corner == c->corner ? first : c;
-        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
-            hand_over(m, c, r);
     }
     m->contact = w->contact;
     m->contacts = w->contacts;

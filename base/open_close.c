@@ -209,16 +209,6 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Whether P crosses more than one line of a corner, so that one of them counts. */
-static int is_at_corner(const bbm_model *m, const bbm_contact *c)
-{
-    int crossed = 0;
-
-    for (int k = 0; k < 4; k++)
-        crossed |= c->trial.entrance[k] >= 0 && m->scratch->contact[c->trial.entrance[k]].d_n < 0;
-    return crossed && c->state == BBM_OPEN;
-}
-
 /* Changes all states that do not fit the solution, or only the one that fits worst. A contact whose
  * P crosses several lines of a corner waits until all others fit, since they change the way of P.
  * The worst is the same in any order of the blocks, but for a tie. Returns the number of changes.
@@ -235,11 +225,11 @@ static int change_states(bbm_model *m)
         c->trial.next_state = find_next_state(m, c);
         if (c->trial.next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
             worst = c;
-        sure |= c->trial.next_state != c->state && !is_at_corner(m, c);
+        sure |= c->trial.next_state != c->state && !bbm_is_at_corner(m, c);
     }
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        if (c->trial.next_state == c->state || (one ? c != worst : sure && is_at_corner(m, c)))
+        if (c->trial.next_state == c->state || (one ? c != worst : sure && bbm_is_at_corner(m, c)))
             continue;
         if (c->state == BBM_OPEN)
             close_contact(m, c);
