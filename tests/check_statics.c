@@ -357,6 +357,33 @@ START_TEST(a_seam_below_a_foot_holds_no_block_that_slides)
 }
 END_TEST
 
+/* Four bricks in two columns, gravity leans, and the upper right one is pushed to the left, so that its lower corner sinks below
+ * the foot of its neighbour: it has left that edge for the one of the brick below. Its force acts where it did in the solution. */
+START_TEST(a_contact_that_leaves_its_edge_in_a_static_step_has_its_force_there)
+{
+    bbm_model *m = new_blocks();
+
+    m->material[ROCK].E = m->material[BASE].E = 1e10;
+    m->par.dt = INFINITY;
+    m->par.steps = 1;
+    m->par.friction = 30;
+    m->par.gravity[0] = -1.6117;
+    set_springs(m, 5e11, 2e11);
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -4, .y = -1, .w = 10, .h = 1, .fixed = 1 });
+    for (int k = 0; k < 4; k++)
+        add_rectangle(m, 1 + k, ROCK, (rectangle){ .x = k % 2, .y = k / 2, .w = 1, .h = 1 });
+    ck_ok(bbm_add_load(m, m->nodes - 2, -2e4, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    for (int step = 0; step < 2; step++) {
+        ck_ok(bbm_step(m), m);
+        for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++)
+            if (c->state != BBM_OPEN)       /* digits of a position of 2 m */
+                ck_near(c->N, m->par.p_n * (c->rest - c->d_n), 1, m->par.p_n * 1e-15);
+    }
+    release(m);
+}
+END_TEST
+
 /* Four bars lie round a core like a pinwheel, on a base, with friction of 40 degrees. They stand to a tilt of 0.75 by limit
  * analysis, and so they do in slow dynamics. */
 START_TEST(a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit)
@@ -721,6 +748,7 @@ Suite *statics_suite(void)
         { what_is_taut_sags_as_its_tension_says_and_stays_taut, 4 },
         { a_round_side_that_flattens_bears_at_all_its_corners, 24 },
         { a_seam_below_a_foot_holds_no_block_that_slides, 3 },
+        { a_contact_that_leaves_its_edge_in_a_static_step_has_its_force_there, 1 },
         { a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit, 10 },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
         { a_solution_that_is_refused_leaves_no_reactions, 1 });
