@@ -97,7 +97,7 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     int    first, n;            /* its vertices are model.vertex[first .. first+n-1]            */
     bbm_material material;
     double f[2];                /* N/m^2    volume force besides its weight, of (47)            */
-    /* --- geometry of the step, by bbm_element_geometry --- */
+    /* --- geometry at the start of the step, by bbm_element_geometry --- */
     double x, y;                /* m        barycentre, from model.origin    */
     double A;                   /* m^2      area                             */
     double Sxx, Syy, Sxy;       /* m^4      second moments of area about the barycentre         */
@@ -141,7 +141,9 @@ typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;   /* the figur
 /* The phases whose CPU time is counted. */
 enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
-typedef struct {                /* defaults: bbm_model_new; reasons for some: doc/paper.md, 4.1 */
+/* Defaults: one step of statics, tolerance 0, alpha 100, p_n 1e9, p_s 4e8, faces 1, omega 1, a pcg
+ * tolerance of 1e-10, 100000 iterations; all else 0. Reasons for some: doc/paper.md, 4.1. */
+typedef struct {
     double dt;                  /* s        time step; INFINITY: statics, without inertia       */
     int    steps;               /* in statics: iterations of Newton-Raphson                     */
     double tolerance;           /* -        of (71), which ends the run; 0: do all steps        */
@@ -152,7 +154,7 @@ typedef struct {                /* defaults: bbm_model_new; reasons for some: do
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
     double friction;            /* degree   friction angle                                      */
     double round;               /* m        of corners: a lower ledge is no obstacle; 0: sharp; */
-                                /*          -1: 2e-3 of the shorter side                        */
+                                /*          -1: 2e-3 of the shorter side, as in bbm_beyond_new  */
     int    faces;               /* 0: a block touches others with its corners alone; 1: also    */
                                 /* with the grid points inside its straight sides, so that a    */
                                 /* deformable block lies on its whole side                      */
@@ -223,21 +225,22 @@ typedef struct {                /* at a grid point                              
 
 /* ----------------------------------------------------------------------------- 1. run a model */
 
-bbm_status  bbm_run(bbm_model *m);                          /* all steps                        */
+bbm_status  bbm_run(bbm_model *m);                          /* par.steps more steps             */
 bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8                 */
-/* The mean over the elements that meet at a node: those of one block, or of all (-1). */
+/* The mean over the elements that meet at a node of a prepared model: those of one block, or of all
+ * (-1). Without such elements BBM_BAD_INDEX and no message. */
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
 void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
                              double u[2]);                  /* (1)                              */
 double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
-const char *bbm_message(const bbm_model *m);                /* the last error in a sentence     */
+const char *bbm_message(const bbm_model *m);                /* the last error; success leaves it */
 
 /* --------------------------------------------------------------------------- 2. build a model
  * Once a bbm_add or bbm_fix has failed, the later calls do nothing and return its status. So a
  * program may check bbm_prepare alone. What is added after it needs it again, but for fixed nodes
- * and loads of nodes. The index of what was added goes through the last pointer, which may be
- * NULL. */
+ * and loads of nodes; after the first step nothing else is added. The index of what was added goes
+ * through the last pointer, which may be NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);
 void       bbm_model_free(bbm_model *m);                    /* takes NULL                       */
@@ -253,7 +256,8 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
 bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
 
 /* ---------------------------------------------------------------- 3. single formulas, each alone
- * A submatrix function adds to what it is given. For bonds and contacts see base/base.h. */
+ * A submatrix function adds to what it is given. The mass of an element counts with its A0, which
+ * the caller sets. For bonds and contacts see base/base.h. */
 
 /* 2.1, 2.2 */
 void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]);         /* n vertices   */

@@ -44,6 +44,8 @@ static void free_prepared(bbm_model *m)
         free(array[k]);
     bbm_matrix_free(m->K);
     bbm_detect_free(m->scratch);
+    for (int i = 0; i < m->elements; i++)
+        m->element[i].middle = NULL;
     memset((char *)m + offsetof(bbm_model, is_prepared), 0,
            offsetof(bbm_model, h) - offsetof(bbm_model, is_prepared));
 }
@@ -210,6 +212,8 @@ bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, doub
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
                                      const void *context)
 {
+    if (!f)
+        return REFUSE(m, BBM_BAD_PARAMETER, "the line load on nodes %d, %d has no f", node1, node2);
     return add_line(m, (bbm_line_load){ .node = { node1, node2 } }, f, context);
 }
 
@@ -333,6 +337,8 @@ bbm_status bbm_prepare(bbm_model *m)
 
     if (status)
         return status;
+    if (m->info.step > 0)
+        return bbm_fail(m, BBM_BAD_PARAMETER, "a model that has made a step takes no more");
     free_prepared(m);
     if (m->elements == 0)
         return bbm_fail(m, BBM_NO_ELEMENT, "%d nodes", m->nodes);

@@ -823,15 +823,15 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
     const int is_listed = m->detections++ > 0;
 
     find_directions(m);
-    for (bbm_contact *c = m->contact, *first = c, *end = c + m->contacts; c < end; c++) {
-        first = first->corner == c->corner ? first : c;
-        for (bbm_contact *r = first; r < end && r->corner == c->corner; r++)
-            hand_over(m, c, r);
-    }
     for (int e = 0; e < m->edges; e++)
         m->edge[e].contact = m->contacts;
     for (int k = m->contacts - 1; k >= 0; k--)
         m->edge[m->contact[k].corner].contact = k;
+    for (int k = 0; k < m->contacts; k++) {
+        const int P = m->contact[k].corner;
+        for (int r = m->edge[P].contact; r < m->contacts && m->contact[r].corner == P; r++)
+            hand_over(m, &m->contact[k], &m->contact[r]);
+    }
     const bbm_status status = find_pairs(m);
     if (!status) {
         join_flush_corners(m);

@@ -323,7 +323,7 @@ static bbm_node wall_of(const bbm_model *m, int v)
 {
     bbm_node W = m->node[m->vertex[v].node];
 
-    for (int a = 0; a < 2 && m->beyond->off; a++)
+    for (int a = 0; a < 2 && m->is_prepared; a++)
         W.wall[a] += m->beyond->off[v][a];
     return W;
 }

@@ -35,8 +35,6 @@ static bbm_status check(bbm_model *m)
     b->body = calloc(2 * n, sizeof *b->body);
     b->balance = calloc(n, sizeof *b->balance);
     const bbm_status cracks = bbm_lay_out_cracks(m);
-    for (int i = 0; i < m->elements; i++)
-        m->element[i].middle = NULL;
     if (cracks || !b->middle || !b->end_element || !b->end_vertex || !b->support || !b->off
         || !b->account || !b->body || !b->balance)
         return cracks ? cracks : BBM_NO_MEMORY;

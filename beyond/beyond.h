@@ -1,8 +1,8 @@
 /* beyond.h - what stands beside the paper: its settings, and the model that has it all.
  *
  * The core, the files on top and base/, knows nothing of this. bbm_beyond_new makes a model as
- * bbm_model_new does and hooks everything into it; what it takes to run is in m->beyond. Each
- * subject is a file of its own with an essay.
+ * bbm_model_new does and hooks everything into it; what it takes to run is in m->beyond. All that
+ * stands here takes such a model. Each subject is a file of its own with an essay.
  */
 #ifndef BBM_BEYOND_H
 #define BBM_BEYOND_H

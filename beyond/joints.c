@@ -60,12 +60,12 @@ bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, doub
 {
     bbm_beyond *b = m->beyond;
 
-    if (!(friction < 90 && cohesion < INFINITY && tension < INFINITY))
-        return bbm_fail(m, BBM_BAD_PARAMETER, "a joint with friction = %g, cohesion = %g, tension "
-                        "= %g, expected finite ones, less than 90 degrees", friction, cohesion,
-                        tension);
+    if (!m->status && !(friction < 90 && cohesion < INFINITY && tension < INFINITY))
+        m->status = bbm_fail(m, BBM_BAD_PARAMETER, "a joint with friction = %g, cohesion = %g, "
+                             "tension = %g, expected finite ones, less than 90 degrees", friction,
+                             cohesion, tension);
     const bbm_joint joint = { { block[0], block[1] }, friction, cohesion, tension };
-    return bbm_append(m, (void **)&b->joint, &b->joints, sizeof joint, &joint, NULL);
+    return m->status ? m->status : bbm_append(m, (void **)&b->joint, &b->joints, sizeof joint, &joint, NULL);
 }
 
 static double or_else(double own, double other) { return own < 0 ? other : own; }

@@ -179,9 +179,11 @@ double bbm_settle_loads(bbm_model *m)
 /* Displaces the wall point of a node that is held, by the end of the next step. */
 bbm_status bbm_move_support(bbm_model *m, int node, double u, double v)
 {
-    if (!m->is_prepared || node < 0 || node >= m->nodes)
-        return bbm_fail(m, BBM_BAD_INDEX, "moved support %d of %d of a prepared model", node,
-                        m->nodes);
+    if (!m->is_prepared || node < 0 || node >= m->nodes || !m->node[node].held)
+        return bbm_fail(m, BBM_BAD_INDEX, "moved support %d of %d nodes, expected a held one of a "
+                        "prepared model", node, m->nodes);
+    if (!isfinite(u) || !isfinite(v))
+        return bbm_fail(m, BBM_NOT_FINITE, "the way of support %d", node);
     bbm_support *s = &m->beyond->support[node];
     const double to[2] = { u, v };
 

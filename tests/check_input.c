@@ -160,6 +160,7 @@ static bbm_status call_wrongly(bbm_model *m, int which)
     case 22: return bbm_add_varying_line_load(m, 1, 2, not_a_number, &COMPONENT[1]);
     case 23: return bbm_add_element(m, 0, 0, 2, corners, NULL);
     case 24: return bbm_add_element(m, -1, 0, 4, corners, NULL);
+    case 25: return bbm_add_varying_line_load(m, 1, 2, NULL, NULL);
     default: return bbm_add_element(m, 0, 0, 3, flat, NULL);
     }
 }
@@ -190,6 +191,7 @@ static const struct { bbm_status status; const char *named; } WRONG_CALLS[] = {
     { BBM_NOT_FINITE, "nodes 1, 2" },
     { BBM_BAD_ELEMENT, "element 1 has 2 vertices" },
     { BBM_BAD_INDEX, "element 1 has block -1, expected 0 or more" },
+    { BBM_BAD_PARAMETER, "the line load on nodes 1, 2 has no f" },
     { BBM_BAD_ELEMENT, "element 1 has no area" },
 };
 
@@ -497,10 +499,13 @@ START_TEST(a_support_that_does_not_exist_does_not_move)
 {
     bbm_model *m = unit_square(&SOLID);
 
-    check_error(m, bbm_move_support(m, 0, 1, 0), BBM_BAD_INDEX, "moved support 0 of 4 of a prepared model");
+    check_error(m, bbm_move_support(m, 0, 1, 0), BBM_BAD_INDEX, "moved support 0 of 4 nodes");
     ck_ok(bbm_prepare(m), m);
     check_error(m, bbm_move_support(m, 4, 1, 0), BBM_BAD_INDEX, "moved support 4");
     check_error(m, bbm_move_support(m, -1, 1, 0), BBM_BAD_INDEX, "moved support -1");
+    check_error(m, bbm_move_support(m, 3, 1, 0), BBM_BAD_INDEX, "moved support 3");
+    ck_ok(bbm_fix_node(m, 3, BBM_X, 0, 0), m);
+    check_error(m, bbm_move_support(m, 3, NAN, 0), BBM_NOT_FINITE, "support 3");
     ck_ok(bbm_move_support(m, 3, 1, 0), m);
 }
 END_TEST

@@ -272,7 +272,11 @@ START_TEST(a_joint_of_no_meaning_is_refused)
 
     ck_assert_int_eq(bbm_add_joint(m, (int[]){ 0, -1 }, s[0], s[1], s[2]), BBM_BAD_PARAMETER);
     ck_assert_ptr_nonnull(strstr(bbm_message(m), "expected finite ones, less than 90 degrees"));
-    ck_assert_int_eq(bbm_add_joint(m, (int[]){ 0, -1 }, 89, 0, 1e300), BBM_OK);
+    ck_assert_int_eq(bbm_add_joint(m, (int[]){ 0, -1 }, 89, 0, 1e300), BBM_BAD_PARAMETER);
+    ck_assert_int_eq(bbm_prepare(m), BBM_BAD_PARAMETER);
+    release(m);
+    m = beyond_model();
+    ck_ok(bbm_add_joint(m, (int[]){ 0, -1 }, 89, 0, 1e300), m);
 }
 END_TEST
 
