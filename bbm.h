@@ -154,7 +154,7 @@ typedef struct {
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
     double friction;            /* degree   friction angle                                      */
     double round;               /* m        of corners: a lower ledge is no obstacle; 0: sharp; */
-                                /*          -1: 2e-3 of the shorter side, as in bbm_beyond_new  */
+                                /*          -1: 2e-3 of the shorter side                        */
     int    faces;               /* 0: a block touches others with its corners alone; 1: also    */
                                 /* with the grid points inside its straight sides, so that a    */
                                 /* deformable block lies on its whole side                      */
