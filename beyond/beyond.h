@@ -128,6 +128,7 @@ struct bbm_beyond {
                                 /*          the second half is scratch                          */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
     double lack;                /* -        the most that a body has left, without inertia      */
+    double parted;              /* -        how far blocks went in steps from rest, in sizes    */
     double overload;            /* -        crack.c: load of a bond over its strength, least 1  */
     double breach;              /* -        the most against a law in all dynamic steps         */
     bbm_account *account;       /* [elements]                                                   */

@@ -254,7 +254,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         b->joints_hold = 0;
         const int settles = !status;
         if (settles) {
-            parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
+            b->parted = parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
             lacks = b->lack;
             before = parted <= far / 2 ? lacks : before;
             if (parted > far && lacks > SLOWS * before)

@@ -12,6 +12,8 @@ enum { NAMED = 10 };            /* pieces of a block that a warning names       
 #define TAPER 0.5
 /* Of its size: an element that moves by less in a step is at rest but for rounding. */
 #define STILL 1e-10
+/* Of their size: from there on blocks that have moved without end would be said to fall. */
+#define PARTED 0.02
 /* Grid points of the one side for one of the other. */
 #define COARSE 2.5
 
@@ -457,6 +459,9 @@ void warn_after(const model *p, const char *path)
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         warn(path, "elements turn by more than 0.1 rad in the last step, which statics takes as "
                    "small: lengths are wrong; more steps help");
+    if (p->m->beyond->parted > PARTED)
+        warn(path, "it stands, but not as drawn: blocks slid or turned by %.2g of their size first",
+             p->m->beyond->parted);
     if (p->m->beyond->breach > BBM_BALANCED)
         warn(path, "contacts or bolts were off their law by up to %.1g of the forces on a block: "
                    "positions have no more digits; a smaller kn or softer bolts help",
