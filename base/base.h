@@ -66,6 +66,9 @@ struct bbm_line_load {          /* a load along a boundary edge                 
 /* The most elements of a contact: i, j and, beyond the paper, others that share P1, P2 or P3. */
 enum { BBM_PARTS = 5 };
 
+/* The most corners of a node that a hook may join, each with each. */
+enum { BBM_JOINED = 64 };
+
 typedef struct {                /* Mohr and Coulomb: abs(T) <= N tan_phi + shear, -N <= tension */
     double tan_phi;             /* -        of the friction angle                               */
     double shear, tension;      /* N        of an unbroken joint; in the paper 0                */

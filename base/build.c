@@ -303,14 +303,15 @@ static bbm_status place_line_loads(bbm_model *m)
 }
 
 /* The most gaps that there may be. A bond has two. A vertex that is held has one, and a hook may
- * add two of the edge that starts there, and one between each two corners of a node. */
+ * add two of the edge that starts there, and one between each two corners of a node that has not
+ * too many. */
 size_t bbm_most_gaps(const bbm_model *m)
 {
     size_t most = 2 * (size_t)m->bonds + 3 * (size_t)m->vertices;
 
     for (int n = 0; n < m->nodes && m->hook->list_gaps; n++) {
         const size_t corners = (size_t)(m->adjacent_first[n + 1] - m->adjacent_first[n]);
-        most += corners * (corners - 1) / 2;
+        most += corners > BBM_JOINED ? 0 : corners * (corners - 1) / 2;
     }
     return most;
 }

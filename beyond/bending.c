@@ -336,9 +336,10 @@ static bbm_node wall_of(const bbm_model *m, int v)
  *     K d.d = sum_i K/n d_i.d_i - sum_{i<j} K/n^2 (d_i - d_j).(d_i - d_j):
  *
  * a spring holds each corner, and one of negative stiffness parts each two. Where an edge is held
- * the corner of a triangle is held by itself. Where a bond softens or
- * has broken nothing would hold the sides of the crack together, and each corner is held. In
- * dynamics it is from the start where bonds may break, since to catch a corner makes energy. */
+ * the corner of a triangle is held by itself, and so are all of a node that has too many. Where a
+ * bond softens or has broken nothing would hold the sides of the crack together, and each corner is
+ * held. In dynamics it is from the start where bonds may break, since to catch a corner makes
+ * energy. */
 static void list_held_node(bbm_model *m, int v)
 {
     const int i = m->vertex[v].element;
@@ -356,7 +357,8 @@ static void list_held_node(bbm_model *m, int v)
     } while (w != v);
     own.held &= m->element[i].n == 4 ? 0 : ~alone.held;
     bbm_list_fixed_point(m, v, &own);
-    if (!alone.held || quadrilaterals == 0 || m->beyond->bonding == BBM_VERTICES
+    if (!alone.held || quadrilaterals == 0 || corners > BBM_JOINED
+        || m->beyond->bonding == BBM_VERTICES
         || (m->beyond->bond_tension > 0 && !bbm_is_static(m))
         || (m->is_prepared && m->beyond->best[m->vertex[v].node] > 0)) {
         bbm_list_fixed_point(m, v, &alone);

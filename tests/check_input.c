@@ -510,6 +510,27 @@ START_TEST(a_support_that_does_not_exist_does_not_move)
 }
 END_TEST
 
+/* 120 quadrilaterals meet in one node: there is no gap between each two of them, and each corner is held. */
+START_TEST(many_corners_in_one_node_take_no_room_that_grows_with_their_square)
+{
+    enum { N = 120 };
+    bbm_model *m = beyond_model();
+
+    ck_ok(bbm_add_material(m, &SOLID, NULL), m);
+    ck_ok(bbm_add_node(m, 0, 0, NULL), m);
+    for (int k = 0; k < 2 * N; k++)
+        ck_ok(bbm_add_node(m, (k % 2 + 1) * cos(PI * k / N), (k % 2 + 1) * sin(PI * k / N), NULL), m);
+    for (int k = 0; k < N; k++)
+        ck_ok(bbm_add_element(m, 0, 0, 4, (int[]){ 0, 1 + 2 * k, 2 + 2 * k, 1 + (2 * k + 2) % (2 * N) }, NULL), m);
+    ck_ok(bbm_fix_node(m, 0, BBM_XY, 0, 0), m);
+    ck_ok(bbm_fix_node(m, 1, BBM_Y, 0, 0), m);
+    ck_ok(bbm_prepare(m), m);
+    ck_assert_uint_lt(bbm_most_gaps(m), 2 * (size_t)m->bonds + 4 * (size_t)m->vertices);
+    ck_ok(bbm_step(m), m);
+    release(m);
+}
+END_TEST
+
 /* Nor does a load lie on an edge along which another element has come to lie. */
 START_TEST(a_loaded_edge_that_is_none_any_more_is_refused)
 {
@@ -649,6 +670,7 @@ Suite *input_suite(void)
         { parameters_outside_their_range_are_refused_by_name, COUNT(PARAMETERS) },
         { settings_outside_their_range_are_refused_by_name, COUNT(SETTINGS) },
         { a_support_that_does_not_exist_does_not_move, 1 },
+        { many_corners_in_one_node_take_no_room_that_grows_with_their_square, 1 },
         { a_loaded_edge_that_is_none_any_more_is_refused, 1 },
         { counts_below_one_are_refused_by_name, 1 },
         { parameters_at_the_ends_of_their_range_are_taken, 1 },
