@@ -371,6 +371,29 @@ static double surface_depth(const bbm_model *m, int c, int e)
     return -project(m, c, e).beyond <= deep + way ? deep : 0;
 }
 
+/* Whether fixed points hold every corner of an element. */
+int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
+{
+    int held = 0;
+
+    for (int v = e->first; v < e->first + e->n; v++)
+        held += m->node[m->vertex[v].node].held == BBM_XY;
+    return held == e->n;
+}
+
+/* How deep contacts of two blocks are, before the step or now: the lesser of their depths. But what
+ * is held is as deep as what it touches: that may come from another held block. */
+static double depth_between(const bbm_model *m, int c, int e, int now)
+{
+    const int of[2] = { c, e };
+    double least = INFINITY;
+
+    for (int k = 0; k < 2; k++)
+        if (!bbm_is_held_all_round(m, &m->element[m->edge[of[k]].element]))
+            least = fmin(least, now ? reach_of(m, of[k])->depth_now : reach_of(m, of[k])->depth);
+    return least;
+}
+
 /* How deep a vertex that comes to an edge may lie behind it at the start of a step: as deep as
  * closed contacts of the two blocks do. Where points move by T of the start of the step, a corner
  * may also have ended the last step inside, by as much as it moved. */
@@ -378,7 +401,7 @@ static double start_depth(const bbm_model *m, int c, int e)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
 
-    return 2 * fmin(i->depth, j->depth) + touch_between(m, c, e)
+    return 2 * depth_between(m, c, e, 0) + touch_between(m, c, e)
          + (bbm_motion_of(m) ? 0 : i->travel + j->travel);
 }
 
@@ -439,7 +462,7 @@ static int can_enter(const bbm_model *m, int corner, int e, const double r[2], d
     const int Q = end_near(m, corner, e);
     const bbm_direction p = m->edge[side_at(m, corner, 0, Q)].along, t = m->edge[e].along;
     const bbm_direction q = m->edge[side_at(m, corner, 1, Q)].along;
-    const double dip = 2 * fmin(reach_of(m, corner)->depth_now, reach_of(m, e)->depth_now);
+    const double dip = 2 * depth_between(m, corner, e, 1);
     const double arrives = cross(t, turned(p, r[0])), leaves = cross(turned(q, r[1]), t);
 
     if (!is_corner(m, corner) || m->edge[corner].slides)
@@ -527,16 +550,6 @@ static int is_near(const bbm_model *m, int corner, int e)
         return 0;
     return f.beyond > touch_between(m, corner, e) || f.d >= -deep
         || find_closed(m, corner, e);
-}
-
-/* Whether fixed points hold every corner of an element. */
-int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
-{
-    int held = 0;
-
-    for (int v = e->first; v < e->first + e->n; v++)
-        held += m->node[m->vertex[v].node].held == BBM_XY;
-    return held == e->n;
 }
 
 /* Whether the pair may not touch. What was closed may, but two elements that are held all round
@@ -645,15 +658,19 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     return here != there ? there : !goes_before(m, p.edge, q.edge);
 }
 
-/* Whether a side of Q goes straight on in one of P, and both blocks are held all round: for others
- * that is one side, and P and Q are no corners. */
+/* Whether a side of Q goes straight on in one of P, and both blocks are held all round and move
+ * alike: for others that is one side, and P and Q are no corners. */
 static int are_one_side(const bbm_model *m, int P, int Q, int end)
 {
     const bbm_direction in = m->edge[m->edge[end ? P : Q].before].along;
     const bbm_direction out = m->edge[end ? Q : P].along;
+    double u[2], v[2];
 
+    move_point(m, m->edge[P].a, u);
+    move_point(m, m->edge[Q].a, v);
     return bbm_is_held_all_round(m, &m->element[m->edge[P].element])
         && bbm_is_held_all_round(m, &m->element[m->edge[Q].element])
+        && hypot(u[0] - v[0], u[1] - v[1]) <= touch_between(m, P, Q)
         && hypot(out.x - in.x, out.y - in.y) < STRAIGHT;
 }
 
@@ -756,9 +773,20 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
             && can_enter(m, c->corner, other, STILL, PARALLEL));
 }
 
+/* Whether at the end of the edge where the corner is another block lies flush, and covers the edge
+ * (0), or carries its boundary on (1). Unlike is_covered, also where the block of the corner lies on
+ * that other block. */
+static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
+{
+    const int Q = end_near(m, corner, e), k = (Q == e) != goes_on;
+
+    return m->edge[Q].joined[k] != (k ? Q : m->edge[Q].before);
+}
+
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
- * rounded one is inside. A projection beyond the end of the edge is off it, but not in a notch of
- * its block, or of it and one that lies flush: there it lies inside. An entrance is another line of
+ * rounded one is inside. A projection beyond the end of the edge is off it, but not as far as a block
+ * that lies flush may be apart there, nor in a notch of its block, or of it and one that lies flush:
+ * there it lies inside. An entrance is another line of
  * the list on which P and an end Q of its edge can enter each other, if both are convex corners;
  * where the blocks are flush each line is one of P or one of Q. In a notch Q both edges hold P at
  * once. */
@@ -767,6 +795,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
     const projection f = project(m, p.corner, p.edge);
     const double touch = touch_between(m, p.corner, p.edge);
+    const double seam = contact_depth(m, p.corner, end_near(m, p.corner, p.edge));
 
     *c = old ? *old : (bbm_contact){ 0 };
     c->inside |= !old && f.d < -touch && f.beyond <= 0;
@@ -777,7 +806,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->edge = p.edge;
     c->trial.d_n0 = f.d;
     c->trial.was_closed = c->state != BBM_OPEN;
-    c->trial.beyond_end = f.beyond > touch;
+    c->trial.beyond_end = f.beyond > (ends_flush(m, p.corner, p.edge, 1) ? seam : touch);
     for (int k = 0; k < 4; k++) {
         const pair flush = meet(m, p, k / 2, FLUSH);
         const pair other = k % 2 == 0 ? meet(m, p, k / 2, NEXT)
@@ -916,15 +945,6 @@ static int admits(const bbm_model *m, const bbm_contact *c)
         && can_enter(m, c->corner, c->edge, r, PARALLEL);
 }
 
-/* Whether another block lies flush with the end of the edge where the corner is. Unlike is_covered,
- * also where the block of the corner lies on that other block. */
-static int ends_flush(const bbm_model *m, const bbm_contact *c)
-{
-    const int Q = end_near(m, c->corner, c->edge);
-
-    return m->edge[Q].joined[Q == c->edge] != c->edge;
-}
-
 /* Whether a side of the corner lies along the edge, and along one that ends at the corner, too. */
 static int lies_along(const bbm_model *m, const bbm_contact *c)
 {
@@ -949,8 +969,6 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
 
     if (r->state != BBM_OPEN)
         return 1;
-    if (are_parallel(m, c->edge, r->edge, 1))
-        return r->d_n < 0 && is_on_edge(m, r, 1) && (!is_on_edge(m, c, 1) || r->edge < c->edge);
     if (r->d_n >= 0 && r->corner != c->corner && is_on_edge(m, c, fmin(1, crossed_at(m, c)))
         && is_on_edge(m, c, 1))
         return 0;
@@ -959,8 +977,9 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
     if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {
-        if (ends_flush(m, c) != ends_flush(m, r))
-            return ends_flush(m, c);
+        const int flush = ends_flush(m, c->corner, c->edge, 0);
+        if (flush != ends_flush(m, r->corner, r->edge, 0))
+            return flush;
         if (lies_along(m, c) && lies_along(m, r))
             return 1;
     }

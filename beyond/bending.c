@@ -354,7 +354,7 @@ static void list_held_node(bbm_model *m, int v)
         K += bbm_fixed_stiffness(m->par.alpha, e);
         corners++;
         w = next_corner(m, w);
-    } while (w != v);
+    } while (w != v && corners <= BBM_JOINED);
     own.held &= m->element[i].n == 4 ? 0 : ~alone.held;
     bbm_list_fixed_point(m, v, &own);
     if (!alone.held || quadrilaterals == 0 || corners > BBM_JOINED

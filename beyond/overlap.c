@@ -122,6 +122,24 @@ static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
     }
 }
 
+/* Whether a side of element i has all of i on its left and all of j on its right. */
+static int parts(const bbm_model *m, int i, int j)
+{
+    const int n = m->element[i].n, all = n + m->element[j].n;
+    int c = 0;
+
+    for (int k = 0; k < n && c < all; k++) {
+        const point a = corner_of(m, i, k), b = corner_of(m, i, k + 1);
+        for (c = 0; c < all; c++) {
+            const point P = c < n ? corner_of(m, i, c) : corner_of(m, j, c - n);
+            const double left = (b.x - a.x) * (P.y - a.y) - (b.y - a.y) * (P.x - a.x);
+            if (c < n ? left < 0 : left > 0)
+                break;
+        }
+    }
+    return c == all;
+}
+
 /* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
  * none do. */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
@@ -141,8 +159,11 @@ bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
     }
     bbm_sort_boxes(m->elements, b);
     for (int i = 0, j = 0; bbm_next_meeting(m->elements, b, &i, &j);) {
-        probe_element(m, b[i].of, b[j].of, o);
-        probe_element(m, b[j].of, b[i].of, o);
+        const int e = b[i].of, f = b[j].of;
+        if (parts(m, e, f) || parts(m, f, e))
+            continue;
+        probe_element(m, e, f, o);
+        probe_element(m, f, e, o);
     }
     free(b);
     return BBM_OK;

@@ -484,11 +484,66 @@ START_TEST(a_ledge_that_a_wall_leaves_behind_holds_no_block)
 }
 END_TEST
 
+/* The corner of a square falls on the seam of two free blocks between walls, that touch or are less apart than their contacts
+ * are deep: it stays on top. */
+START_TEST(a_corner_that_falls_on_the_seam_of_two_free_blocks_stays_on_them)
+{
+    static const double gaps[] = { 0, 1e-7, 1e-6, 3e-6, 1e-5, 3e-5 };
+
+    for (int k = 0; k < 2 * COUNT(gaps); k++) {
+        const double gap = gaps[k / 2], lift = k % 2 ? 0.1 : 0.01, top = 0.5 + lift;
+        const double square[4][2] = { { gap / 2, top }, { 0.4, top + 0.4 }, { 0, top + 0.8 }, { -0.4, top + 0.4 } };
+        bbm_model *m = new_blocks();
+        m->par.dt = 1e-3;
+        m->par.friction = _i ? 30 : 0;
+        set_springs(m, 1e9, 4e8);
+        add_rectangle(m, 0, BASE, (rectangle){ .x = -5, .y = -1, .w = 12, .h = 1, .fixed = 1 });
+        add_rectangle(m, 1, BASE, (rectangle){ .x = -1.2, .w = 0.2, .h = 0.5, .fixed = 1 });
+        add_rectangle(m, 2, BASE, (rectangle){ .x = 1 + gap, .w = 0.2, .h = 0.5, .fixed = 1 });
+        add_rectangle(m, 3, ROCK, (rectangle){ .x = -1, .w = 1, .h = 0.5 });
+        add_rectangle(m, 4, ROCK, (rectangle){ .x = gap, .w = 1, .h = 0.5 });
+        const int e = add_polygon(m, 5, 4, square);
+        run_steps(m, 200);
+        ck_assert_double_gt(m->element[e].sum[1], -lift - 1e-3);    /* what springs give way */
+        release(m);
+    }
+}
+END_TEST
+
+/* A block lies on three flush blocks that are held. The middle one rises and takes it along, or the outer ones draw away. Its
+ * corners count from then on, and begin without force where they are. */
+START_TEST(held_blocks_that_part_below_a_block_carry_it)
+{
+    for (int k = 0; k < 6; k++) {
+        const double way = pow(10, -k - 2), sinks = 2e-5;      /* m, on two springs before, and as deep again after */
+        bbm_model *m = new_blocks();
+        m->par.dt = 1e-3;
+        m->par.friction = 30;
+        set_springs(m, 1e9, 4e8);
+        for (int b = 0; b < 3; b++)
+            add_rectangle(m, b, BASE, (rectangle){ .x = b, .w = 1, .h = 0.5, .fixed = 1 });
+        const int e = add_rectangle(m, 3, ROCK, (rectangle){ .x = 0.4, .y = 0.5, .w = 2.2, .h = 0.2 });
+        prepare(m);
+        for (int step = 1; step <= 200; step++) {
+            const double at = way * (1 - cos(PI * step / 200)) / 2;         /* it starts and stops gently */
+            for (int b = 0; b < 3; b++)
+                for (int v = 0; v < 4 && (_i == 0) == (b == 1); v++)
+                    ck_ok(bbm_move_support(m, vertex_of(m, b, v)->node, _i ? (b - 1) * at : 0, _i ? 0 : at), m);
+            ck_ok(bbm_step(m), m);
+        }
+        ck_near(m->element[e].sum[1], _i ? 0 : way, 1, sinks);
+        release(m);
+    }
+}
+END_TEST
+
 Suite *flush_suite(void)
 {
     Suite *s = suite_create("flush");
 
     add_case(s, "seams", { what_slides_over_seams_low_ledges_and_open_joints_goes_on, COUNT(KIND) },
+        { a_corner_that_falls_on_the_seam_of_two_free_blocks_stays_on_them, 2 },
+        { held_blocks_that_part_below_a_block_carry_it, 2 },
         { a_ledge_lower_than_the_rounding_holds_no_block, 2 * COUNT(LEDGES) },
         { a_ledge_that_a_wall_leaves_behind_holds_no_block, 4 },
         { a_staircase_of_low_ledges_lets_no_block_sink_by_more_than_the_rounding, 2 },
