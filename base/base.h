@@ -44,6 +44,9 @@ typedef struct {                /* of a hook: the force in a gap besides that of
     double f_before[2];         /* N        f at the end of the last step                       */
 } bbm_multiplier;
 
+/* The most corners of a node that a hook may join, each with each. */
+enum { BBM_JOINED = 64 };
+
 struct bbm_gap {                /* of a spring: d = d0 + T_i D_i - T_j D_j, Eq. (22)            */
     int    i, j;                /* elements; j = -1: the wall, which does not move: T_j = 0     */
     int    node[2];             /* at the wall: the held node, twice; a hook may name two       */
@@ -65,9 +68,6 @@ struct bbm_line_load {          /* a load along a boundary edge                 
 
 /* The most elements of a contact: i, j and, beyond the paper, others that share P1, P2 or P3. */
 enum { BBM_PARTS = 5 };
-
-/* The most corners of a node that a hook may join, each with each. */
-enum { BBM_JOINED = 64 };
 
 typedef struct {                /* Mohr and Coulomb: abs(T) <= N tan_phi + shear, -N <= tension */
     double tan_phi;             /* -        of the friction angle                               */

@@ -381,17 +381,20 @@ int bbm_is_held_all_round(const bbm_model *m, const bbm_element *e)
     return held == e->n;
 }
 
-/* How deep contacts of two blocks are, before the step or now: the lesser of their depths. But what
- * is held is as deep as what it touches: that may come from another held block. */
-static double depth_between(const bbm_model *m, int c, int e, int now)
+/* The same of the element of an edge. */
+static int is_held(const bbm_model *m, int e)
 {
-    const int of[2] = { c, e };
-    double least = INFINITY;
+    return bbm_is_held_all_round(m, &m->element[m->edge[e].element]);
+}
 
-    for (int k = 0; k < 2; k++)
-        if (!bbm_is_held_all_round(m, &m->element[m->edge[of[k]].element]))
-            least = fmin(least, now ? reach_of(m, of[k])->depth_now : reach_of(m, of[k])->depth);
-    return least;
+/* The lesser depth of two blocks, before the step or now. What is held is as deep as what it
+ * touches, which may come from another held block. */
+static double common_depth(const bbm_model *m, int c, int e, int now)
+{
+    const reach *i = reach_of(m, c), *j = reach_of(m, e);
+    const double p = now ? i->depth_now : i->depth, q = now ? j->depth_now : j->depth;
+
+    return is_held(m, c) ? q : is_held(m, e) ? p : fmin(p, q);
 }
 
 /* How deep a vertex that comes to an edge may lie behind it at the start of a step: as deep as
@@ -401,7 +404,7 @@ static double start_depth(const bbm_model *m, int c, int e)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
 
-    return 2 * depth_between(m, c, e, 0) + touch_between(m, c, e)
+    return 2 * common_depth(m, c, e, 0) + touch_between(m, c, e)
          + (bbm_motion_of(m) ? 0 : i->travel + j->travel);
 }
 
@@ -462,7 +465,7 @@ static int can_enter(const bbm_model *m, int corner, int e, const double r[2], d
     const int Q = end_near(m, corner, e);
     const bbm_direction p = m->edge[side_at(m, corner, 0, Q)].along, t = m->edge[e].along;
     const bbm_direction q = m->edge[side_at(m, corner, 1, Q)].along;
-    const double dip = 2 * depth_between(m, corner, e, 1);
+    const double dip = 2 * common_depth(m, corner, e, 1);
     const double arrives = cross(t, turned(p, r[0])), leaves = cross(turned(q, r[1]), t);
 
     if (!is_corner(m, corner) || m->edge[corner].slides)
@@ -563,8 +566,7 @@ static int is_hidden(const bbm_model *m, pair p)
                        + of[m->edge[p.edge].element].turn;
     const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
-    if (bbm_is_held_all_round(m, &m->element[m->edge[p.corner].element])
-        && bbm_is_held_all_round(m, &m->element[m->edge[p.edge].element]))
+    if (is_held(m, p.corner) && is_held(m, p.edge))
         return 1;
     return !find_closed(m, p.corner, p.edge)
         && (m->edge[p.corner].is_inner || is_covered(m, p.corner, p.edge)
@@ -663,14 +665,10 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 static int are_one_side(const bbm_model *m, int P, int Q, int end)
 {
     const bbm_direction in = m->edge[m->edge[end ? P : Q].before].along;
-    const bbm_direction out = m->edge[end ? Q : P].along;
-    double u[2], v[2];
+    const bbm_direction out = m->edge[end ? Q : P].along, across = { in.y, -in.x, 0 };
+    const double parts = fmax(slip_between(m, P, Q, in), slip_between(m, P, Q, across));
 
-    move_point(m, m->edge[P].a, u);
-    move_point(m, m->edge[Q].a, v);
-    return bbm_is_held_all_round(m, &m->element[m->edge[P].element])
-        && bbm_is_held_all_round(m, &m->element[m->edge[Q].element])
-        && hypot(u[0] - v[0], u[1] - v[1]) <= touch_between(m, P, Q)
+    return is_held(m, P) && is_held(m, Q) && parts <= touch_between(m, P, Q)
         && hypot(out.x - in.x, out.y - in.y) < STRAIGHT;
 }
 
@@ -773,9 +771,9 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
             && can_enter(m, c->corner, other, STILL, PARALLEL));
 }
 
-/* Whether at the end of the edge where the corner is another block lies flush, and covers the edge
- * (0), or carries its boundary on (1). Unlike is_covered, also where the block of the corner lies on
- * that other block. */
+/* Whether another block lies flush at the end of the edge where the corner is, and covers the edge
+ * (0), or carries its boundary on (1). Unlike is_covered, also where the block of the corner lies
+ * on that other block. */
 static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
 {
     const int Q = end_near(m, corner, e), k = (Q == e) != goes_on;
@@ -784,12 +782,11 @@ static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
- * rounded one is inside. A projection beyond the end of the edge is off it, but not as far as a block
- * that lies flush may be apart there, nor in a notch of its block, or of it and one that lies flush:
- * there it lies inside. An entrance is another line of
- * the list on which P and an end Q of its edge can enter each other, if both are convex corners;
- * where the blocks are flush each line is one of P or one of Q. In a notch Q both edges hold P at
- * once. */
+ * rounded one is inside. A projection beyond the end of the edge is off it. But it may be as far
+ * beyond as a block that lies flush may be apart there; and in a notch of its block, or of it and
+ * one that lies flush, it lies inside. An entrance is another line of the list on which P and an
+ * end Q of its edge can enter each other, if both are convex corners; where the blocks are flush
+ * each line is one of P or one of Q. In a notch Q both edges hold P at once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
@@ -838,8 +835,6 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
     r->d_n = g.d;
     r->rest = bbm_rest_of(m, g.d, r->N);
     r->anchor = (g.s + r->T / m->par.p_s) / m->edge[edge].along.length;
-    reach_of(m, edge)->depth = fmax(reach_of(m, edge)->depth, -g.d);
-    reach_of(m, c->corner)->depth = fmax(reach_of(m, c->corner)->depth, -g.d);
     bbm_forget(c);
 }
 

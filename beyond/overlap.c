@@ -123,7 +123,7 @@ static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
 }
 
 /* Whether a side of element i has all of i on its left and all of j on its right. */
-static int parts(const bbm_model *m, int i, int j)
+static int are_apart(const bbm_model *m, int i, int j)
 {
     const int n = m->element[i].n, all = n + m->element[j].n;
     int c = 0;
@@ -160,7 +160,7 @@ bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
     bbm_sort_boxes(m->elements, b);
     for (int i = 0, j = 0; bbm_next_meeting(m->elements, b, &i, &j);) {
         const int e = b[i].of, f = b[j].of;
-        if (parts(m, e, f) || parts(m, f, e))
+        if (are_apart(m, e, f) || are_apart(m, f, e))
             continue;
         probe_element(m, e, f, o);
         probe_element(m, f, e, o);

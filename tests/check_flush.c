@@ -514,12 +514,12 @@ END_TEST
  * corners count from then on, and begin without force where they are. */
 START_TEST(held_blocks_that_part_below_a_block_carry_it)
 {
-    for (int k = 0; k < 6; k++) {
-        const double way = pow(10, -k - 2), sinks = 2e-5;      /* m, on two springs before, and as deep again after */
+    for (int k = 0; k < 4; k++) {
+        const double way = pow(10, -k - 2), off = 1.2e-6;       /* m: a millionth of an edge is rounding; and it sinks twice */
         bbm_model *m = new_blocks();
         m->par.dt = 1e-3;
         m->par.friction = 30;
-        set_springs(m, 1e9, 4e8);
+        set_springs(m, 1e11, 4e10);
         for (int b = 0; b < 3; b++)
             add_rectangle(m, b, BASE, (rectangle){ .x = b, .w = 1, .h = 0.5, .fixed = 1 });
         const int e = add_rectangle(m, 3, ROCK, (rectangle){ .x = 0.4, .y = 0.5, .w = 2.2, .h = 0.2 });
@@ -531,7 +531,7 @@ START_TEST(held_blocks_that_part_below_a_block_carry_it)
                     ck_ok(bbm_move_support(m, vertex_of(m, b, v)->node, _i ? (b - 1) * at : 0, _i ? 0 : at), m);
             ck_ok(bbm_step(m), m);
         }
-        ck_near(m->element[e].sum[1], _i ? 0 : way, 1, sinks);
+        ck_near(m->element[e].sum[1], _i ? 0 : way, 1, off);
         release(m);
     }
 }
