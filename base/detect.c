@@ -737,9 +737,10 @@ static void drop_pairs(bbm_model *m, int (*is_dropped)(const bbm_model *m, pair 
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
     const bbm_contact *old = find_closed(m, p.corner, p.edge);
+    const int end = end_near(m, p.corner, p.edge) != p.edge;
 
-    for (int k = 0; k < 4 && !old; k++) {
-        const pair q = meet(m, p, k / 2, k % 2 ? OTHER : FLUSH);
+    for (meeting k = FLUSH; k <= OTHER && !old; k++) {
+        const pair q = meet(m, p, end, k);
         if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
             old = find_closed(m, q.corner, q.edge);
     }
@@ -767,7 +768,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     }
     return (c->trial.beyond_end && lines == 0)
         || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
-            && project(m, c->corner, other).d > -rounding_between(m, c->corner, c->edge)
+            && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge)
             && can_enter(m, c->corner, other, STILL, PARALLEL));
 }
 
