@@ -409,6 +409,7 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same);             /* and what carr
 bbm_status bbm_add_pair(bbm_model *m, int corner, int edge);    /* if they are near             */
 int        bbm_carries(const bbm_model *m, int corner, int edge);
 double     bbm_allowed_depth(const bbm_model *m, int corner, int edge); /* at the start, m      */
+int        bbm_may_enter(const bbm_model *m, int corner, int edge);
 int        bbm_is_held_all_round(const bbm_model *m, const bbm_element *e);
 double     bbm_way_along(const bbm_model *m, int corner, int edge);     /* of P1 from P3, m     */
 double     bbm_rounding(const bbm_model *m, int corner);       /* m                            */

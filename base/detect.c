@@ -474,6 +474,12 @@ static int can_enter(const bbm_model *m, int corner, int e, const double r[2], d
         && arrives >= -angle - dip / fmin(p.length, t.length) && cross(p, q) > -PARALLEL;
 }
 
+/* The same for a corner as it lies now. */
+int bbm_may_enter(const bbm_model *m, int corner, int e)
+{
+    return can_enter(m, corner, e, STILL, PARALLEL);
+}
+
 /* Whether edge e goes before f where either could be the edge of a contact. The first of these
  * that tells them apart decides: the longer side, the larger block, the flatter edge, the one that
  * faces up, the one that faces right. Down is where gravity points, or -y without gravity. */
@@ -548,11 +554,11 @@ static int is_near(const bbm_model *m, int corner, int e)
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
         return 0;
-    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e)
-        || -f.d > approach + fmax(deep, rounding_between(m, corner, e)))
+    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
-    return f.beyond > touch_between(m, corner, e) || f.d >= -deep
-        || find_closed(m, corner, e);
+    return find_closed(m, corner, e)
+        || (-f.d <= approach + fmax(deep, rounding_between(m, corner, e))
+            && (f.beyond > touch_between(m, corner, e) || f.d >= -deep));
 }
 
 /* Whether the pair may not touch. What was closed may, but two elements that are held all round
@@ -762,14 +768,14 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
-        if (project(m, r.corner, r.edge).d > 0 && can_enter(m, r.corner, r.edge, STILL, PARALLEL))
+        if (project(m, r.corner, r.edge).d > 0 && bbm_may_enter(m, r.corner, r.edge))
             return 1;
         lines++;
     }
     return (c->trial.beyond_end && lines == 0)
         || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
             && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge)
-            && can_enter(m, c->corner, other, STILL, PARALLEL));
+            && bbm_may_enter(m, c->corner, other));
 }
 
 /* Whether another block lies flush at the end of the edge where the corner is, and covers the edge

@@ -197,23 +197,27 @@ static point point_of(const bbm_model *m, int v)
     return (point){ P[0], P[1] };
 }
 
-/* How deep P lies in the block of an edge, the distance from its boundary, and from which edge; 0
- * outside. The outer boundary goes round what is inside once, and so does that of a hole, the other
- * way. Where an edge ends the next one starts a little apart, as far as their bonds have opened.
- * The boundary goes from start to start and once more from end to end. What lies inside of one of
- * them alone lies in such a gap, where no contact keeps it out. */
-static double depth_in_block(const bbm_model *m, point P, int edge, int *nearest)
+/* How deep a corner lies in the block of an edge, the distance from its boundary; 0 outside. The
+ * outer boundary goes round what is inside once, and so does that of a hole, the other way. Where
+ * an edge ends the next one starts a little apart, as far as their bonds have opened. The boundary
+ * goes from start to start and once more from end to end. What lies inside of one of them alone
+ * lies in such a gap, where no contact keeps it out. `over`: the edge over which the corner has
+ * come, the nearest that it can enter over, or else the nearest. */
+static double depth_in_block(const bbm_model *m, int corner, int edge, int *over)
 {
-    place starts = { .distance2 = INFINITY }, ends = starts;
+    const point P = point_of(m, m->edge[corner].a);
+    place starts = { .distance2 = INFINITY }, ends = starts, entered = starts;
     int e = edge;
 
     do {
         const bbm_edge *E = &m->edge[e];
         take_side(point_of(m, E->a), point_of(m, m->edge[E->after].a), e, P, &starts);
         take_side(point_of(m, m->edge[E->before].b), point_of(m, E->b), e, P, &ends);
+        if (bbm_may_enter(m, corner, e))
+            take_side(point_of(m, E->a), point_of(m, E->b), e, P, &entered);
         e = E->next;
     } while (e != edge);
-    *nearest = starts.nearest;
+    *over = isfinite(entered.distance2) ? entered.nearest : starts.nearest;
     return starts.winding > 0 && ends.winding > 0
          ? sqrt(fmin(starts.distance2, ends.distance2)) : 0;
 }
@@ -234,8 +238,8 @@ static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int
 }
 
 /* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are, and
- * the edge that it is nearest to; else 0. */
-double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
+ * the edge over which it has come; else 0. */
+double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
 {
     const point P = point_of(m, m->edge[corner].a), a = point_of(m, m->edge[edge].a);
     const point b = point_of(m, m->edge[edge].b);
@@ -247,16 +251,16 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *nearest)
         || m->edge[corner].joined[1] != corner || s < 0 || s > l * l
         || y * u - x * v <= allowed * l)
         return 0;
-    const double depth = depth_in_block(m, P, edge, nearest);
-    return depth > fmax(allowed, bbm_allowed_depth(m, corner, *nearest)) ? depth : 0;
+    const double depth = depth_in_block(m, corner, edge, over);
+    return depth > fmax(allowed, bbm_allowed_depth(m, corner, *over)) ? depth : 0;
 }
 
 /* That depth where no contact of the corner and that block accounts for it: the last step let the
  * corner pass. Else 0. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    int nearest = edge, first = m->edge[corner].contact, n = first;
-    const double depth = bbm_depth_behind(m, corner, edge, &nearest);
+    int over = edge, first = m->edge[corner].contact, n = first;
+    const double depth = bbm_depth_behind(m, corner, edge, &over);
 
     while (n < m->contacts && m->contact[n].corner == corner)
         n++;
@@ -294,10 +298,10 @@ bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
     const int n = m->scratch->contacts;
 
     for (const bbm_contact *c = list; c < list + n; c++) {
-        int nearest = c->edge;
+        int over = c->edge;
         if (c->state != BBM_OPEN || c->d_n >= 0 || c->trial.was_closed || c->inside)
             continue;
-        const double depth = bbm_depth_behind(end, c->corner, c->edge, &nearest);
+        const double depth = bbm_depth_behind(end, c->corner, c->edge, &over);
         if (depth > DEEPER * fmax(0, depth_between(m, list, n, c->corner, c->edge)))
             return refuse(m, end, c->corner, c->edge, depth);
     }

@@ -447,6 +447,71 @@ START_TEST(fragments_lie_on_the_floor_as_the_body_did)
 }
 END_TEST
 
+/* Two cells of four triangles each fall on a floor and break. The tips in the floor that it did not bear before are caught
+ * where they are: no deeper than a body falls in a step. */
+START_TEST(tips_that_come_off_inside_the_floor_sink_no_deeper)
+{
+    const double v = 1 + _i % 4, dt = _i < 4 ? 1e-3 : 2e-3;
+    bbm_model *m = new_blocks();
+    int node[3][2], middle;
+
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -3, .y = -.5, .w = 6, .h = .5, .fixed = 1 });
+    for (int k = 0; k < 6; k++)
+        ck_ok(bbm_add_node(m, -.25 + .25 * (k / 2), .01 + .6 * (k % 2), &node[k / 2][k % 2]), m);
+    for (int i = 0; i < 2; i++) {
+        const int round[5] = { node[i][0], node[i + 1][0], node[i + 1][1], node[i][1], node[i][0] };
+        ck_ok(bbm_add_node(m, -.125 + .25 * i, .31, &middle), m);
+        for (int k = 0; k < 4; k++)
+            ck_ok(bbm_add_element(m, 1, ROCK, 3, (int[]){ round[k], round[k + 1], middle }, NULL), m);
+    }
+    m->par.dt = dt;
+    m->par.friction = 10;
+    m->beyond->bond_tension = 1e4;
+    m->beyond->bond_cohesion = 3e4;
+    m->beyond->bond_friction = 30;
+    for (int i = 1; i < 9; i++)
+        set_velocity(m, i, 0, -v);
+    run_steps(m, (int)(0.4 / dt));
+    ck_assert_int_gt(m->beyond->broken, 5);
+    for (int k = 0; k < m->vertices; k++)
+        if (m->vertex[k].element > 0)
+            ck_assert_msg(m->vertex[k].y > -v * dt, "sunk to %g", m->vertex[k].y);
+    release(m);
+}
+END_TEST
+
+/* Twelve squares fall on a wedge, break and slide past each other by 2 % of their size in a step. A corner that comes off
+ * inside the neighbour below is nearer to its side than to its top, but cannot come in there. No piece lies in another in
+ * the end: their middles are at least half of their height apart. */
+START_TEST(pieces_that_slide_past_each_other_do_not_go_through)
+{
+    const double wedge[4][2] = { { -.3, 0 }, { .3, 0 }, { .02, .3 }, { -.02, .3 } };
+    grid g = { .x = -.4, .y = .31, .lx = .8, .ly = .45, .nx = 4, .ny = 3 };
+    bbm_model *m = new_blocks();
+
+    m->material[ROCK] = m->material[BASE] = (bbm_material){ 2e9, 0.2, 2500, 1 };
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -3, .y = -.5, .w = 6, .h = .5, .fixed = 1 });
+    add_polygon(m, 1, 4, wedge);
+    for (int k = 1; k <= 4; k++)
+        ck_ok(bbm_fix_node(m, m->nodes - k, BBM_XY, 0, 0), m);
+    add_grid(m, &g, 2);
+    m->par.dt = 1e-3;
+    m->par.friction = 30;
+    m->beyond->bonding = BBM_MOMENT;
+    set_springs(m, 1e11, 4e10);
+    m->beyond->bond_tension = m->beyond->bond_cohesion = 2e4;
+    for (int k = 0; k < 12; k++)
+        set_velocity(m, g.element + k, 0, -6);
+    run_steps(m, 500);
+    ck_assert_int_eq(m->beyond->broken, 17);
+    for (int i = g.element; i < m->elements; i++)
+        for (int j = g.element; j < i; j++)
+            ck_assert_msg(hypot(m->element[i].x - m->element[j].x, m->element[i].y - m->element[j].y) > .075,
+                          "elements %d and %d", i, j);
+    release(m);
+}
+END_TEST
+
 /* Two squares that part have a node in common, by which a support moves both; or along y alone, and
  * each turns at its own rate. */
 START_TEST(a_support_that_moves_two_fragments_works_on_each)
@@ -565,6 +630,8 @@ Suite *crack_suite(void)
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
              { a_support_that_moves_two_fragments_works_on_each, 2 },
              { fragments_lie_on_the_floor_as_the_body_did, 1 },
+             { tips_that_come_off_inside_the_floor_sink_no_deeper, 8 },
+             { pieces_that_slide_past_each_other_do_not_go_through, 1 },
              { a_crack_is_said_to_be_between_its_sides, 1 },
              { fragments_go_on_in_a_mirror_as_they_do, 2 },
              { the_same_bonds_break_in_any_order_units_and_direction, 2 });
