@@ -54,7 +54,7 @@ static bbm_status check(bbm_model *m)
 static bbm_status begin(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;
-    const int at_rest = isinf(m->par.dt) || bbm_is_static(m);
+    const int at_rest = isinf(m->par.dt);
     const double swing = at_rest ? 0 : sin(b->shake_omega * (m->info.t + m->h / 2));
 
     if (bbm_check_settings(m))

@@ -93,7 +93,8 @@ START_TEST(under_pressure_the_shear_strength_is_c_and_s_tan_phi)
 {
     const double S[3] = { -2e6, -2e6, 2e6 };
 
-    for (int more = 0; more < 2; more++) {
+    for (int k = 0; k < 4; k++) {               /* brittle, then softening: it goes on once it has begun */
+        const int more = k % 2;
         grid g;
         bbm_model *m = plate(_i, &g, 1e9, 1e6, 30);
         hold(m, &g);
@@ -104,11 +105,12 @@ START_TEST(under_pressure_the_shear_strength_is_c_and_s_tan_phi)
             ck_relative(shear_margin(m, S) * S[2], 1e6 + 2e6 * tan_phi, ROUNDING);
         /* with a factor f of the cohesion the margin is 1: bisected by hand, it is linear */
         double low = 0, high = 4e6;
-        for (int k = 0; k < 60; k++) {
+        for (int half = 0; half < 60; half++) {
             m->beyond->bond_cohesion = (low + high) / 2;
             *(shear_margin(m, S) > 1 ? &high : &low) = m->beyond->bond_cohesion;
         }
         m->beyond->bond_cohesion = high + (more ? -1e-4 : 1e-4) * 2e6;
+        m->beyond->bond_energy = k / 2 * 1e4;
         ck_assert_int_eq(stands(m), !more);
     }
 }
