@@ -794,7 +794,7 @@ static void draw_error(drawing *d)
 
     for (int k = 0; k < ALPHAS; k++) {
         power[k] = k;
-        soft[k] = log10(300) - k;
+        soft[k] = log10(260) - k;
     }
     for (int k = 0; k < MESHES; k++) {
         for (int a = 0; a < ALPHAS; a++) {
@@ -805,7 +805,7 @@ static void draw_error(drawing *d)
         s[k] = (plot_series){ .name = label[k], .n = ALPHAS, .x = power, .y = e[k], .look = k + 2,
                               .style = PLOT_BOTH };
     }
-    s[MESHES] = (plot_series){ .name = "springs alone: 3/alpha", .n = 5, .x = power, .y = soft,
+    s[MESHES] = (plot_series){ .name = "springs alone: 2.6/alpha", .n = 5, .x = power, .y = soft,
                                .look = 1 };
     plot_draw_chart(&d->p, (plot_box){ 0, 0, 700, 460 }, &(plot_chart){
         .title = "Error of v(24,0): too soft on the left, too stiff on the right",
