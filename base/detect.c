@@ -207,16 +207,16 @@ bbm_status bbm_detect_new(bbm_model *m)
 
 /* ----------------------------------------------------------- detection: how far blocks may move */
 
-/* Takes for D what the velocities and gravity foretell of the step; in statics 0. */
+/* Takes for D what the velocities foretell of the step; in statics 0. Gravity is not foretold: what
+ * stands on others does not fall. */
 void bbm_foresee_step(bbm_model *m)
 {
-    const double h = bbm_is_static(m) ? 0 : m->h, *g = m->acceleration;
-    const double fall[6] = { g[0] * h * h / 2, g[1] * h * h / 2 };
+    const double h = bbm_is_static(m) ? 0 : m->h;
 
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         for (int a = 0; a < 6; a++)
-            m->D[6 * i + a] = e->V[a] * h + fall[a];
+            m->D[6 * i + a] = e->V[a] * h;
         m->scratch->reach[i].travel = 0;
     }
     m->detections = 0;

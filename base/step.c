@@ -148,8 +148,7 @@ void bbm_assemble(bbm_model *m)
 
 /* ------------------------------------------------------------- the parts of a time step */
 
-/* Geometry of the elements, and a first guess at D for the detection: by velocity and gravity, or
- * in statics the D of the last step. */
+/* Geometry of the elements, and a first guess at D for the detection: by velocity, in statics 0. */
 bbm_status bbm_begin_step(bbm_model *m)
 {
     for (int i = 0; i < m->elements; i++)

@@ -425,6 +425,31 @@ START_TEST(locked_contacts_keep_their_shear_forces_from_step_to_step)
 }
 END_TEST
 
+/* Two blocks that stand, the upper one of two elements, are pushed to and fro in long steps that keep no velocity. Nothing
+ * slides, and each spring counts from the face all the time. */
+START_TEST(what_stands_in_long_steps_keeps_its_springs)
+{
+    bbm_model *m = new_blocks();
+
+    m->par.dt = _i ? 10 : 0.3;
+    m->par.velocity_factor = 0;
+    m->par.friction = 60;
+    set_springs(m, 1e9, 4e8);
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -.5, .w = 9, .h = .5, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = .5 });
+    add_rectangle(m, 2, ROCK, (rectangle){ .y = .5, .w = 1, .h = .5, .nx = 2, .ny = 1 });
+    for (int k = 0; k < 3; k++) {
+        m->par.gravity[0] = (k == 1 ? 0.06 : k == 2 ? -0.06 : 0) * GRAVITY;
+        run_steps(m, 3);
+    }
+    ck_assert_int_eq(m->info.contacts, 5);
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++)
+        if (c->state != BBM_OPEN)
+            ck_near(c->N, -m->par.p_n * c->d_n, c->N, 1e-6);    /* the digits of a length of 9 m */
+    release(m);
+}
+END_TEST
+
 /* Four bars lie round a core like a pinwheel, on a base, with friction of 40 degrees. They stand to a tilt of 0.75 by limit
  * analysis, and so they do in slow dynamics. */
 START_TEST(a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit)
@@ -791,6 +816,7 @@ Suite *statics_suite(void)
         { a_seam_below_a_foot_holds_no_block_that_slides, 4 },
         { a_contact_that_leaves_its_edge_in_a_static_step_has_its_force_there, 1 },
         { locked_contacts_keep_their_shear_forces_from_step_to_step, 2 },
+        { what_stands_in_long_steps_keeps_its_springs, 2 },
         { a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit, 10 },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
         { a_solution_that_is_refused_leaves_no_reactions, 1 });
