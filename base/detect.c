@@ -642,7 +642,8 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
  * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one
  * whose edge goes before the other.
  * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
- * was closed and the corners may pass each other in the step. */
+ * was closed and the corners may pass each other in the step. A grid point inside a straight side
+ * that lies within the rounding of a corner is that corner, on either side of it. */
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);
@@ -660,6 +661,9 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
     const int here = find_closed(m, p.corner, p.edge) != NULL;
     const int there = find_closed(m, q.corner, q.edge) != NULL;
+    if (is_corner(m, p.corner) != is_corner(m, Q)
+        && most <= fmax(bbm_rounding(m, p.corner), bbm_rounding(m, Q)))
+        return is_corner(m, Q);
     if (most > touch_between(m, p.corner, p.edge))
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
             && (here || there || most > slip_between(m, p.corner, Q, t));

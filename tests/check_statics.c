@@ -450,6 +450,38 @@ START_TEST(what_stands_in_long_steps_keeps_its_springs)
 }
 END_TEST
 
+/* A block that is pressed on a mesh, its corners on grid points or beside them by 1e-4 of its side, rests on three springs
+ * and goes down as far, in the first static step as in those after it. */
+START_TEST(a_corner_on_a_grid_point_is_one_contact_in_each_step)
+{
+    const double beside[] = { 0, 1e-4, -1e-4 };
+    double v[COUNT(beside)][2];
+
+    for (int k = 0; k < COUNT(beside); k++) {
+        grid g = { .y = -1, .lx = 3, .ly = 1, .nx = 6, .ny = 2 };
+        bbm_model *m = new_blocks();
+        m->material[BASE] = m->material[ROCK];
+        m->par.dt = INFINITY;
+        m->par.friction = 30;
+        set_springs(m, 1e9, 4e8);
+        add_grid(m, &g, 0);
+        for (int i = 0; i <= g.nx; i++)
+            ck_ok(bbm_fix_node(m, node_at(&g, i, 0), BBM_XY, 0, 0), m);
+        add_rectangle(m, 1, ROCK, (rectangle){ .x = 1 + beside[k], .w = 1, .h = .5 });
+        for (int top = 1; top <= 2; top++)
+            ck_ok(bbm_add_load(m, m->nodes - top, 0, -5e5), m);
+        for (int step = 0; step < 2; step++) {
+            run_steps(m, 1);
+            ck_assert_int_eq(m->info.contacts, 3);
+            v[k][step] = result_at(m, m->nodes - 1).v;
+        }
+        release(m);
+    }
+    for (int k = 0; k < 2 * COUNT(beside); k++)         /* the geometry of the second step: strains of 3e-4 */
+        ck_relative(v[k / 2][k % 2], v[0][0], 1e-3);
+}
+END_TEST
+
 /* Four bars lie round a core like a pinwheel, on a base, with friction of 40 degrees. They stand to a tilt of 0.75 by limit
  * analysis, and so they do in slow dynamics. */
 START_TEST(a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit)
@@ -817,6 +849,7 @@ Suite *statics_suite(void)
         { a_contact_that_leaves_its_edge_in_a_static_step_has_its_force_there, 1 },
         { locked_contacts_keep_their_shear_forces_from_step_to_step, 2 },
         { what_stands_in_long_steps_keeps_its_springs, 2 },
+        { a_corner_on_a_grid_point_is_one_contact_in_each_step, 1 },
         { a_pinwheel_of_bars_stands_at_any_tilt_below_its_limit, 10 },
         { a_static_step_that_fails_leaves_the_model_as_it_was, 2 },
         { a_solution_that_is_refused_leaves_no_reactions, 1 });
