@@ -84,6 +84,7 @@ function setText(name, text) {
   is('text').value = text;
   is('exercise').reset();
   is('exercise').hidden = !task;
+  is('within').value = task?.within ?? '';
   predictions = 0;
   fill('task', [make('b', {}, task?.title ?? ''), make('p', {}, task?.text ?? '')]);
   makeSliders();
@@ -269,11 +270,12 @@ function listenToPicture(canvas) {
   canvas.onwheel = e => { e.preventDefault(); zoom(Math.exp(-e.deltaY / 500)); };
 }
 
-/* Each has a line "### Exercise 6.1 A block on a slope", a row of a table with the model, text. */
+/* Each has a line "### Exercise 6.1 A block on a slope", a table with model and tolerance, text. */
 function readExercises(text) {
   for (const part of text.split('### Exercise ').slice(1)) {
     const [, title, number, model, words] = part.match(/^((\S+).*)\n.*?([\w-]+\.model)`.*\n([^]*)/);
-    EXERCISES[number] = { title, model, text: words.replace(/`|\]\(.*?\)|\[/g, '') };
+    const within = part.match(/within (.*)` \|/)?.[1];
+    EXERCISES[number] = { title, model, within, text: words.replace(/`|\]\(.*?\)|\[/g, '') };
   }
   return Object.values(EXERCISES).map(e => new Option(e.title, e.title.split(' ')[0]));
 }
