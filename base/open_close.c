@@ -18,12 +18,9 @@
  *             their component of K is solved: the solver is not more exact
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
- * ROUGH  [-]  the most that DIGITS may be of the force by which a component is solved. Springs that
- *             are stiffer do not settle
  * FIT    [-]  the same where states have to fit: friction is right to 0.01 degrees */
 #define AGREE 1e-9
 #define DIGITS 1e-15
-#define ROUGH 1e-3
 #define FIT 2e-4
 
 /* The most passes in a row that change friction forces alone. */
@@ -142,9 +139,8 @@ static void find_tolerance(const bbm_model *m, bbm_contact *c)
     const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
     const double force = fmax(fabs(c->N), m->K->forces[m->K->component[c->element[0]]]);
     const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
-    const double digits = fmin(m->par.p_n * lever * DIGITS, ROUGH * force);
 
-    c->trial.digits = bbm_is_static(m) ? 0 : digits;
+    c->trial.digits = bbm_is_static(m) ? 0 : m->par.p_n * lever * DIGITS;
     c->trial.force_tolerance = AGREE * force + fmin(c->trial.digits, FIT * force);
 }
 

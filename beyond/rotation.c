@@ -34,10 +34,13 @@
  *               its elements: what it makes of energy is this share of the energy of the
  *               contact's spring
  * DIRECTION [rad] of a contact's force, which is left: what it does to the angular momentum is
- *               1e-5 of that */
+ *               1e-5 of that
+ * ROUGH [-]     the most that rounding may be of the force of a contact: springs that are stiffer
+ *               do not settle */
 #define TURN 1e-8
 #define SHARE 3e-6
 #define DIRECTION 1e-4
+#define ROUGH 1e-3
 
 /* How a point at (X, Y) from the barycentre moves: translation, strain, then the exact rotation,
  * u = (u0, v0) + R(r0) (1 + e) X - X with R X - X = sin(r) J X - 2 sin(r/2)^2 X. */
@@ -147,6 +150,24 @@ static int is_off(const bbm_model *m, int i)
     return turn_off(m, i) * (fabs(m->D[6 * i + 2]) + turn_off(m, i)) > TURN / sqrt(m->par.alpha);
 }
 
+/* What rounding of positions may make of the force of a contact: no more than a share of its N, of
+ * the weight of its elements, or of the force by which its component is solved. Where nothing loads
+ * its elements there is no force that it could spoil. */
+static double find_rounding(const bbm_model *m, const bbm_contact *c)
+{
+    const double g = hypot(m->acceleration[0], m->acceleration[1]);
+    double force = fmax(fabs(c->N), m->K->forces[m->K->component[c->element[0]]]);
+    int loaded = 0;
+
+    for (int k = 0; k < c->parts; k++) {
+        const bbm_element *e = &m->element[c->element[k]];
+        force = fmax(force, bbm_mass_per_area(e) * e->A * g);
+        for (int a = 0; a < 6; a++)
+            loaded |= m->load[6 * c->element[k] + a] != 0;
+    }
+    return loaded ? fmin(c->trial.digits, ROUGH * force) : c->trial.digits;
+}
+
 /* Whether the vectors of a contact belong to another step than the solution: forces that are wrong
  * by more than a share of the largest one on its elements, or in direction. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
@@ -163,7 +184,7 @@ int bbm_contacts_are_off(const bbm_model *m, double share)
             off |= bbm_motion_of(m) && turn_off(m, i) > DIRECTION;
             force = fmax(force, hypot(m->F[6 * i], m->F[6 * i + 1]));
         }
-        const double bound = fmax(share * force, c->trial.force_tolerance + c->trial.digits);
+        const double bound = fmax(share * force, c->trial.force_tolerance + find_rounding(m, c));
         bbm_end_distances(m, c, c->anchor, d);
         off = off || bbm_normal_stiffness(m) * fabs(d[0] - c->d_n) > bound
            || (m->par.p_s * fabs(c->trial.time_left * d[1] - c->d_s) > bound

@@ -321,6 +321,32 @@ START_TEST(statics_finds_the_states_of_many_blocks_in_unbroken_joints)
 }
 END_TEST
 
+/* A block on a mesh in an unbroken joint without any force, from the start (0) or after its weight has gone (1): the rounding
+ * of its springs, 1e-16 m of 5e11 N/m, is nothing to settle. */
+START_TEST(a_joint_without_a_force_stays_as_it_is)
+{
+    grid g = { .x = -1, .y = -1, .lx = 3, .ly = 1, .nx = 5, .ny = 1 };
+    bbm_model *m = new_blocks();
+
+    m->material[BASE] = m->material[ROCK];
+    m->beyond->cohesion = m->beyond->tension = 1e6;
+    m->par.friction = 30;
+    set_springs(m, 5e11, 2e11);
+    add_grid(m, &g, 0);
+    for (int k = 0; k < 2 * (g.nx + 1); k++)
+        ck_ok(bbm_fix_node(m, k, BBM_XY, 0, 0), m);
+    add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 0.5 });
+    m->par.gravity[1] *= _i;
+    run_steps(m, 20);
+    m->par.gravity[1] = 0;
+    run_steps(m, 20);
+    ck_assert_int_eq(m->info.contacts, 2);
+    for (int k = 0; k < m->contacts; k++)
+        ck_assert(m->contact[k].state == BBM_OPEN || m->contact[k].area > 0);
+    release(m);
+}
+END_TEST
+
 Suite *joints_suite(void)
 {
     Suite *s = suite_create("joints");
@@ -338,6 +364,7 @@ Suite *joints_suite(void)
         { blocks_that_come_to_touch_have_no_tensile_strength, 1 },
         { a_joint_is_that_of_its_two_blocks, 4 },
         { a_joint_of_no_meaning_is_refused, 6 },
+        { a_joint_without_a_force_stays_as_it_is, 2 },
         { statics_finds_the_states_of_many_blocks_in_unbroken_joints, 1 });
     return s;
 }
