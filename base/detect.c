@@ -808,7 +808,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     *c = old ? *old : (bbm_contact){ 0 };
     c->inside |= !old && f.d < -touch && f.beyond <= 0;
     c->trial.carried = old && old->corner == p.corner && old->edge == p.edge;
-    c->trial.touches = !old && m->info.step == 0 && m->info.t == 0
+    c->trial.touches = m->contacts == 0 && m->info.step == 0 && m->info.t == 0
                     && fmax(fabs(f.d), f.beyond) <= touch;
     c->corner = p.corner;
     c->edge = p.edge;

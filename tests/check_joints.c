@@ -347,6 +347,31 @@ START_TEST(a_joint_without_a_force_stays_as_it_is)
 }
 END_TEST
 
+/* Four blocks meet at a point. When they have settled the run begins, once more at t = 0: what stands across the point has no
+ * joint then, either, though it has come to touch. */
+START_TEST(no_joint_begins_when_blocks_have_settled)
+{
+    bbm_model *m = new_blocks();
+
+    m->beyond->cohesion = m->beyond->tension = 1e6;
+    m->par.friction = 30;
+    set_springs(m, 5e11, 2e11);
+    add_table(m, 0);
+    for (int k = 0; k < 4; k++)
+        add_rectangle(m, 1 + k, ROCK, (rectangle){ .x = k % 2, .y = .5 * (k / 2), .w = 1, .h = 0.5 });
+    ck_ok(bbm_add_load(m, m->nodes - 2, -1e5, 0), m);
+    run_steps(m, 1);
+    const int contacts = m->info.contacts;
+    settle(m, 20);
+    m->info.t = m->info.step = 0;
+    run_steps(m, 1);
+    ck_assert_int_eq(m->info.contacts, contacts);
+    for (int k = 0; k < m->contacts; k++)
+        ck_assert(!m->contact[k].trial.touches);
+    release(m);
+}
+END_TEST
+
 Suite *joints_suite(void)
 {
     Suite *s = suite_create("joints");
@@ -365,6 +390,7 @@ Suite *joints_suite(void)
         { a_joint_is_that_of_its_two_blocks, 4 },
         { a_joint_of_no_meaning_is_refused, 6 },
         { a_joint_without_a_force_stays_as_it_is, 2 },
+        { no_joint_begins_when_blocks_have_settled, 1 },
         { statics_finds_the_states_of_many_blocks_in_unbroken_joints, 1 });
     return s;
 }
