@@ -46,8 +46,9 @@ static double joint_area(const bbm_model *m, int corner, int edge)
         int other = end_of_side(m, edge, !bbm_carries(m, edge, mine), !ends);
         if (m->edge[other].side != other && fabs(bbm_way_along(m, other, edge) - s) <= same)
             other = ends ? m->edge[other].before : m->edge[other].after;
-        length += fmin(fabs(bbm_way_along(m, own, edge) - s),
-                       fabs(bbm_way_along(m, other, edge) - s)) / 2;
+        const double way = fmin(fabs(bbm_way_along(m, own, edge) - s),
+                                fabs(bbm_way_along(m, other, edge) - s));
+        length += way > same ? way / 2 : 0;         /* blocks across a corner have no joint */
     }
     return length * fmin(m->element[m->edge[corner].element].material.thickness,
                          m->element[e->element].material.thickness);

@@ -1,12 +1,13 @@
 # assemble.awk - page/page.html with what it names, as one file:
 #     awk -f page/assemble.awk page/page.html out/bbm.wasm MODEL ...
 #
-# @include FILE ... stands for the text of files. @files stands for all others, packed by gzip, in
-# base64, so that nothing in them is markup; their names are those behind the last slash.
+# @include FILE ... stands for the text of files without their comments. @files stands for all
+# others, packed by gzip, in base64, so that nothing in them is markup; their names are those
+# behind the last slash.
 
 $1 == "@include" {
     for (k = 2; k <= NF; k++)
-        while ((getline line < $k) > 0)
+        while ((("sed '/^\\/\\*.*\\*\\/$/d; /^\\/\\*/,/\\*\\/$/d' " $k) | getline line) > 0)
             print line
     next
 }

@@ -372,6 +372,30 @@ START_TEST(no_joint_begins_when_blocks_have_settled)
 }
 END_TEST
 
+/* A block stands on another one, beside an abutment as high as that, whose corner it meets: exactly, or by a rounding more. It
+ * has no joint with what it meets in a corner alone. */
+START_TEST(blocks_across_a_corner_have_no_joint)
+{
+    bbm_model *m = new_blocks();
+
+    m->beyond->cohesion = m->beyond->tension = 1e6;
+    m->par.friction = 30;
+    m->par.dt = INFINITY;
+    m->par.steps = 1;
+    set_springs(m, 5e11, 2e11);
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -1, .w = 4, .h = 1, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 1, .w = 1, .h = 1, .fixed = 1 });
+    add_rectangle(m, 2, ROCK, (rectangle){ .w = 1, .h = 1 });
+    add_rectangle(m, 3, ROCK, (rectangle){ .y = 1, .w = 1 + _i * 1e-15, .h = 1 });
+    run_steps(m, 1);
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++)
+        if (m->edge[c->corner].block + m->edge[c->edge].block == 4)
+            ck_assert(c->area == 0 && c->N == 0);
+    ck_assert_int_eq(m->info.contacts, 6);
+    release(m);
+}
+END_TEST
+
 Suite *joints_suite(void)
 {
     Suite *s = suite_create("joints");
@@ -391,6 +415,7 @@ Suite *joints_suite(void)
         { a_joint_of_no_meaning_is_refused, 6 },
         { a_joint_without_a_force_stays_as_it_is, 2 },
         { no_joint_begins_when_blocks_have_settled, 1 },
+        { blocks_across_a_corner_have_no_joint, 2 },
         { statics_finds_the_states_of_many_blocks_in_unbroken_joints, 1 });
     return s;
 }
