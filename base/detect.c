@@ -759,8 +759,8 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
  * each other is open, or there is no such line and the projection is off the edge. A P that hangs
- * on a ledge has left, too: on a covered face of a convex Q, by less than the rounding behind the
- * other face, over which it can enter. There P is at the surface, and the covered face is not in
+ * on a ledge has left, too: on a covered face of a convex Q, not farther from Q than the rounding,
+ * where it can enter over the other face. There P is at the surface, and the covered face is not in
  * the way. A joint with strength holds it all the same. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
