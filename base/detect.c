@@ -757,11 +757,22 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     return old;
 }
 
+/* Whether another block lies flush at the end of the edge where the corner is, and covers the edge
+ * (0), or carries its boundary on (1). Unlike is_covered, also where the block of the corner lies
+ * on that other block. */
+static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
+{
+    const int Q = end_near(m, corner, e), k = (Q == e) != goes_on;
+
+    return m->edge[Q].joined[k] != (k ? Q : m->edge[Q].before);
+}
+
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
- * each other is open, or there is no such line and the projection is off the edge. A P that hangs
- * on a ledge has left, too: on a covered face of a convex Q, not farther from Q than the rounding,
- * where it can enter over the other face. There P is at the surface, and the covered face is not in
- * the way. A joint with strength holds it all the same. */
+ * each other is open, and no block that lies flush covers it; or there is no such line, and the
+ * projection is off the edge. A P that hangs on a ledge has left, too: on a covered face of a
+ * convex Q, not farther from Q than the rounding, where it can enter over the other face. There P
+ * is at the surface, and the covered face is not in the way. A joint with strength holds it all the
+ * same. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
@@ -772,6 +783,8 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
+        if (ends_flush(m, r.corner, r.edge, 0))
+            continue;
         if (project(m, r.corner, r.edge).d > 0 && bbm_may_enter(m, r.corner, r.edge))
             return 1;
         lines++;
@@ -780,16 +793,6 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
             && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge)
             && bbm_may_enter(m, c->corner, other));
-}
-
-/* Whether another block lies flush at the end of the edge where the corner is, and covers the edge
- * (0), or carries its boundary on (1). Unlike is_covered, also where the block of the corner lies
- * on that other block. */
-static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
-{
-    const int Q = end_near(m, corner, e), k = (Q == e) != goes_on;
-
-    return m->edge[Q].joined[k] != (k ? Q : m->edge[Q].before);
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a

@@ -484,6 +484,24 @@ START_TEST(a_shipped_model_stands_to_its_limit_and_falls_beyond)
 }
 END_TEST
 
+/* A block is taken away, and the corner of the one beside it stays on the seam of two flush blocks below, by rounding on this
+ * side or that: another stage, in which nothing happens, changes no force. */
+START_TEST(an_empty_stage_changes_no_force)
+{
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(run_printed(k ? "more" : "once",
+                                     "material m E 1e11 nu 0.2 density 2000\nblock base m -1 -1 4 -1 4 0 -1 0\n"
+                                     "block A m 0 0 1 0 1 .7 0 .7\nblock B m 1 0 2.2 0 2.2 .7 1 .7\n"
+                                     "block C m 0 .7 1 .7 1 1.4 0 1.4\nblock D m 1 .7 1.75 .7 1.75 1.4 1 1.4\n"
+                                     "block T m 0 1.4 2 1.4 2 2 0 2\nfixblock base\ngravity -1 -9.81\n"
+                                     "contact friction 20 cohesion 1e6 tension 1e6\nstatic\nstage s1 remove D\nend\n%s",
+                                     k ? "stage empty\nend\n" : ""), 0);
+    for (int k = 0; k < 2; k++)                 /* of some 10 kN */
+        ck_near(sum("more", "contacts.csv", k ? "normal" : "shear", "^C,B"),
+                sum("once", "contacts.csv", k ? "normal" : "shear", "^C,B"), 1e4, 1e-6);
+}
+END_TEST
+
 /* Between bounds that bisection narrows to a thousandth of where it began: a; atan(k); the formula of
  * topple.model. A block that leans a little on its springs has a limit up to 0.07 % away. */
 static const struct { const char *call; double limit, within; } found[] = {
@@ -1490,6 +1508,7 @@ static void add_loads_and_joints(TCase *t)
 
 static void add_what_the_file_says(TCase *t)
 {
+    tcase_add_test(t, an_empty_stage_changes_no_force);
     tcase_add_loop_test(t, a_shipped_model_stands_to_its_limit_and_falls_beyond, 0, COUNT(limits));
     tcase_add_loop_test(t, a_limit_is_found_by_bisection, 0, COUNT(found));
     tcase_add_test(t, what_has_no_limit_is_said);
