@@ -321,17 +321,25 @@ START_TEST(statics_finds_the_states_of_many_blocks_in_unbroken_joints)
 }
 END_TEST
 
+/* For blocks in strong joints, with the springs of ./bbm. */
+static bbm_model *new_glued(void)
+{
+    bbm_model *m = new_blocks();
+
+    m->beyond->cohesion = m->beyond->tension = 1e6;
+    m->par.friction = 30;
+    set_springs(m, 50 * m->material[ROCK].E, 20 * m->material[ROCK].E);
+    return m;
+}
+
 /* A block on a mesh in an unbroken joint without any force, from the start (0) or after its weight has gone (1): the rounding
  * of its springs, 1e-16 m of 5e11 N/m, is nothing to settle. */
 START_TEST(a_joint_without_a_force_stays_as_it_is)
 {
     grid g = { .x = -1, .y = -1, .lx = 3, .ly = 1, .nx = 5, .ny = 1 };
-    bbm_model *m = new_blocks();
+    bbm_model *m = new_glued();
 
     m->material[BASE] = m->material[ROCK];
-    m->beyond->cohesion = m->beyond->tension = 1e6;
-    m->par.friction = 30;
-    set_springs(m, 5e11, 2e11);
     add_grid(m, &g, 0);
     for (int k = 0; k < 2 * (g.nx + 1); k++)
         ck_ok(bbm_fix_node(m, k, BBM_XY, 0, 0), m);
@@ -351,11 +359,8 @@ END_TEST
  * joint then, either, though it has come to touch. */
 START_TEST(no_joint_begins_when_blocks_have_settled)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = new_glued();
 
-    m->beyond->cohesion = m->beyond->tension = 1e6;
-    m->par.friction = 30;
-    set_springs(m, 5e11, 2e11);
     add_table(m, 0);
     for (int k = 0; k < 4; k++)
         add_rectangle(m, 1 + k, ROCK, (rectangle){ .x = k % 2, .y = .5 * (k / 2), .w = 1, .h = 0.5 });
@@ -376,13 +381,10 @@ END_TEST
  * has no joint with what it meets in a corner alone. */
 START_TEST(blocks_across_a_corner_have_no_joint)
 {
-    bbm_model *m = new_blocks();
+    bbm_model *m = new_glued();
 
-    m->beyond->cohesion = m->beyond->tension = 1e6;
-    m->par.friction = 30;
     m->par.dt = INFINITY;
     m->par.steps = 1;
-    set_springs(m, 5e11, 2e11);
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -1, .y = -1, .w = 4, .h = 1, .fixed = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .x = 1, .w = 1, .h = 1, .fixed = 1 });
     add_rectangle(m, 2, ROCK, (rectangle){ .w = 1, .h = 1 });
