@@ -779,7 +779,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     const int other = end ? Q : m->edge[Q].before, *meets = m->edge[Q].meets;
     int lines = 0;
 
-    for (int k = 0; k < 4; k++) {
+    for (int k = 2 * end; k < 2 * end + 2; k++) {
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
@@ -798,7 +798,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
  * rounded one is inside. A projection beyond the end of the edge is off it. But it may be as far
  * beyond as a block that lies flush may be apart there; and in a notch of its block, or of it and
- * one that lies flush, it lies inside. An entrance is another line of the list on which P and an
+ * one that lies flush, or in a bend that is hollow, it lies inside. An entrance is another line of the list on which P and an
  * end Q of its edge can enter each other, if both are convex corners; where the blocks are flush
  * each line is one of P or one of Q. In a notch Q both edges hold P at once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
@@ -828,7 +828,8 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         const int convex = cross(in, out) > -PARALLEL;
         const int meets = convex && (k % 2 == 0 || !coincide(m, p.edge, other.edge));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
-        c->trial.beyond_end &= convex || Q != end_near(m, p.corner, p.edge);
+        c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge)
+                            || (convex && f.beyond > fmin(0, cross(in, out)) * f.d);
     }
     c->trial.has_left = has_left(m, c);
 }
@@ -925,21 +926,32 @@ static double crossed_at(const bbm_model *m, const bbm_contact *c)
     return above <= touch ? 0 : way > 0 ? above / way : INFINITY;
 }
 
-/* Whether the projection of P is on the edge at the fraction t of the step. */
-static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t)
+/* Whether the projection of P is on the edge at the fraction t of the step, so far off its ends. */
+static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t, double off)
 {
     const double s = project(m, c->corner, c->edge).s, l = m->edge[c->edge].along.length;
 
-    return (1 - t) * s - t * c->trial.past[0] >= 0 && (1 - t) * (l - s) - t * c->trial.past[1] >= 0;
+    return (1 - t) * s - t * c->trial.past[0] >= off
+        && (1 - t) * (l - s) - t * c->trial.past[1] >= off;
+}
+
+/* The same from where P crosses the line to the end of the step. */
+static int stays_on_edge(const bbm_model *m, const bbm_contact *c, double off)
+{
+    return is_on_edge(m, c, fmin(1, crossed_at(m, c)), off) && is_on_edge(m, c, 1, off);
 }
 
 /* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step,
- * and not from behind the edge. Nor where its projection is beyond the end of the edge at the start
- * of the step, as it crosses the line and at the end of the step, unless the contact was closed. */
+ * had it come no deeper than the line, and not from behind the edge. Nor where its projection is
+ * beyond the end of the edge at the start of the step, as it crosses the line and at the end of the
+ * step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge);
     const double turn = m->D[6 * c->element[0] + 2] - m->D[6 * c->element[1] + 2];
+    const bbm_edge *P = &m->edge[c->corner], *e = &m->edge[c->edge];
+    const double side = fmin(P->along.length, m->edge[P->before].along.length);
+    const double shortest = fmin(side, e->along.length);
     double r[2] = { turn, turn };
     const bbm_trial *t = &c->trial;
 
@@ -949,9 +961,9 @@ static int admits(const bbm_model *m, const bbm_contact *c)
     }
     if (!t->was_closed && !c->inside && t->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;
-    return (t->was_closed || !t->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)))
-            || is_on_edge(m, c, 1))
-        && can_enter(m, c->corner, c->edge, r, PARALLEL);
+    return (t->was_closed || !t->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)), 0)
+            || is_on_edge(m, c, 1, 0))
+        && can_enter(m, c->corner, c->edge, r, PARALLEL + fmax(0, -c->d_n) / shortest);
 }
 
 /* Whether a side of the corner lies along the edge, and along one that ends at the corner, too. */
@@ -966,7 +978,8 @@ static int lies_along(const bbm_model *m, const bbm_contact *c)
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
  * crosses last. A P that leaves over r has been outside if it was less than the rounding of the
- * corners behind it. A P that comes in on the edge is inside, wherever an end Q of it lies.
+ * corners behind it. A P that crosses its own line first, on the edge and farther off its ends than
+ * their rounding, is inside wherever an end Q lies: both may bear.
  * What was closed keeps its line until P crosses the other one. Of two lines that are not crossed
  * the one counts that no block covers, and neither does where each lies along a side of its corner:
  * P and Q pass each other at the surface. Of two lines crossed at the same time the one counts that
@@ -976,11 +989,11 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
     const double later = crossed_at(m, r) - crossed_at(m, c);
     const double over_r = r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0);
 
+    if (r->corner != c->corner && later > TIE
+        && stays_on_edge(m, c, rounding_between(m, c->corner, c->edge)))
+        return 0;
     if (r->state != BBM_OPEN)
         return 1;
-    if (r->d_n >= 0 && r->corner != c->corner && is_on_edge(m, c, fmin(1, crossed_at(m, c)))
-        && is_on_edge(m, c, 1))
-        return 0;
     if (r->d_n >= 0)
         return over_r >= (c->trial.was_closed ? 0 : -rounding_between(m, c->corner, c->edge));
     if (c->trial.was_closed && crossed_at(m, r) > 1)

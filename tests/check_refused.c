@@ -412,8 +412,9 @@ START_TEST(statics_goes_on_where_all_contacts_of_a_block_slide)
 }
 END_TEST
 
-/* A disc held on its axis and pressed on a base by 6 % of E times its radius flattens: its contacts
- * move further in a step than they are deep, and must be found again in the next. */
+/* A disc held on its axis and pressed on a base by 2 to 9 % of E times its radius flattens: its contacts move further in a
+ * step than they are deep, and must be found again in the next; and what comes in deep in the first solution, its sides
+ * still pointing into the base, closes all the same. */
 static bbm_model *pressed_disc(int held, double load, double size)
 {
     enum { RIM = 32 };
@@ -448,7 +449,7 @@ static bbm_model *pressed_disc(int held, double load, double size)
 
 START_TEST(contacts_of_statics_are_found_again_in_the_next_step)
 {
-    bbm_model *m = pressed_disc(1, 6e8, 1);
+    bbm_model *m = pressed_disc(1, (double[]){ 2e8, 6e8, 7e8, 9e8 }[_i], 1);
 
     ck_ok(bbm_run(m), m);
     ck_assert_int_gt(m->info.contacts, 0);
@@ -619,7 +620,7 @@ Suite *refused_suite(void)
     tcase_add_test(failing, the_block_that_moves_is_named_first_wherever_the_corner_is);
     tcase_add_test(failing, a_block_that_lifts_off_in_statics_is_named);
     tcase_add_test(failing, statics_goes_on_where_all_contacts_of_a_block_slide);
-    tcase_add_test(failing, contacts_of_statics_are_found_again_in_the_next_step);
+    tcase_add_loop_test(failing, contacts_of_statics_are_found_again_in_the_next_step, 0, 4);
     tcase_add_loop_test(failing, a_disc_that_may_roll_is_named, 0, 2);
     tcase_add_loop_test(failing, a_step_in_which_elements_turn_too_far_is_cut_or_refused, 0, 5);
     tcase_add_loop_test(failing, a_step_in_which_a_corner_goes_a_curved_way_past_an_edge_is_cut,
