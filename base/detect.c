@@ -97,11 +97,6 @@ static int is_convex(const bbm_model *m, int c)
     return cross(m->edge[m->edge[c].before].along, m->edge[c].along) > -PARALLEL;
 }
 
-static int coincide(const bbm_model *m, int e, int f)
-{
-    return fabs(cross(m->edge[e].along, m->edge[f].along)) <= PARALLEL;
-}
-
 /* Directions and lengths of the present edges. */
 static void find_directions(bbm_model *m)
 {
@@ -416,12 +411,13 @@ double bbm_allowed_depth(const bbm_model *m, int c, int e)
 
 /* ---------------------------------------------------------------- detection: who may touch whom */
 
-/* Whether two edges are parallel, and run one against the other (-1) or the same way (1). */
+/* Whether two edges are parallel, and run one against the other (-1), the same way (1), or either
+ * (0). */
 static int are_parallel(const bbm_model *m, int e, int f, int way)
 {
     const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
 
-    return hypot(p.x - way * q.x, p.y - way * q.y) <= PARALLEL;
+    return fabs(cross(p, q)) <= PARALLEL && way * (p.x * q.x + p.y * q.y) >= 0;
 }
 
 /* The edge that ends at a corner c (0) or starts there (1), as another corner Q meets it: its own,
@@ -650,7 +646,7 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const int Q = end ? m->edge[p.edge].after : p.edge;
 
     const int apart = kind == NEXT ? m->edge[q.edge].side != m->edge[p.edge].side
-                    : !coincide(m, p.edge, q.edge);
+                    : !are_parallel(m, p.edge, q.edge, 0);
     if (apart || find_pair(m, q) < 0)
         return 0;
     const projection f = project(m, p.corner, p.edge), g = project(m, q.corner, q.edge);
@@ -751,7 +747,7 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 
     for (meeting k = FLUSH; k <= OTHER && !old; k++) {
         const pair q = meet(m, p, end, k);
-        if (coincide(m, p.edge, q.edge) && find_pair(m, q) < 0)
+        if (are_parallel(m, p.edge, q.edge, 0) && find_pair(m, q) < 0)
             old = find_closed(m, q.corner, q.edge);
     }
     return old;
@@ -819,14 +815,14 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->trial.was_closed = c->state != BBM_OPEN;
     c->trial.beyond_end = f.beyond > (ends_flush(m, p.corner, p.edge, 1) ? seam : touch);
     for (int k = 0; k < 4; k++) {
-        const pair flush = meet(m, p, k / 2, FLUSH);
-        const pair other = k % 2 == 0 ? meet(m, p, k / 2, NEXT)
-                         : coincide(m, p.edge, flush.edge) ? meet(m, p, k / 2, OTHER) : flush;
+        pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
+        if (k % 2 && are_parallel(m, p.edge, other.edge, 0))
+            other = meet(m, p, k / 2, OTHER);
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
         const bbm_direction in = m->edge[side_at(m, Q, 0, p.corner)].along;
         const bbm_direction out = m->edge[side_at(m, Q, 1, p.corner)].along;
         const int convex = cross(in, out) > -PARALLEL;
-        const int meets = convex && (k % 2 == 0 || !coincide(m, p.edge, other.edge));
+        const int meets = convex && (k % 2 == 0 || !are_parallel(m, p.edge, other.edge, 0));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
         c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge)
                             || (convex && f.beyond > fmin(0, cross(in, out)) * f.d);
