@@ -336,12 +336,12 @@ static inline void bbm_point_at(const bbm_model *m, int v, double at[2])
     at[1] = (P->y + Q->y) / 2;
 }
 
-/* Displacement of the point (x, y) by D: u = T D, or a hook's. */
-static inline void bbm_move(const bbm_model *m, const bbm_element *e, const double D[6], double x,
-                            double y, double u[2])
+/* Displacement of the point (x, y) by D: u = T D, or by a hook's motion. */
+static inline void bbm_move(const bbm_motion *motion, const bbm_element *e, const double D[6],
+                            double x, double y, double u[2])
 {
-    if (bbm_motion_of(m))
-        bbm_motion_of(m)->move(D, x - e->x, y - e->y, u);
+    if (motion)
+        motion->move(D, x - e->x, y - e->y, u);
     else
         bbm_displacement(e, D, x, y, u);
 }

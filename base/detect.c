@@ -223,8 +223,8 @@ static void move_point(const bbm_model *m, int v, double u[2])
     const bbm_vertex *P = &m->vertex[v], *Q = &m->vertex[bbm_partner_of(m, v)];
     double w[2];
 
-    bbm_move(m, &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
-    bbm_move(m, &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
+    bbm_move(bbm_motion_of(m), &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
+    bbm_move(bbm_motion_of(m), &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
     u[0] = (u[0] + w[0]) / 2;
     u[1] = (u[1] + w[1]) / 2;
 }

@@ -210,10 +210,7 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
 
     for (int k = 0; k < e->n; k++) {
         bbm_vertex *p = &vertex[k];
-        if (motion)
-            motion->move(e->D, p->x - e->x, p->y - e->y, u);
-        else
-            bbm_displacement(e, e->D, p->x, p->y, u);
+        bbm_move(motion, e, e->D, p->x, p->y, u);
         p->u += u[0];
         p->v += u[1];
         p->x = m->node[p->node].x - m->origin[0] + p->u;

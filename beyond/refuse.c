@@ -73,8 +73,8 @@ static double curve_of(const bbm_model *m, const bbm_contact *c)
 
     for (int a = 0; a < 6; a++)
         half[a] = Di[a] / 2;
-    bbm_move(m, i, Di, P1->x, P1->y, whole);
-    bbm_move(m, i, half, P1->x, P1->y, u);
+    bbm_move(bbm_motion_of(m), i, Di, P1->x, P1->y, whole);
+    bbm_move(bbm_motion_of(m), i, half, P1->x, P1->y, u);
     const double x = (whole[0] - Dj[0]) / 2, y = (whole[1] - Dj[1]) / 2;
     const double X = P1->x - j->x, Y = P1->y - j->y;
     return hypot(X + u[0] - Dj[0] / 2 - cosine * (X + x) - sine * y,

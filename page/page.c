@@ -153,7 +153,7 @@ static bbm_status move_by_hand(bbm_model *m)
     for (int i = 0; i < 12; i++)
         more[i / 6] -= s * T[i / 6][i % 6] * D[i % 6];
     bbm_point_load(e, a->at[0], a->at[1], more, &m->load[6 * a->element]);
-    bbm_move(m, e, D, a->at[0], a->at[1], u);
+    bbm_move(bbm_motion_of(m), e, D, a->at[0], a->at[1], u);
     const bbm_status status = g->library.move(m);
     for (int r = 0; r < 2 && !status; r++)
         a->f[r] = f0[r] + more[r], a->at[r] += u[r];

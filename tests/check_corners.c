@@ -345,7 +345,7 @@ START_TEST(corners_that_turn_past_each_other_close_one_contact)
     m->element[e].V[2] = turn / m->par.dt;
     start_step(m, &n);
     m->D[6 * e + 2] = turn;
-    bbm_move(m, &m->element[e], &m->D[6 * e], start[0], start[1], u);
+    bbm_move(bbm_motion_of(m), &m->element[e], &m->D[6 * e], start[0], start[1], u);
     m->D[6 * e] = 4.98 - start[0] - u[0];
     m->D[6 * e + 1] = 3 - deep - start[1] - u[1];
     (void)bbm_open_close(m);

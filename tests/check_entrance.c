@@ -241,7 +241,7 @@ START_TEST(a_tip_that_turns_far_hits_if_its_sides_are_clear_at_the_end)
     set_velocity(m, e, 0, -10);
     start_step(m, &n);
     m->D[6 * e + 2] = turned;
-    bbm_move(m, &m->element[e], &m->D[6 * e], tip[0], tip[1], u);
+    bbm_move(bbm_motion_of(m), &m->element[e], &m->D[6 * e], tip[0], tip[1], u);
     for (int a = 0; a < 2; a++)
         m->D[6 * e + a] = -1e-3 * up[a] - tip[a] - u[a];
     bbm_set_middle(m);

@@ -98,7 +98,7 @@ START_TEST(positions_follow_the_exact_rotation_in_dynamics_and_the_modes_otherwi
             D[a] = random_number(&seed);
         m->beyond->rotation = trial % 3 == 1 ? BBM_LINEAR : BBM_EXACT;
         m->h = trial % 3 == 2 ? INFINITY : 0.1;
-        bbm_move(m, &e, D, x, y, u);
+        bbm_move(bbm_motion_of(m), &e, D, x, y, u);
         exact_motion(&e, D, x, y, to);
         bbm_mode_matrix(&e, x, y, T);
         ck_near(u[0], trial % 3 ? sum_row(T[0], D) : to[0] - x, 10, ROUNDING);
