@@ -91,10 +91,10 @@ static double rounding_of(const bbm_model *m, int e)
 /* A vertex inside a straight side is no corner. */
 static int is_corner(const bbm_model *m, int c) { return m->edge[c].side == c; }
 
-/* Less than 180 degrees inside, or straight. */
-static int is_convex(const bbm_model *m, int c)
+/* Less than 180 degrees inside, or straight, where an edge arrives and another one leaves. */
+static int is_convex(const bbm_model *m, int arrives, int leaves)
 {
-    return cross(m->edge[m->edge[c].before].along, m->edge[c].along) > -PARALLEL;
+    return cross(m->edge[arrives].along, m->edge[leaves].along) > -PARALLEL;
 }
 
 /* Directions and lengths of the present edges. */
@@ -772,7 +772,7 @@ static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
-    const int other = end ? Q : m->edge[Q].before, *meets = m->edge[Q].meets;
+    const int before = m->edge[Q].before, *meets = m->edge[Q].meets;
     int lines = 0;
 
     for (int k = 2 * end; k < 2 * end + 2; k++) {
@@ -786,9 +786,9 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         lines++;
     }
     return (c->trial.beyond_end && lines == 0)
-        || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, Q)
+        || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, before, Q)
             && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge)
-            && bbm_may_enter(m, c->corner, other));
+            && bbm_may_enter(m, c->corner, end ? Q : before));
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
@@ -819,9 +819,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         if (k % 2 && are_parallel(m, p.edge, other.edge, 0))
             other = meet(m, p, k / 2, OTHER);
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
-        const bbm_direction in = m->edge[side_at(m, Q, 0, p.corner)].along;
-        const bbm_direction out = m->edge[side_at(m, Q, 1, p.corner)].along;
-        const int convex = cross(in, out) > -PARALLEL;
+        const int convex = is_convex(m, side_at(m, Q, 0, p.corner), side_at(m, Q, 1, p.corner));
         const int meets = convex && (k % 2 == 0 || !are_parallel(m, p.edge, other.edge, 0));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
         c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge)
