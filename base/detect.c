@@ -59,7 +59,7 @@ typedef struct bbm_pair { int corner, edge, dropped; } pair;    /* what may touc
 
 typedef struct bbm_reach {      /* of a block, with the index of its first element              */
     double depth;               /* m        |d_n| of its closed contacts, before the step       */
-    double depth_now;           /* m        the same of the solution, or before it if deeper    */
+    double depth_now;           /* m        the same of the solution, or 0                      */
     double travel;              /* m        how far its vertices may move in this step          */
     double came;                /* m        the same of the step before                         */
     double girth;               /* m        its boundary at the start                           */
@@ -280,7 +280,7 @@ static double foresee(bbm_model *m)
 
     for (int i = 0; i < m->elements; i++) {
         reach *of = &m->scratch->reach[i];
-        of->depth_now = of->depth;
+        of->depth_now = 0;
         of->turn = 2 * fabs(m->D[6 * i + 2]) + PARALLEL / 2;
     }
     for (int e = 0; e < m->edges; e++) {
@@ -387,7 +387,8 @@ static int is_held(const bbm_model *m, int e)
 static double common_depth(const bbm_model *m, int c, int e, int now)
 {
     const reach *i = reach_of(m, c), *j = reach_of(m, e);
-    const double p = now ? i->depth_now : i->depth, q = now ? j->depth_now : j->depth;
+    const double p = fmax(i->depth, now ? i->depth_now : 0);
+    const double q = fmax(j->depth, now ? j->depth_now : 0);
 
     return is_held(m, c) ? q : is_held(m, e) ? p : fmin(p, q);
 }
@@ -1038,7 +1039,7 @@ void bbm_note_depths(bbm_model *m)
     const bbm_contact_scratch *w = m->scratch;
 
     for (int i = 0; i < m->elements; i++)
-        w->reach[i].depth_now = w->reach[i].depth;
+        w->reach[i].depth_now = 0;
     for (int e = 0; e < m->edges; e++)
         m->edge[e].deep = 0;
     for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
@@ -1061,8 +1062,6 @@ void bbm_keep_contacts(bbm_model *m)
     bbm_contact *last = m->contact;
 
     find_directions(m);
-    for (int i = 0; i < m->elements; i++)
-        w->reach[i].depth = 0;
     bbm_note_depths(m);
     for (int i = 0; i < m->elements; i++) {
         w->reach[i].depth = w->reach[i].depth_now;
