@@ -28,12 +28,12 @@ enum { FRICTION_PASSES = 100 };
 
 /* --------------------------------------------------------------------- the contacts of a step */
 
-/* Puts the anchor where the shear spring carries the force T: (P1 - P0).m = T/p_s. */
-static void place_anchor(const bbm_model *m, bbm_contact *c, double T)
+/* Puts the anchor where the shear spring carries the T of the contact: (P1 - P0).m = T/p_s. */
+static void place_anchor(const bbm_model *m, bbm_contact *c)
 {
     const double s = bbm_way_along(m, c->corner, c->edge);
 
-    c->anchor = (s + T / m->par.p_s) / m->edge[c->edge].along.length;
+    c->anchor = (s + c->T / m->par.p_s) / m->edge[c->edge].along.length;
 }
 
 /* A contact begins the step with the state of its last step. Its elements are i and j, and those
@@ -68,7 +68,7 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     if (c->trial.touches && !c->trial.has_left)
         c->state = lines == 0 || bbm_is_strong(c) ? BBM_LOCK : BBM_OPEN;
     if (!c->trial.carried || c->state == BBM_OPEN) {
-        place_anchor(m, c, c->T);
+        place_anchor(m, c);
         c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);
     }
 }
@@ -165,11 +165,10 @@ static int renew_friction(bbm_contact *c)
  * the second time in the step, since then its shear spring has opened it. */
 static void close_contact(const bbm_model *m, bbm_contact *c)
 {
-    const double at = bbm_way_along(m, c->corner, c->edge) / m->edge[c->edge].along.length;
     const double d0 = fmax(0, c->trial.d_n0);
-    const double slip = (1 - at) * c->trial.past[0] - at * c->trial.past[1];
 
-    c->anchor = at;
+    place_anchor(m, c);                                     /* T is 0 */
+    const double slip = (1 - c->anchor) * c->trial.past[0] - c->anchor * c->trial.past[1];
     c->trial.time_left = 1 - d0 / (d0 - c->d_n);
     const double T = c->trial.time_left * m->par.p_s * fabs(slip);
     const double N = bbm_normal_force(m, c->d_n - fmin(0, c->rest));
@@ -296,7 +295,7 @@ void bbm_store_contacts(bbm_model *m)
         if (c->state == BBM_SLIDE)
             c->slip += fabs(c->d_s - c->T / m->par.p_s);
         if (c->state == BBM_SLIDE || c->trial.time_left < 1)
-            place_anchor(m, c, c->T);
+            place_anchor(m, c);
         if (c->state == BBM_OPEN || (c->state == BBM_SLIDE && strength > 0))
             c->area = 0;
         c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->trial.was_closed || c->inside);
