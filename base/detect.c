@@ -483,22 +483,20 @@ int bbm_may_enter(const bbm_model *m, int corner, int e)
 static int goes_before(const bbm_model *m, int e, int f)
 {
     const double *g = m->par.gravity, fall = hypot(g[0], g[1]);
-    const double down[2] = { fall > 0 ? g[0] / fall : 0, fall > 0 ? g[1] / fall : -1 };
-    const int of[2] = { e, f };
-    double key[2][5];
+    const bbm_direction down = { fall > 0 ? g[0] / fall : 0, fall > 0 ? g[1] / fall : -1, 0 };
+    const bbm_direction p = m->edge[e].along, q = m->edge[f].along;
+    const double up[2] = { cross(p, down), cross(q, down) };        /* of the outward normals */
+    const double more[5] = {
+        log(m->edge[m->edge[e].side].span / m->edge[m->edge[f].side].span) / STRAIGHT,
+        log(reach_of(m, e)->girth / reach_of(m, f)->girth) / STRAIGHT,
+        (fabs(up[0]) - fabs(up[1])) / PARALLEL,
+        (up[0] - up[1]) / PARALLEL,
+        (down.x * (q.x - p.x) + down.y * (q.y - p.y)) / PARALLEL,
+    };
 
-    for (int k = 0; k < 2; k++) {
-        const bbm_direction p = m->edge[of[k]].along;
-        const double up = down[1] * p.x - down[0] * p.y;    /* of the outward normal (p.y, -p.x) */
-        key[k][0] = log(m->edge[m->edge[of[k]].side].span) / STRAIGHT;
-        key[k][1] = log(reach_of(m, of[k])->girth) / STRAIGHT;
-        key[k][2] = fabs(up) / PARALLEL;
-        key[k][3] = up / PARALLEL;
-        key[k][4] = -(down[0] * p.x + down[1] * p.y) / PARALLEL;
-    }
     for (int a = 0; a < 5; a++)
-        if (fabs(key[0][a] - key[1][a]) > 1)
-            return key[0][a] > key[1][a];
+        if (fabs(more[a]) > 1)
+            return more[a] > 0;
     return e < f;
 }
 
