@@ -188,15 +188,12 @@ bbm_status bbm_detect_new(bbm_model *m)
             v = -1 - m->vertex[v].edge;
         m->edge[e].after = m->vertex[v].edge;
         m->edge[m->edge[e].after].before = e;
+        reach_of(m, e)->depth = m->info.penetration;    /* in a run contacts may be as deep */
+        reach_of(m, e)->girth += starting(m, e).length;
+        reach_of(m, e)->edges++;
     }
     find_directions(m);
     find_straight_sides(m);
-    for (int e = 0; e < m->edges; e++) {
-        reach *b = reach_of(m, e);
-        b->depth = m->info.penetration;         /* in a run contacts may be as deep */
-        b->girth += starting(m, e).length;
-        b->edges++;
-    }
     return BBM_OK;
 }
 
