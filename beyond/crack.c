@@ -304,19 +304,6 @@ bbm_pass bbm_break_bonds(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ fragments */
 
-/* Two elements share a corner no more when a bond between them has broken, or begin to when another
- * one has, and it jumps. Contacts keep their forces: their springs count from where they carry
- * these. */
-static void place_contacts(bbm_model *m)
-{
-    for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
-        bbm_spring v[2];
-        bbm_shared_vectors(m, c, 0, v);         /* d_n, and d_s from P3 */
-        c->rest = v[0].d + c->N / m->par.p_n;
-        c->anchor = (c->T / m->par.p_s - v[1].d) / m->edge[c->edge].along.length;
-    }
-}
-
 /* As the detection finds them. */
 static void sort_contacts(bbm_model *m)
 {
@@ -335,7 +322,9 @@ static bbm_status widen_contacts(bbm_model *m, int more)
 }
 
 /* Of a contact k whose corner was shared with the vertex shares[k], and is no more, each of the two
- * corners gets half of the forces: a mirrored model would leave all of it to the other one. */
+ * corners gets half of the forces: a mirrored model would leave all of it to the other one. Other
+ * elements begin to share a corner, which then jumps. Contacts keep their forces: their springs
+ * count from where they carry these. */
 static void part_contacts(bbm_model *m, const int shares[], int n)
 {
     for (int k = 0; k < n; k++) {
@@ -351,6 +340,13 @@ static void part_contacts(bbm_model *m, const int shares[], int n)
         m->contact[m->contacts] = *c;
         m->contact[m->contacts++].corner = other;
     }
+    for (bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
+        bbm_spring v[2];
+        bbm_shared_vectors(m, c, 0, v);         /* d_n, and d_s from P3 */
+        c->rest = v[0].d + c->N / m->par.p_n;
+        c->anchor = (c->T / m->par.p_s - v[1].d) / m->edge[c->edge].along.length;
+    }
+    sort_contacts(m);
 }
 
 /* What has broken in the last step is a boundary, and what has come off is a body. Without memory
@@ -392,8 +388,6 @@ static bbm_status part_bodies(bbm_model *m)
         m->edge[e].block = m->element[m->edge[e].element].block;
     part_contacts(m, shares, n);
     free(shares);
-    place_contacts(m);
-    sort_contacts(m);
     m->is_prepared = !status;
     return status;
 }
