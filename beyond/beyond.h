@@ -27,7 +27,7 @@ typedef struct {                /* surroundings.c, of a node                    
     double moved[2];            /* m        its wall point, since that step                     */
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
-    double step[2], jump[2];    /* N        its force in the step in hand; in its jump, impact.c */
+    double part[2][2];          /* N        its force in the step in hand; in its jump, impact.c */
     int    held, caught;        /* directions in which the last step held it; and in which it   */
                                 /*          was free in a step before                           */
 } bbm_support;

@@ -253,19 +253,13 @@ void bbm_place_supports(bbm_model *m)
         bbm_displacement(e, e->V, P->x, P->y, v);
         for (int a = 0; a < 2; a++) {
             s->rate[a] = anew & 1 << a ? v[a] : s->rate[a];
-            s->jump[a] = 0;
+            s->part[1][a] = 0;
             if (s->moved[a] != 0)
                 m->node[n].wall[a] = s->to[a] - left * s->moved[a];
         }
         s->held = m->node[n].held;
     }
     take_along(m);
-}
-
-/* The force of a support on its node, in the step or in the jump. */
-static double *force_of(const bbm_model *m, int node)
-{
-    return m->beyond->jump_of ? m->beyond->support[node].jump : m->beyond->support[node].step;
 }
 
 /* The forces of the supports on their nodes, of the solution, and in a step their work at each
@@ -275,21 +269,22 @@ static double *force_of(const bbm_model *m, int node)
  * ends, (d1 + d2)/2, or how they differ, (d1 - d2)/2; of a point both ends are one. */
 void bbm_find_reactions(bbm_model *m)
 {
-    const bbm_support *s = m->beyond->support;
-    const double share = m->beyond->jump_of ? 0 : m->beyond->share;
+    const int jumps = m->beyond->jump_of != NULL;
+    const double share = jumps ? 0 : m->beyond->share;
+    bbm_support *s = m->beyond->support;
 
     for (int i = 0; i < m->elements; i++)
-        for (int k = m->beyond->jump_of != NULL; k < 2; k++)
+        for (int k = jumps; k < 2; k++)
             m->beyond->account[i].held[k] = 0;
     for (int n = 0; n < m->nodes; n++)
-        memset(force_of(m, n), 0, 2 * sizeof *force_of(m, n));
-    for (int v = 0; v < m->vertices && !m->beyond->jump_of; v++) {
+        memset(s[n].part[jumps], 0, sizeof s[n].part[jumps]);
+    for (int v = 0; v < m->vertices && !jumps; v++) {
         const int i = m->vertex[v].element;
         const bbm_element *e = &m->element[i];
         double W[6] = { 0 };
         bbm_gravity_submatrix(e, m->acceleration, W);
         for (int a = 0; a < 2 && m->K->body[i] < 0; a++)
-            force_of(m, m->vertex[v].node)[a] -=
+            s[m->vertex[v].node].part[0][a] -=
                 bbm_interpolation(e, &m->vertex[e->first], v - e->first).f * W[a];
     }
     for (int k = 0; k < m->gaps; k++) {
@@ -300,8 +295,8 @@ void bbm_find_reactions(bbm_model *m)
         bbm_gap_length(m, g, d);
         for (int a = 0; a < 2; a++) {
             const double half = (g->own.f[a] + g->W[a][0] * d[0] + g->W[a][1] * d[1]) / 2;
-            force_of(m, g->node[0])[a] -= half;
-            force_of(m, g->node[1])[a] -= g->elastic ? -half : half;
+            s[g->node[0]].part[jumps][a] -= half;
+            s[g->node[1]].part[jumps][a] -= g->elastic ? -half : half;
             m->beyond->account[g->i].held[0] -= share * half
                 * (s[g->node[0]].moved[a] + (g->elastic ? -1 : 1) * s[g->node[1]].moved[a]);
         }
@@ -326,7 +321,7 @@ void bbm_stop_supports(bbm_model *m)
             bbm_support *s = &b->support[n];
             s->rate[a] = bbm_is_static(m) ? 0 : b->share * s->moved[a] / m->h;
             s->moved[a] -= b->share * s->moved[a];
-            s->force[a] = s->step[a] + s->jump[a];
+            s->force[a] = s->part[0][a] + s->part[1][a];
         }
     b->h_before = m->h;
     b->left -= m->h / m->par.dt;
