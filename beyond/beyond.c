@@ -22,7 +22,7 @@ static void release(bbm_model *m)
 /* A prepared model: elements lie side by side, springs have the energy that they begin with. */
 static bbm_status check(bbm_model *m)
 {
-    const size_t n = (size_t)m->elements;
+    const size_t n = (size_t)m->elements, bonds = (size_t)m->bonds + 1;
     bbm_beyond *b = m->beyond;
 
     free_prepared(b);
@@ -34,10 +34,15 @@ static bbm_status check(bbm_model *m)
     b->account = calloc(n, sizeof *b->account);
     b->body = calloc(2 * n, sizeof *b->body);
     b->balance = calloc(n, sizeof *b->balance);
-    const bbm_status cracks = bbm_lay_out_cracks(m);
-    if (cracks || !b->middle || !b->end_element || !b->end_vertex || !b->support || !b->off
-        || !b->account || !b->body || !b->balance)
-        return cracks ? cracks : BBM_NO_MEMORY;
+    b->crack = calloc(2 * bonds, sizeof *b->crack);
+    b->best = calloc((size_t)m->nodes, sizeof *b->best);
+    b->broke = calloc(bonds, sizeof *b->broke);
+    if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->off || !b->account
+        || !b->body || !b->balance || !b->crack || !b->best || !b->broke)
+        return BBM_NO_MEMORY;
+    const bbm_status status = bbm_begin_cracks(m);
+    if (status)
+        return status;
     for (int l = 0; l < b->edge_loads; l++) {
         const bbm_vertex *a = &m->vertex[b->edge_load[l].a];
         if (a->edge < 0)

@@ -202,7 +202,7 @@ bbm_pass   bbm_take_over(bbm_model *m);
 void       bbm_store_multipliers(bbm_model *m);
 
 /* crack.c */
-bbm_status bbm_lay_out_cracks(bbm_model *m);
+bbm_status bbm_begin_cracks(bbm_model *m);
 int        bbm_is_broken(const bbm_model *m, int b);
 int        bbm_list_crack(bbm_model *m, int b);
 bbm_pass   bbm_break_bonds(bbm_model *m);

@@ -469,16 +469,21 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
                     m->scratch->contacts, breaks, bbm_is_static(m) ? "load" : "dt or load");
 }
 
-/* What breaking bonds are not for: hits that have no stress; corners that come off inside another
- * piece where no contact begins unloaded, see bbm_rest_of; cracks so wide that corners which come
- * off lie as deep as no contact may. */
-static bbm_status check_cracks(bbm_model *m)
+/* Of a prepared model: nothing has broken yet. Refuses what breaking bonds are not for: hits that
+ * have no stress; corners that come off inside another piece where no contact begins unloaded, see
+ * bbm_rest_of; cracks so wide that corners which come off lie as deep as no contact may. */
+bbm_status bbm_begin_cracks(bbm_model *m)
 {
-    const bbm_beyond *y = m->beyond;
+    bbm_beyond *y = m->beyond;
     const char *why = y->restitution >= 0 ? "restitution: its jump has no stress that breaks any"
                     : y->rotation == BBM_LINEAR && isfinite(m->par.dt) ? "linear rotation: its "
                       "contacts throw out corners that come off inside another piece" : NULL;
 
+    y->kept = y->crack + m->bonds;
+    for (int b = 0; b < m->bonds; b++)
+        y->kept[b].bond = b;
+    y->crack_energy = y->broken = y->caught = y->parts = 0;
+    y->loose = -1;
     if (y->bond_tension > 0 && why)
         return bbm_fail(m, BBM_BAD_PARAMETER, "bonds that break and %s, expected one of the two",
                         why);
@@ -491,22 +496,4 @@ static bbm_status check_cracks(bbm_model *m)
                             open, WIDE * size);
     }
     return BBM_OK;
-}
-
-/* Of a prepared model. */
-bbm_status bbm_lay_out_cracks(bbm_model *m)
-{
-    bbm_beyond *y = m->beyond;
-    const size_t n = (size_t)m->bonds + 1;
-    const bbm_status status = check_cracks(m);
-
-    y->crack = calloc(2 * n, sizeof *y->crack);
-    y->best = calloc((size_t)m->nodes, sizeof *y->best);
-    y->broke = calloc(n, sizeof *y->broke);
-    y->kept = y->crack ? y->crack + n : NULL;
-    for (int b = 0; b < m->bonds && y->kept; b++)
-        y->kept[b].bond = b;
-    y->crack_energy = y->broken = y->caught = y->parts = 0;
-    y->loose = -1;
-    return y->crack && y->best && y->broke ? status : BBM_NO_MEMORY;
 }
