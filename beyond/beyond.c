@@ -49,7 +49,6 @@ static bbm_status check(bbm_model *m)
             return bbm_fail(m, BBM_BAD_INDEX, "a loaded edge of element %d is none any more: "
                             "elements have come to lie along it", a->element);
     }
-    bbm_find_pieces(m, b->body);
     bbm_note_springs(m, 0);
     return bbm_check_overlap(m);
 }
