@@ -292,7 +292,7 @@ static size_t copy_state(const bbm_model *m, char *to, int back)
     };
     size_t bytes = 0;
 
-    for (size_t k = 0; k < sizeof piece / sizeof *piece; k++) {
+    for (int k = 0; k < LENGTH(piece); k++) {
         if (to)
             memcpy(back ? piece[k].at : to + bytes, back ? to + bytes : piece[k].at,
                    piece[k].bytes);
@@ -307,33 +307,32 @@ static bbm_status settle(bbm_model *m)
 {
     char *was = malloc(copy_state(m, NULL, 0));
     bbm_contact *list = malloc(((size_t)m->contacts + 1) * sizeof *list);
-    bbm_status status = BBM_NO_MEMORY;
     bbm_model from = *m;
 
-    if (was && list) {
-        copy_state(m, was, 0);
-        from.element = (void *)was;
-        from.vertex = (void *)(from.element + m->elements);
-        for (int k = 0; k < m->contacts; k++)
-            list[k] = m->contact[k];
-        m->beyond->reach = STRIDE;
-        m->par.velocity_factor = 0;
-        status = creep(m, &from);
-        m->h = INFINITY;
-        m->par = from.par;
-        m->info.t = from.info.t;
-        m->beyond->reach = INFINITY;
-        if (!status)
-            m->message[0] = '\0';
-        else {
-            copy_state(m, was, 1);              /* what it was, but for its message */
-            free(m->scratch->contact);
-            m->scratch->contact = list;
-            m->scratch->contacts = from.contacts;
-            bbm_keep_contacts(m);
-            m->info = from.info;
-            list = NULL;
-        }
+    if (!was || !list)
+        return free(was), free(list), BBM_NO_MEMORY;
+    copy_state(m, was, 0);
+    from.element = (void *)was;
+    from.vertex = (void *)(from.element + m->elements);
+    for (int k = 0; k < m->contacts; k++)
+        list[k] = m->contact[k];
+    m->beyond->reach = STRIDE;
+    m->par.velocity_factor = 0;
+    const bbm_status status = creep(m, &from);
+    m->h = INFINITY;
+    m->par = from.par;
+    m->info.t = from.info.t;
+    m->beyond->reach = INFINITY;
+    if (!status)
+        m->message[0] = '\0';
+    else {
+        copy_state(m, was, 1);                  /* what it was, but for its message */
+        free(m->scratch->contact);
+        m->scratch->contact = list;
+        m->scratch->contacts = from.contacts;
+        bbm_keep_contacts(m);
+        m->info = from.info;
+        list = NULL;
     }
     free(was);
     free(list);
