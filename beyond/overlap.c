@@ -246,8 +246,7 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
     const double x = P.x - a.x, y = P.y - a.y, u = b.x - a.x, v = b.y - a.y, l = hypot(u, v);
     const double s = x * u + y * v, allowed = bbm_allowed_depth(m, corner, edge);
 
-    if (m->edge[corner].first == m->edge[edge].first || m->edge[corner].side != corner
-        || m->edge[corner].joined[0] != m->edge[corner].before
+    if (m->edge[corner].side != corner || m->edge[corner].joined[0] != m->edge[corner].before
         || m->edge[corner].joined[1] != corner || s < 0 || s > l * l
         || y * u - x * v <= allowed * l)
         return 0;
