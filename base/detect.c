@@ -790,9 +790,9 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
  * rounded one is inside. A projection beyond the end of the edge is off it. But it may be as far
  * beyond as a block that lies flush may be apart there; and in a notch of its block, or of it and
- * one that lies flush, or in a bend that is hollow, it lies inside. An entrance is another line of the list on which P and an
- * end Q of its edge can enter each other, if both are convex corners; where the blocks are flush
- * each line is one of P or one of Q. In a notch Q both edges hold P at once. */
+ * one that lies flush, or as deep in a hollow, it lies inside. An entrance is another line of the
+ * list on which P and an end Q of its edge can enter each other, if both are convex corners; where
+ * the blocks are flush each line is one of P or one of Q. In a notch Q both edges hold P at once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
@@ -815,11 +815,13 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         if (k % 2 && are_parallel(m, p.edge, other.edge, 0))
             other = meet(m, p, k / 2, OTHER);
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
-        const int convex = is_convex(m, side_at(m, Q, 0, p.corner), side_at(m, Q, 1, p.corner));
+        const int in = side_at(m, Q, 0, p.corner), out = side_at(m, Q, 1, p.corner);
+        const double bend = cross(m->edge[in].along, m->edge[out].along);
+        const int convex = is_convex(m, in, out);
         const int meets = convex && (k % 2 == 0 || !are_parallel(m, p.edge, other.edge, 0));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
         c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge)
-                            || (convex && f.beyond > fmin(0, cross(in, out)) * f.d);
+                            || (convex && f.beyond > fmin(0, bend) * f.d);
     }
     c->trial.has_left = has_left(m, c);
 }
