@@ -427,7 +427,7 @@ static int side_at(const bbm_model *m, int c, int which, int Q)
 {
     const int own[2] = { m->edge[c].before, c }, joined = m->edge[c].joined[which];
     const int at[2] = { own[!which], joined };
-    int alone = joined == own[which] || m->edge[joined].first == m->edge[Q].first;
+    int alone = joined < 0 || m->edge[joined].first == m->edge[Q].first;
 
     for (int k = 0; k < 4 && !alone && !m->edge[c].is_inner; k++)
         alone = are_parallel(m, at[k / 2], k % 2 ? m->edge[Q].before : Q, -1);
@@ -679,8 +679,7 @@ static int are_one_side(const bbm_model *m, int P, int Q, int end)
 static void join_flush_corners(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++) {
-        m->edge[e].joined[0] = m->edge[e].before;
-        m->edge[e].joined[1] = e;
+        m->edge[e].joined[0] = m->edge[e].joined[1] = -1;
         m->edge[e].meets[0] = m->edge[e].meets[1] = 0;
         m->edge[e].slides = m->edge[e].is_inner = 0;
     }
@@ -754,9 +753,9 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
  * on that other block. */
 static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
 {
-    const int Q = end_near(m, corner, e), k = (Q == e) != goes_on;
+    const int Q = end_near(m, corner, e);
 
-    return m->edge[Q].joined[k] != (k ? Q : m->edge[Q].before);
+    return m->edge[Q].joined[(Q == e) != goes_on] >= 0;
 }
 
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter

@@ -246,9 +246,8 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
     const double x = P.x - a.x, y = P.y - a.y, u = b.x - a.x, v = b.y - a.y, l = hypot(u, v);
     const double s = x * u + y * v, allowed = bbm_allowed_depth(m, corner, edge);
 
-    if (m->edge[corner].side != corner || m->edge[corner].joined[0] != m->edge[corner].before
-        || m->edge[corner].joined[1] != corner || s < 0 || s > l * l
-        || y * u - x * v <= allowed * l)
+    if (m->edge[corner].side != corner || m->edge[corner].joined[0] >= 0
+        || m->edge[corner].joined[1] >= 0 || s < 0 || s > l * l || y * u - x * v <= allowed * l)
         return 0;
     const double depth = depth_in_block(m, corner, edge, over);
     return depth > fmax(allowed, bbm_allowed_depth(m, corner, *over)) ? depth : 0;
