@@ -17,11 +17,13 @@
  * the jump. What the hit gives back depends neither on dt nor on the mesh then, and leaves no body
  * vibrating. A held point counts from h/2 w, w the velocity of its support, and so does what is
  * held all round. A closed contact counts from h/2 v, v the velocity that is asked for: 0; or, if
- * it has closed in this step, -E times the normal velocity with which it came; or, without a
- * restitution, the one that it has. The open-close iteration finds which contacts stay closed and
- * which slide. It judges the forces of the step and of the jump together, for they act in the same
- * time: F takes back the contact forces of the step, and the jump finds them anew. In between two
- * bodies all this is push and pull, so that momentum stays.
+ * it has closed in this step, -E times the normal velocity with which it came, but 0 if it has not
+ * been outside since its last hit, or a block that comes to rest would hop from corner to corner
+ * and sink in each hop; or, without a restitution, the one that it has. The open-close iteration
+ * finds which contacts stay closed and which slide. It judges the forces of the step and of the
+ * jump together, for they act in the same time: F takes back the contact forces of the step, and
+ * the jump finds them anew. In between two bodies all this is push and pull, so that momentum
+ * stays.
  *
  * A contact that has closed, or that the jump opens, has had its impulse: its spring starts
  * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
@@ -233,8 +235,9 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
+        const double back = has_closed(c) && c->hit != 1 ? E * sqrt(of->asked) : 0;
         const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
-                           : has_closed(c) ? E * sqrt(of->asked) * fmax(0, -came) : 0;
+                                   : back * fmax(0, -came);
         c->rest = v[0].d + (of->jumps > 0) * asked;
         if (c->state == BBM_OPEN || of->jumps == 0) {
             c->state = BBM_OPEN;

@@ -614,6 +614,36 @@ START_TEST(both_corners_of_a_block_that_comes_down_all_but_flat_hit)
 }
 END_TEST
 
+/* Two stones slide on a floor, one on the other, stop by friction, and lie there: no corner is much deeper than the weight
+ * asks for, and the floor carries it. Each corner hits again and again before it has come out of the floor. */
+START_TEST(a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further)
+{
+    const double w[] = { 0.662468, 0.691114 }, y[] = { 0, 0.28571, 0.852156 };
+    bbm_model *m = new_blocks();
+    double weight = 0, N = 0;
+
+    m->material[ROCK].E = 1e11;
+    m->material[BASE].E = 1e14;
+    m->par.dt = (double[]){ 2e-4, 1.9e-4, 1e-4 }[_i];
+    m->par.friction = 45;
+    m->beyond->restitution = 0.7;
+    set_springs(m, 1e9, 4e8);
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -30, .y = -1, .w = 60, .h = 1, .fixed = 1 });
+    for (int k = 0; k < 2; k++) {
+        const int e = add_rectangle(m, k + 1, ROCK, (rectangle){ .x = -w[k], .y = y[k], .w = 2 * w[k], .h = y[k + 1] - y[k] });
+        weight += 2500 * GRAVITY * 2 * w[k] * (y[k + 1] - y[k]);
+        set_velocity(m, e, 1, 0);
+    }
+    run_steps(m, (int)(0.4 / m->par.dt));
+    for (int k = 0; k < m->contacts; k++) {
+        const bbm_contact *c = &m->contact[k];
+        ck_assert_double_gt(c->d_n, -10 * weight / 1e9);
+        N += m->edge[c->edge].element == 0 ? c->N : 0;
+    }
+    ck_near(N, weight, weight, 0.05);          /* it swings a little on its springs */
+}
+END_TEST
+
 Suite *impact_suite(void)
 {
     Suite *s = suite_create("impact");
@@ -627,6 +657,7 @@ Suite *impact_suite(void)
         { what_a_hit_gives_back_depends_on_neither_the_step_nor_the_mesh, 4 },
         { both_corners_of_a_block_that_comes_down_all_but_flat_hit, 6 },
         { a_square_that_gives_back_all_or_nearly_all_bounces_on, 4 },
+        { a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further, 3 },
         { a_rocking_block_loses_what_housner_says, 3 },
         { blocks_that_hit_keep_their_momentum, 6 },
         { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 4 },
