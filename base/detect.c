@@ -786,12 +786,13 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
             && bbm_may_enter(m, c->corner, end ? Q : before));
 }
 
-/* Makes a pair a contact that goes on from the one that it continues. A corner that has come past a
- * rounded one is inside. A projection beyond the end of the edge is off it. But it may be as far
- * beyond as a block that lies flush may be apart there; and in a notch of its block, or of it and
- * one that lies flush, or as deep in a hollow, it lies inside. An entrance is another line of the
- * list on which P and an end Q of its edge can enter each other, if both are convex corners; where
- * the blocks are flush each line is one of P or one of Q. In a notch Q both edges hold P at once. */
+/* Makes a pair a contact that goes on from the one that it continues. A corner that has come
+ * past a rounded one is inside. A projection beyond the end of the edge is off it. But it may be as
+ * far beyond as a block that lies flush may be apart there; and in a notch of its block, or of it
+ * and one that lies flush, or as deep in a hollow, it lies inside. An entrance is another line of
+ * the list on which P and an end Q of its edge can enter each other, if both are convex corners;
+ * where the blocks are flush each line is one of P or one of Q. In a notch Q both edges hold P at
+ * once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
@@ -933,16 +934,17 @@ static int stays_on_edge(const bbm_model *m, const bbm_contact *c, double off)
 }
 
 /* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step,
- * had it come no deeper than the line, and not from behind the edge. Nor where its projection is
- * beyond the end of the edge at the start of the step, as it crosses the line and at the end of the
- * step, unless the contact was closed. */
+ * and, where two elements meet in P, as they would had it come no deeper than the line. Not from
+ * behind the edge, and not where its projection is beyond the end of the edge at the start of the
+ * step, as it crosses the line and at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge);
     const double turn = m->D[6 * c->element[0] + 2] - m->D[6 * c->element[1] + 2];
     const bbm_edge *P = &m->edge[c->corner], *e = &m->edge[c->edge];
     const double side = fmin(P->along.length, m->edge[P->before].along.length);
-    const double shortest = fmin(side, e->along.length);
+    const int bends = m->edge[P->before].element != P->element;
+    const double angle = bends * fmax(0, -c->d_n) / fmin(side, e->along.length);
     double r[2] = { turn, turn };
     const bbm_trial *t = &c->trial;
 
@@ -954,7 +956,7 @@ static int admits(const bbm_model *m, const bbm_contact *c)
         return 0;
     return (t->was_closed || !t->beyond_end || is_on_edge(m, c, fmin(1, crossed_at(m, c)), 0)
             || is_on_edge(m, c, 1, 0))
-        && can_enter(m, c->corner, c->edge, r, PARALLEL + fmax(0, -c->d_n) / shortest);
+        && can_enter(m, c->corner, c->edge, r, PARALLEL + angle);
 }
 
 /* Whether a side of the corner lies along the edge, and along one that ends at the corner, too. */

@@ -468,7 +468,8 @@ void warn_after(const model *p, const char *path)
              p->m->beyond->breach);
     warn_of_coarse_sides(p, path);
     if (!p->dynamic && bbm_find_stability(p->m, &stable) == BBM_OK && !stable)
-        warn(path, "in equilibrium, but not stable: a push, however small, moves it on and on");
+        warn(path, "in equilibrium, but not stable: a push, however small, moves it until other "
+                   "contacts stop it, or for good");
     if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)
         warn(path, "the last step was %.2g of the way of all: no equilibrium yet: more steps help",
              p->m->info.change);

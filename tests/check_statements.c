@@ -650,13 +650,13 @@ static const struct { const char *text, *said; } doubtful[] = {
       "block w r 3 0 4 0 4 3 3 3\nfixblock w\npin b0 b1 at 0 1\nfix at 0 0 of b0\nload at 0 2 of b1 0 -1e5\n" \
       "bolt at 0 1 of b0 at 3 1 of w stiffness " k "\nbolt at 0 2 of b1 at 3 2 of w stiffness 1e6\ncontact friction 30\nstatic\n"
     { BARS("2.6e5"), NULL },
-    { BARS("1.9e5"), "in equilibrium, but not stable: a push, however small, moves it on and on\n" },
+    { BARS("1.9e5"), "in equilibrium, but not stable: a push, however small, moves it until other contacts stop it, or for good\n" },
     /* a post under water, 3.9 kN heavier than it, is pinned 1.025 m below its centre, and two lines hold it 2 m up:
      * 2 k 2^2 = 3900 1.025 for k = 499.6 N/m */
 #define BUOY(k, g, w) "material r E 1e11 nu 0.2 density 2000\nblock b r 0 0 0.1 0.1 0.1 2 -0.1 2 -0.1 0.1\nblock w r 3 1 4 1 4 3 3 3\n" \
       "block v r -3 1 -3 3 -4 3 -4 1\nfixblock v\nfixblock w\nfix at 0 0 of b\ngravity 0 " g "\nwater set b 7 density " w "\nstatic steps 20\n" \
       "bolt at 0.1 2 of b at 3 2 of w stiffness " k "\nbolt at -0.1 2 of b at -3 2 of v stiffness " k "\ncontact friction 30\n"
-    { BUOY("490", "-10", "1000"), "in equilibrium, but not stable: a push, however small, moves it on and on\n" }, { BUOY("510", "-10", "1000"), NULL },
+    { BUOY("490", "-10", "1000"), "in equilibrium, but not stable: a push, however small, moves it until other contacts stop it, or for good\n" }, { BUOY("510", "-10", "1000"), NULL },
     /* in three times as heavy water it stands by its buoyancy */
     { BUOY("5", "-10", "3000"), NULL },
     /* the pressure on top turns with it: it pushes the bar back as far as it leans */
@@ -665,7 +665,7 @@ static const struct { const char *text, *said; } doubtful[] = {
     { ROCK "block top rock 0 0 1 1 -1 1\nfixblock top\nblock b rock 0 0 0.3 -1 0 -2 -0.3 -1\npin top b at 0 0\ngravity 0 -9.81\n"
       "contact friction 30\nstatic\n", NULL },
     { ROCK "block top rock 0 0 -1 -1 1 -1\nfixblock top\nblock b rock 0 0 0.3 1 0 2 -0.3 1\npin top b at 0 0\ngravity 0 -9.81\n"
-      "contact friction 30\nstatic\n", "in equilibrium, but not stable: a push, however small, moves it on and on\n" },
+      "contact friction 30\nstatic\n", "in equilibrium, but not stable: a push, however small, moves it until other contacts stop it, or for good\n" },
     { PEBBLE "contact friction 29.995 kn 1e8 ks 1e8\n", NULL },
     /* two leaning columns of two bricks, beyond what they bear as drawn, come to lean on each other: 0.048 m further on */
     { "material m E 1e10 nu 0.2 density 2500\nblock base m -4 -1 6 -1 6 0 -4 0\nfixblock base\n"
