@@ -254,7 +254,7 @@ bbm_status bbm_check_settings(bbm_model *m);
 int        bbm_contact_turns_over(const bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
 bbm_status bbm_check_depth(bbm_model *m);
-int        bbm_is_held(const bbm_model *m, const int body[], int i, int floats);
+int        bbm_is_held(const bbm_model *m, const int body[], int i);
 bbm_status bbm_check_supports(bbm_model *m);            /* of the contacts that are listed      */
 bbm_status bbm_begin_statics(bbm_model *m);             /* of a prepared model                  */
 bbm_status bbm_check_reach(bbm_model *m, const bbm_model *end);

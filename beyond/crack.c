@@ -257,7 +257,7 @@ static int find_loose(const bbm_model *m)
     for (int b = 0; b < m->bonds; b++) {
         const int of[2] = { body[m->bond[b].i], body[m->bond[b].j] };
         for (int k = 0; k < 2 && of[0] != of[1]; k++)
-            if (!bbm_is_held(m, body, of[k], 0))
+            if (!bbm_is_held(m, body, of[k]))
                 return of[k];
     }
     return -1;

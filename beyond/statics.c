@@ -75,19 +75,14 @@ static int is_regular(double G[3][3])
     return G[0][0] > LOOSE * whole[0] && G[1][1] > LOOSE * whole[1] && G[2][2] > LOOSE * whole[2];
 }
 
-/* Whether the wall holds the body of element i by itself, or also if it floats; body[] has a number
- * for each element. */
-int bbm_is_held(const bbm_model *m, const int body[], int i, int floats)
+/* Whether the wall holds the body of element i by itself; body[] has a number for each element. */
+int bbm_is_held(const bbm_model *m, const int body[], int i)
 {
-    const bbm_edge_load *load = m->beyond->edge_load, *end = load + m->beyond->edge_loads;
     double G[3][3] = { { 0 } };
 
     for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
         if (body[g->i] == body[i])
             add_hold(m->element, *g, i, G);
-    for (; load < end && floats; load++)
-        if (body[m->vertex[load->a].element] == body[i])
-            add_floating(m, load, m->element[i].x, G);
     return is_regular(G);
 }
 
@@ -96,21 +91,31 @@ int bbm_is_held(const bbm_model *m, const int body[], int i, int floats)
  * block on a slope passes, and fails later. */
 bbm_status bbm_check_supports(bbm_model *m)
 {
-    const bbm_matrix *K = m->K;
-    int loose = m->elements;
+    const int *body = m->K->component;
+    const bbm_element *e = m->element;
+    struct { int first; double G[3][3]; } *of = calloc((size_t)m->elements, sizeof *of);
+    int loose = -1;
 
-    for (int c = 0; c < K->components && bbm_is_static(m); c++) {
-        int first = m->elements;
-        for (int k = K->start[c]; k < K->start[c + 1]; k++)
-            first = K->caller[k] < first ? K->caller[k] : first;
-        if (first < loose && !bbm_is_held(m, K->component, first, 1))
-            loose = first;
+    if (!of)
+        return BBM_NO_MEMORY;
+    for (int i = m->elements - 1; i >= 0; i--)
+        of[body[i]].first = i;
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
+        add_hold(e, *g, of[body[g->i]].first, of[body[g->i]].G);
+    for (int l = 0; l < m->beyond->edge_loads; l++) {
+        const bbm_edge_load *load = &m->beyond->edge_load[l];
+        const int c = body[m->vertex[load->a].element];
+        add_floating(m, load, e[of[c].first].x, of[c].G);
     }
-    if (loose == m->elements)
+    for (int i = m->elements - 1; i >= 0 && bbm_is_static(m); i--)
+        if (of[body[i]].first == i && !is_regular(of[body[i]].G))
+            loose = i;
+    free(of);
+    if (loose < 0)
         return BBM_OK;
-    const bbm_element *e = &m->element[m->blamed[0] = loose];
+    m->blamed[0] = loose;
     return bbm_fail(m, BBM_FREE_TO_MOVE, "block %d, the body of element %d at (%.9g, %.9g)",
-                    e->block, loose, e->x + m->origin[0], e->y + m->origin[1]);
+                    e[loose].block, loose, e[loose].x + m->origin[0], e[loose].y + m->origin[1]);
 }
 
 /* Begins a static step of a prepared model: lists its gaps and contacts, and refuses a body that is
