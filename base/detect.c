@@ -499,10 +499,11 @@ static int goes_before(const bbm_model *m, int e, int f)
 
 /* Whether the grid points inside the straight side of c touch that of e, too (`faces`), where the
  * two face each other by more than 120 degrees. Those of the shorter side do: then no point comes
- * or goes while it slides on the longer one. Of equal sides, and in statics, where nothing slides
- * far, those of the finer side do: a coarse one would not feel it between its points. At a tie
- * those of c do if e goes before it. Deviation: with `faces` = 0 corners alone touch, and a block
- * of many elements sags between them. */
+ * or goes while it slides on the longer one. But on a side that is held those of the other one do,
+ * or they would sag. Of equal sides, and in statics, where nothing slides far, those of the finer
+ * side do: a coarse one would not feel it between its points. At a tie those of c do if e goes
+ * before it. Deviation: with `faces` = 0 corners alone touch, and a block of many elements sags
+ * between them. */
 int bbm_carries(const bbm_model *m, int c, int e)
 {
     const bbm_edge *mine = &m->edge[m->edge[c].side], *other = &m->edge[m->edge[e].side];
@@ -512,6 +513,8 @@ int bbm_carries(const bbm_model *m, int c, int e)
         return 0;
     const double ratio = mine->spacing / other->spacing;
     const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
+    if (is_held(m, c) != is_held(m, e) && !isinf(m->par.dt))
+        return is_held(m, e);
     if ((alike || isinf(m->par.dt)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
     return goes_before(m, e, c);

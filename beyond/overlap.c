@@ -238,7 +238,7 @@ static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int
 }
 
 /* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are, and
- * the edge over which it has come; else 0. */
+ * the edge over which it has come; else 0, as for two that are held, which have no contacts. */
 double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
 {
     const point P = point_of(m, m->edge[corner].a), a = point_of(m, m->edge[edge].a);
@@ -247,7 +247,9 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
     const double s = x * u + y * v, allowed = bbm_allowed_depth(m, corner, edge);
 
     if (m->edge[corner].side != corner || m->edge[corner].joined[0] >= 0
-        || m->edge[corner].joined[1] >= 0 || s < 0 || s > l * l || y * u - x * v <= allowed * l)
+        || m->edge[corner].joined[1] >= 0 || s < 0 || s > l * l || y * u - x * v <= allowed * l
+        || (bbm_is_held_all_round(m, &m->element[m->edge[corner].element])
+            && bbm_is_held_all_round(m, &m->element[m->edge[edge].element])))
         return 0;
     const double depth = depth_in_block(m, corner, edge, over);
     return depth > fmax(allowed, bbm_allowed_depth(m, corner, *over)) ? depth : 0;

@@ -31,8 +31,9 @@
  *
  * In statics a block that all its contacts let slide is held by nothing, and K is singular. But no
  * force asks for that motion, and it is in no residual: where there is an equilibrium it is found.
- * Where there is none, it is given up: with M factored, after as many iterations as there are
- * unknowns and 100 more.
+ * Where there is none, it is given up: with M factored, after as many iterations as there are terms
+ * and 100 more. M^-1 K is the unit matrix plus one of that rank, so that as many are enough but for
+ * rounding.
  */
 #include "beyond.h"
 
@@ -153,7 +154,7 @@ static bbm_status iterate(bbm_matrix *K, const bbm_factor *f, double *d, double 
 /* K x = F for the rows in hand. */
 static bbm_status solve(bbm_matrix *K, const bbm_pcg *wanted, bbm_pcg_info *info)
 {
-    const int rows = K->to - K->from, few = 6 * rows + 100;
+    const int rows = K->to - K->from, few = K->terms + 100;
     bbm_pcg pcg = *wanted;
     bbm_factor f = { 0 };
     double *d = malloc(24 * (size_t)K->n * sizeof *d), *F = d + 18 * K->n, stop = 0;

@@ -421,6 +421,19 @@ START_TEST(in_statics_the_grid_points_of_the_finer_side_touch)
 }
 END_TEST
 
+/* A block of 1.5 m in eight cells lies over one of 1.2 m. If that is held, seven grid points of the longer one touch, too, or
+ * it would sag between the two corners; else those alone touch. */
+START_TEST(grid_points_touch_a_shorter_side_that_is_held)
+{
+    bbm_model *m = new_blocks();
+
+    add_rectangle(m, 0, BASE, (rectangle){ .x = -0.6, .y = -1, .w = 1.2, .h = 1, .fixed = _i });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = -0.75, .y = 0, .w = 1.5, .h = 0.05, .nx = 8 });
+    detect(m);
+    ck_assert_int_eq(m->contacts, _i ? 9 : 2);
+}
+END_TEST
+
 /* The side of one block in pieces, and in the middle of it the shorter side of another one in
  * pieces: the grid points of the shorter side touch, wherever the two are, of whatever size,
  * whichever is the upper one. */
@@ -767,6 +780,7 @@ Suite *detection_suite(void)
         { two_blocks_on_each_other_touch_at_the_two_ends_of_their_joint, COUNT(SEATS) },
         { of_two_corners_at_one_place_that_of_the_smaller_block_touches, 4 },
         { in_statics_the_grid_points_of_the_finer_side_touch, 4 },
+        { grid_points_touch_a_shorter_side_that_is_held, 2 },
         { of_two_equal_sides_the_grid_points_of_the_finer_one_touch, 3 * COUNT(ANGLES) },
         { of_two_sides_the_grid_points_of_the_shorter_one_touch, 2 },
         { rounding_in_a_model_file_does_not_undo_a_contact, 4 },

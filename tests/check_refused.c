@@ -208,6 +208,27 @@ START_TEST(elements_of_one_block_that_overlap_are_refused)
 }
 END_TEST
 
+/* Two held blocks side by side, one higher; a load moves the corner of the lower one into the other as far as supports give
+ * way. They have no contacts, and are not said to overlap. */
+START_TEST(held_blocks_may_move_into_each_other_on_their_supports)
+{
+    bbm_model *m = new_rock();
+
+    add_rows(m, 0, 0, 0, 1, 1, 1, 1, 0);
+    const int second = add_rows(m, 1, 1, 0, 1, 0.7, 1, 1, 0);
+    for (int n = 0; n < m->nodes; n++)
+        ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+    for (int n = second; n < m->nodes; n++)
+        ck_ok(bbm_add_load(m, n, -1e8, 0), m);
+    m->par.dt = 0.01;
+    m->par.velocity_factor = 0;
+    prepare(m);
+    run_steps(m, 9);
+    const bbm_result r = result_at(m, second);
+    ck_assert_double_lt(r.u, -1e-5);
+}
+END_TEST
+
 /* A stone of 0.4 m in the middle cell, of 1 m, of a block of 5 x 5: no side of that cell is one of
  * the block's boundary, and the stone's corners are 0.3 m from all of them. */
 START_TEST(a_stone_in_an_inner_cell_of_another_block_is_refused)
@@ -607,6 +628,7 @@ Suite *refused_suite(void)
         { stars_overlap_where_points_lie_in_both, 100 },
         { elements_of_one_block_that_overlap_are_refused, 1 },
         { a_stone_in_an_inner_cell_of_another_block_is_refused, 4 },
+        { held_blocks_may_move_into_each_other_on_their_supports, 1 },
         { blocks_side_by_side_overlap_nowhere, 1 },
         { blocks_of_many_elements_that_overlap_are_refused_at_any_angle, 9 });
     add_case(s, "pieces",
