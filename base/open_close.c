@@ -39,7 +39,7 @@ static void place_anchor(const bbm_model *m, bbm_contact *c)
 /* A contact begins the step with the state of its last step. Its elements are i and j, and those
  * that share P1, P2 or P3 with them. It begins open if P1 has left it past the end of the edge. Its
  * strength is the model's friction angle, or what a hook says. If it is open or its edge is another
- * one, its anchor is placed anew.
+ * one, its anchor and rest are placed anew; the rest alone where a hit has unloaded its spring.
  *
  * One that touches when the run begins is closed: what lies flush is under load. It stays open
  * where P1 can come in over more than one line of a corner, for its way will show over which one.
@@ -67,10 +67,11 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
         m->hook->strength(m, c);
     if (c->trial.touches && !c->trial.has_left)
         c->state = lines == 0 || bbm_is_strong(c) ? BBM_LOCK : BBM_OPEN;
-    if (!c->trial.carried || c->state == BBM_OPEN) {
+    const int begins = !c->trial.carried || c->state == BBM_OPEN;
+    if (begins)
         place_anchor(m, c);
+    if (begins || c->hit == 1)
         c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);
-    }
 }
 
 /* Lists the contacts that may be closed in this step, each with the state with which it begins.

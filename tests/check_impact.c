@@ -644,6 +644,24 @@ START_TEST(a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further)
 }
 END_TEST
 
+/* A square falls on the rim of a ledge, turns over it, and falls beside it, in steps so long that it turns by 0.3 rad in one.
+ * A strain of 1e-6 puts a corner 7e-7 m from where its spring began: as work of that spring it would be 0.1 J of 7.5 J. */
+START_TEST(a_square_that_turns_over_a_rim_in_long_steps_makes_no_energy)
+{
+    bbm_model *m = new_blocks();
+
+    m->material[ROCK].E = 1e10;
+    m->par.dt = 0.1;
+    m->par.friction = 0;
+    m->beyond->restitution = 0;
+    set_springs(m, 5e11, 2e11);
+    add_rectangle(m, 0, ROCK, (rectangle){ .x = -4, .y = -3, .w = 4, .h = 3, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 0, .y = -3, .w = 4, .h = 2.7, .fixed = 1 });
+    add_rectangle(m, 2, ROCK, (rectangle){ .x = -0.1, .y = 0.4, .w = 1, .h = 1 });
+    run_steps(m, 12);
+}
+END_TEST
+
 Suite *impact_suite(void)
 {
     Suite *s = suite_create("impact");
@@ -658,6 +676,7 @@ Suite *impact_suite(void)
         { both_corners_of_a_block_that_comes_down_all_but_flat_hit, 6 },
         { a_square_that_gives_back_all_or_nearly_all_bounces_on, 4 },
         { a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further, 3 },
+        { a_square_that_turns_over_a_rim_in_long_steps_makes_no_energy, 1 },
         { a_rocking_block_loses_what_housner_says, 3 },
         { blocks_that_hit_keep_their_momentum, 6 },
         { a_node_between_two_quadrilaterals_that_hits_keeps_momentum_and_angular_momentum, 4 },

@@ -569,7 +569,7 @@ END_TEST
 #define PEBBLE ROCK "block base rock 0 -1 30 -1 30 0 0 0\nfixblock base\nblock b rock 20 0 20.01 0 20.01 0.01 20 0.01\n" \
     "gravity $(9.81*tan(30)) -9.81\ndynamic dt 0.01 steps 20\n"
 static const char slips[] = "warning: no friction between blocks: `contact friction DEGREES` gives it";
-#define PIER(n) ROCK "block pier rock 0 -1 1 -1 1 0 0 0\nfixblock pier\ngrid slab rock -1 0 2 1 $(3*" #n ") 1\n" \
+#define PIER(n) ROCK "block pier rock 0 -1 1 -1 1 0 0 0\nfix at 0 -1\nfix at 1 -1\ngrid slab rock -1 0 2 1 $(3*" #n ") 1\n" \
     "gravity 0 -9.81\ncontact friction 30\ndynamic dt 0.01 steps 1 settle 20\n"
 static const struct { const char *text, *said; } doubtful[] = {
     { FALLS, "nothing is fixed: under gravity all blocks fall; fixblock or fix holds them" }, { FALLS "fix at 0 0\n", NULL },
