@@ -439,15 +439,16 @@ END_TEST
 static bbm_model *pressed_disc(int held, double load, double size)
 {
     enum { RIM = 32 };
+    const int rings = held ? 4 : 1;
     bbm_model *m = new_rock();
     const int base = add_rows(m, 0, -2 * size, -size, 4 * size, size, 16, 4, 0), centre = m->nodes;
 
     ck_ok(bbm_add_node(m, 0, size, NULL), m);
-    for (int ring = 1; ring <= 4; ring++)
+    for (int ring = 1; ring <= rings; ring++)
         for (int k = 0; k < RIM; k++)
-            ck_ok(bbm_add_node(m, size * ring / 4.0 * sin(2 * PI * k / RIM),
-                               size * (1 - ring / 4.0 * cos(2 * PI * k / RIM)), NULL), m);
-    for (int k = 0; k < 4 * RIM; k++) {
+            ck_ok(bbm_add_node(m, size * ring / (double)rings * sin(2 * PI * k / RIM),
+                               size * (1 - ring / (double)rings * cos(2 * PI * k / RIM)), NULL), m);
+    for (int k = 0; k < rings * RIM; k++) {
         const int a = centre + 1 + k, b = centre + 1 + k / RIM * RIM + (k + 1) % RIM;
         if (k < RIM)
             ck_ok(bbm_add_element(m, 1, 0, 3, (int[]){ centre, a, b }, NULL), m);
@@ -460,7 +461,7 @@ static bbm_model *pressed_disc(int held, double load, double size)
         if (n < base + 17)
             ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
     }
-    ck_ok(bbm_add_load(m, centre + 1 + 3 * RIM + RIM / 2, 0, -load * size), m);
+    ck_ok(bbm_add_load(m, centre + 1 + (rings - 1) * RIM + RIM / 2, 0, -load * size), m);
     m->par.friction = 45;
     set_springs(m, 1e13, 4e12);
     m->par.steps = 4;
