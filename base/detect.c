@@ -41,6 +41,7 @@
  * PARALLEL [rad]  lines that differ less coincide, and a side that points into an edge by less
  *                 lies on it: penetration and elastic bending turn sides by this much
  * BENT     [rad]  the same at a point inside a straight side, of one block or of two that slide
+ * TURNS    [rad]  a side that turns by more in a step turns with its element
  * TOUCH    [-]    d_n below this, in mean edges of the two blocks, is closed at the start, and a
  *                 projection closer to the end of an edge is at the end: rounding of a model file,
  *                 elastic strain
@@ -49,6 +50,7 @@
 #define STRAIGHT 1e-4
 #define PARALLEL 1e-2
 #define BENT 0.1
+#define TURNS 0.4
 #define TOUCH 1e-6
 #define TIE 1e-9
 #define ROUND 2e-3
@@ -953,7 +955,7 @@ static int admits(const bbm_model *m, const bbm_contact *c)
 
     for (int which = 0; which < 2; which++) {
         const double own = turn_of(m, side_at(m, c->corner, which, Q)) - turn_of(m, c->edge);
-        r[which] = fabs(own) < BENT ? own : turn;
+        r[which] = fabs(own) < TURNS ? own : turn;
     }
     if (!t->was_closed && !c->inside && t->d_n0 < -bbm_allowed_depth(m, c->corner, c->edge))
         return 0;

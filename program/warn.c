@@ -443,6 +443,7 @@ void warn_in_step(const run *r, const char *path, int *said)
 void warn_after(const model *p, const char *path)
 {
     double most = 0, strain = 0;
+    char text[400];
     int stable = 1;
 
     for (int k = 0; k < p->monitors; k++)
@@ -467,7 +468,10 @@ void warn_after(const model *p, const char *path)
                    "positions have no more digits; a smaller kn or softer bolts help",
              p->m->beyond->breach);
     warn_of_coarse_sides(p, path);
-    if (!p->dynamic && bbm_find_stability(p->m, &stable) == BBM_OK && !stable)
+    const bbm_status found = p->dynamic ? BBM_OK : bbm_find_stability(p->m, &stable);
+    if (found == BBM_BLOCKS_OVERLAP)
+        warn(path, "contacts are missing: %s", model_says(p, found, text));
+    if (found == BBM_OK && !stable)
         warn(path, "in equilibrium, but not stable: a push, however small, moves it until other "
                    "contacts stop it, or for good");
     if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)
