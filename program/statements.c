@@ -21,7 +21,9 @@
 enum { NUMBERS, ALONE, NODES, MADE, ALL_NODES, BLOCKS, MODEL, MONITORS, EXPECTED, PHASES };
 enum { ONCE = 1, STAGED, DYNAMIC = 4 };     /* it may stand once, in a stage, not in statics */
 
-enum { MOST_CELLS = 4000000 };              /* of a grid */
+#ifndef MOST_CELLS
+#define MOST_CELLS 4000000                  /* of a grid; fewer where inputs are arbitrary */
+#endif
 
 #define MOST_NUMBERED 100000000000000000        /* ids of blocks and grids are below it */
 

@@ -194,7 +194,7 @@ $O/hostile $O/limit: $O/%: $O/tests/%.o
 
 fuzz:
 	@mkdir -p out/corpus
-	clang -std=c99 -g -O1 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz \
+	clang -std=c99 -g -O1 -DMOST_CELLS=40000 -fsanitize=address,undefined,fuzzer -fno-sanitize-recover=all -o out/fuzz \
 	tests/fuzz_model.c $(READER:%=%.c) $(LIBRARY:%=%.c) -lm
 	out/fuzz -max_len=4096 -timeout=100 -max_total_time=$(or $(TIME),600) -seed=$(or $(SEED),0) -artifact_prefix=out/ \
 	out/corpus tests/bad tests/mesh cases/models
