@@ -17,13 +17,13 @@
  * the jump. What the hit gives back depends neither on dt nor on the mesh then, and leaves no body
  * vibrating. A held point counts from h/2 w, w the velocity of its support, and so does what is
  * held all round. A closed contact counts from h/2 v, v the velocity that is asked for: 0; or, if
- * it has closed in this step, -E times the normal velocity with which it came, but 0 if it has not
- * been outside since its last hit, or a block that comes to rest would hop from corner to corner
- * and sink in each hop; or, without a restitution, the one that it has. The open-close iteration
- * finds which contacts stay closed and which slide. It judges the forces of the step and of the
- * jump together, for they act in the same time: F takes back the contact forces of the step, and
- * the jump finds them anew. In between two bodies all this is push and pull, so that momentum
- * stays.
+ * it has closed in this step, -E times the normal velocity with which it came; or, without a
+ * restitution, the one that it has. One that has not been outside since its last hit is asked for
+ * 0: a block that comes to rest would hop from corner to corner, and sink in each hop. The
+ * open-close iteration finds which contacts stay closed and which slide. It judges the forces of
+ * the step and of the jump together, for they act in the same time: F takes back the contact forces
+ * of the step, and the jump finds them anew. In between two bodies all this is push and pull, so
+ * that momentum stays.
  *
  * A contact that has closed, or that the jump opens, has had its impulse: its spring starts
  * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy

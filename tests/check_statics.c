@@ -368,15 +368,17 @@ START_TEST(a_round_side_bears_at_all_its_corners_on_a_base_that_bends)
         { 8, 1, 1, 1, 0.05, 0.03 }, { 8, 1, 1, 4, 0.05, 0.03 }, { 12, 2, 0, 8, 0.1, 0.0383 }, { 10, 2, 0, 8, 0.1, 0.051 },
         { 12, 2, 0, 8, 0.1, 0.043 }, { 16, 1, 1, 8, 0.1, 0.03 }, { 4, 2, 1, 1, 0.8, 0.4 },
     };
-    const int nx = of[_i].nx, ny = of[_i].ny, cells = nx + of[_i].half;
-    const double w = of[_i].w, wide = w * cells / nx, a = of[_i].a;
-    bbm_model *m = new_pressed(1e10, 0.2, 30, of[_i].steps);
+    const int row = _i % COUNT(of), nx = of[row].nx, ny = of[row].ny, cells = nx + of[row].half;
+    const double w = of[row].w, wide = w * cells / nx, a = of[row].a;
+    bbm_model *m = new_pressed(1e10, 0.2, 30, of[row].steps);
 
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -wide, .y = -w, .w = 2 * wide, .h = w, .nx = cells, .ny = ny });
     for (int n = 0; n <= cells; n++)
         ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
     const int top = ny * (cells + 1), first = press_round_side(m, w, 1, nx, ny, PI * a * a * 0.5e10 / 4);
     ck_ok(bbm_prepare(m), m);
+    if (_i != row)                              /* contacts so stiff that bonds open farther than a search goes */
+        set_springs(m, 5e12, 2e12);
     ck_ok(bbm_run(m), m);
     for (int i = 0; i <= nx; i++)
         ck_assert_double_lt(depth_behind(m, first + i, top, top + cells), 2 * m->info.penetration);
@@ -902,7 +904,7 @@ Suite *statics_suite(void)
         { a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101, 2 * COUNT(LIMIT) },
         { what_is_taut_sags_as_its_tension_says_and_stays_taut, 4 },
         { a_round_side_that_flattens_bears_at_all_its_corners, 24 },
-        { a_round_side_bears_at_all_its_corners_on_a_base_that_bends, 7 },
+        { a_round_side_bears_at_all_its_corners_on_a_base_that_bends, 14 },
         { a_seam_below_a_foot_holds_no_block_that_slides, 4 },
         { a_contact_that_leaves_its_edge_in_a_static_step_has_its_force_there, 1 },
         { locked_contacts_keep_their_shear_forces_from_step_to_step, 2 },
