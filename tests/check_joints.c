@@ -398,6 +398,21 @@ START_TEST(blocks_across_a_corner_have_no_joint)
 }
 END_TEST
 
+/* While statics follows the motion, joints hold whatever comes, if they have any strength. */
+START_TEST(a_joint_that_is_to_hold_needs_one_strength_alone)
+{
+    bbm_model *m = joined(0, 0);
+
+    m->beyond->cohesion *= _i % 2;
+    m->beyond->tension *= _i / 2;
+    m->beyond->joints_hold = 1;
+    detect(m);
+    ck_assert_int_eq(m->contacts, 2);
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(fmin(m->contact[k].strength.shear, m->contact[k].strength.tension) > 1e50, _i > 0);
+}
+END_TEST
+
 Suite *joints_suite(void)
 {
     Suite *s = suite_create("joints");
@@ -418,6 +433,7 @@ Suite *joints_suite(void)
         { a_joint_without_a_force_stays_as_it_is, 2 },
         { no_joint_begins_when_blocks_have_settled, 1 },
         { blocks_across_a_corner_have_no_joint, 2 },
-        { statics_finds_the_states_of_many_blocks_in_unbroken_joints, 1 });
+        { statics_finds_the_states_of_many_blocks_in_unbroken_joints, 1 },
+        { a_joint_that_is_to_hold_needs_one_strength_alone, 4 });
     return s;
 }
