@@ -515,11 +515,18 @@ int bbm_carries(const bbm_model *m, int c, int e)
         return 0;
     const double ratio = mine->spacing / other->spacing;
     const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
-    if (is_held(m, c) != is_held(m, e) && !isinf(m->par.dt))
+    if (is_held(m, c) != is_held(m, e))
         return is_held(m, e);
     if ((alike || isinf(m->par.dt)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
     return goes_before(m, e, c);
+}
+
+/* Whether two edges are of one straight side, also where it goes on in the next block that is held. */
+static int are_in_line(const bbm_model *m, int e, int f)
+{
+    return m->edge[e].side == m->edge[f].side || (m->edge[e].is_inner && m->edge[e].joined[0] == f)
+        || (m->edge[f].is_inner && m->edge[f].joined[0] == e);
 }
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge, or else
@@ -534,7 +541,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
             continue;
         if (c->edge == edge)
             return c;
-        if (m->edge[c->edge].side == m->edge[edge].side)
+        if (are_in_line(m, c->edge, edge))
             found = c;
     }
     return found;
@@ -635,7 +642,8 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
 
 /* Whether the pair p gives way to the pair that it meets, where both are one contact. There are
  * three such places.
- * On one straight side (NEXT): p gives way if P lies before the end of the other edge.
+ * On one straight side (NEXT): the pair that was closed stays at the end of its edge, or else p
+ * gives way if P lies before the end of the other edge.
  * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one
  * whose edge goes before the other.
  * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
@@ -646,25 +654,28 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const pair q = meet(m, p, end, kind);
     const int Q = end ? m->edge[p.edge].after : p.edge;
 
-    const int apart = kind == NEXT ? m->edge[q.edge].side != m->edge[p.edge].side
+    const int apart = kind == NEXT ? !are_in_line(m, p.edge, q.edge)
                     : !are_parallel(m, p.edge, q.edge, 0);
     if (apart || find_pair(m, q) < 0)
         return 0;
     const projection f = project(m, p.corner, p.edge), g = project(m, q.corner, q.edge);
     const bbm_direction t = m->edge[p.edge].along, u = m->edge[q.edge].along;
-    if (kind == NEXT)
-        return end ? f.s >= t.length : g.s < u.length;
-    const double beside = fabs(f.s - (end ? t.length : 0));
-    const double most = fmax(beside, fmax(fabs(f.beyond), fabs(g.beyond)));
-    const int here = find_closed(m, p.corner, p.edge) != NULL;
-    const int there = find_closed(m, q.corner, q.edge) != NULL;
+    const bbm_contact *mine = find_closed(m, p.corner, p.edge);
+    const bbm_contact *other = find_closed(m, q.corner, q.edge);
+    const double touch = touch_between(m, p.corner, p.edge), at = end ? t.length : 0;
+    const double most = fmax(fabs(f.s - at), fmax(fabs(f.beyond), fabs(g.beyond)));
+    if (kind == NEXT) {
+        const int stays = mine && mine == other && most <= touch;
+        return stays && mine->edge == q.edge ? 1 : stays && mine->edge == p.edge ? 0
+             : end ? f.s >= t.length : g.s < u.length;
+    }
     if (is_corner(m, p.corner) != is_corner(m, Q)
         && most <= fmax(bbm_rounding(m, p.corner), bbm_rounding(m, Q)))
         return is_corner(m, Q);
-    if (most > touch_between(m, p.corner, p.edge))
+    if (most > touch)
         return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
-            && (here || there || most > slip_between(m, p.corner, Q, t));
-    return here != there ? there : !goes_before(m, p.edge, q.edge);
+            && (mine || other || most > slip_between(m, p.corner, Q, t));
+    return !mine != !other ? !mine : !goes_before(m, p.edge, q.edge);
 }
 
 /* Whether a side of Q goes straight on in one of P, and both blocks are held all round and move
@@ -787,6 +798,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     }
     return (c->trial.beyond_end && lines == 0)
         || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, before, Q)
+            && is_corner(m, Q) && !m->edge[Q].is_inner
             && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge)
             && bbm_may_enter(m, c->corner, end ? Q : before));
 }

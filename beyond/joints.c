@@ -20,13 +20,31 @@
 /* N. Of a joint that bears anything. */
 #define ANY 1e100
 
+/* The edge that goes on from a corner, in the next block where both are held and flush, or -1. */
+static int held_at(const bbm_model *m, int c, int ends)
+{
+    return m->edge[c].is_inner ? m->edge[c].joined[ends] : -1;
+}
+
+/* The corner after (1) or before a corner, along one side. */
+static int next_corner(const bbm_model *m, int c, int ends)
+{
+    const int held = held_at(m, c, ends), e = held >= 0 ? held : ends ? c : m->edge[c].before;
+
+    return ends ? m->edge[e].after : e;
+}
+
 /* The end of an edge, or of its whole straight side: the corner that starts it, or ends it. */
 static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
 {
-    edge = ends ? m->edge[edge].after : edge;
-    while (whole && m->edge[edge].side != edge)
-        edge = ends ? m->edge[edge].after : m->edge[edge].before;
-    return edge;
+    int c = ends ? m->edge[edge].after : edge;
+
+    for (int k = 0; k < m->edges; k++) {
+        if (held_at(m, c, ends) < 0 && (!whole || m->edge[c].side == c))
+            break;
+        c = next_corner(m, c, ends);
+    }
+    return c;
 }
 
 /* The share of a contact that touches at the start, as far as its own sides lie on the edge. The
@@ -45,7 +63,7 @@ static double joint_area(const bbm_model *m, int corner, int edge)
         const int own = end_of_side(m, mine, !bbm_carries(m, mine, edge), ends);
         int other = end_of_side(m, edge, !bbm_carries(m, edge, mine), !ends);
         if (m->edge[other].side != other && fabs(bbm_way_along(m, other, edge) - s) <= same)
-            other = ends ? m->edge[other].before : m->edge[other].after;
+            other = next_corner(m, other, !ends);
         const double way = fmin(fabs(bbm_way_along(m, own, edge) - s),
                                 fabs(bbm_way_along(m, other, edge) - s));
         length += way > same ? way / 2 : 0;         /* blocks across a corner have no joint */

@@ -537,6 +537,50 @@ START_TEST(held_blocks_that_part_below_a_block_carry_it)
 }
 END_TEST
 
+/* The forces of a block of two cells, or of one polygon with a node in the middle of its lower side, that rests on held ground:
+ * of one block with a grid point below its middle, or of two with a seam there; `off` shifts these. */
+static int rest_on(int seam, int polygon, double off, bbm_model *m, double N[3])
+{
+    const double base[][2] = { { -1, 0 }, { 0, 0 }, { 1, 0 }, { 1, 0.7 }, { -1, 0.7 } };
+
+    set_springs(m, 1e11, 4e10);
+    m->par.friction = 20;
+    for (int b = 0; b <= seam; b++)
+        add_rectangle(m, b, BASE, (rectangle){ .x = off + 2 * (b - 1.0), .y = -0.5, .w = seam ? 2 : 4, .h = 0.5,
+                                               .nx = seam ? 1 : 2, .fixed = 1 });
+    if (polygon)
+        add_polygon(m, 2, 5, base);
+    else
+        add_rectangle(m, 2, ROCK, (rectangle){ .x = -1, .w = 2, .h = 0.7, .nx = 2 });
+    if (isinf(m->par.dt))
+        run_steps(m, 1);
+    else
+        settle(m, 100);
+    for (int k = 0; k < m->contacts && k < 3; k++)
+        N[k] = m->contact[k].N;
+    return m->contacts;
+}
+
+/* It carries what it carries where no other point lies below it. */
+START_TEST(a_grid_point_on_a_seam_or_a_grid_point_of_held_ground_carries_its_share)
+{
+    for (int k = 0; k < 4; k++) {
+        const double off[] = { 0, 1e-12, -1e-7, 0.01 };
+        double N[4][3] = { { 0 } };
+        for (int o = 3; o >= 0; o--) {
+            bbm_model *m = new_blocks();
+            m->par.dt = _i ? INFINITY : 1e-3;
+            ck_assert_int_eq(rest_on(k / 2, k % 2, off[o], m, N[o]), 3);
+            for (int c = 0; c < 3; c++) {
+                ck_relative(N[o][c], N[3][c], 1e-3);        /* the ground bends otherwise */
+                ck_relative(m->contact[c].N, -1e11 * m->contact[c].d_n, 1e-6);
+            }
+            release(m);
+        }
+    }
+}
+END_TEST
+
 Suite *flush_suite(void)
 {
     Suite *s = suite_create("flush");
@@ -544,6 +588,7 @@ Suite *flush_suite(void)
     add_case(s, "seams", { what_slides_over_seams_low_ledges_and_open_joints_goes_on, COUNT(KIND) },
         { a_corner_that_falls_on_the_seam_of_two_free_blocks_stays_on_them, 2 },
         { held_blocks_that_part_below_a_block_carry_it, 2 },
+        { a_grid_point_on_a_seam_or_a_grid_point_of_held_ground_carries_its_share, 2 },
         { a_ledge_lower_than_the_rounding_holds_no_block, 2 * COUNT(LEDGES) },
         { a_ledge_that_a_wall_leaves_behind_holds_no_block, 4 },
         { a_staircase_of_low_ledges_lets_no_block_sink_by_more_than_the_rounding, 2 },
