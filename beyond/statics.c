@@ -24,7 +24,7 @@
  * FAR [-]      how far they have parted in all when that is no elastic way
  * SLOWS [-]    nor if forces lack less of balance than this share of what they did at half the way:
  *              elastic bodies come to rest so, and what falls does not
- * LONG [-]     the first step from rest that is tried, against a swing on a contact spring: as in
+ * LONG [-]     the first step from rest that is tried, against a swing on what is softest: as in
  *              slow dynamics contacts then close under the whole load, and little slides before
  * SHORT [-]    the shortest step
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
@@ -232,20 +232,24 @@ static bbm_status try_statics(bbm_model *m)
  * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
  * Joints hold until forces balance with what holds them: at first inertia bears the weight.
  * A length that failed, or after which statics did, is not tried again for some steps. Lengths
- * count in the time in which the lightest element that is not held swings on a contact spring. */
+ * count in the time in which the lightest element that is not held swings on a contact spring, or
+ * on the softest element if that gives way more. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
-    double failed = INFINITY, tried = 0, parted = 0, lacks = 1, least = INFINITY;
+    double failed = INFINITY, tried = 0, parted = 0, lacks = 1;
+    double least = INFINITY, softest = m->par.p_n;
     double far = FAR, before = INFINITY;            /* what forces lacked at half of that way */
     bbm_contact worst = { .edge = -1 };
     bbm_status status = BBM_OPEN_CLOSE;
     bbm_beyond *b = m->beyond;
 
     int hold = b->joints > 0 || b->cohesion > 0 || b->tension > 0;
-    for (int i = 0; i < m->elements; i++)
-        if (m->K->body[i] >= 0)
-            least = fmin(least, bbm_mass_per_area(&m->element[i]) * m->element[i].A0);
-    const double swing = sqrt(2 * least / m->par.p_n);
+    for (const bbm_element *i = m->element; i < m->element + m->elements; i++)
+        if (m->K->body[i - m->element] >= 0) {
+            least = fmin(least, bbm_mass_per_area(i) * i->A0);
+            softest = fmin(softest, i->material.E * i->material.thickness);
+        }
+    const double swing = sqrt(2 * least / softest);
     double h = LONG * swing;
     while (h > SHORT * swing && !bbm_is_spent(m)) {
         m->h = h;

@@ -98,9 +98,31 @@ static bbm_model *stop(double f)
     return m;
 }
 
+/* A wedge that a jaw presses on a wall by H, drawn out by H (tan(phi) + tan(phi - a)). Contacts are so stiff that the jaw is
+ * long in coming, and the wedge has gone before if steps from rest are short. */
+static bbm_model *pulled(double f)
+{
+    const double a = radians(20), s = tan(a), H = 1e4, phi = radians(38);
+    const double wedge[][2] = { { -0.2, 1 }, { 0.2, 1 }, { 0.2 + s, 2 }, { -0.2, 2 } };
+    const double jaw[][2] = { { 0.2 - s / 2, 0.5 }, { 2.2, 0.5 }, { 2.2, 2.5 }, { 0.2 + 1.5 * s, 2.5 } };
+    bbm_model *m = new_scene(38);
+
+    set_springs(m, 3e12, 1.2e12);
+    m->par.gravity[1] = 0;
+    add_rectangle(m, 1, BASE, (rectangle){ .x = -2.2, .y = 0.5, .w = 2, .h = 2, .fixed = 1 });
+    add_polygon(m, 2, 4, wedge);
+    add_polygon(m, 3, 4, jaw);
+    for (int n = m->nodes - 8; n < m->nodes; n++) {
+        const int of_jaw = n >= m->nodes - 4;
+        ck_ok(bbm_add_load(m, n, -of_jaw * H / 4, !of_jaw * f * H * (tan(phi) + tan(phi - a)) / 4), m);
+        ck_ok(of_jaw ? bbm_fix_node(m, n, BBM_Y, 0, 0) : BBM_OK, m);
+    }
+    return m;
+}
+
 static const struct { bbm_model *(*build)(double f); const char *how; } LIMIT[] = {
     { portal, "lifts off" }, { tall, "lifts off" }, { flat, "slides on" }, { arch, "lifts off" },
-    { wedge, "slides on" }, { bar, "slides on" }, { stop, "slides on" },
+    { wedge, "slides on" }, { bar, "slides on" }, { stop, "slides on" }, { pulled, "slides on" },
 };
 
 START_TEST(a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101)
