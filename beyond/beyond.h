@@ -203,6 +203,7 @@ void       bbm_store_multipliers(bbm_model *m);
 
 /* crack.c */
 bbm_status bbm_begin_cracks(bbm_model *m);
+int        bbm_tooth_of(const bbm_model *m, int b);
 int        bbm_is_broken(const bbm_model *m, int b);
 int        bbm_list_crack(bbm_model *m, int b);
 bbm_pass   bbm_break_bonds(bbm_model *m);

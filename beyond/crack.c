@@ -95,12 +95,12 @@ static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
 }
 
 /* How often a bond has softened. */
-static int tooth_of(const bbm_model *m, int b)
+int bbm_tooth_of(const bbm_model *m, int b)
 {
     return m->is_prepared && m->beyond->crack ? m->beyond->crack[b].tooth : 0;
 }
 
-int bbm_is_broken(const bbm_model *m, int b) { return tooth_of(m, b) == BROKEN; }
+int bbm_is_broken(const bbm_model *m, int b) { return bbm_tooth_of(m, b) == BROKEN; }
 
 /* Lists the two springs of a bond that softens or has broken, and marks its nodes; 0: it does not.
  * `rest`, where the first has no length and less that of the second, turns with the bond. */
@@ -110,7 +110,7 @@ int bbm_list_crack(bbm_model *m, int b)
     const bbm_element *i = &m->element[of->i], *j = &m->element[of->j];
     double n[2], N[2];
 
-    if (tooth_of(m, b) == 0)
+    if (bbm_tooth_of(m, b) == 0)
         return 0;
     const bbm_crack *c = &m->beyond->crack[b];
     const double soft = softness(m, of, c->tooth) / 2;
@@ -157,7 +157,7 @@ static void find_traction(const bbm_model *m, int b, double s[3])
     const bbm_bond *of = &m->bond[b];
     double n[2], d[2], f[2] = { 0, 0 }, S[4] = { 0 };
     const double area = find_normal(m, of, 1, n);
-    const int softens = tooth_of(m, b) > 0;
+    const int softens = bbm_tooth_of(m, b) > 0;
 
     for (int end = 0; end < 2; end++) {
         const bbm_gap *g = &m->gap[2 * b + end];

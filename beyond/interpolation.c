@@ -100,14 +100,14 @@ static void find_places(const bbm_model *m, bbm_box *box, long long *place)
     }
 }
 
-/* A coarse space for a new K: corners that bonds tie together are one node, so that a crack parts
- * them. An element without bonds is in it, too, if it lies against others with bonds: left out, it
- * is to them a stiff block that only SSOR moves. Where nothing is bonded, there would be as many
- * coarse unknowns as there are others; an element held at every corner hardly moves; in short steps
- * inertia holds every element by itself, and SSOR alone needs no more iterations than a wave, of
- * speed sqrt(E/density), needs to cross some elements. SSOR is faster for all three. An element has
- * modes if it is a quadrilateral bonded in its middles, in a model of many, and no part of a single
- * row, which bends by the moments of its bonds alone. */
+/* A coarse space for a new K: corners that bonds tie together are one node; one that softens or has
+ * broken ties none. An element without bonds is in it, too, if it lies against others with bonds:
+ * left out, it is to them a stiff block that only SSOR moves. Where nothing is bonded, there would
+ * be as many coarse unknowns as there are others; an element held at every corner hardly moves; in
+ * short steps inertia holds every element by itself, and SSOR alone needs no more iterations than a
+ * wave, of speed sqrt(E/density), needs to cross some elements. SSOR is faster for all three. An
+ * element has modes if it is a quadrilateral bonded in its middles, in a model of many, and no part
+ * of a single row, which bends by the moments of its bonds alone. */
 bbm_status bbm_lay_out_coarse(bbm_model *m)
 {
     const size_t v = (size_t)m->vertices, n = (size_t)m->elements;
@@ -124,7 +124,7 @@ bbm_status bbm_lay_out_coarse(bbm_model *m)
         up[k] = k;
     for (int k = 0; k < m->bonds; k++) {
         const bbm_bond *b = &m->bond[k];
-        for (int end = 0; end < 2; end++)
+        for (int end = 0; end < 2 && bbm_tooth_of(m, k) == 0; end++)
             up[bbm_root_of(up, b->q[end])] = bbm_root_of(up, b->p[end]);
         const bbm_element *e = &m->element[b->i];
         const double way2 = e->material.E / e->material.density * m->par.dt * m->par.dt;

@@ -421,6 +421,24 @@ START_TEST(bodies_that_break_keep_momentum_and_make_no_energy)
 }
 END_TEST
 
+/* On two levels pieces that cracks have parted move as they do, and no node ties them. */
+START_TEST(what_is_cracked_takes_few_iterations)
+{
+    bbm_model *m = crash(&(look){ 0, 0, 0, 1 }, 1, _i * 20);
+    int iterations = 0, solutions = 0;
+
+    m->par.dt = 2e-3;
+    m->par.pcg.method = &bbm_two_level;
+    for (int step = 0; step < 60; step++) {
+        ck_ok(bbm_step(m), m);
+        iterations += m->info.iterations;
+        solutions += m->info.passes;
+    }
+    ck_assert_int_gt(m->beyond->broken, 5);
+    ck_assert_int_lt(iterations, 20 * solutions);
+}
+END_TEST
+
 /* Two cells, bonded, lie on a smooth floor and are pulled apart, in dynamics. The floor bears each of the two fragments as
  * it bore their half of the body; what the bond held swings, 2 % are seen. */
 START_TEST(fragments_lie_on_the_floor_as_the_body_did)
@@ -630,6 +648,7 @@ Suite *crack_suite(void)
              { a_support_holds_both_sides_of_a_crack, 2 },
              { more_passes_with_breaks_than_the_bound_are_said, 1 });
     add_case(s, "fragments", { bodies_that_break_keep_momentum_and_make_no_energy, 4 },
+             { what_is_cracked_takes_few_iterations, 2 },
              { a_support_that_moves_two_fragments_works_on_each, 2 },
              { fragments_lie_on_the_floor_as_the_body_did, 1 },
              { tips_that_come_off_inside_the_floor_sink_no_deeper, 8 },
