@@ -216,45 +216,35 @@ void bbm_foresee_step(bbm_model *m)
     m->detections = 0;
 }
 
-/* How far the point of the boundary at v moves by D. */
-static void move_point(const bbm_model *m, int v, double u[2])
+typedef struct { double x, y, far; } displacement;      /* m; far: its length                 */
+
+/* How the point of the boundary at v moves by D. */
+static displacement move_point(const bbm_model *m, int v)
 {
     const bbm_vertex *P = &m->vertex[v], *Q = &m->vertex[bbm_partner_of(m, v)];
-    double w[2];
+    double u[2], w[2];
 
     bbm_move(bbm_motion_of(m), &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
     bbm_move(bbm_motion_of(m), &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
-    u[0] = (u[0] + w[0]) / 2;
-    u[1] = (u[1] + w[1]) / 2;
-}
-
-static double way_of(const bbm_model *m, int e)
-{
-    double u[2];
-
-    move_point(m, m->edge[e].a, u);
-    return hypot(u[0], u[1]);
+    const double x = (u[0] + w[0]) / 2, y = (u[1] + w[1]) / 2;
+    return (displacement){ x, y, hypot(x, y) };
 }
 
 /* How far two corners move past each other along t by D. */
 static double slip_between(const bbm_model *m, int P, int Q, bbm_direction t)
 {
-    double u[2], v[2];
+    const displacement u = move_point(m, m->edge[P].a), v = move_point(m, m->edge[Q].a);
 
-    move_point(m, m->edge[P].a, u);
-    move_point(m, m->edge[Q].a, v);
-    return fabs((u[0] - v[0]) * t.x + (u[1] - v[1]) * t.y);
+    return fabs((u.x - v.x) * t.x + (u.y - v.y) * t.y);
 }
 
 /* By how much an edge turns by D. */
 static double turn_of(const bbm_model *m, int e)
 {
     const bbm_direction t = m->edge[e].along;
-    double u[2], v[2];
+    const displacement u = move_point(m, m->edge[e].a), v = move_point(m, m->edge[e].b);
+    const double x = v.x - u.x, y = v.y - u.y;
 
-    move_point(m, m->edge[e].a, u);
-    move_point(m, m->edge[e].b, v);
-    const double x = v[0] - u[0], y = v[1] - u[1];
     return atan2(t.x * y - t.y * x, t.length + t.x * x + t.y * y);
 }
 
@@ -264,7 +254,7 @@ int bbm_moved_too_far(const bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         const int i = m->edge[e].element;
         const double turn = fmax(fabs(m->D[6 * i + 2]), fabs(turn_of(m, e)));
-        if (way_of(m, e) > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn)
+        if (move_point(m, m->edge[e].a).far > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn)
             return 1;
     }
     return 0;
@@ -285,7 +275,8 @@ static double foresee(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         reach *b = reach_of(m, e), *own = &m->scratch->reach[m->edge[e].element];
         own->turn = fmax(own->turn, 2 * fabs(turn_of(m, e)) + PARALLEL / 2);
-        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + rounding_of(m, e) / 2);
+        const double way = 1.1 * move_point(m, m->edge[e].a).far;
+        b->travel = fmax(b->travel, way + b->depth + rounding_of(m, e) / 2);
         most = fmax(most, b->travel);
     }
     return most;
@@ -912,7 +903,9 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
 
     for (int k = 0; k < 3; k++) {
         bbm_point_at(m, P[k], at[k]);
-        move_point(m, P[k], u[k]);
+        const displacement way = move_point(m, P[k]);
+        u[k][0] = way.x;
+        u[k][1] = way.y;
     }
     for (int a = 0; a < 2; a++) {
         const double at0 = at[2][a] + anchor * (at[1][a] - at[2][a]);
