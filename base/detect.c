@@ -937,12 +937,6 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t, double
         && (1 - t) * (l - s) - t * c->trial.past[1] >= off;
 }
 
-/* The same from where P crosses the line to the end of the step. */
-static int stays_on_edge(const bbm_model *m, const bbm_contact *c, double off)
-{
-    return is_on_edge(m, c, fmin(1, crossed_at(m, c)), off) && is_on_edge(m, c, 1, off);
-}
-
 /* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step,
  * and, where two elements meet in P, as they would had it come no deeper than the line. Not from
  * behind the edge, and not where its projection is beyond the end of the edge at the start of the
@@ -989,16 +983,17 @@ static int lies_along(const bbm_model *m, const bbm_contact *c)
  * was closed at the start of the step, or else that goes before. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
-    const double later = crossed_at(m, r) - crossed_at(m, c);
-    const double over_r = r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0);
+    const double later = crossed_at(m, r) - crossed_at(m, c), t = fmin(1, crossed_at(m, c));
+    const double over_r = r->trial.d_n0 + t * (r->d_n - r->trial.d_n0);
+    const double off = rounding_between(m, c->corner, c->edge);
 
     if (r->corner != c->corner && later > TIE
-        && stays_on_edge(m, c, rounding_between(m, c->corner, c->edge)))
+        && is_on_edge(m, c, t, off) && is_on_edge(m, c, 1, off))
         return 0;
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return over_r >= (c->trial.was_closed ? 0 : -rounding_between(m, c->corner, c->edge));
+        return over_r >= (c->trial.was_closed ? 0 : -off);
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
     if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {
