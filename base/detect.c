@@ -208,9 +208,8 @@ void bbm_foresee_step(bbm_model *m)
     const double h = bbm_is_static(m) ? 0 : m->h;
 
     for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
         for (int a = 0; a < 6; a++)
-            m->D[6 * i + a] = e->V[a] * h;
+            m->D[6 * i + a] = m->element[i].V[a] * h;
         m->scratch->reach[i].travel = 0;
     }
     m->detections = 0;
