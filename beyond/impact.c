@@ -294,10 +294,8 @@ static int find_causes(const bbm_model *m, const bbm_model *end)
             c->state = BBM_LOCK;
             c->trial.time_left = 0;
         }
-    for (int v = 0; v < m->vertices; v++) {
-        bbm_account *of = account_of(m, m->vertex[v].element);
-        any |= of->jumps |= moves(m, m->vertex[v].node);
-    }
+    for (int v = 0; v < m->vertices; v++)
+        any |= account_of(m, m->vertex[v].element)->jumps |= moves(m, m->vertex[v].node);
     return any;
 }
 
