@@ -184,11 +184,8 @@ bbm_status bbm_detect_new(bbm_model *m)
     if (!w->reach || !w->pair)
         return BBM_NO_MEMORY;
     number_blocks(m);
-    for (int e = 0; e < m->edges; e++) {        /* the next one: round the node where e ends,    */
-        int v = m->edge[e].b;                   /* from element to element over the bonds        */
-        while (m->vertex[v].edge < 0)
-            v = -1 - m->vertex[v].edge;
-        m->edge[e].after = m->vertex[v].edge;
+    for (int e = 0; e < m->edges; e++) {
+        m->edge[e].after = bbm_edge_at(m, m->edge[e].b);
         m->edge[m->edge[e].after].before = e;
         reach_of(m, e)->depth = m->info.penetration;    /* in a run contacts may be as deep */
         reach_of(m, e)->girth += starting(m, e).length;

@@ -321,9 +321,7 @@ static void part_contacts(bbm_model *m, const int shares[], int n)
 {
     for (int k = 0; k < n; k++) {
         bbm_contact *c = &m->contact[k];
-        int other = m->vertex[shares[k]].edge;
-        while (other < 0)
-            other = m->vertex[-1 - other].edge;
+        const int other = bbm_edge_at(m, shares[k]);
         if (other == c->corner)
             continue;
         c->N /= 2;
