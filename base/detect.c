@@ -563,11 +563,10 @@ static int is_hidden(const bbm_model *m, pair p)
                        + of[m->edge[p.edge].element].turn;
     const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
-    if (is_held(m, p.corner) && is_held(m, p.edge))
-        return 1;
-    return !find_closed(m, p.corner, p.edge)
-        && (m->edge[p.corner].is_inner || is_covered(m, p.corner, p.edge)
-            || !can_enter(m, p.corner, p.edge, STILL, angle));
+    return (is_held(m, p.corner) && is_held(m, p.edge))
+        || (!find_closed(m, p.corner, p.edge)
+            && (m->edge[p.corner].is_inner || is_covered(m, p.corner, p.edge)
+                || !can_enter(m, p.corner, p.edge, STILL, angle)));
 }
 
 /* Adds a corner and an edge to the pairs, if they are near. */
