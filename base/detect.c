@@ -740,10 +740,9 @@ static void drop_pairs(bbm_model *m, int (*is_dropped)(const bbm_model *m, pair 
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
     const bbm_contact *old = find_closed(m, p.corner, p.edge);
-    const int end = end_near(m, p.corner, p.edge) != p.edge;
 
     for (meeting k = FLUSH; k <= OTHER && !old; k++) {
-        const pair q = meet(m, p, end, k);
+        const pair q = meet(m, p, end_near(m, p.corner, p.edge) != p.edge, k);
         if (are_parallel(m, p.edge, q.edge, 0) && find_pair(m, q) < 0)
             old = find_closed(m, q.corner, q.edge);
     }
