@@ -543,9 +543,8 @@ static int is_near(const bbm_model *m, int corner, int e)
     const projection f = project(m, corner, e);
 
     if (m->edge[e].first == m->edge[corner].first
-        || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
-        return 0;
-    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
+        || (!is_corner(m, corner) && !bbm_carries(m, corner, e))
+        || fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
     return find_closed(m, corner, e)
         || (-f.d <= approach + fmax(deep, rounding_between(m, corner, e))
