@@ -250,7 +250,8 @@ int bbm_moved_too_far(const bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         const int i = m->edge[e].element;
         const double turn = fmax(fabs(m->D[6 * i + 2]), fabs(turn_of(m, e)));
-        if (move_point(m, m->edge[e].a).far > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn)
+        if (move_point(m, m->edge[e].a).far > reach_of(m, e)->travel
+            || turn > m->scratch->reach[i].turn)
             return 1;
     }
     return 0;
